@@ -651,7 +651,9 @@ fn sweeps_measure_a_law() {
         ["2.33 kg", "mean(weigh.mass)"],
     ];
     let (verdicts, found) = dropped(&right, verify.clone());
-    assert_eq!(verdicts, ["verified"; 8], "{found:#?}");
+    // What only reads the model is computed.
+    assert_eq!(verdicts[..3], ["verified"; 3], "{found:#?}");
+    assert_eq!(verdicts[3..], ["computed"; 5], "{found:#?}");
     let wrong = [["0.60", right[0][1]], ["2.00 kg", "slope(weigh.mass)"], ["0.50 m", "fall.value[3]"]];
     assert_eq!(dropped(&wrong, verify.clone()).0, ["refuted"; 3]);
     // What is no list, no member, or no law is said.
@@ -730,4 +732,65 @@ fn a_limit_is_found_by_halving() {
     }
     let find = json!({"smallest": "timestep", "from": 0.001, "to": 0.04, "while": "z < 0.049", "tol": 1e-7});
     assert_eq!(rest(find, &[["0.022576 s", "limit"]]).0, ["verified"]);
+}
+
+/// A column of a table is held to a sweep, cell by cell, and a single cell to one number; a wrong cell is told at its place.
+#[test]
+fn tables_are_held_to_sweeps() {
+    let lesson = |cell: &str, table: serde_json::Value| {
+        let verify = json!({
+            "runs": {"fall": {"sweep": {"height (m)": [0.5, 1, 1.5]}, "until": 1, "stop": "contact('ball', 'floor')"},
+                "slow": {"model": {"option gravity": [0, 0, -1]}, "until": 2, "stop": "contact('ball', 'floor')"}},
+            "measure": {"touch": "first(contact('ball', 'floor'))"}, "table": table});
+        let lab = json!({
+            "xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/>\
+                <geom name='ball' type='sphere' size='0.05' mass='1'/></body></worldbody></mujoco>",
+            "controls": [{"label": "height (m)", "apply": "data.qpos[2] = value", "min": 0.5, "max": 2, "step": 0.05, "value": 1, "init": true}],
+            "verify": verify});
+        let text = format!(
+            "| height (m) | **touchdown** (s) | remark |\n|---|---:|---|\n| 0.5 | 0.304 | |\n| 1.00 | {cell} | \\| |\n| 1.5 | 0.546 | |\n\n\
+             | gravity | time |\n|:--|:--|\n| Earth | 0.44 s |\n| slow | 1.38 s |\n\n```lab simlab\n{lab}\n```\n"
+        );
+        let checked = check_text("table.md", &text);
+        let verdicts: Vec<_> = checked.claims[0].judgement.quotes.iter().map(|q| q.verdict()).collect();
+        let places: Vec<String> = checked
+            .findings
+            .iter()
+            .filter(|f| f.code.starts_with("quote"))
+            .map(|f| text[f.span.clone()].to_string())
+            .collect();
+        (verdicts, places, checked.findings)
+    };
+    let column =
+        |list: &str| json!([{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": list}]);
+    let (verdicts, _, found) = lesson("0.442", column("fall.touch"));
+    assert_eq!(verdicts, ["verified"; 3], "{found:#?}");
+    let (verdicts, places, _) = lesson("0.449", column("fall.touch"));
+    assert_eq!(verdicts, ["verified", "refuted", "verified"]);
+    assert!(places.contains(&"0.449".to_string()), "{places:?}");
+    let cell = json!([{"column": "time", "row": "slow", "is": "slow.touch"}]);
+    assert_eq!(lesson("0.442", cell).0, ["verified"]);
+    let cell = json!([{"column": "time", "row": "Earth", "is": "slow.touch"}]);
+    let (verdicts, places, _) = lesson("0.442", cell);
+    assert_eq!((verdicts, places), (vec!["refuted"], vec!["0.44 s".to_string()]));
+    for (table, words) in [
+        (
+            json!([{"column": "tuchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}]),
+            "did you mean \"touchdown (s)\"?",
+        ),
+        (
+            json!([{"column": "time", "row": "Mars", "is": "slow.touch"}]),
+            "no row of this table begins with \"Mars\"",
+        ),
+        (
+            json!([{"column": "touchdown (s)", "by": ["height (m)", "fall.value.map(x => x + 1)"], "is": "fall.touch"}]),
+            "nothing was run for the row \"0.5\"",
+        ),
+        (json!([{"column": "time", "is": "slow.touch"}]), "a column has `by`"),
+        (column("slow.touch"), "slow.touch"),
+    ] {
+        let (verdicts, _, found) = lesson("0.442", table.clone());
+        assert!(verdicts.iter().all(|v| *v == "failed" || *v == "verified"), "{table} {verdicts:?}");
+        assert!(says(&found, words), "{table}: {found:#?}");
+    }
 }

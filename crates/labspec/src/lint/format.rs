@@ -77,6 +77,8 @@ fn said(span: Range<usize>, mistake: &Mistake) -> Finding {
             .help("write \"#2\" for the second lab of the lesson, or a lab object"),
         Mistake::NoSweep => wrong("a sweep changes one thing: a control, or an attribute of the model".into())
             .help("write {\"timestep h\": [0.002, 0.005, 0.01]}"),
+        Mistake::NoRows => wrong("a column has `by`, and one cell of it has `row`".into())
+            .help("write \"by\": [\"height (m)\", \"fall.value\"], or \"row\": \"0.65\""),
         Mistake::FindsNothing => wrong("a search is for the largest or for the smallest value".into())
             .help("write \"largest\": \"timestep h\", or \"smallest\""),
         Mistake::FindsBackwards => wrong("a search begins below its end".into()).help("write `from` below `to`"),

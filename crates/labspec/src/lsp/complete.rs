@@ -96,6 +96,7 @@ fn kind_of(kind: Suggested) -> u8 {
 fn measures(verify: &Verify, items: &mut Vec<Value>) {
     let named = |name: &str, what: &str| json!({"label": name, "kind": kind::VARIABLE, "detail": what, "sortText": " "});
     items.extend(verify.measure.iter().map(|(name, _)| named(&name.value, "a measure")));
+    items.extend(verify.find.iter().map(|find| named(&find.name.value, "a value that is searched for")));
     items.extend(verify.runs.iter().map(|run| named(&run.name.value, "a run")));
 }
 

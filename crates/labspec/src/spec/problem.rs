@@ -90,6 +90,8 @@ pub enum Mistake {
     NoLab(&'static str),
     /// Something else than one control or attribute with its values.
     NoSweep,
+    /// A column that says neither how its rows are told apart nor which row is meant, or both.
+    NoRows,
     /// A search for neither the largest nor the smallest value, or for both.
     FindsNothing,
     /// A search whose first value is not below its last one.

@@ -3,7 +3,7 @@
 //! Here it is only read; expressions stay texts with their places.
 
 use super::fields::Fields;
-use super::format::{CLOSED_FORM, FIND, RUN, SPAN, VERIFY};
+use super::format::{CLOSED_FORM, COLUMN, FIND, RUN, SPAN, VERIFY};
 use super::problem::{Mistake, Problem};
 use super::read;
 use super::{Form, Lab, LabAddress, lab};
@@ -31,6 +31,8 @@ pub struct Verify {
     pub value: Option<Text>,
     /// Numbers quoted in the text, each with the expression it must equal as printed.
     pub says: Vec<Said>,
+    /// Columns and cells of tables, each with what it must state.
+    pub table: Vec<Column>,
     /// Closed forms that traces must follow.
     pub exact: Vec<Exact>,
 }
@@ -131,6 +133,19 @@ pub struct Exact {
     pub tol: Option<Number>,
 }
 
+/// A column of a table, or one cell of it, and where its numbers come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The heading of the column.
+    pub column: Text,
+    /// The heading of the column that tells the rows apart, and the list of its numbers.
+    pub by: Option<(Text, Text)>,
+    /// What stands in the first column of the one row that is meant.
+    pub row: Option<Text>,
+    /// The expression: a list, or one number for one cell.
+    pub is: Text,
+}
+
 /// A number quoted in the text and where it comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
@@ -176,6 +191,8 @@ impl Verify {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
         let measures = measures.chain(self.find.iter().map(|f| &f.holds));
         let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
+        let columns = self.table.iter().flat_map(|c| c.by.iter().map(|(_, list)| list).chain([&c.is]));
+        let values = values.chain(columns);
         measures.chain(values).map(|t| (Form::Expression, t))
     }
 }
@@ -193,7 +210,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
     let before = problems.len();
     let mut fields = Fields::open(node, &VERIFY, problems)?;
     let f = &mut fields;
-    if !["options", "value", "says", "exact"].iter().any(|key| f.has(key)) {
+    if !["options", "value", "says", "table", "exact"].iter().any(|key| f.has(key)) {
         let mistake = Mistake::ClaimsNothing.at(f.span());
         f.problems.push(mistake);
     }
@@ -206,6 +223,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
         value: f.text("value"),
         says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
+        table: f.list("table").iter().filter_map(|n| column(n, f.problems)).collect(),
         exact: f.map("exact").iter().filter_map(|m| exact(m, f.problems)).collect(),
     };
     fields.finish();
@@ -390,6 +408,21 @@ fn said(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
     }
     problems.push(Mistake::NoQuote.at(node.span.clone()));
     None
+}
+
+/// A column of a table, or a cell of it.
+fn column(node: &Node, problems: &mut Vec<Problem>) -> Option<Column> {
+    let mut fields = Fields::open(node, &COLUMN, problems)?;
+    let f = &mut fields;
+    let (column, row, is) = (f.text("column"), f.text("row"), f.text("is"));
+    let by = f.node("by").and_then(|n| said(n, f.problems)).map(|pair| (pair.quote, pair.expr));
+    if by.is_some() == row.is_some() {
+        let mistake = Mistake::NoRows.at(f.span());
+        f.problems.push(mistake);
+    }
+    let apart = by.is_some() != row.is_some();
+    fields.finish();
+    Some(Column { column: column?, by, row, is: is? }).filter(|_| apart)
 }
 
 fn expressions(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {

@@ -177,6 +177,7 @@ pub(super) fn values(
         options: Vec::new(),
         value: None,
         says: Vec::new(),
+        table: Vec::new(),
         exact: Vec::new(),
     };
     let scene = Scene::of(lab, model, programs);

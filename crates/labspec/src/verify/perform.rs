@@ -81,6 +81,10 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
         findings.push(Finding::error(rules::RUN_IMPOSSIBLE, place, message));
     };
     let stated = states_timestep(bound, run);
+    // A control of the lab may have set it while the lab was loaded; what the run says counts.
+    if bound.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path)) {
+        *session.world.model.edit().opt.timestep = bound.scene.model.opt.timestep;
+    }
     let mut press = Vec::new();
     let (mut until, mut steps) = (None, None);
     if let Some(spec) = run.spec {

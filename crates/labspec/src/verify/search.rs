@@ -156,6 +156,7 @@ fn holds(
         options: Vec::new(),
         value: None,
         says: Vec::new(),
+        table: Vec::new(),
         exact: Vec::new(),
     };
     let scenes = [vec![scene.clone()]];

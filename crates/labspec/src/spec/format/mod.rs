@@ -30,7 +30,7 @@ pub use page::page;
 pub use plot::{MAX_DIGITS, PLOT, READOUT, REF_LINE, TRACE};
 pub use quiz::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
 pub use schema::{Root, schema};
-pub use verify::{CLOSED_FORM, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
+pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
 
 use super::Form;
 

@@ -25,6 +25,11 @@ static SWEPT: Map = Map {
     of: Type::Either(&LIST, &RANGE),
 };
 static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
+static KEYED: [Part; 2] = [
+    Part { what: "the heading of the column that tells the rows apart", of: Type::Text },
+    Part { what: "the list of its numbers", of: Type::Code(Form::Expression) },
+];
+static A_COLUMN: Type = Type::Object(&COLUMN);
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
 static QUOTE: [Part; 2] = [
@@ -96,6 +101,13 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
         key(
+            "table",
+            Type::List(&A_COLUMN),
+            "columns of tables of the text, and single cells: what stands in each cell must be what was measured",
+            r#"[{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}]"#,
+        )
+        .or(Absent::Empty),
+        key(
             "exact",
             Type::Map(&FORMS),
             "closed forms that traces must follow, by the label of the trace; an object states how far they may be off",
@@ -103,7 +115,7 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
     ],
-    together: &[Together::OneAdvised(&["options", "value", "says", "exact"])],
+    together: &[Together::OneAdvised(&["options", "value", "says", "table", "exact"])],
 };
 
 static EXPECTED: [Word; 1] =
@@ -182,6 +194,39 @@ pub static RUN: Object = Object {
             .or(Absent::Said("the run goes well")),
     ],
     together: &[Together::AtMostOne(&["until", "steps"])],
+};
+
+/// A column of a table.
+pub static COLUMN: Object = Object {
+    name: "column",
+    what: "a column of a table",
+    doc: "Where the numbers in a column of a table of the text come from, or the number in one cell.",
+    tag: None,
+    minimal: r#"{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}"#,
+    keys: &[
+        key("column", Type::Text, "the heading of the column, as a reader sees it", r#""touchdown (s)""#)
+            .must("without it nobody knows which numbers are meant"),
+        key(
+            "by",
+            Type::Pair(&KEYED),
+            "how the rows are told apart: the heading of another column, and the list of the values that stand in it",
+            r#"["height (m)", "fall.value"]"#,
+        ),
+        key(
+            "row",
+            Type::Text,
+            "instead of `by`: what stands in the first cell of the one row that is meant",
+            r#""0.65""#,
+        ),
+        key(
+            "is",
+            Type::Code(Form::Expression),
+            "what the cells state: a list in the order of the values, or one number for one cell",
+            r#""fall.touch""#,
+        )
+        .must("without it there is nothing that the cells are compared with"),
+    ],
+    together: &[Together::ExactlyOne(&["by", "row"])],
 };
 
 /// A search.
