@@ -293,7 +293,7 @@ impl Key {
 }
 
 /// Every object, in the order of the reference page.
-pub static OBJECTS: [&Object; 20] = [
+pub static OBJECTS: [&Object; 23] = [
     &LAB,
     &CAMERA,
     &SLIDER,
@@ -313,6 +313,9 @@ pub static OBJECTS: [&Object; 20] = [
     &LINT,
     &VERIFY,
     &RUN,
+    &SPAN,
+    &FIND,
+    &COLUMN,
     &CLOSED_FORM,
 ];
 
