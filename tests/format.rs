@@ -97,6 +97,8 @@ fn random_world(model: &Model, seed: u64) -> World {
         model: model.clone(),
         key: None,
         own: labspec::Functions::new(),
+        shown: Vec::new(),
+        numbers: Vec::new(),
     };
     for f in reflect::fields() {
         let info = f.info();

@@ -36,7 +36,8 @@ impl Engine {
     pub fn of(model: Model) -> Result<Engine, Error> {
         let mut data = Data::planned(&model, Plan::new(&model, &Demand::ANY));
         core::forward(&model, &mut data).map_err(refused)?;
-        let world = World { model, data, key: None, own: Functions::new() };
+        let world =
+            World { model, data, key: None, own: Functions::new(), shown: Vec::new(), numbers: Vec::new() };
         Ok(Engine { world, context: Context::new(), globals: Globals::new() })
     }
 

@@ -3,12 +3,14 @@
 mod lib;
 mod measure;
 mod mj;
+mod over;
 mod sim;
 
 use std::sync::LazyLock;
 
 use super::World;
 use super::handle::{self, Side};
+use super::shown::LABELS;
 use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
@@ -24,6 +26,8 @@ pub(super) enum Place {
     Everywhere,
     /// In the measures of `verify` only: no page knows it.
     Measures,
+    /// In what `verify` claims of several runs: it takes the members of a sweep together.
+    Claims,
 }
 
 /// What a parameter takes, before it is known which model.
@@ -41,6 +45,8 @@ pub(super) enum Arg {
     Any,
     /// The name of an object of this kind.
     Name(Obj),
+    /// A label under which something is shown.
+    Label,
     /// A sub-program of an aggregate.
     Lazy,
 }
@@ -67,6 +73,8 @@ pub(super) enum Touches {
     Motion,
     /// The mass matrix.
     Mass,
+    /// What is shown, which says itself what it reads.
+    Shown,
 }
 
 /// What the numbers of a result measure.
@@ -127,8 +135,9 @@ pub(super) const ROW: Function = Function {
 };
 
 /// All functions. Their place in this list is their id.
-pub(super) static TABLE: LazyLock<Vec<&'static Function>> =
-    LazyLock::new(|| [mj::ROWS, lib::ROWS, sim::ROWS, measure::ROWS].into_iter().flatten().collect());
+pub(super) static TABLE: LazyLock<Vec<&'static Function>> = LazyLock::new(|| {
+    [mj::ROWS, lib::ROWS, sim::ROWS, measure::ROWS, over::ROWS].into_iter().flatten().collect()
+});
 
 /// The result of a function that gives nothing back.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
@@ -181,6 +190,7 @@ fn info(f: &Function) -> FunctionInfo {
         Arg::Numbers => Param::Numbers,
         Arg::Any => Param::Any,
         Arg::Name(kind) => Param::Name(handle::collection(Side::Data, *kind)),
+        Arg::Label => Param::Name(LABELS),
         Arg::Lazy => Param::Lazy,
     };
     FunctionInfo {
@@ -212,7 +222,7 @@ fn touch(touches: &[Touches]) -> Touch {
     let is = |f: &FieldId, t: &Touches| {
         let i = f.info();
         match t {
-            Touches::Nothing => false,
+            Touches::Nothing | Touches::Shown => false,
             Touches::Derived => i.kind == Kind::Derived,
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
             Touches::Coordinates => i.object == Object::Data && i.name == "qpos",
@@ -245,28 +255,33 @@ pub struct FunctionDoc {
     pub doc: &'static str,
     /// Only in the measures of `verify`.
     pub measure: bool,
+    /// Only in what `verify` claims of several runs.
+    pub claim: bool,
     /// An example and what it gives.
     pub example: (&'static str, &'static str),
 }
 
 /// Every function, in the order of the table.
 pub fn reference() -> Vec<FunctionDoc> {
-    let word = |arg: &Arg| match arg {
+    let word = |f: &Function, arg: &Arg| match arg {
         Arg::Model => "model",
         Arg::Data => "data",
         Arg::Number | Arg::Angle => "x",
         Arg::Text => "text",
         Arg::Numbers => "list",
+        Arg::Any if f.place == Place::Claims => "list",
         Arg::Any => "options",
         Arg::Name(_) => "name",
+        Arg::Label => "label",
         Arg::Lazy => "expression",
     };
     let one = |f: &Function| {
-        let args: Vec<_> = f.args.iter().map(word).collect();
+        let args: Vec<_> = f.args.iter().map(|arg| word(f, arg)).collect();
         FunctionDoc {
             signature: format!("{}({})", path(f), args.join(", ")),
             doc: f.doc,
             measure: f.place == Place::Measures,
+            claim: f.place == Place::Claims,
             example: f.example,
         }
     };

@@ -6,6 +6,7 @@ use super::enums::ENUMS;
 use super::functions::{self, OBJECTS, Place, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
+use super::shown::{LABELS, Shown};
 use super::words::WORDS;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
@@ -22,6 +23,8 @@ pub enum Scope {
     Lab,
     /// In a measure of `verify`: also aggregates over a run.
     Measure,
+    /// In what `verify` claims of several runs: what takes their numbers together, and nothing else.
+    Claim,
 }
 
 /// The names of a model, for the compiler of the language.
@@ -33,6 +36,8 @@ pub struct ModelNames<'m> {
     pub scope: Scope,
     /// Functions of the embedding program, if it has any.
     own: Option<&'m Functions>,
+    /// What is shown under labels, where something is.
+    shown: Option<&'m Shown>,
 }
 
 /// Whether a name at the start of an expression has a meaning, whatever the model.
@@ -45,19 +50,28 @@ pub(crate) fn is_taken(name: &str) -> bool {
 impl<'m> ModelNames<'m> {
     /// The names of a model.
     pub fn new(model: &'m Model, scope: Scope) -> ModelNames<'m> {
-        ModelNames { model, scope, own: None }
+        ModelNames { model, scope, own: None, shown: None }
     }
 
     /// The same with functions of the embedding program.
     pub fn with(self, own: &'m Functions) -> ModelNames<'m> {
         ModelNames { own: Some(own), ..self }
     }
+
+    /// The same with what is shown under labels.
+    pub fn showing(self, shown: &'m Shown) -> ModelNames<'m> {
+        ModelNames { shown: Some(shown), ..self }
+    }
 }
 
 impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
-        let measure = self.scope == Scope::Measure;
-        TABLE.iter().copied().enumerate().filter(move |(_, f)| measure || f.place == Place::Everywhere)
+        let scope = self.scope;
+        TABLE.iter().copied().enumerate().filter(move |(_, f)| match f.place {
+            Place::Everywhere => scope != Scope::Claim,
+            Place::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
+            Place::Claims => scope == Scope::Claim,
+        })
     }
 
     /// A function by its holder and name.
@@ -412,16 +426,25 @@ impl Schema for ModelNames<'_> {
     }
 
     fn lookup(&self, collection: CollectionId, name: &str) -> Option<ObjectId> {
+        if collection == LABELS {
+            return self.shown?.find(name);
+        }
         let (side, kind, _) = handle::of_collection(collection)?;
         self.model.names.id(kind, name).map(|i| handle::encode(Thing::Named(side, kind, i)))
     }
 
     fn names(&self, collection: CollectionId) -> Vec<String> {
+        if collection == LABELS {
+            return self.shown.map_or(Vec::new(), |shown| shown.labels().to_vec());
+        }
         let Some((_, kind, _)) = handle::of_collection(collection) else { return Vec::new() };
         self.model.names.of(kind).iter().filter(|n| !n.is_empty()).cloned().collect()
     }
 
     fn noun(&self, collection: CollectionId) -> &str {
+        if collection == LABELS {
+            return "readout or trace";
+        }
         handle::of_collection(collection).map_or("object", |(_, _, noun)| noun)
     }
 

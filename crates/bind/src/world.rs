@@ -17,12 +17,22 @@ pub struct World {
     pub key: Option<usize>,
     /// Functions of the embedding program.
     pub own: Functions,
+    /// What is shown now, in the order of [`Shown`](super::Shown)'s labels, where somebody asks.
+    pub shown: Vec<Value>,
+    /// Numbers of no field, which texts read under [`NUMBERS`]: the members of sweeps.
+    pub numbers: Vec<f64>,
 }
+
+/// The key under which [`World::numbers`] are read.
+pub const NUMBERS: FieldKey = FieldKey(u32::MAX);
 
 impl Host for World {
     #[inline]
     fn get(&self, FieldKey(f): FieldKey, index: usize) -> Option<f64> {
-        core::element(&self.model, &self.data, FieldId::new(f as usize)?, index)
+        match FieldId::new(f as usize) {
+            Some(field) => core::element(&self.model, &self.data, field, index),
+            None => self.numbers.get(index).copied(),
+        }
     }
 
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
@@ -33,7 +43,7 @@ impl Host for World {
     }
 
     fn len(&self, FieldKey(f): FieldKey) -> usize {
-        FieldId::new(f as usize).map_or(0, |f| core::length(&self.model, &self.data, f))
+        FieldId::new(f as usize).map_or(self.numbers.len(), |f| core::length(&self.model, &self.data, f))
     }
 
     fn call(&mut self, heap: &mut Heap, FunctionId(f): FunctionId, args: &[Value]) -> Result<Value, String> {

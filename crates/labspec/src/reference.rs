@@ -81,11 +81,16 @@ fn kind(kind: Kind, stage: Stage) -> String {
 
 fn function_list() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md). Examples are of `specs/models/pendulum.xml`, measures of a run of 0.1 s.\n"
+        "{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md). Examples are of `specs/models/pendulum.xml`, measures of a run of 0.1 s; in those of a sweep, `h` is measured with the timesteps 1, 2 and 4 ms.\n"
     );
-    for (title, measure) in [("In labs and in measures", false), ("In the measures of `verify` only", true)] {
+    let tables = [
+        ("In labs and in measures", [false, false]),
+        ("In the measures of `verify` only", [true, false]),
+        ("In what `verify` claims of a run with a `sweep`", [false, true]),
+    ];
+    for (title, place) in tables {
         let _ = write!(text, "\n## {title}\n\n| function | meaning | example | value |\n|---|---|---|---|\n");
-        for f in functions::reference().iter().filter(|f| f.measure == measure) {
+        for f in functions::reference().iter().filter(|f| [f.measure, f.claim] == place) {
             let (code, value) = f.example;
             let _ = writeln!(text, "| `{}` | {} | `{code}` | `{value}` |", f.signature, f.doc);
         }
@@ -210,6 +215,8 @@ mod tests {
             data: everything(model),
             key: None,
             own: crate::bind::Functions::new(),
+            shown: Vec::new(),
+            numbers: Vec::new(),
         };
         core::forward(&world.model, &mut world.data).unwrap();
         let mut context = Context::of(&globals);
@@ -222,7 +229,7 @@ mod tests {
 
     /// The value of a measure over 0.1 s.
     fn measure(code: &str) -> String {
-        let lab = serde_json::json!({"xml": PENDULUM, "verify": {
+        let lab = serde_json::json!({"xml": PENDULUM, "readouts": [{"label": "time (s)", "expr": "data.time"}], "verify": {
             "runs": {"run": {"until": 0.1}}, "measure": {"m": code}, "says": [["0", "run.m"]], "options": ["true"],
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
@@ -232,12 +239,31 @@ mod tests {
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }
 
+    /// The value of an expression over a run of 0.1 s with the timesteps 1, 2 and 4 ms, which it measures as `h`.
+    fn claimed(code: &str) -> String {
+        let lab = serde_json::json!({"xml": PENDULUM, "note": "0", "verify": {
+            "runs": {"run": {"sweep": {"option timestep": [0.001, 0.002, 0.004]}, "until": 0.1}},
+            "measure": {"h": "initial(model.opt.timestep)"}, "says": [["0", code]],
+        }});
+        let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
+        let models = Models::new(ModelFolder::unknown());
+        let checked = check::check(lesson, &models, Depth::CLAIMS);
+        let value = checked.claims.first().and_then(|c| c.judgement.quotes.first()).map(|q| q.computed);
+        crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
+    }
+
     #[test]
     fn the_examples_of_functions_give_what_they_say() {
         let model = xml::compile(PENDULUM).unwrap();
         let mut wrong = Vec::new();
-        for FunctionDoc { signature, example: (code, value), measure: over, .. } in functions::reference() {
-            let got = if over { measure(code) } else { run(&model, code) };
+        for FunctionDoc { signature, example: (code, value), measure: over, claim, .. } in
+            functions::reference()
+        {
+            let got = match (over, claim) {
+                (true, _) => measure(code),
+                (_, true) => claimed(code),
+                _ => run(&model, code),
+            };
             if got != value {
                 wrong.push(format!("{code} gives {got}"));
             }

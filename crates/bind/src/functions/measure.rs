@@ -130,6 +130,17 @@ pub(super) const ROWS: &[Function] = &[
         ..ROW
     },
     Function {
+        name: "shown",
+        args: &[Arg::Label],
+        returns: Type::Any,
+        reads: Touches::Shown,
+        place: Place::Measures,
+        doc: "what a student reads under the label of a readout, as it is printed, or the number of a trace; where both have the label, the trace is called as in a table of `labspec run`: `plot/0/label`",
+        example: ("max(shown('time (s)'))", "0.1"),
+        run: |w, _, args| Ok(w.shown.get(index(args)?).cloned().unwrap_or_default()),
+        ..ROW
+    },
+    Function {
         name: "abs",
         args: &[Arg::Number],
         place: Place::Measures,

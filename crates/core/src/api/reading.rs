@@ -7,8 +7,8 @@ use std::path::Path;
 
 pub use crate::mjcf::{
     Attr, Element, FileProblem, Files, Finding, Folder, Kind, MAX_ALL_ATTRIBUTES, MAX_ATTRIBUTES, MAX_DEPTH,
-    MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles, SchemaRow,
-    Severity, Status, Word, rules, schema_rows,
+    MAX_DOFS, MAX_ELEMENTS, MAX_FILE, MAX_GEOMS, MAX_MASS, MAX_TEXT, MjcfFileError, NoFiles, Patch, Refusal,
+    SchemaRow, Severity, Status, Word, rules, schema_rows,
 };
 
 /// What came of a model's text.
@@ -25,6 +25,17 @@ pub struct Examined {
 pub fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     let mjcf::Examined { model, findings } = mjcf::examine(xml, files, path);
     Examined { model: model.map(Model::new), findings }
+}
+
+/// The same with changes of the text, made before it is compiled; with what is wrong with each of them.
+pub fn examine_patched(
+    xml: &str,
+    files: &dyn Files,
+    path: Option<&str>,
+    patches: &[Patch],
+) -> (Examined, Vec<Option<Refusal>>) {
+    let (mjcf::Examined { model, findings }, refusals) = mjcf::examine_patched(xml, files, path, patches);
+    (Examined { model: model.map(Model::new), findings }, refusals)
 }
 
 /// Compiles a model from its text; the mistakes as they were found.

@@ -47,6 +47,7 @@ pub use labspec_finding::{Finding, Severity};
 pub use schema::{Attr, Element, Kind, SchemaRow, Status, Word, schema_rows};
 pub use text::diagnostic::MjcfFileError;
 pub use text::files::{FileProblem, Files, Folder, MAX_FILE, NoFiles};
+pub use text::patch::{Patch, Refusal};
 
 /// Largest text that is read, bytes.
 pub const MAX_TEXT: usize = 16 << 20;
@@ -82,7 +83,7 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
 /// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
 pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     let mut report = Report::new();
-    let model = built(xml, files, path, &mut report).map(|(_, model)| model);
+    let model = built(xml, files, path, (&[], &mut Vec::new()), &mut report).map(|(_, model)| model);
     let mut findings = report.finish();
     findings.retain(|d| d.severity == Severity::Error);
     model.ok_or(findings)
@@ -99,12 +100,22 @@ pub(crate) struct Examined {
 
 /// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
 pub(crate) fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
-    let mut report = Report::new();
-    let built = built(xml, files, path, &mut report);
+    examine_patched(xml, files, path, &[]).0
+}
+
+/// The same with changes of the text, made before it is compiled; with what is wrong with each of them.
+pub(crate) fn examine_patched(
+    xml: &str,
+    files: &dyn Files,
+    path: Option<&str>,
+    patches: &[Patch],
+) -> (Examined, Vec<Option<Refusal>>) {
+    let (mut report, mut refusals) = (Report::new(), Vec::new());
+    let built = built(xml, files, path, (patches, &mut refusals), &mut report);
     if let Some((tree, model)) = &built {
         traps::tell(tree, model, &mut report);
     }
-    Examined { model: built.map(|(_, model)| model), findings: report.finish() }
+    (Examined { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
 }
 
 /// A model that can be simulated, and its tree.
@@ -112,9 +123,10 @@ fn built(
     xml: &str,
     files: &dyn Files,
     path: Option<&str>,
+    patches: (&[Patch], &mut Vec<Option<Refusal>>),
     report: &mut Report,
 ) -> Option<(text::tree::Tree, Model)> {
-    let (tree, model) = passes::build(xml, files, path, report)?;
+    let (tree, model) = passes::build(xml, files, path, patches, report)?;
     unsimulated::check(&tree, &model, report);
     report.is_clean().then_some((tree, model))
 }
@@ -123,7 +135,7 @@ fn built(
 #[cfg(test)]
 pub(crate) fn compile_only(xml: &str, files: &dyn Files) -> Result<Model, Vec<Finding>> {
     let mut report = Report::new();
-    match passes::build(xml, files, None, &mut report) {
+    match passes::build(xml, files, None, (&[], &mut Vec::new()), &mut report) {
         Some((_, model)) if report.is_clean() => Ok(model),
         _ => Err(report.finish()),
     }

@@ -11,6 +11,7 @@ use super::sensor::read_sensor;
 use super::tendon::{fill_tendon, read_tendon};
 use super::text::diagnostic::Report;
 use super::text::files::Files;
+use super::text::patch::{Patch, Refusal};
 use super::text::{load, tree};
 use super::{context, expand, fill, ids, layout, names, settings};
 use crate::mjcf::rules;
@@ -21,9 +22,13 @@ pub(super) fn build(
     xml: &str,
     files: &dyn Files,
     path: Option<&str>,
+    (patches, refusals): (&[Patch], &mut Vec<Option<Refusal>>),
     report: &mut Report,
 ) -> Option<(tree::Tree, Model)> {
-    let written = load::Loader::new(files).model(xml.into(), path, report)?;
+    let mut loader = load::Loader::new(files, patches);
+    let written = loader.model(xml.into(), path, report);
+    *refusals = loader.refusals();
+    let written = written?;
     let expand::Expanded { tree, parts } = expand::model(written, report);
     let classes = Classes::read(&tree, report);
     let names = names::NameTable::read(&tree, report);

@@ -8,4 +8,4 @@ pub mod scene;
 pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
 pub(crate) use compile::{include, scalar, writes_kind};
 pub(crate) use labspec_bind::named_field;
-pub use labspec_bind::{Functions, ModelNames, Scope, World, functions};
+pub use labspec_bind::{Functions, ModelNames, NUMBERS, Scope, Shown, World, functions};

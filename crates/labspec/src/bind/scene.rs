@@ -2,14 +2,14 @@
 
 use super::Functions;
 use super::parts::{self, Mark, Part, Remembering};
-use crate::finding::{Finding, InFile};
+use crate::finding::{Finding, InFile, Severity};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{SourceFile, Text};
 use crate::spec::format::Asked;
 use crate::spec::{Lab, Scene};
-use labspec_core::xml::{self, Files, Folder, NoFiles};
+use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -113,6 +113,43 @@ impl Models {
                 model
             }
         }
+    }
+
+    /// The model of a lab with changes of its text, made before it is compiled.
+    ///
+    /// # Errors
+    /// Which change cannot be made and why, or that no model comes of them.
+    pub fn changed(&self, lab: &Lab, patches: &[Patch]) -> Result<Arc<Model>, (Option<usize>, Refusal)> {
+        let unreadable =
+            || (None, Refusal { message: "the model cannot be read".into(), help: String::new() });
+        let (examined, refusals) = match lab.scene().ok_or_else(unreadable)? {
+            Scene::Xml(text) => xml::examine_patched(&text.value, &NoFiles, None, patches),
+            Scene::Model(name) => {
+                let file = Some(format!("{}.xml", name.value));
+                match self.folder.given() {
+                    Some(given) => {
+                        let text = given.text(&name.value).ok_or_else(unreadable)?;
+                        xml::examine_patched(&text, &FilesOf(given), file.as_deref(), patches)
+                    }
+                    None => {
+                        let path = self.folder.path(&name.value).ok_or_else(unreadable)?;
+                        let text = SourceFile::read(&path).map_err(|_| unreadable())?;
+                        let folder =
+                            Folder::at(self.folder.root(), path.parent().unwrap_or(Path::new(""))).ok();
+                        let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
+                        xml::examine_patched(text.text(), files, file.as_deref(), patches)
+                    }
+                }
+            }
+        };
+        if let Some((i, refusal)) = refusals.into_iter().enumerate().find_map(|(i, r)| Some((i, r?))) {
+            return Err((Some(i), refusal));
+        }
+        examined.model.map(Arc::new).ok_or_else(|| {
+            let first = examined.findings.into_iter().find(|f| f.severity == Severity::Error);
+            let message = first.map_or("no model comes of this change".into(), |f| f.message);
+            (None, Refusal { message, help: "change it to what the model can be".into() })
+        })
     }
 
     /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
@@ -339,7 +376,6 @@ pub fn from_mjcf(d: &Finding, span: std::ops::Range<usize>) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::finding::Severity;
     use crate::spec::format::completions_in;
 
     const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";

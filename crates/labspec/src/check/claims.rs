@@ -1,11 +1,14 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
 use super::{Ready, refresh};
+use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::State;
-use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify, VerifyLab};
-use crate::verify::{self, Allowance, Answer, BoundVerify, Judgement, QuoteState, ShownText};
+use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify};
+use crate::verify::{self, Answer, BoundVerify, Judgement, QuoteState, Scene, ShownText, Stage};
+use labspec_core::Model;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A question, or a lab with a `verify` object, and what became of its claims.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,12 +85,12 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 }
 
 /// Looks at the texts of every `verify` object, and runs nothing.
-pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) {
-    let allowance = Allowance::default();
+pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], models: &Models, findings: &mut Vec<Finding>) {
+    let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
         if let Some((verify, own, _)) = owner.claim()
-            && let Some(Ready { lab, model, programs, .. }) = target(lesson, ready, verify, own)
-            && let Some(bound) = BoundVerify::new(verify, lab, model, programs, &allowance, findings)
+            && let Some(cast) = cast(lesson, ready, verify, own, &stage, findings)
+            && let Some(bound) = BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, &stage, findings)
         {
             verify::look(&bound, verify, findings);
         }
@@ -100,28 +103,70 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
     claims.into_iter().any(|(verify, own, _)| verify.lab.is_none() && own.is_none() && verify.is_formulas())
 }
 
-/// The lab that a `verify` object is about, if it can run.
-pub(super) fn target<'r, 'l>(
-    lesson: &Lesson,
-    ready: &'r [Ready<'l>],
-    verify: &Verify,
-    own: Option<&Lab>,
-) -> Option<&'r Ready<'l>> {
-    let lab = match &verify.lab {
+/// The labs of a `verify` object: its own, and that of each of its runs.
+struct Cast<'r> {
+    base: Option<Scene<'r>>,
+    runs: Vec<Vec<Scene<'r>>>,
+}
+
+/// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
+fn cast<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [Ready<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &Stage<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<Cast<'r>> {
+    let scene = |r: &'r Ready<'r>| Scene::of(r.lab, &r.model, &r.programs);
+    let of = |lab: &Lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(scene);
+    let base = match &verify.lab {
         // Formulas need no lab: they have one in which nothing is.
-        None if own.is_none() && verify.is_formulas() => return ready.iter().find(|r| r.lab.is_nothing()),
-        None => own,
-        Some(VerifyLab::Inline(lab)) => Some(&**lab),
-        Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
-        Some(VerifyLab::Broken) => None,
+        None if own.is_none() && verify.is_formulas() => ready.iter().find(|r| r.lab.is_nothing()).map(scene),
+        None => own.and_then(of),
+        Some(named) => lesson.named(named).and_then(of),
     };
-    lab.and_then(|lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)))
+    let mut runs = Vec::new();
+    for run in &verify.runs {
+        let lab = match &run.lab {
+            None => base.clone(),
+            Some(named) => lesson.named(named).and_then(of),
+        };
+        runs.push(stage.of_run(&lab?, run, findings)?);
+    }
+    (base.is_some() || !runs.is_empty()).then_some(Cast { base, runs })
+}
+
+/// What a `verify` object rests on.
+pub(super) struct Begun {
+    /// The model of its lab.
+    pub(super) model: Option<Arc<Model>>,
+    /// The model of every run as it begins.
+    pub(super) runs: Vec<(String, Option<Model>)>,
+}
+
+/// Sets up the runs of a `verify` object, and makes none. `None` where they have mistakes.
+pub(super) fn begun<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [Ready<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+) -> Option<Begun> {
+    let Cast { base, runs } = cast(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
+    Some(Begun { runs: bound.begun(), model: base.map(|scene| scene.model) })
 }
 
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
-pub(super) fn check(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<Claim> {
+pub(super) fn check(
+    lesson: &Lesson,
+    ready: &[Ready<'_>],
+    models: &Models,
+    findings: &mut Vec<Finding>,
+) -> Vec<Claim> {
     let shown = ShownText::of(lesson);
-    let mut court = Court { lesson, ready, shown, allowance: Allowance::default(), list: Vec::new() };
+    let mut court = Court { lesson, ready, shown, stage: Stage::new(models), list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {
             Owner::Lab(lab) => court.judge_lab(name, lab, findings),
@@ -135,7 +180,7 @@ struct Court<'a> {
     lesson: &'a Lesson,
     ready: &'a [Ready<'a>],
     shown: ShownText,
-    allowance: Allowance,
+    stage: Stage<'a>,
     list: Vec<Claim>,
 }
 
@@ -168,12 +213,19 @@ impl Court<'_> {
         question: Option<&Question>,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
-        let Some(target) = target(self.lesson, self.ready, verify, own) else {
-            return verify::unmade(verify, question, "its lab cannot run");
+        let before = findings.len();
+        let Some(Cast { base, runs }) = cast(self.lesson, self.ready, verify, own, &self.stage, findings)
+        else {
+            let told = findings.len() > before;
+            let reason = if told { "a run cannot be made" } else { "its lab cannot run" };
+            return verify::unmade(verify, question, reason);
         };
-        let Ready { lab, model, programs, .. } = target;
-        refresh::check_runs(verify, lab, model, programs, findings);
-        match BoundVerify::new(verify, lab, model, programs, &self.allowance, findings) {
+        for (run, scenes) in verify.runs.iter().zip(&runs) {
+            if let Some(Scene { lab, model, programs, .. }) = scenes.first() {
+                refresh::check_run(verify, run, lab, model, programs, findings);
+            }
+        }
+        match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => verify::check(&bound, verify, question, &self.shown, findings),
             None => verify::unmade(verify, question, "its runs or measures have mistakes"),
         }

@@ -140,9 +140,9 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         ready.extend(empty(&nothing));
     }
     let claims = if depth.claims {
-        claims::check(lesson, &ready, &mut findings)
+        claims::check(lesson, &ready, models, &mut findings)
     } else {
-        claims::bind(lesson, &ready, &mut findings);
+        claims::bind(lesson, &ready, models, &mut findings);
         Vec::new()
     };
     Found { findings, labs, claims, snapshots }

@@ -8,7 +8,7 @@ use crate::bind::scene::Models;
 use crate::precision::Integrator;
 use crate::run::{Budget, Session};
 use crate::spec::Lesson;
-use crate::verify::{Allowance, BoundVerify};
+use crate::verify::Stage;
 use labspec_core::reflect::{self, FieldId, Object};
 use labspec_core::{self as core, Data, Demand, Model, Obj, Plan, solver};
 use std::collections::BTreeMap;
@@ -90,20 +90,18 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Mark) -> Basis {
         LabBasis { lab: address.to_string(), block: block(&lab.span), model: one.map(compiled), settings }
     });
     let labs = labs.collect();
-    let allowance = Allowance::default();
+    let stage = Stage::new(models);
     let claims = claims::owners(lesson).into_iter().filter_map(|(name, owner)| {
         let (verify, own, _) = owner.claim()?;
         let span = match &owner {
             Owner::Lab(lab) => &lab.span,
             Owner::Question(question) => &question.span,
         };
-        let target = claims::target(lesson, &ready, verify, own);
-        let bound = target.and_then(|r| {
-            BoundVerify::new(verify, r.lab, &r.model, &r.programs, &allowance, &mut Vec::new())
-        });
-        let runs = bound.map_or(Vec::new(), |bound| bound.begun());
+        let begun = claims::begun(lesson, &ready, verify, own, &stage);
+        let model = begun.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));
+        let runs = begun.map_or(Vec::new(), |begun| begun.runs);
         let runs = runs.into_iter().map(|(name, model)| (name, model.map(|m| settings(&m, mark)))).collect();
-        Some(ClaimBasis { name, block: block(span), model: target.map(compiled), runs })
+        Some(ClaimBasis { name, block: block(span), model, runs })
     });
     let claims = claims.collect();
     Basis { labs, claims }

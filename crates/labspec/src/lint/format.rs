@@ -6,7 +6,7 @@ use crate::json::read::{named, shorten};
 use crate::rules;
 use crate::source::MAX_FILE;
 use crate::spec::format::{CONTROL, QUESTION, texts};
-use crate::spec::{Expected, Meant, Misfit, Mistake};
+use crate::spec::{Expected, MOST_SWEPT, Meant, Misfit, Mistake};
 use std::ops::Range;
 
 /// What is said about a misfit.
@@ -75,6 +75,17 @@ fn said(span: Range<usize>, mistake: &Mistake) -> Finding {
             .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
         Mistake::NoLab(found) => wrong(format!("`lab` must be a text or a lab object; this is {found}"))
             .help("write \"#2\" for the second lab of the lesson, or a lab object"),
+        Mistake::NoSweep => wrong("a sweep changes one thing: a control, or an attribute of the model".into())
+            .help("write {\"timestep h\": [0.002, 0.005, 0.01]}"),
+        Mistake::NoRows => wrong("a column has `by`, and one cell of it has `row`".into())
+            .help("write \"by\": [\"height (m)\", \"fall.value\"], or \"row\": \"0.65\""),
+        Mistake::FindsNothing => wrong("a search is for the largest or for the smallest value".into())
+            .help("write \"largest\": \"timestep h\", or \"smallest\""),
+        Mistake::FindsBackwards => wrong("a search begins below its end".into()).help("write `from` below `to`"),
+        Mistake::SweptValues(count) => {
+            wrong(format!("a sweep has 2 to {MOST_SWEPT} values; this one has {count}"))
+                .help("write [0.002, 0.005, 0.01], or {\"from\": 0.2, \"to\": 2, \"count\": 5}")
+        }
         Mistake::NoPress => wrong("a press is a pair [label, time]".into())
             .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
         Mistake::NoQuote => wrong("what the text says is a pair [quote, expression]".into())

@@ -2,7 +2,7 @@
 
 use crate::bind::{ModelNames, Scope};
 use crate::source::Text;
-use crate::spec::{Form, Lab, Lesson, Verify, VerifyLab};
+use crate::spec::{Form, Lab, Lesson, Run, Verify};
 use labspec_core::Model;
 use labspec_expr::{Compiled, Compiler, Globals, Type};
 
@@ -38,16 +38,18 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece<'_>> {
 }
 
 fn claim<'l>(lesson: &'l Lesson, verify: &'l Verify, own: Option<&'l Lab>, all: &mut Vec<Piece<'l>>) {
-    let lab = match &verify.lab {
-        None => own,
-        Some(VerifyLab::Inline(lab)) => Some(&**lab),
-        Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
-        Some(VerifyLab::Broken) => None,
-    };
-    let Some(lab) = lab else { return };
+    let base = verify.lab.as_ref().map_or(own, |named| lesson.named(named));
     let scope = |form| if form == Form::Statements { Scope::Lab } else { Scope::Measure };
-    let texts = verify.code().into_iter();
-    all.extend(texts.map(|(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(verify) }));
+    let mut add = |texts: Vec<(Form, &'l Text)>, lab: Option<&'l Lab>| {
+        let Some(lab) = lab else { return };
+        let piece = |(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(verify) };
+        all.extend(texts.into_iter().map(piece));
+    };
+    let lab_of = |run: &'l Run| run.lab.as_ref().map_or(base, |named| lesson.named(named));
+    for run in &verify.runs {
+        add(run.code().collect(), lab_of(run));
+    }
+    add(verify.expressions().collect(), base.or_else(|| verify.runs.iter().find_map(lab_of)));
 }
 
 /// The text of code at a byte of the lesson, and the byte of the text.
@@ -76,7 +78,8 @@ fn inside(text: &Text, byte: usize) -> usize {
 
 /// Compiles a text with what each part of it means.
 pub(super) fn explained(piece: &Piece<'_>, model: &Model, globals: &mut Globals) -> Compiled {
-    let names = ModelNames::new(model, piece.scope);
+    let shown = crate::verify::labels(piece.lab);
+    let names = ModelNames::new(model, piece.scope).showing(&shown);
     let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Any)).explaining();
     match piece.form {
         Form::Expression => compiler.expression(&piece.text.value),

@@ -29,7 +29,8 @@ pub(super) fn completions(document: &mut Document, around: &Around, byte: usize)
     let file = &document.file;
     if let Some((piece, inside)) = code::at(&lesson, byte) {
         let Some(model) = around.models.of(piece.lab, &mut Vec::new()) else { return json!([]) };
-        let names = ModelNames::new(&model, piece.scope);
+        let shown = crate::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let texts = piece.lab.code().into_iter().map(|(_, text)| text.value.as_str());
         let mut globals = variables_of(&names, texts);
         params(piece.lab, &mut globals);
@@ -95,6 +96,7 @@ fn kind_of(kind: Suggested) -> u8 {
 fn measures(verify: &Verify, items: &mut Vec<Value>) {
     let named = |name: &str, what: &str| json!({"label": name, "kind": kind::VARIABLE, "detail": what, "sortText": " "});
     items.extend(verify.measure.iter().map(|(name, _)| named(&name.value, "a measure")));
+    items.extend(verify.find.iter().map(|find| named(&find.name.value, "a value that is searched for")));
     items.extend(verify.runs.iter().map(|run| named(&run.name.value, "a run")));
 }
 

@@ -20,7 +20,8 @@ pub(super) fn hints(document: &mut Document, around: &Around, range: &Range<usiz
             continue;
         }
         let Some(model) = around.models.of(piece.lab, &mut Vec::new()) else { continue };
-        let names = ModelNames::new(&model, piece.scope);
+        let shown = crate::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&shown);
         for mention in fields_in(&names, &piece.text.value) {
             let Some(unit) = unit(&names, &mention) else { continue };
             let end = piece.text.span_of(mention.span.into()).end;

@@ -93,11 +93,11 @@ fn named_by(lesson: &Lesson, unit: &Range<usize>) -> Vec<LabAddress> {
         .filter_map(|lab| lab.verify.as_ref());
     let quizzes = lesson.quizzes.iter().filter(|quiz| within(&quiz.span, unit));
     let of_questions = quizzes.flat_map(Quiz::numbered).filter_map(|(_, question)| question.verify.as_ref());
-    let named = |verify: &Verify| match &verify.lab {
-        Some(VerifyLab::Reference(_, address)) => Some(address.clone()),
+    let named = |lab: &VerifyLab| match lab {
+        VerifyLab::Reference(_, address) => Some(address.clone()),
         _ => None,
     };
-    of_labs.chain(of_questions).filter_map(named).collect()
+    of_labs.chain(of_questions).flat_map(Verify::labs).filter_map(named).collect()
 }
 
 fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {

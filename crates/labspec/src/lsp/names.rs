@@ -80,7 +80,8 @@ impl Ground<'_> {
 pub(super) fn name_in_lesson(lesson: &Lesson, path: &Path, models: &Models, byte: usize) -> Option<Name> {
     if let Some((piece, inside)) = code::at(lesson, byte) {
         let model = models.of(piece.lab, &mut Vec::new())?;
-        let names = ModelNames::new(&model, piece.scope);
+        let shown = crate::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let all = names_in(&names, &piece.text.value);
         let found = all.into_iter().find(|n| n.span.start <= inside && inside <= n.span.end)?;
         let span = piece.text.span_of(found.span.into());
@@ -209,7 +210,8 @@ fn in_lesson(name: &Name, lesson: &Lesson, path: &Path, models: &Models, found: 
     let mut doubts = Vec::new();
     for piece in code::pieces(lesson).into_iter().filter(|piece| about(piece.lab)) {
         let Some(model) = models.of(piece.lab, &mut Vec::new()) else { continue };
-        let names = ModelNames::new(&model, piece.scope);
+        let shown = crate::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let known = names_in(&names, &piece.text.value);
         for n in known.iter().filter(|n| n.name == name.name && names.noun(n.collection) == name.noun) {
             spot(piece.text, n.span.into());

@@ -1,6 +1,6 @@
 //! The `verify` objects of a lesson, each with whom it belongs to.
 
-use crate::spec::{Lab, Lesson, Question, Verify, VerifyLab};
+use crate::spec::{Lab, Lesson, Question, Run, Verify};
 
 /// A `verify` object.
 pub(crate) struct Claim<'a> {
@@ -28,10 +28,13 @@ impl<'a> Claim<'a> {
     /// The lab that it is about; `None` when there is none, or when it could not be read.
     pub(crate) fn lab(&self, lesson: &'a Lesson) -> Option<&'a Lab> {
         match &self.verify.lab {
-            Some(VerifyLab::Inline(lab)) => Some(lab),
-            Some(VerifyLab::Broken) => None,
-            Some(VerifyLab::Reference(_, address)) => lesson.lab(address),
+            Some(named) => lesson.named(named),
             None => self.own,
         }
+    }
+
+    /// The lab that a run of it is of.
+    pub(crate) fn lab_of(&self, run: &'a Run, lesson: &'a Lesson) -> Option<&'a Lab> {
+        run.lab.as_ref().map_or_else(|| self.lab(lesson), |named| lesson.named(named))
     }
 }

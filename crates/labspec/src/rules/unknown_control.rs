@@ -29,12 +29,12 @@ const LOOKED_AT: usize = 200;
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson) {
-        let Some(lab) = claim.lab(lesson) else { continue };
-        let labels = claim.verify.runs.iter().flat_map(|run| {
-            let set = run.set.iter().take(LOOKED_AT).map(|(label, _)| (label, false));
-            set.chain(run.press.iter().take(LOOKED_AT).map(|(label, _)| (label, true)))
+        let labels = claim.verify.runs.iter().filter_map(|run| Some((run, claim.lab_of(run, lesson)?)));
+        let labels = labels.flat_map(|(run, lab)| {
+            let set = run.set.iter().take(LOOKED_AT).map(move |(label, _)| (label, lab, false));
+            set.chain(run.press.iter().take(LOOKED_AT).map(move |(label, _)| (label, lab, true)))
         });
-        findings.extend(labels.filter_map(|(label, press)| missing(label, lab, press)).take(MOST));
+        findings.extend(labels.filter_map(|(label, lab, press)| missing(label, lab, press)).take(MOST));
     }
 }
 

@@ -1,7 +1,7 @@
 use super::Check;
 use super::claims;
 use crate::finding::Finding;
-use crate::json::read::named;
+use crate::json::read;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
@@ -23,15 +23,16 @@ pub const UNKNOWN_LAB: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lesson(check);
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    for claim in claims::all(lesson) {
-        let Some(VerifyLab::Reference(text, address)) = &claim.verify.lab else { continue };
+    let named = claims::all(lesson).flat_map(|claim| claim.verify.labs());
+    for lab in named {
+        let VerifyLab::Reference(text, address) = lab else { continue };
         // A lab that is there and could not be read has been told of.
         let broken = matches!(address, LabAddress::Lab(n) if *n <= lesson.labs.len());
         if broken || lesson.lab(address).is_some() {
             continue;
         }
         let all: Vec<String> = lesson.addressed().iter().take(12).map(|(a, _)| a.to_string()).collect();
-        let message = format!("there is no lab {} in this lesson", named(text.as_str()));
+        let message = format!("there is no lab {} in this lesson", read::named(text.as_str()));
         let found = Finding::new(UNKNOWN_LAB, text.span(), message);
         findings.push(if all.is_empty() {
             found.help("write a lab object here, or put a lab into the lesson")

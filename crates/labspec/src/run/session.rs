@@ -165,7 +165,14 @@ impl<'p> Session<'p> {
             ControlProgram::Press(_) => Value::Undefined,
         });
         let mut session = Session {
-            world: World { model: model.clone(), data, key, own: programs.functions.clone() },
+            world: World {
+                model: model.clone(),
+                data,
+                key,
+                own: programs.functions.clone(),
+                shown: Vec::new(),
+                numbers: Vec::new(),
+            },
             context: Context::of(&programs.globals),
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],

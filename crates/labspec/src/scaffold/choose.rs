@@ -6,7 +6,7 @@ use crate::run::Numerics;
 use crate::source::Text;
 use crate::spec::Question;
 use crate::trace::{Block, Candidate, Trial, Tried, words};
-use crate::verify::{Allowance, Stated, plain};
+use crate::verify::{Stage, Stated, plain};
 use std::collections::BTreeSet;
 
 /// What a word that the question and the measure share is worth, and how many count.
@@ -60,6 +60,7 @@ pub(super) fn choose<'t, 'l>(
     options: &[Text],
     labs: &[&'t Tried<'l>],
     numbers: &[Stated],
+    stage: &Stage<'_>,
 ) -> Result<Choice<'t, 'l>, String> {
     let asked = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
@@ -82,9 +83,8 @@ pub(super) fn choose<'t, 'l>(
             continue;
         }
         let runs = pairs::runs(question, &asked, tried.lab, numbers);
-        let allowance = Allowance::default();
         let values: Vec<Vec<f64>> =
-            runs.trials.iter().map(|t| tried.values_of(t, &allowance, Numerics::NOMINAL)).collect();
+            runs.trials.iter().map(|t| tried.values_of(t, stage, Numerics::NOMINAL)).collect();
         let broke = |run: usize| values.get(run).is_none_or(|v| v.iter().all(|x| x.is_nan()));
         for &(before, after) in &runs.pairs {
             let unnamed = if before == 0 || after == 0 { UNNAMED } else { 0.0 };

@@ -20,7 +20,7 @@ use crate::lint::load_lesson;
 use crate::source::SourceFile;
 use crate::spec::{LabAddress, Lesson, Question, QuestionKind};
 use crate::trace::{self, Block, Origin, Traces, Tried, trace};
-use crate::verify::Verdict;
+use crate::verify::{Stage, Verdict};
 use choose::Choice;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
@@ -64,6 +64,7 @@ pub enum Found {
 /// Looks at every question and lab of a lesson that claims nothing. `tell` hears what is being done.
 pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Vec<Scaffold> {
     let found = trace(lesson, models, tell);
+    let stage = Stage::new(models);
     let mut all = Vec::new();
     let blocks = trace::blocks(&found);
     for (address, lab) in lesson.addressed() {
@@ -92,7 +93,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
                 Some(_) => {
                     Found::Open("it has a `verify` already, without a condition for each option".into())
                 }
-                None => propose(lesson, question, &found),
+                None => propose(lesson, question, &found, &stage),
             };
             all.push(Scaffold { name, span: question.span.clone(), found });
         }
@@ -102,7 +103,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
 }
 
 /// What is proposed for a question.
-fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>) -> Found {
+fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Stage<'_>) -> Found {
     match &question.kind {
         QuestionKind::Choice { options, answer, .. } => {
             let Some(key) = answer.as_ref().map(|a| a.value) else {
@@ -115,7 +116,7 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>) -> Found {
                 );
             }
             let numbers: Vec<_> = found.numbers.iter().map(|n| n.stated.clone()).collect();
-            match choose::choose(question, options, &labs, &numbers) {
+            match choose::choose(question, options, &labs, &numbers, stage) {
                 Err(why) => Found::Open(why),
                 Ok(choice) if choice.option as f64 != key => {
                     Found::Contradicted { option: choice.option, values: choice.values.clone() }

@@ -109,6 +109,15 @@ impl Lesson {
         }
     }
 
+    /// The lab that a `verify` object or one of its runs names; `None` when there is none, or when it could not be read.
+    pub fn named<'a>(&'a self, lab: &'a VerifyLab) -> Option<&'a Lab> {
+        match lab {
+            VerifyLab::Inline(lab) => Some(lab),
+            VerifyLab::Reference(_, address) => self.lab(address),
+            VerifyLab::Broken => None,
+        }
+    }
+
     /// Every `verify` object: those of labs, then those of questions.
     pub fn verifies(&self) -> impl Iterator<Item = &Verify> {
         let labs = self.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
@@ -135,11 +144,11 @@ impl Lesson {
     pub fn all_labs(&self) -> Vec<&Lab> {
         let mut open: Vec<&Lab> = self.addressed().into_iter().map(|(_, lab)| lab).collect();
         let questions = self.quizzes.iter().flat_map(|q| q.numbered());
-        open.extend(questions.filter_map(|(_, q)| inline(q.verify.as_ref()?.lab.as_ref())));
+        open.extend(questions.filter_map(|(_, q)| q.verify.as_ref()).flat_map(inline));
         let mut all = Vec::new();
         // An inline lab may carry a verify object with another inline lab; JSON depth bounds the chain.
         while let Some(lab) = open.pop() {
-            open.extend(lab.verify.as_ref().and_then(|v| inline(v.lab.as_ref())));
+            open.extend(lab.verify.iter().flat_map(inline));
             all.push(lab);
         }
         all
@@ -156,11 +165,12 @@ impl Lesson {
     }
 }
 
-fn inline(lab: Option<&VerifyLab>) -> Option<&Lab> {
-    match lab {
-        Some(VerifyLab::Inline(lab)) => Some(lab),
+/// The labs that are written in a `verify` object.
+fn inline(verify: &Verify) -> impl Iterator<Item = &Lab> {
+    verify.labs().filter_map(|lab| match lab {
+        VerifyLab::Inline(lab) => Some(&**lab),
         _ => None,
-    }
+    })
 }
 
 /// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them. This never fails: what is wrong

@@ -25,4 +25,4 @@ pub use lesson::{LabAddress, LabEntry, Lesson, Widget, read_lesson};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use problem::{Expected, Meant, Misfit, Mistake, Problem};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
-pub use verify::{Exact, Run, Said, Verify, VerifyLab};
+pub use verify::{Change, Column, Exact, Find, MOST_SWEPT, Run, Said, Sweep, Verify, VerifyLab};

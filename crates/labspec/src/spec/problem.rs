@@ -88,6 +88,16 @@ pub enum Mistake {
     NoPlace(String),
     /// Something that is neither the place of a lab nor a lab; what it is.
     NoLab(&'static str),
+    /// Something else than one control or attribute with its values.
+    NoSweep,
+    /// A column that says neither how its rows are told apart nor which row is meant, or both.
+    NoRows,
+    /// A search for neither the largest nor the smallest value, or for both.
+    FindsNothing,
+    /// A search whose first value is not below its last one.
+    FindsBackwards,
+    /// A sweep with too few or too many values.
+    SweptValues(usize),
     /// Something else than a pair of label and time.
     NoPress,
     /// Something else than a pair of quote and expression.

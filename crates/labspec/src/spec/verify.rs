@@ -3,7 +3,7 @@
 //! Here it is only read; expressions stay texts with their places.
 
 use super::fields::Fields;
-use super::format::{CLOSED_FORM, RUN, VERIFY};
+use super::format::{CLOSED_FORM, COLUMN, FIND, RUN, SPAN, VERIFY};
 use super::problem::{Mistake, Problem};
 use super::read;
 use super::{Form, Lab, LabAddress, lab};
@@ -23,12 +23,16 @@ pub struct Verify {
     pub runs: Vec<Run>,
     /// Measures: name and expression, taken in every run.
     pub measure: Vec<(Text, Text)>,
+    /// Values that are searched for.
+    pub find: Vec<Find>,
     /// One condition per option of the question.
     pub options: Vec<Text>,
     /// The value of a numeric answer.
     pub value: Option<Text>,
     /// Numbers quoted in the text, each with the expression it must equal as printed.
     pub says: Vec<Said>,
+    /// Columns and cells of tables, each with what it must state.
+    pub table: Vec<Column>,
     /// Closed forms that traces must follow.
     pub exact: Vec<Exact>,
 }
@@ -52,6 +56,14 @@ pub enum VerifyLab {
 pub struct Run {
     /// Its name, which measures are read by: `name.measure`.
     pub name: Text,
+    /// The lab that it runs, where it is not that of the object.
+    pub lab: Option<VerifyLab>,
+    /// Changes of the model's text, before it is compiled.
+    pub model: Vec<Change>,
+    /// The keyframe to start from, instead of the lab's.
+    pub key: Option<Scalar>,
+    /// Statements before every step, instead of the lab's; empty for none.
+    pub controller: Option<Text>,
     /// Control labels and the values they are set to before the run.
     pub set: Vec<(Text, Scalar)>,
     /// Button labels and the times (s) of their presses.
@@ -62,8 +74,52 @@ pub struct Run {
     pub until: Option<Number>,
     /// Length in steps.
     pub steps: Option<Number>,
+    /// The run ends at the first sample at which this holds.
+    pub stop: Option<Text>,
+    /// What is tried with several values: a run for each.
+    pub sweep: Option<Sweep>,
     /// The lesson says that this run breaks, and then it must.
     pub breaks: bool,
+}
+
+/// What a run is made with several values of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sweep {
+    /// The label of a control, or an attribute of the model.
+    pub what: Text,
+    /// The values, in order.
+    pub values: Vec<f64>,
+}
+
+/// A value that is searched for: the largest or the smallest one with which a condition holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Find {
+    /// Its name, by which it is read like a measure.
+    pub name: Text,
+    /// The largest one is wanted.
+    pub largest: bool,
+    /// The label of a control, an attribute of the model, or `timestep`.
+    pub what: Text,
+    /// The smallest and the largest value that are tried.
+    pub range: [f64; 2],
+    /// The run; `None` for the only one.
+    pub run: Option<Text>,
+    /// The condition.
+    pub holds: Text,
+    /// How near the found value is to the true one.
+    pub tol: f64,
+}
+
+/// Most runs of a sweep.
+pub const MOST_SWEPT: usize = 50;
+
+/// A change of a model: an attribute of an element, and what stands in it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// Kind, name and attribute: `geom ball friction`.
+    pub path: Text,
+    /// The attribute as a model's text has it.
+    pub value: String,
 }
 
 /// A closed form of a trace.
@@ -75,6 +131,19 @@ pub struct Exact {
     pub form: Text,
     /// How far the trace may be from it at most, in the trace's unit; `None` to judge by convergence.
     pub tol: Option<Number>,
+}
+
+/// A column of a table, or one cell of it, and where its numbers come from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// The heading of the column.
+    pub column: Text,
+    /// The heading of the column that tells the rows apart, and the list of its numbers.
+    pub by: Option<(Text, Text)>,
+    /// What stands in the first column of the one row that is meant.
+    pub row: Option<Text>,
+    /// The expression: a list, or one number for one cell.
+    pub is: Text,
 }
 
 /// A number quoted in the text and where it comes from.
@@ -96,16 +165,43 @@ impl Verify {
     pub fn is_formulas(&self) -> bool {
         let word = |c: char| c.is_alphanumeric() || c == '_';
         let reads = |text: &Text| text.value.split(|c| !word(c)).any(|w| OF_A_LAB.contains(&w));
-        self.runs.is_empty() && self.exact.is_empty() && !self.code().iter().any(|(_, text)| reads(text))
+        self.runs.is_empty()
+            && self.find.is_empty()
+            && self.exact.is_empty()
+            && !self.code().iter().any(|(_, text)| reads(text))
+    }
+
+    /// The labs that it names: its own, and those of its runs.
+    pub fn labs(&self) -> impl Iterator<Item = &VerifyLab> {
+        self.lab.iter().chain(self.runs.iter().filter_map(|run| run.lab.as_ref()))
+    }
+
+    /// Whether no lab is needed besides those of its runs.
+    pub fn every_run_names_its_lab(&self) -> bool {
+        !self.runs.is_empty() && self.exact.is_empty() && self.runs.iter().all(|run| run.lab.is_some())
     }
 
     /// Every text that is code, with what it is.
     pub fn code(&self) -> Vec<(Form, &Text)> {
-        let setups = self.runs.iter().filter_map(|r| r.setup.as_ref());
+        self.runs.iter().flat_map(Run::code).chain(self.expressions()).collect()
+    }
+
+    /// The measures and what is claimed of them: every text that is code, but for that of the runs.
+    pub fn expressions(&self) -> impl Iterator<Item = (Form, &Text)> {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
+        let measures = measures.chain(self.find.iter().map(|f| &f.holds));
         let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
-        let values = measures.chain(values).map(|t| (Form::Expression, t));
-        setups.map(|t| (Form::Statements, t)).chain(values).collect()
+        let columns = self.table.iter().flat_map(|c| c.by.iter().map(|(_, list)| list).chain([&c.is]));
+        let values = values.chain(columns);
+        measures.chain(values).map(|t| (Form::Expression, t))
+    }
+}
+
+impl Run {
+    /// Every text that is code, with what it is.
+    pub fn code(&self) -> impl Iterator<Item = (Form, &Text)> {
+        let statements = self.setup.iter().chain(&self.controller).map(|t| (Form::Statements, t));
+        statements.chain(self.stop.iter().map(|t| (Form::Expression, t)))
     }
 }
 
@@ -114,7 +210,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
     let before = problems.len();
     let mut fields = Fields::open(node, &VERIFY, problems)?;
     let f = &mut fields;
-    if !["options", "value", "says", "exact"].iter().any(|key| f.has(key)) {
+    if !["options", "value", "says", "table", "exact"].iter().any(|key| f.has(key)) {
         let mistake = Mistake::ClaimsNothing.at(f.span());
         f.problems.push(mistake);
     }
@@ -123,9 +219,11 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
         lab: f.node("lab").map(|n| which(n, f.problems).unwrap_or(VerifyLab::Broken)),
         runs: f.map("runs").iter().filter_map(|m| run(m, f.problems)).collect(),
         measure: expressions(f, "measure"),
+        find: f.map("find").iter().filter_map(|m| find(m, f.problems)).collect(),
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
         value: f.text("value"),
         says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
+        table: f.list("table").iter().filter_map(|n| column(n, f.problems)).collect(),
         exact: f.map("exact").iter().filter_map(|m| exact(m, f.problems)).collect(),
     };
     fields.finish();
@@ -160,6 +258,10 @@ fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
     let f = &mut fields;
     let run = Run {
         name: member.key.clone(),
+        lab: f.node("lab").map(|n| which(n, f.problems).unwrap_or(VerifyLab::Broken)),
+        model: f.map("model").iter().filter_map(|m| change(m, f.problems)).collect(),
+        key: f.node("key").and_then(|n| read::scalar(n, "key", f.problems)),
+        controller: f.text("controller"),
         set: f
             .map("set")
             .iter()
@@ -171,10 +273,89 @@ fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
         setup: f.text("setup"),
         until: f.number("until"),
         steps: f.whole("steps"),
+        stop: f.text("stop"),
+        sweep: f.node("sweep").and_then(|n| sweep(n, f.problems)),
         breaks: f.text("expect").is_some_and(|t| breaks(&t, f.problems)),
     };
     fields.finish();
     Some(run)
+}
+
+/// A change of a model. Several numbers are written as a list.
+fn change(member: &Member, problems: &mut Vec<Problem>) -> Option<Change> {
+    let what = "the value of an attribute";
+    let value = match &member.value.json {
+        Json::Array(items) => {
+            let numbers = items.iter().map(|n| read::number(n, what, problems).map(|n| n.value.to_string()));
+            numbers.collect::<Option<Vec<_>>>()?.join(" ")
+        }
+        _ => match read::scalar(&member.value, what, problems)? {
+            Scalar::Number(n) => n.value.to_string(),
+            Scalar::Text(t) => t.value,
+            Scalar::Bool(b, _) => b.to_string(),
+        },
+    };
+    Some(Change { path: member.key.clone(), value })
+}
+
+/// What a sweep changes, and the values: written one by one, or so many from one end to the other.
+fn sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Sweep> {
+    let [member] = node.members() else {
+        if !node.is_broken() {
+            problems.push(Mistake::NoSweep.at(node.span.clone()));
+        }
+        return None;
+    };
+    let what = member.key.clone();
+    let values: Vec<f64> = match &member.value.json {
+        Json::Array(items) => {
+            let numbers =
+                items.iter().map(|n| read::number(n, "a value of a sweep", problems).map(|n| n.value));
+            numbers.collect::<Option<_>>()?
+        }
+        _ => {
+            let mut fields = Fields::open(&member.value, &SPAN, problems)?;
+            let [from, to, count] = [fields.number("from"), fields.number("to"), fields.whole("count")];
+            fields.finish();
+            let ([from, to], count) = ([from?.value, to?.value], count?.value.clamp(0.0, 1e6) as usize);
+            let part = |i: usize| i as f64 / count.saturating_sub(1).max(1) as f64;
+            (0..count.min(MOST_SWEPT + 1)).map(|i| from + (to - from) * part(i)).collect()
+        }
+    };
+    if !(2..=MOST_SWEPT).contains(&values.len()) {
+        problems.push(Mistake::SweptValues(values.len()).at(member.value.span.clone()));
+        return None;
+    }
+    Some(Sweep { what, values })
+}
+
+/// A value that is searched for.
+fn find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
+    let mut fields = Fields::open(&member.value, &FIND, problems)?;
+    let f = &mut fields;
+    let ends = [f.text("largest"), f.text("smallest")];
+    let [from, to, tol] = ["from", "to", "tol"].map(|key| f.number(key));
+    let (run, holds) = (f.text("run"), f.text("while"));
+    let largest = ends[0].is_some();
+    let what = match ends {
+        [Some(what), None] | [None, Some(what)] => Some(what),
+        _ => {
+            let mistake = Mistake::FindsNothing.at(f.span());
+            f.problems.push(mistake);
+            None
+        }
+    };
+    let range = from.zip(to).map(|(from, to)| [from.value, to.value]);
+    if let Some([from, to]) = range
+        && from >= to
+    {
+        let mistake = Mistake::FindsBackwards.at(f.span());
+        f.problems.push(mistake);
+        return None;
+    }
+    fields.finish();
+    let name = member.key.clone();
+    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol?.value })
 }
 
 /// What a run is expected to do.
@@ -227,6 +408,21 @@ fn said(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
     }
     problems.push(Mistake::NoQuote.at(node.span.clone()));
     None
+}
+
+/// A column of a table, or a cell of it.
+fn column(node: &Node, problems: &mut Vec<Problem>) -> Option<Column> {
+    let mut fields = Fields::open(node, &COLUMN, problems)?;
+    let f = &mut fields;
+    let (column, row, is) = (f.text("column"), f.text("row"), f.text("is"));
+    let by = f.node("by").and_then(|n| said(n, f.problems)).map(|pair| (pair.quote, pair.expr));
+    if by.is_some() == row.is_some() {
+        let mistake = Mistake::NoRows.at(f.span());
+        f.problems.push(mistake);
+    }
+    let apart = by.is_some() != row.is_some();
+    fields.finish();
+    Some(Column { column: column?, by, row, is: is? }).filter(|_| apart)
 }
 
 fn expressions(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {

@@ -31,7 +31,7 @@ use crate::interrupt;
 use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
-use crate::verify::{Allowance, NUDGED, NUDGED_BACK, ShownText, Stated, stated};
+use crate::verify::{NUDGED, NUDGED_BACK, ShownText, Stage, Stated, stated};
 use labspec_core::Model;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -70,7 +70,7 @@ pub struct Traces<'l> {
 /// Looks where every number of a lesson comes from. Labs that cannot run are left out. `tell` is told what is being done.
 pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)) -> Traces<'l> {
     let numbers = stated(lesson);
-    let allowance = Allowance::default();
+    let stage = Stage::new(models);
     let mut labs = Vec::new();
     for (address, lab) in lesson.addressed() {
         tell(&format!("trying lab {address}"));
@@ -79,9 +79,8 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
         let trials = trials(lab, &numbers);
         let candidates = candidates::candidates(lab, &model, &programs, &numbers);
-        let made = |t: &Trial, numerics| {
-            trials::values(t, lab, &model, &programs, &candidates, &allowance, numerics)
-        };
+        let made =
+            |t: &Trial, numerics| trials::values(t, lab, &model, &programs, &candidates, &stage, numerics);
         let values = trials.iter().map(|t| made(t, Numerics::NOMINAL)).collect();
         labs.push(Tried { address, lab, owner, model, programs, trials, candidates, values });
     }
@@ -93,7 +92,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         false => rank::origin(s, &numbers, &labs, &bindings),
     };
     let mut origins: Vec<Origin> = numbers.iter().map(found).collect();
-    steady(&numbers, &mut origins, &labs, &allowance);
+    steady(&numbers, &mut origins, &labs, &stage);
     rank::share(&numbers, &mut origins);
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
@@ -108,7 +107,7 @@ fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
 }
 
 /// Tries what was found again, from starts that nobody could tell from the lab's own: digits that then change are told apart.
-fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowance: &Allowance) {
+fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], stage: &Stage<'_>) {
     let mut again: BTreeMap<(usize, usize), [Vec<f64>; 2]> = BTreeMap::new();
     for (s, origin) in numbers.iter().zip(origins) {
         let Origin::From(hit) = origin else { continue };
@@ -116,9 +115,9 @@ fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowa
         let Some((tried, trial)) = labs.get(l).and_then(|tried| Some((tried, tried.trials.get(t)?))) else {
             continue;
         };
-        let moved = again.entry((l, t)).or_insert_with(|| {
-            [NUDGED, NUDGED_BACK].map(|numerics| tried.values_of(trial, allowance, numerics))
-        });
+        let moved = again
+            .entry((l, t))
+            .or_insert_with(|| [NUDGED, NUDGED_BACK].map(|numerics| tried.values_of(trial, stage, numerics)));
         let Some(at) = tried.candidates.iter().position(|c| c.text == hit.measure) else { continue };
         let Some(own) = tried.values.get(t).and_then(|v| v.get(at)) else { continue };
         let differs =
@@ -131,9 +130,9 @@ fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], allowa
 
 impl Tried<'_> {
     /// Makes a run of the lab, and takes every measure. What breaks has no values.
-    pub(crate) fn values_of(&self, trial: &Trial, allowance: &Allowance, numerics: Numerics) -> Vec<f64> {
+    pub(crate) fn values_of(&self, trial: &Trial, stage: &Stage<'_>, numerics: Numerics) -> Vec<f64> {
         let Tried { lab, model, programs, candidates, .. } = self;
-        trials::values(trial, lab, model, programs, candidates, allowance, numerics)
+        trials::values(trial, lab, model, programs, candidates, stage, numerics)
     }
 }
 

@@ -8,10 +8,11 @@ use crate::json::{Number, Scalar};
 use crate::run::{Numerics, settings};
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
-use crate::verify::{self, Allowance, BoundVerify, Stated};
+use crate::verify::{self, BoundVerify, Scene, Stage, Stated};
 use labspec_core::Model;
 use labspec_expr::Value;
 use labspec_expr::dimension::{Dimension, Measure};
+use std::sync::Arc;
 
 /// A run.
 #[derive(Clone, Debug)]
@@ -140,11 +141,17 @@ impl Trial {
         let number = |value: f64| Number { value, span: 0..0 };
         Run {
             name: text(name),
+            lab: None,
+            model: Vec::new(),
+            key: None,
+            controller: None,
             set: self.set.iter().map(|(label, value)| (text(label), value.clone())).collect(),
             press: self.press.iter().map(|label| (text(label), number(0.0))).collect(),
             setup: self.timestep.map(|h| text(&format!("model.opt.timestep = {h}"))),
             until: self.until.map(number),
             steps: None,
+            stop: None,
+            sweep: None,
             breaks: false,
         }
     }
@@ -154,10 +161,10 @@ impl Trial {
 pub(super) fn values(
     trial: &Trial,
     lab: &Lab,
-    model: &Model,
+    model: &Arc<Model>,
     programs: &Programs,
     candidates: &[Candidate],
-    allowance: &Allowance,
+    stage: &Stage<'_>,
     numerics: Numerics,
 ) -> Vec<f64> {
     let none = || vec![f64::NAN; candidates.len()];
@@ -167,12 +174,15 @@ pub(super) fn values(
         lab: None,
         runs: vec![trial.run("run")],
         measure: candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect(),
+        find: Vec::new(),
         options: Vec::new(),
         value: None,
         says: Vec::new(),
+        table: Vec::new(),
         exact: Vec::new(),
     };
-    let bound = BoundVerify::new(&verify, lab, model, programs, allowance, &mut Vec::new());
+    let scene = Scene::of(lab, model, programs);
+    let bound = BoundVerify::new(&verify, None, &[vec![scene]], stage, &mut Vec::new());
     let found = bound.and_then(|bound| verify::measured(&bound, numerics));
     found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)
 }

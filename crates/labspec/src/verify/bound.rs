@@ -1,70 +1,66 @@
-//! A `verify` object bound to its lab and model, ready to run.
+//! A `verify` object bound to its labs and models, ready to run.
 
 use super::condition::{self, Weighed};
-use super::measure::Measure;
 use super::outcome::{Outcome, OutcomeNames, RunOutcome};
-use super::reads::{self, Reading};
-use crate::bind::{ModelNames, Programs, Scope, functions, include, scalar, to_finding};
+use super::perform::{self, Asked};
+use super::reads;
+use super::search::{self, Case};
+use super::stage::{Scene, Stage};
+use crate::bind::{ModelNames, Scope, Shown, functions, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, End, Numerics, Play, Session};
+use crate::run::{Numerics, Session};
 use crate::source::Text;
-use crate::spec::{Lab, Run, Verify};
-use labspec_core::reflect::{self, FieldId, Object};
+use crate::spec::{Find, Run, Sweep, Verify};
+use labspec_core::reflect::{FieldId, Object};
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
-use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
-use std::ops::ControlFlow;
-
-/// Most steps of one run of a `verify` object.
-const MAX_VERIFY_STEPS: usize = 2_000_000;
-
-/// The work that the runs of all `verify` objects of a lesson may do together.
-#[derive(Debug)]
-pub struct Allowance(Cell<u64>);
-
-impl Default for Allowance {
-    fn default() -> Allowance {
-        Allowance(Cell::new(6_000_000_000))
-    }
-}
+use std::cell::RefCell;
 
 /// A program with the text that it came from.
 #[derive(Debug)]
-struct Named<'a> {
-    text: &'a Text,
-    program: Program,
-    /// It reads what the lab shows.
-    reads: bool,
+pub(super) struct Named<'a> {
+    pub(super) text: &'a Text,
+    pub(super) program: Program,
 }
 
-/// A run with its own setup compiled.
+/// A lab with the measures that are taken in its runs.
 #[derive(Debug)]
-struct BoundRun<'a> {
-    name: &'a str,
-    spec: Option<&'a Run>,
-    setup: Option<Named<'a>>,
+pub(super) struct BoundScene<'a> {
+    pub(super) scene: Scene<'a>,
+    pub(super) globals: Globals,
+    pub(super) measures: Vec<(&'a str, Named<'a>)>,
+    /// What it shows under labels, and which of them are asked for.
+    pub(super) shown: Shown,
 }
 
-/// The lab, the model, the runs and the measures of a `verify` object.
+/// A run with its own texts compiled.
+#[derive(Debug)]
+pub(super) struct BoundRun<'a> {
+    pub(super) name: &'a str,
+    pub(super) spec: Option<&'a Run>,
+    pub(super) setup: Option<Named<'a>>,
+    pub(super) stop: Option<Named<'a>>,
+    /// Its place in a sweep, and its value there; with the control that is set to it, where it is no attribute of the model.
+    pub(super) swept: Option<(usize, f64)>,
+    pub(super) control: Option<(&'a Text, f64)>,
+    /// No student need be able to choose this value.
+    pub(super) freely: bool,
+    /// The place of its lab in the list.
+    scene: usize,
+}
+
+/// The labs, the runs and the measures of a `verify` object.
 #[derive(Debug)]
 pub struct BoundVerify<'a> {
-    lab: &'a Lab,
-    model: &'a Model,
-    programs: &'a Programs,
-    globals: Globals,
+    /// The lab of the object, or else of its first run, comes first.
+    scenes: Vec<BoundScene<'a>>,
     runs: Vec<BoundRun<'a>>,
-    measures: Vec<(&'a str, Named<'a>)>,
-    /// What measures read of what the lab shows.
-    readings: Vec<Reading>,
-    place: std::ops::Range<usize>,
-    allowance: &'a Allowance,
+    verify: &'a Verify,
+    stage: &'a Stage<'a>,
     /// A lab at its start, for expressions over measures: they read nothing of it.
     idle: RefCell<Option<Session<'a>>>,
-    /// What was measured on the spot, by the numerics and the text.
-    spot: RefCell<BTreeMap<String, (f64, Option<String>)>>,
 }
 
 /// The value of an expression over the measures, and what it rests on.
@@ -77,110 +73,241 @@ pub(super) struct Found {
     pub(super) broke: Option<String>,
 }
 
+impl BoundScene<'_> {
+    /// The names of a measure, or of what it is compared with.
+    fn names(&self, scope: Scope) -> ModelNames<'_> {
+        ModelNames::new(&self.scene.model, scope).with(&self.scene.programs.functions).showing(&self.shown)
+    }
+
+    fn measured(&self, name: &str) -> Option<&Named<'_>> {
+        self.measures.iter().find(|(n, _)| *n == name).map(|(_, m)| m)
+    }
+}
+
 impl<'a> BoundVerify<'a> {
-    /// Compiles setups and measures. What is wrong goes to `findings`; `None` when it cannot run.
+    /// Compiles what runs do and what is measured. `scenes` has the lab of every run, one for each member of a sweep; the lab of
+    /// the object itself, where there is one, is `base`. What is wrong goes to `findings`; `None` when it cannot run.
     pub fn new(
         verify: &'a Verify,
-        lab: &'a Lab,
-        model: &'a Model,
-        programs: &'a Programs,
-        allowance: &'a Allowance,
+        base: Option<&Scene<'a>>,
+        scenes: &[Vec<Scene<'a>>],
+        stage: &'a Stage<'a>,
         findings: &mut Vec<Finding>,
     ) -> Option<BoundVerify<'a>> {
-        let mut globals = programs.globals.clone();
+        let mut bound =
+            BoundVerify { scenes: Vec::new(), runs: Vec::new(), verify, stage, idle: RefCell::default() };
+        if verify.runs.is_empty() {
+            let scene = bound.add(base?);
+            bound.runs.push(BoundRun {
+                name: "run",
+                spec: None,
+                setup: None,
+                stop: None,
+                swept: None,
+                control: None,
+                freely: false,
+                scene,
+            });
+        }
         let mut good = true;
-        let replaced =
-            |(_, text): &(Text, Text)| reads::replaced(text, lab, programs, &mut globals, findings);
-        let replaced: Vec<Option<(String, Vec<Reading>)>> = verify.measure.iter().map(replaced).collect();
+        for (run, scenes) in verify.runs.iter().zip(scenes) {
+            for (i, scene) in scenes.iter().enumerate() {
+                let at = bound.add(scene);
+                let bound_run = bound.run(run, at, findings).map(|made| match &run.sweep {
+                    None => made,
+                    Some(Sweep { what, values }) => {
+                        let x = values.get(i).copied().unwrap_or(f64::NAN);
+                        let control = scene.lab.control(&what.value).map(|_| (what, x));
+                        BoundRun { swept: Some((i, x)), control, ..made }
+                    }
+                });
+                good &= bound_run.is_some();
+                let failed = bound_run.is_none();
+                bound.runs.extend(bound_run);
+                if failed {
+                    break;
+                }
+            }
+        }
+        // Closed forms are those of the object's own lab.
+        if !verify.exact.is_empty() {
+            let first = bound.add(base?);
+            bound.scenes.swap(0, first);
+            let swap = |i: usize| {
+                if i == 0 {
+                    first
+                } else if i == first {
+                    0
+                } else {
+                    i
+                }
+            };
+            bound.runs.iter_mut().for_each(|run| run.scene = swap(run.scene));
+        }
+        for (name, text) in &verify.measure {
+            good &= bound.measure(&name.value, text, findings);
+        }
+        good.then_some(bound)
+    }
+
+    /// The place of a lab in the list, to which it is added the first time.
+    fn add(&mut self, scene: &Scene<'a>) -> usize {
+        if let Some(known) = self.scenes.iter().position(|s| s.scene.is(scene)) {
+            return known;
+        }
+        let (globals, shown) = (scene.programs.globals.clone(), reads::labels(&scene.lab));
+        self.scenes.push(BoundScene { scene: scene.clone(), globals, measures: Vec::new(), shown });
+        self.scenes.len() - 1
+    }
+
+    /// Compiles the texts of a run; `None` when they have mistakes.
+    fn run(&mut self, run: &'a Run, scene: usize, findings: &mut Vec<Finding>) -> Option<BoundRun<'a>> {
+        let BoundScene { scene: here, globals, shown, .. } = self.scenes.get_mut(scene)?;
+        let names = |scope| ModelNames::new(&here.model, scope).with(&here.programs.functions).showing(shown);
+        let mut good = true;
         let mut keep = |text: &'a Text, compiled: Compiled| {
             findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
             good &= compiled.program.is_some();
-            compiled.program.map(|program| Named { text, program, reads: false })
+            compiled.program.map(|program| Named { text, program })
         };
-        let in_lab = ModelNames::new(model, Scope::Lab).with(&programs.functions);
-        let mut runs: Vec<BoundRun<'a>> = Vec::new();
-        for run in &verify.runs {
-            let setup = run
-                .setup
-                .as_ref()
-                .and_then(|t| keep(t, Compiler::new(&in_lab, &mut globals).statements(&t.value)));
-            runs.push(BoundRun { name: &run.name.value, spec: Some(run), setup });
+        let setup = run.setup.as_ref();
+        let setup =
+            setup.and_then(|t| keep(t, Compiler::new(&names(Scope::Lab), globals).statements(&t.value)));
+        let stop = run.stop.as_ref();
+        let stop =
+            stop.and_then(|t| keep(t, Compiler::new(&names(Scope::Measure), globals).expression(&t.value)));
+        if let Some(stop) = stop.as_ref().filter(|stop| !stop.program.aggregates().is_empty()) {
+            findings.push(
+                Finding::error(rules::RUN_IMPOSSIBLE, stop.text.span(), "`stop` looks at one sample, not at a whole run")
+                    .why("what becomes of all samples is known only when the run is over")
+                    .help("write the condition itself: `contact('ball', 'floor')`, not `first(contact('ball', 'floor'))`"),
+            );
+            good = false;
         }
-        if runs.is_empty() {
-            runs.push(BoundRun { name: "run", spec: None, setup: None });
-        }
-        let in_measure = ModelNames::new(model, Scope::Measure).with(&programs.functions);
-        let (mut measures, mut readings) = (Vec::new(), Vec::new());
-        let mut known = true;
-        for ((name, text), replaced) in verify.measure.iter().zip(replaced) {
-            let Some((source, read)) = replaced else {
-                known = false;
-                continue;
-            };
-            if let Some(m) = keep(text, Compiler::new(&in_measure, &mut globals).expression(&source)) {
-                measures.push((name.value.as_str(), Named { reads: !read.is_empty(), ..m }));
-                readings.extend(read);
-            }
-        }
-        good &= known;
-        good.then_some(BoundVerify {
-            lab,
-            model,
-            programs,
-            globals,
-            runs,
-            measures,
-            readings,
-            place: verify.span.clone(),
-            allowance,
-            idle: RefCell::default(),
-            spot: RefCell::default(),
+        let name = &run.name.value;
+        good.then_some(BoundRun {
+            name,
+            spec: Some(run),
+            setup,
+            stop,
+            swept: None,
+            control: None,
+            freely: false,
+            scene,
         })
     }
 
-    /// The lab, its model and its programs.
-    pub(super) fn lab(&self) -> (&'a Lab, &'a Model, &'a Programs) {
-        (self.lab, self.model, self.programs)
+    /// Compiles a measure for every lab. One that has no meaning in some of them is not taken there; one that has a meaning in none
+    /// is told of the first.
+    fn measure(&mut self, name: &'a str, text: &'a Text, findings: &mut Vec<Finding>) -> bool {
+        let mut told: Option<Vec<Finding>> = None;
+        let mut known = false;
+        for bound in &mut self.scenes {
+            let mut globals = bound.globals.clone();
+            let compiled = Compiler::new(&bound.names(Scope::Measure), &mut globals).expression(&text.value);
+            bound.globals = globals;
+            let said = || compiled.diagnostics.iter().map(|d| to_finding(d, text)).collect();
+            if told.is_none() || (!known && compiled.program.is_some()) {
+                told = Some(said());
+            }
+            known |= compiled.program.is_some();
+            bound.measures.extend(compiled.program.map(|program| (name, Named { text, program })));
+        }
+        findings.extend(told.into_iter().flatten());
+        known
+    }
+
+    /// The lab of the object with its model and programs.
+    pub(super) fn lab(&self) -> Option<&Scene<'a>> {
+        self.scenes.first().map(|s| &s.scene)
+    }
+
+    fn scene_of(&self, run: &BoundRun<'_>) -> Option<&BoundScene<'a>> {
+        self.scenes.get(run.scene)
     }
 
     /// Makes every run and takes every measure. `None` when a run cannot be made.
     pub(super) fn outcome(&self, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<Outcome> {
-        let measures: Vec<&Named<'_>> = self.measures.iter().map(|(_, m)| m).collect();
         let mut runs = Vec::new();
         for run in &self.runs {
+            let scene = self.scene_of(run)?;
+            let measures: Vec<&Named<'_>> = scene.measures.iter().map(|(_, m)| m).collect();
             let made = self.perform(run, numerics, &measures, findings)?;
-            let measures = self.measures.iter().map(|(name, _)| name.to_string()).zip(made.values).collect();
+            let measures = scene.measures.iter().map(|(name, _)| name.to_string()).zip(made.values).collect();
             runs.push(RunOutcome {
                 name: run.name.to_string(),
+                swept: run.swept,
                 measures,
                 warnings: made.warnings,
                 broke: made.broke,
             });
         }
-        Some(Outcome { runs, numerics })
+        let find = |f: &Find| Some((f.name.value.clone(), self.search(f, numerics, findings)?));
+        let found = self.verify.find.iter().map(find).collect::<Option<_>>()?;
+        Some(Outcome { runs, found, numerics })
+    }
+
+    /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
+    fn search(&self, find: &Find, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<f64> {
+        let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
+        let mut runs = self.runs.iter().filter(named);
+        let (Some(run), None) = (runs.next(), runs.next()) else {
+            let place = find.run.as_ref().unwrap_or(&find.name).span();
+            findings.push(
+                Finding::error(
+                    rules::RUN_IMPOSSIBLE,
+                    place,
+                    "a search is made in one run, which is none of a sweep",
+                )
+                .help("name the run: \"run\": \"coarse\""),
+            );
+            return None;
+        };
+        let case =
+            Case { find, run: run.spec, measure: &self.verify.measure, scene: &self.scene_of(run)?.scene };
+        search::search(&case, self.stage, numerics, findings)
+    }
+
+    /// The only run, with a control set to a value that a student need not be able to choose.
+    pub(super) fn set_freely(&mut self, control: &'a Text, x: f64) {
+        for run in &mut self.runs {
+            (run.control, run.freely) = (Some((control, x)), true);
+        }
+    }
+
+    fn perform(
+        &self,
+        run: &BoundRun<'a>,
+        numerics: Numerics,
+        measures: &[&Named<'_>],
+        findings: &mut Vec<Finding>,
+    ) -> Option<perform::Made> {
+        let place = run.spec.map_or(self.verify.span.clone(), |r| r.name.span());
+        let asked = Asked { scene: self.scene_of(run)?, run, numerics, measures, place };
+        perform::perform(&asked, self.stage, findings)
     }
 
     /// The place of a run in the lesson, and whether the lesson says that it breaks.
     pub(super) fn run_place(&self, index: usize) -> (std::ops::Range<usize>, bool) {
         let spec = self.runs.get(index).and_then(|r| r.spec);
-        (spec.map_or(self.place.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
+        (spec.map_or(self.verify.span.clone(), |r| r.name.span()), spec.is_some_and(|r| r.breaks))
     }
 
     /// Whether every run states its own timestep, so that half of it says nothing new.
     pub(super) fn states_every_timestep(&self) -> bool {
-        self.runs.iter().all(|run| self.states_timestep(run))
+        let states =
+            |run: &BoundRun<'_>| self.scene_of(run).is_some_and(|s| perform::states_timestep(s, run));
+        self.runs.iter().all(states)
     }
 
     /// The value of an expression over the outcome. What is wrong with it goes to `findings`.
     pub(super) fn find(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<Found> {
-        let names = OutcomeNames::new(
-            outcome,
-            ModelNames::new(self.model, Scope::Measure).with(&self.programs.functions),
-        );
-        let mut globals = self.globals.clone();
+        let base = self.scenes.first()?;
+        let names = OutcomeNames::new(outcome, base.names(Scope::Measure));
+        let mut globals = base.globals.clone();
         let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
         findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
-        let used = names.used();
+        let (used, numbers) = names.used();
         let program = compiled.program?;
         let mut broke = used.runs().iter().find_map(|&place| {
             let run = outcome.runs.get(place)?;
@@ -189,36 +316,26 @@ impl<'a> BoundVerify<'a> {
             run.broke
                 .as_ref()
                 .filter(|_| !excused)
-                .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.name)))
+                .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.title())))
         });
-        let measured = |name: &String| self.measures.iter().find(|(n, _)| n == name).map(|(_, m)| m);
-        let simulated = !used.warnings.is_empty()
-            || used
-                .measures
-                .iter()
-                .filter_map(|(_, name)| measured(name))
-                .any(|m| m.reads || looks_at_data(&m.program))
+        let measured = |(place, name): &(usize, String)| {
+            self.runs.get(*place).and_then(|run| self.scene_of(run)?.measured(name))
+        };
+        let simulated = used.found
+            || !used.warnings.is_empty()
+            || used.measures.iter().filter_map(measured).any(|m| looks_at_data(&m.program))
             || looks_at_data(&program);
         let value = match self.runs.as_slice() {
             // Measured on the spot, as a lesson with one run may write it: the same run once more.
             [run] if !program.aggregates().is_empty() => {
-                let key = format!("{:?} {}", outcome.numerics, text.value);
-                let known = self.spot.borrow().get(&key).cloned();
-                let (x, how) = match known {
-                    Some(found) => found,
-                    None => {
-                        let named = Named { text, program, reads: false };
-                        let made = self.perform(run, outcome.numerics, &[&named], findings)?;
-                        let found = (made.values.first().copied()?, made.broke);
-                        self.spot.borrow_mut().insert(key, found.clone());
-                        found
-                    }
-                };
+                let named = Named { text, program };
+                let made = self.perform(run, outcome.numerics, &[&named], findings)?;
                 let expected = run.spec.is_some_and(|r| r.breaks);
-                broke = broke.or(how.filter(|_| !expected).map(|how| format!("the run breaks: {how}")));
-                Value::Number(x)
+                let how = made.broke.filter(|_| !expected);
+                broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
+                Value::Number(made.values.first().copied()?)
             }
-            _ => self.constant(&program, text, findings)?,
+            _ => self.constant(&program, text, numbers, findings)?,
         };
         let evidence = if simulated { Evidence::Simulated } else { Evidence::Computed };
         Some(Found { value, evidence, broke })
@@ -227,17 +344,23 @@ impl<'a> BoundVerify<'a> {
     /// Looks at the names of expressions over the outcome before there is one.
     pub(super) fn look<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
         // Some number stands for each measure: what only depends on the number is not said.
-        let run = |run: &BoundRun<'_>| RunOutcome {
-            name: run.name.to_string(),
-            measures: self.measures.iter().map(|(name, _)| (name.to_string(), 0.0)).collect(),
-            warnings: 0,
-            broke: None,
+        let run = |run: &BoundRun<'_>| {
+            let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
+            RunOutcome {
+                name: run.name.to_string(),
+                swept: run.swept,
+                measures: measures.map(|(name, _)| (name.to_string(), 0.0)).collect(),
+                warnings: 0,
+                broke: None,
+            }
         };
-        let outcome = Outcome { runs: self.runs.iter().map(run).collect(), numerics: Numerics::NOMINAL };
+        let found = self.verify.find.iter().map(|f| (f.name.value.clone(), 0.0)).collect();
+        let outcome =
+            Outcome { runs: self.runs.iter().map(run).collect(), found, numerics: Numerics::NOMINAL };
+        let Some(base) = self.scenes.first() else { return };
         for text in texts {
-            let model = ModelNames::new(self.model, Scope::Measure).with(&self.programs.functions);
-            let names = OutcomeNames::new(&outcome, model);
-            let compiled = Compiler::new(&names, &mut self.globals.clone()).expression(&text.value);
+            let names = OutcomeNames::new(&outcome, base.names(Scope::Measure));
+            let compiled = Compiler::new(&names, &mut base.globals.clone()).expression(&text.value);
             let errors = compiled.diagnostics.iter().filter(|d| d.is_error());
             findings.extend(errors.map(|d| to_finding(d, text)));
         }
@@ -253,11 +376,19 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The value of a program over known measures. What it throws goes to `findings`.
-    fn constant(&self, program: &Program, text: &Text, findings: &mut Vec<Finding>) -> Option<Value> {
+    fn constant(
+        &self,
+        program: &Program,
+        text: &Text,
+        numbers: Vec<f64>,
+        findings: &mut Vec<Finding>,
+    ) -> Option<Value> {
+        let scene = self.lab()?;
         let mut idle = self.idle.borrow_mut();
-        let start = || Session::start(self.programs, self.model, None, &Demand::ANY);
+        let start = || Session::start(scene.programs.clone(), &scene.model, None, &Demand::ANY);
         let session = idle.get_or_insert_with(start);
         session.troubles.clear();
+        session.world.numbers = numbers;
         let value = session.evaluate(program, text);
         findings.extend(session.troubles.iter().map(|t| {
             Finding::error(t.rule, t.text.span_of(t.span.clone()), t.message.clone())
@@ -267,140 +398,11 @@ impl<'a> BoundVerify<'a> {
         value
     }
 
-    /// One run: the order of events of the lab, then the run's own controls and setup.
-    fn perform(
-        &self,
-        run: &BoundRun<'_>,
-        numerics: Numerics,
-        measures: &[&Named<'_>],
-        findings: &mut Vec<Finding>,
-    ) -> Option<Made> {
-        let mut demand = self.programs.demand;
-        for program in measures.iter().map(|m| &m.program).chain(run.setup.as_ref().map(|s| &s.program)) {
-            include(program.effects(), &mut demand);
-            for arg in program.aggregates().iter().flat_map(|a| &a.args) {
-                include(arg.effects(), &mut demand);
-            }
-        }
-        let key = self.lab.keyframe();
-        let budget = Budget { left: self.allowance.0.get() };
-        let mut session = Session::start_within(self.programs, self.model, key, &demand, budget);
-        let place = run.spec.map_or(self.place.clone(), |r| r.name.span());
-        let mut refuse_at = |place: std::ops::Range<usize>, e: run::RunError| {
-            findings.push(Finding::error(
-                rules::RUN_IMPOSSIBLE,
-                place,
-                format!("the run {} cannot be made: {e}", crate::json::read::named(run.name)),
-            ));
-        };
-        let stated = self.states_timestep(run);
-        let mut press = Vec::new();
-        let (mut until, mut steps) = (None, None);
-        if let Some(spec) = run.spec {
-            for (label, v) in &spec.set {
-                let known = self.lab.control(&label.value).is_some();
-                let at = if known { v.span() } else { label.span() };
-                let one = [(label.value.clone(), scalar(v))];
-                let made = run::set_controls(&mut session, self.lab, self.programs, &one);
-                made.map_err(|e| refuse_at(at, e)).ok()?;
-            }
-            let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
-            press = run::presses(self.programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
-            until = spec.until.as_ref().map(|n| n.value);
-            // As many steps as reach as far.
-            let shorter = if stated { 1.0 } else { numerics.timestep };
-            steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / shorter).round() as usize);
-        }
-        if let Some(setup) = &run.setup {
-            session.run_statements(&setup.program, setup.text);
-        }
-        session.perturb(numerics, stated);
-        let mut refuse = |e: run::RunError| refuse_at(place.clone(), e);
-        let timestep = session.world.model.opt.timestep;
-        let count = run::count_steps(self.lab, until, steps, timestep).map_err(&mut refuse).ok()?;
-        run::presses_within(self.programs, &press, count, timestep).map_err(&mut refuse).ok()?;
-
-        if count > MAX_VERIFY_STEPS {
-            refuse(run::RunError(format!(
-                "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
-            )));
-            return None;
-        }
-        let mut running: Vec<Measure<'_>> =
-            measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
-        let played = Play { steps: count, every: 1, presses: &press, watched: true };
-        run::play(&mut session, &played, |session, _| {
-            reads::read(&self.readings, &self.globals, self.programs, session);
-            running.iter_mut().for_each(|m| m.sample(session));
-            ControlFlow::Continue(())
-        });
-        self.allowance.0.set(budget.left.saturating_sub(session.spent()));
-        let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
-        for t in &session.troubles {
-            let span = t.text.span_of(t.span.clone());
-            findings.push(Finding::error(
-                t.rule,
-                span,
-                format!(
-                    "{} (in the run {}, at t = {} s)",
-                    t.message,
-                    crate::json::read::named(run.name),
-                    t.time
-                ),
-            ));
-        }
-        let broke = match (Breakdown::of(&session), session.troubles.first()) {
-            (Some(breakdown), _) => Some(breakdown.what),
-            (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
-            (None, None) => session.ended().map(|end| match end {
-                End::Threw => "an error froze it".to_string(),
-                End::Interrupted => "it was interrupted".to_string(),
-                End::Foreign => "its programs belong to another model".to_string(),
-                End::Budget { time } => {
-                    format!("the runs of this lesson take more work than a check may do, and this one ends at t = {} s", run::time(*time))
-                }
-            }),
-        };
-        Some(Made { values, warnings: session.warnings.iter().map(|w| w.number).sum(), broke })
-    }
-
     /// The model of every run as it begins: after the run's controls and its setup. `None` for a run that cannot be made.
     pub(crate) fn begun(&self) -> Vec<(String, Option<Model>)> {
-        let begin = |run: &BoundRun<'_>| {
-            let (programs, key) = (self.programs, self.lab.keyframe());
-            let mut session =
-                Session::start_within(programs, self.model, key, &programs.demand, Budget::TRIAL);
-            let set = run.spec.iter().flat_map(|spec| &spec.set);
-            let set: Vec<_> = set.map(|(label, v)| (label.value.clone(), scalar(v))).collect();
-            run::set_controls(&mut session, self.lab, programs, &set).ok()?;
-            if let Some(setup) = &run.setup {
-                session.run_statements(&setup.program, setup.text);
-            }
-            Some(session.world.model)
-        };
+        let begin = |run: &BoundRun<'_>| perform::begun(self.scenes.get(run.scene)?, run);
         self.runs.iter().map(|run| (run.name.to_string(), begin(run))).collect()
     }
-
-    /// Whether the lesson itself states the timestep of a run: in the run, or in the lab's setup.
-    fn states_timestep(&self, run: &BoundRun<'_>) -> bool {
-        let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
-        let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
-        let set = run
-            .spec
-            .iter()
-            .flat_map(|r| &r.set)
-            .filter_map(|(label, _)| self.programs.effects_of(&label.value));
-        let setups = run.setup.iter().map(|s| s.program.effects());
-        let own = self.programs.setup.iter().map(|b| b.program.effects());
-        set.chain(setups).chain(own).any(writes)
-    }
-}
-
-/// What came of one run.
-struct Made {
-    values: Vec<f64>,
-    warnings: usize,
-    broke: Option<String>,
 }
 
 /// Whether a program looks at the data of a simulation, itself or in what it measures.

@@ -5,6 +5,7 @@
 //! (Richardson 1911) is the error of the formula. A right formula leaves less than the extrapolations differ among
 //! themselves; a wrong one leaves itself.
 
+use super::stage::Scene;
 use super::{BoundVerify, significant};
 use crate::bind::{Bound, ModelNames, Programs, Scope, include, to_finding};
 use crate::finding::Finding;
@@ -67,12 +68,12 @@ impl Differences {
 
 /// Holds a trace to its closed form. What is wrong goes to `findings`.
 pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<Finding>) -> ClosedForm {
-    let (lab, model, programs) = bound.lab();
     let unchecked = |reason: &str| ClosedForm::unchecked(claim, reason);
     let (trace, form) = match bind(bound, claim, findings) {
         Ok((trace, form)) => (trace, form),
         Err(reason) => return unchecked(reason),
     };
+    let Some(Scene { lab, model, programs, .. }) = bound.lab() else { return unchecked("it has no lab") };
     let case = Case { lab, model, programs, trace, form: &form };
     let mut runs = Vec::new();
     for parts in [1, 2, 4] {
@@ -119,12 +120,12 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
 }
 
 /// The trace and its closed form as programs. What is wrong goes to `findings`.
-pub(super) fn bind<'a>(
-    bound: &BoundVerify<'a>,
+pub(super) fn bind<'b>(
+    bound: &'b BoundVerify<'_>,
     claim: &Exact,
     findings: &mut Vec<Finding>,
-) -> Result<(&'a Bound, Bound), &'static str> {
-    let (lab, model, programs) = bound.lab();
+) -> Result<(&'b Bound, Bound), &'static str> {
+    let Scene { lab, model, programs, .. } = bound.lab().ok_or("it has no lab")?;
     let mut traces = lab.traces().zip(&programs.probes);
     let Some((_, probe)) = traces.find(|(trace, _)| trace.label.value == claim.trace.value) else {
         findings.push(no_such_trace(claim, lab));

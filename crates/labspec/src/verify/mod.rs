@@ -2,28 +2,38 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | runs and measures, bound to the lab | `bound`, `measure` |
+//! | the labs of the runs, as they stand or changed | `stage` |
+//! | runs and measures, bound to their labs | `bound` |
+//! | one run, with what is measured in it | `perform`, `measure`, `reads` |
+//! | values that are searched for | `search` |
 //! | what conditions read | `outcome` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
 //! | numbers in the text | `quote` |
+//! | columns of tables | `column` |
 //! | closed forms | `exact` |
 
 mod answer;
 mod bound;
+mod column;
 mod condition;
 mod exact;
 mod measure;
 mod outcome;
+mod perform;
 mod quote;
 mod reads;
+mod search;
+mod stage;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
-pub use bound::{Allowance, BoundVerify};
+pub use bound::BoundVerify;
 pub use exact::ClosedForm;
 pub use quote::{
     Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, plain, quoted, stated,
 };
+pub use reads::labels;
+pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
 use crate::ledger::Evidence;
@@ -69,6 +79,18 @@ pub struct Quote {
 }
 
 impl Quote {
+    /// One that could not be checked.
+    fn unclear(text: &Text, reason: &str) -> Quote {
+        Quote {
+            text: text.value.clone(),
+            span: text.span(),
+            state: QuoteState::Unclear,
+            evidence: Evidence::Computed,
+            reason: reason.to_string(),
+            computed: f64::NAN,
+        }
+    }
+
     /// In one word.
     pub fn verdict(&self) -> &'static str {
         match (self.state, self.evidence) {
@@ -155,37 +177,54 @@ pub fn check(
         judgement.answer = answer::check(bound, &outcomes, verify, question, findings);
     }
     for said in &verify.says {
-        let [text, expr] = [&said.quote, &said.expr];
-        let quote = |state, evidence, reason, computed| Quote {
-            text: text.value.clone(),
-            span: text.span(),
-            state,
-            evidence,
-            reason,
-            computed,
-        };
-        let unclear = |reason: String| quote(QuoteState::Unclear, Evidence::Computed, reason, f64::NAN);
-        judgement.quotes.push(match grounded(bound, &outcomes.nominal, expr, findings) {
-            Err(reason) => unclear(reason),
-            Ok(found) => {
-                let other = |n: usize, how| value_of(bound, outcomes.perturbed[n].as_ref()?, expr, how);
-                let halved: Vec<Other> = other(0, "at half the timestep").into_iter().collect();
-                let back = "with a start moved by -1e-14";
-                let mut nudged: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
-                nudged.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
-                let x = found.value.to_number();
-                let o = quote::check(said, x, &halved, &nudged, question, shown, findings);
-                quote(o.state, found.evidence, o.reason, x)
-            }
-        });
+        judgement.quotes.push(quote(bound, &outcomes, said, Asked::Where(question), shown, findings));
+    }
+    for claim in &verify.table {
+        judgement.quotes.extend(column::check(bound, &outcomes, claim, shown, findings));
     }
     judgement.exact = verify.exact.iter().map(|claim| exact::check(bound, claim, findings)).collect();
     judgement
 }
 
+/// Where a quote stands.
+enum Asked<'q> {
+    /// Wherever a reader sees it; first in this question.
+    Where(Option<&'q Question>),
+    /// Where it was taken from: in a cell.
+    There,
+}
+
+/// What became of a quoted number.
+fn quote(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    said: &crate::spec::Said,
+    asked: Asked<'_>,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> Quote {
+    let [text, expr] = [&said.quote, &said.expr];
+    let found = match grounded(bound, &outcomes.nominal, expr, findings) {
+        Ok(found) => found,
+        Err(reason) => return Quote::unclear(text, &reason),
+    };
+    let other = |n: usize, how| value_of(bound, outcomes.perturbed[n].as_ref()?, expr, how);
+    let halved: Vec<Other> = other(0, "at half the timestep").into_iter().collect();
+    let back = "with a start moved by -1e-14";
+    let mut nudged: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
+    nudged.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
+    let computed = found.value.to_number();
+    let o = match asked {
+        Asked::Where(question) => quote::check(said, computed, &halved, &nudged, question, shown, findings),
+        Asked::There => quote::check_at(said, vec![text.span()], computed, &halved, &nudged, shown, findings),
+    };
+    Quote { state: o.state, evidence: found.evidence, reason: o.reason, computed, ..Quote::unclear(text, "") }
+}
+
 /// Looks at every text of a `verify` object, and runs nothing.
 pub(crate) fn look(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
-    let quoted = verify.says.iter().map(|said| &said.expr);
+    let columns = verify.table.iter().flat_map(|c| c.by.iter().map(|(_, list)| list).chain([&c.is]));
+    let quoted = verify.says.iter().map(|said| &said.expr).chain(columns);
     let options = verify.options.iter().filter(|text| !answer::is_undecided(text));
     bound.look(options.chain(&verify.value).chain(quoted), findings);
     for claim in &verify.exact {
@@ -195,14 +234,6 @@ pub(crate) fn look(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<
 
 /// What remains of a `verify` object whose runs cannot be made: claims that could not be checked.
 pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
-    let quote = |said: &crate::spec::Said| Quote {
-        text: said.quote.value.clone(),
-        span: said.quote.span(),
-        state: QuoteState::Unclear,
-        evidence: Evidence::Computed,
-        reason: reason.to_string(),
-        computed: f64::NAN,
-    };
     let run = |run: &crate::spec::Run| RunReport {
         name: run.name.value.clone(),
         span: run.name.span(),
@@ -211,7 +242,13 @@ pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Jud
     };
     Judgement {
         answer: question.filter(|_| verify.claims_answer()).map(|_| Answer::failed(reason)),
-        quotes: verify.says.iter().map(quote).collect(),
+        quotes: verify
+            .says
+            .iter()
+            .map(|s| &s.quote)
+            .chain(verify.table.iter().map(|c| &c.column))
+            .map(|text| Quote::unclear(text, reason))
+            .collect(),
         exact: verify.exact.iter().map(|e| ClosedForm::unchecked(e, reason)).collect(),
         runs: verify.runs.iter().map(run).collect(),
         measures: Vec::new(),
@@ -223,7 +260,8 @@ pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Jud
 fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) -> Option<Outcomes> {
     let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
     let answers = verify.claims_answer();
-    let needed = [answers || !verify.says.is_empty(), answers, answers || !verify.says.is_empty()];
+    let quotes = !verify.says.is_empty() || !verify.table.is_empty();
+    let needed = [answers || quotes, answers, answers || quotes];
     let mut perturbed = [None, None, None];
     for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed[*i]) {
         let same = i == 0 && bound.states_every_timestep();
@@ -248,7 +286,8 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
     let mut all = Vec::new();
     for (i, run) in outcome.runs.iter().enumerate() {
         let (span, expected) = bound.run_place(i);
-        let [name, broke] = [run.name.as_str(), run.broke.as_deref().unwrap_or("")];
+        let title = run.title();
+        let [name, broke] = [title.as_str(), run.broke.as_deref().unwrap_or("")];
         if run.broke.is_some() && !expected {
             findings.push(
                 Finding::error(rules::RUN_BREAKS, span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(name)))

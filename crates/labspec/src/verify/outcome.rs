@@ -1,19 +1,22 @@
 //! What the runs gave, and how conditions read it: `run.measure`, or the measure alone when there is one run.
 
-use crate::bind::ModelNames;
+use crate::bind::{ModelNames, NUMBERS, Scope};
 use crate::run::Numerics;
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, ObjectId, Role, Schema, Value, Words,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
+    Value, Words,
 };
 
 /// The measures of one run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RunOutcome {
     pub(super) name: String,
+    /// The value that it has of what is swept, and its place in the sweep.
+    pub(super) swept: Option<(usize, f64)>,
     pub(super) measures: Vec<(String, f64)>,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
@@ -21,22 +24,44 @@ pub(super) struct RunOutcome {
     pub(super) broke: Option<String>,
 }
 
+impl RunOutcome {
+    /// How conditions call it: `fall`, `fall[2]`.
+    pub(super) fn title(&self) -> String {
+        match self.swept {
+            Some((i, _)) => format!("{}[{i}]", self.name),
+            None => self.name.clone(),
+        }
+    }
+}
+
 /// The measures of all runs.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Outcome {
     pub(super) runs: Vec<RunOutcome>,
+    /// Values that were searched for.
+    pub(super) found: Vec<(String, f64)>,
     pub(super) numerics: Numerics,
 }
 
 impl Outcome {
+    /// The runs of the sweep that begins at a place, with their places; the run itself when there is no sweep.
+    pub(super) fn members(&self, place: usize) -> impl Iterator<Item = (usize, &RunOutcome)> {
+        let all = self.runs.iter().enumerate().skip(place);
+        all.take_while(move |(i, run)| *i == place || matches!(run.swept, Some((n, _)) if n > 0))
+    }
+
     /// All measures, named as conditions read them.
     pub(super) fn list(&self) -> Vec<(String, f64)> {
         let short = self.runs.len() == 1;
         let each = |r: &RunOutcome| {
-            let name = |m: &str| if short { m.to_string() } else { format!("{}.{m}", r.name) };
+            let name = |m: &str| match r.swept {
+                _ if short => m.to_string(),
+                Some((i, _)) => format!("{}.{m}[{i}]", r.name),
+                None => format!("{}.{m}", r.name),
+            };
             r.measures.iter().map(|(m, x)| (name(m), *x)).collect::<Vec<_>>()
         };
-        self.runs.iter().flat_map(each).collect()
+        self.runs.iter().flat_map(each).chain(self.found.iter().cloned()).collect()
     }
 }
 
@@ -47,6 +72,8 @@ pub(super) struct Used {
     pub(super) measures: BTreeSet<(usize, String)>,
     /// Runs whose warnings it read.
     pub(super) warnings: BTreeSet<usize>,
+    /// It read a value that was searched for.
+    pub(super) found: bool,
 }
 
 impl Used {
@@ -63,17 +90,68 @@ const RUNS: u32 = 0x2000;
 pub(super) struct OutcomeNames<'a> {
     outcome: &'a Outcome,
     model: ModelNames<'a>,
+    /// What takes the numbers of several runs together.
+    claims: ModelNames<'a>,
+    /// The lists of sweeps.
+    lists: Lists,
     used: RefCell<Used>,
+}
+
+/// The numbers of the measures of sweeps, one list after the other; the values of each measure stand before its numbers.
+#[derive(Debug, Default)]
+pub(super) struct Lists {
+    pub(super) numbers: Vec<f64>,
+    /// Of the run at this place, which is the first one of a sweep: a measure, where its numbers begin, and how many there are.
+    at: Vec<(usize, String, usize, usize)>,
+}
+
+/// What the value of a sweep and the warnings of a run are called.
+const VALUE: &str = "value";
+const WARNINGS: &str = "warnings";
+
+impl Lists {
+    fn of(outcome: &Outcome) -> Lists {
+        let mut lists = Lists::default();
+        for (place, run) in outcome.runs.iter().enumerate() {
+            if !matches!(run.swept, Some((0, _))) {
+                continue;
+            }
+            let members: Vec<&RunOutcome> = outcome.members(place).map(|(_, member)| member).collect();
+            let values: Vec<f64> = members.iter().filter_map(|m| Some(m.swept?.1)).collect();
+            let of = |name: &str| -> Vec<f64> {
+                let number = |m: &&RunOutcome| match name {
+                    VALUE => m.swept.map_or(f64::NAN, |(_, x)| x),
+                    WARNINGS => m.warnings as f64,
+                    _ => m.measures.iter().find(|(n, _)| n == name).map_or(f64::NAN, |(_, x)| *x),
+                };
+                members.iter().map(number).collect()
+            };
+            for name in measures(run) {
+                let numbers = of(&name);
+                lists.at.push((place, name, lists.numbers.len() + values.len(), numbers.len()));
+                lists.numbers.extend(values.iter().copied().chain(numbers));
+            }
+        }
+        lists
+    }
 }
 
 impl<'a> OutcomeNames<'a> {
     pub(super) fn new(outcome: &'a Outcome, model: ModelNames<'a>) -> OutcomeNames<'a> {
-        OutcomeNames { outcome, model, used: RefCell::default() }
+        let mut claims = model;
+        claims.scope = Scope::Claim;
+        OutcomeNames { outcome, model, claims, lists: Lists::of(outcome), used: RefCell::default() }
     }
 
-    /// What was looked up until now.
-    pub(super) fn used(self) -> Used {
-        self.used.into_inner()
+    /// What was looked up until now, and the numbers of the lists.
+    pub(super) fn used(self) -> (Used, Vec<f64>) {
+        (self.used.into_inner(), self.lists.numbers)
+    }
+
+    /// Whether this is the name of a function that is called over the numbers of several runs.
+    fn takes_several(&self, name: &str) -> bool {
+        let lists = !self.lists.at.is_empty();
+        name == "abs" || (lists && ["slope", "fit", "min", "max", "mean"].contains(&name))
     }
 
     fn only(&self) -> Option<&RunOutcome> {
@@ -90,7 +168,10 @@ impl<'a> OutcomeNames<'a> {
     }
 
     fn measure(&self, place: usize, run: &RunOutcome, name: &str) -> Option<Entry> {
-        if name == "warnings" {
+        if run.swept.is_some() {
+            return self.list(place, run, name);
+        }
+        if name == WARNINGS {
             self.used.borrow_mut().warnings.insert(place);
             return Some(Entry::Constant(Value::Number(run.warnings as f64)));
         }
@@ -98,10 +179,33 @@ impl<'a> OutcomeNames<'a> {
         self.used.borrow_mut().measures.insert((place, name.to_string()));
         Some(Entry::Constant(Value::Number(*x)))
     }
+
+    /// The numbers of a measure in all members of a sweep.
+    fn list(&self, place: usize, run: &RunOutcome, name: &str) -> Option<Entry> {
+        let (_, _, first, count) = self.lists.at.iter().find(|(of, m, ..)| *of == place && m == name)?;
+        for (member, _) in self.outcome.members(place) {
+            match name {
+                WARNINGS => self.used.borrow_mut().warnings.insert(member),
+                _ => self.used.borrow_mut().measures.insert((member, name.to_string())),
+            };
+        }
+        Some(Entry::Field(Field {
+            key: NUMBERS,
+            path: format!("{}.{name}", run.name),
+            first: *first,
+            shape: vec![Some(*count)],
+            kind: FieldKind::Structure,
+            elem: Elem::Double,
+            unit: String::new(),
+            doc: "a number for each value of the sweep".into(),
+            owner: format!("the sweep has {count} values"),
+        }))
+    }
 }
 
 fn measures(run: &RunOutcome) -> impl Iterator<Item = String> + '_ {
-    run.measures.iter().map(|(m, _)| m.clone()).chain(["warnings".into()])
+    let value = run.swept.map(|_| VALUE.to_string());
+    run.measures.iter().map(|(m, _)| m.clone()).chain(value).chain([WARNINGS.into()])
 }
 
 impl Schema for OutcomeNames<'_> {
@@ -110,21 +214,31 @@ impl Schema for OutcomeNames<'_> {
     }
 
     fn root(&self, name: &str) -> Option<Entry> {
+        if let Some((_, x)) = self.outcome.found.iter().find(|(n, _)| n == name) {
+            self.used.borrow_mut().found = true;
+            return Some(Entry::Constant(Value::Number(*x)));
+        }
         if let Some(i) = self.outcome.runs.iter().position(|r| r.name == name) {
             return Some(Entry::Object(ObjectId(RUNS + i as u32)));
         }
         match self.only() {
             Some(run) => self.measure(0, run, name).or_else(|| self.model.root(name)),
-            None if name == "abs" => self.model.root(name),
+            None if self.takes_several(name) => self.claims.root(name),
             None => None,
         }
     }
 
     fn root_names(&self) -> Vec<String> {
-        let runs = self.outcome.runs.iter().map(|r| r.name.clone());
+        let found = self.outcome.found.iter().map(|(name, _)| name.clone());
+        let runs = found.chain(self.outcome.runs.iter().map(|r| r.name.clone()));
         match self.only() {
             Some(run) => measures(run).chain(runs).chain(self.model.root_names()).collect(),
-            None => runs.chain(["abs".into()]).collect(),
+            None => {
+                let functions = self.claims.root_names().into_iter().filter(|name| self.takes_several(name));
+                let mut names: Vec<String> = runs.collect();
+                names.dedup();
+                names.into_iter().chain(functions).collect()
+            }
         }
     }
 

@@ -11,6 +11,7 @@ use std::rc::Rc;
 
 use super::diagnostic::{Report, shown};
 use super::files::{FileProblem, Files, clean, folder_of};
+use super::patch::{self, Patch, Refusal};
 use super::scan;
 use super::tree::{self, Tree};
 use super::xml::{self, Element};
@@ -39,11 +40,20 @@ pub(crate) struct Loader<'f> {
     files_read: usize,
     /// The files of the models that are being read, each attached by the one before.
     open: Vec<String>,
+    /// Changes of the main model, and what is wrong with each of them.
+    patches: &'f [Patch],
+    refusals: Vec<Option<Refusal>>,
 }
 
 impl<'f> Loader<'f> {
-    pub(crate) fn new(files: &'f dyn Files) -> Loader<'f> {
-        Loader { files, counts: scan::Counts::default(), files_read: 0, open: Vec::new() }
+    pub(crate) fn new(files: &'f dyn Files, patches: &'f [Patch]) -> Loader<'f> {
+        let (counts, open, refusals) = (scan::Counts::default(), Vec::new(), Vec::new());
+        Loader { files, counts, files_read: 0, open, patches, refusals }
+    }
+
+    /// What is wrong with each of the changes, in their order.
+    pub(crate) fn refusals(self) -> Vec<Option<Refusal>> {
+        self.refusals
     }
 
     /// Reads a model. `file` is its path, where it has one. `None` when it is not XML or not a model at all.
@@ -59,6 +69,10 @@ impl<'f> Loader<'f> {
         let mut list = Vec::new();
         let written = self.parse(&text, base, &mut list, report).and_then(|root| {
             self.include(&mut list, file, &folder, report);
+            if self.open.len() == 1 {
+                let change = |p: &Patch| patch::apply(&mut list, root, p).err();
+                self.refusals = self.patches.iter().map(change).collect();
+            }
             let mut tree = tree::check(&list, root, report)?;
             names::after_files(&mut tree);
             let models = self.models(&tree, &folder, report);

@@ -3,6 +3,7 @@
 pub(crate) mod diagnostic;
 pub(crate) mod files;
 pub(crate) mod load;
+pub(crate) mod patch;
 pub(crate) mod scan;
 #[cfg(test)]
 pub(crate) mod seen;

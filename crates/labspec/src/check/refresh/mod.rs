@@ -96,20 +96,20 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
     findings.extend(all.iter().filter_map(|s| bench.judge(s)));
 }
 
-/// Checks the setups of the runs of a `verify` object, as `check` does those of the lab.
-pub(super) fn check_runs(
+/// Checks the setup of a run of a `verify` object, as `check` does that of the lab.
+pub(super) fn check_run(
     verify: &Verify,
+    run: &Run,
     lab: &Lab,
     model: &Model,
     programs: &Programs,
     findings: &mut Vec<Finding>,
 ) {
+    let Some(text) = &run.setup else { return };
     let mut bench = Bench::new(lab, model, programs);
-    for run in &verify.runs {
-        let bound = run.setup.as_ref().and_then(|text| bench.compile(text, &text.value, None));
-        let Some(s) = bound.as_ref().and_then(|b| suspect(Place::Run(run), b, false, None)) else { continue };
-        findings.extend(bench.judge(&s).filter(|_| !bench.contrasted(&s, verify)));
-    }
+    let bound = bench.compile(text, &text.value, None);
+    let Some(s) = bound.as_ref().and_then(|b| suspect(Place::Run(run), b, false, None)) else { return };
+    findings.extend(bench.judge(&s).filter(|_| !bench.contrasted(&s, verify)));
 }
 
 fn suspect<'a>(place: Place<'a>, bound: &'a Bound, target: bool, given: Option<Type>) -> Option<Suspect<'a>> {

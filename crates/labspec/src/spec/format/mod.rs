@@ -30,7 +30,7 @@ pub use page::page;
 pub use plot::{MAX_DIGITS, PLOT, READOUT, REF_LINE, TRACE};
 pub use quiz::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
 pub use schema::{Root, schema};
-pub use verify::{CLOSED_FORM, RUN, RUN_LENGTH, VERIFY};
+pub use verify::{CLOSED_FORM, COLUMN, FIND, RUN, RUN_LENGTH, SPAN, VERIFY};
 
 use super::Form;
 
@@ -293,7 +293,7 @@ impl Key {
 }
 
 /// Every object, in the order of the reference page.
-pub static OBJECTS: [&Object; 20] = [
+pub static OBJECTS: [&Object; 23] = [
     &LAB,
     &CAMERA,
     &SLIDER,
@@ -313,6 +313,9 @@ pub static OBJECTS: [&Object; 20] = [
     &LINT,
     &VERIFY,
     &RUN,
+    &SPAN,
+    &FIND,
+    &COLUMN,
     &CLOSED_FORM,
 ];
 

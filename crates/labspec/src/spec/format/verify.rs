@@ -14,6 +14,22 @@ static EXACT: Type = Type::Object(&CLOSED_FORM);
 static RUNS: Map = Map { names: "the name of a run", of: Type::Object(&RUN) };
 static MEASURES: Map = Map { names: "the name of a measure", of: Type::Code(Form::Expression) };
 static FORMS: Map = Map { names: "the label of a trace", of: Type::Either(&EXPRESSION, &EXACT) };
+static SCALAR: Type = Type::Scalar;
+static NUMBER: Type = Type::Number;
+static LIST: Type = Type::List(&NUMBER);
+static CHANGES: Map =
+    Map { names: "kind, name and attribute of an element of the model", of: Type::Either(&SCALAR, &LIST) };
+static RANGE: Type = Type::Object(&SPAN);
+static SWEPT: Map = Map {
+    names: "the label of a control, or an attribute of the model as in `model`",
+    of: Type::Either(&LIST, &RANGE),
+};
+static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
+static KEYED: [Part; 2] = [
+    Part { what: "the heading of the column that tells the rows apart", of: Type::Text },
+    Part { what: "the list of its numbers", of: Type::Code(Form::Expression) },
+];
+static A_COLUMN: Type = Type::Object(&COLUMN);
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
 static QUOTE: [Part; 2] = [
@@ -58,6 +74,13 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
         key(
+            "find",
+            Type::Map(&FOUND),
+            "values that are searched for by running: the largest or the smallest value of a control, or of an attribute of the model, with which a condition holds; each is read by its name, like a measure",
+            r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2]) > 0.049", "tol": 1e-5}}"#,
+        )
+        .or(Absent::Empty),
+        key(
             "options",
             Type::List(&EXPRESSION),
             "on a question with options: one condition for each, in their order; that of the right option alone must hold; `undecided` for an option that this evidence says nothing about",
@@ -78,6 +101,13 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
         key(
+            "table",
+            Type::List(&A_COLUMN),
+            "columns of tables of the text, and single cells: what stands in each cell must be what was measured",
+            r#"[{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}]"#,
+        )
+        .or(Absent::Empty),
+        key(
             "exact",
             Type::Map(&FORMS),
             "closed forms that traces must follow, by the label of the trace; an object states how far they may be off",
@@ -85,7 +115,7 @@ pub static VERIFY: Object = Object {
         )
         .or(Absent::Empty),
     ],
-    together: &[Together::OneAdvised(&["options", "value", "says", "exact"])],
+    together: &[Together::OneAdvised(&["options", "value", "says", "table", "exact"])],
 };
 
 static EXPECTED: [Word; 1] =
@@ -95,10 +125,33 @@ static EXPECTED: [Word; 1] =
 pub static RUN: Object = Object {
     name: "run",
     what: "a run",
-    doc: "One run of the lab, with what a student does in it.",
+    doc: "One run of the lab, with what a student does in it, or a reader is told to change.",
     tag: None,
     minimal: r#"{"until": 1}"#,
     keys: &[
+        key(
+            "lab",
+            Type::Either(&TEXT, &INLINE),
+            "the lab that this run is of, written as the `lab` of the object; a measure that has no meaning in it is not taken there",
+            r##""#2""##,
+        )
+        .or(Absent::Said("the lab of the object")),
+        key(
+            "model",
+            Type::Map(&CHANGES),
+            "attributes of the model that are changed before it is compiled: `geom ball friction`, or `option timestep` where an element has no name; the mass of a body with one geom is `body ball mass`",
+            r#"{"body ball mass": 5, "option timestep": 0.01}"#,
+        )
+        .or(Absent::Empty),
+        key("key", Type::Scalar, "the keyframe to start from, by its name or its index", r#""tilted""#)
+            .or(Absent::Said("the lab's own")),
+        key(
+            "controller",
+            Type::Code(Form::Statements),
+            "runs before every step instead of the lab's own `controller`; empty for none",
+            r#""data.qfrc_applied[0] = -data.qvel[0]""#,
+        )
+        .or(Absent::Said("the lab's own")),
         key(
             "set",
             Type::Map(&SETTINGS),
@@ -124,10 +177,107 @@ pub static RUN: Object = Object {
             .positive()
             .or(Absent::Said("`steps`, else the lab's `stopAt`, else 2 s")),
         key("steps", Type::Whole, "how long the run is, in steps", "500").positive(),
+        key(
+            "stop",
+            Type::Code(Form::Expression),
+            "the run ends at the first sample at which this holds; `until` or `steps` is its end at the latest",
+            r#""contact('ball', 'floor')""#,
+        )
+        .or(Absent::Said("the run goes on to its end")),
+        key(
+            "sweep",
+            Type::Map(&SWEPT),
+            "makes a run for each of these values of one control, or of one attribute of the model; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` are the values",
+            r#"{"timestep h": [0.002, 0.005, 0.01]}"#,
+        ),
         key("expect", Type::Words(&EXPECTED), "what the run is meant to do", r#""breaks""#)
             .or(Absent::Said("the run goes well")),
     ],
     together: &[Together::AtMostOne(&["until", "steps"])],
+};
+
+/// A column of a table.
+pub static COLUMN: Object = Object {
+    name: "column",
+    what: "a column of a table",
+    doc: "Where the numbers in a column of a table of the text come from, or the number in one cell.",
+    tag: None,
+    minimal: r#"{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}"#,
+    keys: &[
+        key("column", Type::Text, "the heading of the column, as a reader sees it", r#""touchdown (s)""#)
+            .must("without it nobody knows which numbers are meant"),
+        key(
+            "by",
+            Type::Pair(&KEYED),
+            "how the rows are told apart: the heading of another column, and the list of the values that stand in it",
+            r#"["height (m)", "fall.value"]"#,
+        ),
+        key(
+            "row",
+            Type::Text,
+            "instead of `by`: what stands in the first cell of the one row that is meant",
+            r#""0.65""#,
+        ),
+        key(
+            "is",
+            Type::Code(Form::Expression),
+            "what the cells state: a list in the order of the values, or one number for one cell",
+            r#""fall.touch""#,
+        )
+        .must("without it there is nothing that the cells are compared with"),
+    ],
+    together: &[Together::ExactlyOne(&["by", "row"])],
+};
+
+/// A search.
+pub static FIND: Object = Object {
+    name: "find",
+    what: "a search",
+    doc: "The largest or the smallest value with which a condition holds, found by running and halving.",
+    tag: None,
+    minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2]) > 0.049", "tol": 1e-5}"#,
+    keys: &[
+        key(
+            "largest",
+            Type::Text,
+            "the largest value of this is wanted: the label of a control, an attribute of the model as in `model`, or `timestep`",
+            r#""timestep""#,
+        ),
+        key("smallest", Type::Text, "the smallest value of this is wanted", r#""geom ball mass""#),
+        key("from", Type::Number, "the smallest value that is tried", "0.001")
+            .must("without it nobody knows where to search"),
+        key("to", Type::Number, "the largest value that is tried", "0.05")
+            .must("without it nobody knows where to search"),
+        key("run", Type::Text, "the run in which it is tried", r#""coarse""#)
+            .or(Absent::Said("the only run")),
+        key(
+            "while",
+            Type::Code(Form::Expression),
+            "what holds up to the limit: a condition on measures of the run, by their own names, or written as a measure",
+            r#""final(data.qpos[2]) > 0.049""#,
+        )
+        .must("without it there is no limit"),
+        key("tol", Type::Number, "how near the limit is found", "1e-5")
+            .positive()
+            .must("without it nobody knows how near is near enough"),
+    ],
+    together: &[Together::ExactlyOne(&["largest", "smallest"])],
+};
+
+/// Values at equal distances.
+pub static SPAN: Object = Object {
+    name: "span",
+    what: "a span of values",
+    doc: "Values at equal distances, both ends included.",
+    tag: None,
+    minimal: r#"{"from": 0.2, "to": 2, "count": 5}"#,
+    keys: &[
+        key("from", Type::Number, "the first value", "0.2").must("without it there is no first value"),
+        key("to", Type::Number, "the last value", "2").must("without it there is no last value"),
+        key("count", Type::Whole, "how many values there are", "5")
+            .must("without it nobody knows how many runs are meant"),
+    ],
+    together: &[],
 };
 
 /// A closed form with a tolerance.

@@ -10,6 +10,7 @@ mod prose;
 mod read;
 mod shown;
 mod stated;
+mod table;
 mod told;
 mod unit;
 
@@ -19,7 +20,9 @@ pub use shown::ShownText;
 pub use stated::{Stated, stated};
 
 use crate::finding::Finding;
-use crate::spec::{Question, Said};
+use crate::json::nearest;
+use crate::source::{SourceMap, Text};
+use crate::spec::{Column, Question, Said};
 use std::ops::Range;
 
 /// What a reader sees of a piece of HTML.
@@ -77,12 +80,26 @@ pub(super) fn check(
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
+    let places = own_first(shown.places(said.quote.as_str()), question);
+    check_at(said, places, computed, timestep_others, start_others, shown, findings)
+}
+
+/// The same for a quote that stands at these places.
+pub(super) fn check_at(
+    said: &Said,
+    places: Vec<Range<usize>>,
+    computed: f64,
+    timestep_others: &[Other],
+    start_others: &[Other],
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> QuoteOutcome {
     let mut outcome = QuoteOutcome {
         state: QuoteState::Unclear,
         reason: String::new(),
         read: None,
         computed,
-        places: own_first(shown.places(said.quote.as_str()), question),
+        places,
         moved: Vec::new(),
     };
     let unclear = |mut outcome: QuoteOutcome, reason: &str, finding: Finding, findings: &mut Vec<Finding>| {
@@ -145,6 +162,60 @@ pub(super) fn check(
     outcome.reason = format!("the text says {read}, the simulation gives {}", told::printed(&read, computed));
     outcome.state = QuoteState::Wrong;
     outcome
+}
+
+/// The cells of a column, or the one cell that is meant: each with what stands in the cell that tells its row.
+///
+/// # Errors
+/// Why there are none, and what to do.
+pub(super) fn cells(claim: &Column, shown: &ShownText) -> Result<Vec<[Text; 2]>, [String; 2]> {
+    let key = claim.by.as_ref().map(|(heading, _)| heading.as_str());
+    let headings: Vec<&str> = [Some(claim.column.as_str()), key].into_iter().flatten().collect();
+    let mut found = shown.tables(&headings);
+    let (Some(table), None) = (found.next(), found.next()) else {
+        let several = shown.tables(&headings).count() > 1;
+        let mut known: Vec<&str> = shown.headings().take(24).collect();
+        known.dedup();
+        return Err(if several {
+            [
+                format!("several tables have the columns {}", headings.join(", ")),
+                "give them headings of their own".into(),
+            ]
+        } else {
+            let near =
+                headings.iter().find(|h| !known.contains(h)).and_then(|h| nearest(h, known.iter().copied()));
+            let help = near.map_or_else(
+                || format!("the tables have the columns {}", known.join(", ")),
+                |right| format!("did you mean \"{right}\"?"),
+            );
+            [format!("no table has the columns {}", headings.join(", ")), help]
+        });
+    };
+    let at = |heading: &str| table.column(heading).unwrap_or(0);
+    let (column, by) = (at(claim.column.as_str()), key.map_or(0, at));
+    let text = |cell: &table::Cell| Text {
+        value: cell.text.clone(),
+        map: whole(cell.text.len(), cell.span.clone()),
+    };
+    let wanted = claim.row.as_ref().map(|row| table::shown(row.as_str()));
+    let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
+    let cells: Vec<[Text; 2]> =
+        rows.filter(|[key, _]| wanted.as_ref().is_none_or(|w| *w == key.value)).collect();
+    match (cells.is_empty(), &claim.row) {
+        (false, _) => Ok(cells),
+        (true, Some(row)) => Err([
+            format!("no row of this table begins with \"{}\"", row.value),
+            "write what stands in the first cell of the row".into(),
+        ]),
+        (true, None) => Err(["this table has no rows".into(), "fill the table".into()]),
+    }
+}
+
+/// A text that was made from these bytes.
+pub(super) fn whole(length: usize, span: Range<usize>) -> SourceMap {
+    let mut map = SourceMap::default();
+    map.push_whole(length, span);
+    map
 }
 
 /// The places of a question itself, then the others.

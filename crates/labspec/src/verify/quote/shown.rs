@@ -2,6 +2,7 @@
 //! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
 
 use super::places::Search;
+use super::table::{self, Table};
 use super::{fold, html, prose};
 use crate::source::{SourceMap, Text};
 use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind};
@@ -14,6 +15,8 @@ pub struct ShownText {
     places: BTreeMap<String, Vec<Range<usize>>>,
     /// Where a quote stands that no reader sees: in code, a key, a listing.
     hidden: BTreeMap<String, Range<usize>>,
+    /// The tables, where something is claimed of one.
+    tables: Vec<Table>,
 }
 
 /// Most quotes that are looked for where nobody sees them: each is a walk through the file.
@@ -39,8 +42,11 @@ impl ShownText {
                 numbers.entry(quote).or_insert_with(|| search.add(quote));
             }
         }
+        let tabled = lesson.verifies().any(|verify| !verify.table.is_empty());
+        let tables = if tabled { table::tables(lesson) } else { Vec::new() };
+        let mut shown = ShownText { tables, ..ShownText::default() };
         if numbers.is_empty() {
-            return ShownText::default();
+            return shown;
         }
         let (text, map) = join(pieces(lesson));
         let plain = |origin: &str| {
@@ -48,7 +54,6 @@ impl ShownText {
             rest.is_empty() || matches!(rest, "\\n" | "\\t" | "\\r")
         };
         search.walk(&text, |at| !plain(file.get(map.span(at..at + 1)).unwrap_or("")));
-        let mut shown = ShownText::default();
         for (&quote, &number) in &numbers {
             let mut places: Vec<_> =
                 search.found(number).iter().map(|r| lesson.file.snap(&map.span(r.clone()))).collect();
@@ -66,6 +71,16 @@ impl ShownText {
     /// The bytes of the file at which a quote stands as a number of its own.
     pub fn places(&self, quote: &str) -> &[Range<usize>] {
         self.places.get(quote).map_or(&[], Vec::as_slice)
+    }
+
+    /// The tables that have these columns.
+    pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
+        self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
+    }
+
+    /// The headings of all tables.
+    pub(super) fn headings(&self) -> impl Iterator<Item = &str> {
+        self.tables.iter().flat_map(|table| &table.head).map(|cell| cell.text.as_str())
     }
 
     /// Where it stands instead, when it stands only where no reader sees it.

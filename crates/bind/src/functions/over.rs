@@ -1,0 +1,126 @@
+//! Functions of what `verify` claims of several runs: over the numbers that a measure has in the members of a sweep.
+
+use super::{Arg, Function, Place, ROW, Unit};
+use crate::world::{NUMBERS, World};
+use labspec_expr::{Heap, Host, Value};
+
+const OVER: Function = Function { args: &[Arg::Any], place: Place::Claims, ..ROW };
+
+pub(super) const ROWS: &[Function] = &[
+    Function {
+        name: "slope",
+        args: &[Arg::Any, Arg::Any],
+        optional: 1,
+        doc: "slope(run.measure): how fast a measure of a sweep grows with the value that is swept, as the slope of the nearest straight line in the sense of least squares; slope(y, x) for two lists",
+        example: ("slope(run.h) + slope([1, 3, 5], [0, 1, 2])", "3"),
+        run: |w, heap, args| {
+            let (y, x) = pairs(w, heap, args.first(), args.get(1))?;
+            Ok(Value::Number(slope(&x, &y)))
+        },
+        ..OVER
+    },
+    Function {
+        name: "fit",
+        args: &[Arg::Any, Arg::Text, Arg::Any],
+        optional: 1,
+        unit: Unit::Of("1"),
+        doc: "fit(run.measure, 'power'): the exponent of the nearest power law, which is the slope of the logarithm over that of the value; NaN where a number is not above zero; fit(y, 'power', x) for two lists",
+        example: ("fit(run.h, 'power') + fit([1, 4, 9], 'power', [1, 2, 3])", "3"),
+        run: |w, heap, args| {
+            match args.get(1) {
+                Some(Value::String(law)) if &**law == "power" => {}
+                _ => return Err("`fit` knows one law, 'power'".into()),
+            }
+            let (y, x) = pairs(w, heap, args.first(), args.get(2))?;
+            let [x, y] = [x, y].map(|list| list.into_iter().map(ln).collect::<Vec<_>>());
+            Ok(Value::Number(slope(&x, &y)))
+        },
+        ..OVER
+    },
+    Function {
+        name: "min",
+        unit: Unit::Argument(1.0),
+        doc: "smallest of the numbers that a measure has in a sweep",
+        example: ("min(run.h)", "0.001"),
+        run: |w, heap, args| fold(w, heap, args, f64::min),
+        ..OVER
+    },
+    Function {
+        name: "max",
+        unit: Unit::Argument(1.0),
+        doc: "largest of the numbers that a measure has in a sweep",
+        example: ("max(run.h)", "0.004"),
+        run: |w, heap, args| fold(w, heap, args, f64::max),
+        ..OVER
+    },
+    Function {
+        name: "mean",
+        unit: Unit::Argument(1.0),
+        doc: "mean of the numbers that a measure has in a sweep",
+        example: ("3000 * mean(run.h)", "7"),
+        run: |w, heap, args| {
+            let (list, _) = numbers(w, heap, args.first())?;
+            Ok(Value::Number(list.iter().sum::<f64>() / list.len() as f64))
+        },
+        ..OVER
+    },
+];
+
+/// The natural logarithm of a number above zero.
+fn ln(x: f64) -> f64 {
+    if x > 0.0 { x.ln() } else { f64::NAN }
+}
+
+/// What an argument lists, and where that begins among the numbers of the sweeps.
+fn numbers(w: &World, heap: &Heap, arg: Option<&Value>) -> Result<(Vec<f64>, Option<usize>), String> {
+    match arg {
+        Some(Value::View(view)) if view.field == NUMBERS => {
+            let first = view.first as usize;
+            let all = (first..first + view.count().unwrap_or(0)).map_while(|i| w.get(NUMBERS, i));
+            Ok((all.collect(), Some(first)))
+        }
+        Some(list) => heap.to_numbers(list).map(|list| (list, None)).ok_or_else(|| {
+            "this is one number: write the measure of a run with a `sweep`, or a list".to_string()
+        }),
+        None => Err("a list is missing".into()),
+    }
+}
+
+/// The numbers of a measure, and the values that they belong to, which stand just before them.
+fn pairs(
+    w: &World,
+    heap: &Heap,
+    y: Option<&Value>,
+    x: Option<&Value>,
+) -> Result<(Vec<f64>, Vec<f64>), String> {
+    let (y, first) = numbers(w, heap, y)?;
+    let x = match (x, first) {
+        (Some(Value::Undefined) | None, Some(first)) => {
+            let before = first.checked_sub(y.len()).ok_or("these numbers belong to no values")?;
+            (before..first).map_while(|i| w.get(NUMBERS, i)).collect()
+        }
+        (Some(Value::Undefined) | None, None) => {
+            return Err(
+                "a computed list belongs to no values: give them as the last argument, as `run.value`".into(),
+            );
+        }
+        (x, _) => numbers(w, heap, x)?.0,
+    };
+    if x.len() == y.len() { Ok((y, x)) } else { Err("the two lists have different lengths".into()) }
+}
+
+fn fold(w: &World, heap: &Heap, args: &[Value], of: fn(f64, f64) -> f64) -> Result<Value, String> {
+    let (list, _) = numbers(w, heap, args.first())?;
+    // What is no number in one member is no number of all.
+    let all = list.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { of(a, b) });
+    Ok(Value::Number(all.unwrap_or(f64::NAN)))
+}
+
+/// Slope of the straight line through points that is nearest to them (least squares).
+fn slope(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len() as f64;
+    let [mx, my] = [x, y].map(|list| list.iter().sum::<f64>() / n);
+    let products: f64 = x.iter().zip(y).map(|(x, y)| (x - mx) * (y - my)).sum();
+    let squares: f64 = x.iter().map(|x| (x - mx) * (x - mx)).sum();
+    if squares > 0.0 { products / squares } else { f64::NAN }
+}

@@ -1,0 +1,261 @@
+//! Changes of a model's text before it is compiled: attributes of elements, named by kind and name.
+//!
+//! They are made on the plain elements, when all included text is in its place. What a change leads to (masses, inertias, sizes) is
+//! compiled as if the author had written it so.
+
+use super::diagnostic::nearest;
+use super::xml::{Attribute, Element};
+use crate::mjcf::schema::{self, INCLUDE, Kind, ROOT};
+
+/// Elements that stand at most once and may be left out of a text; the second one stands in the first.
+const SETTINGS: [(&str, &str); 5] = [
+    ("mujoco", "option"),
+    ("mujoco", "compiler"),
+    ("mujoco", "size"),
+    ("mujoco", "statistic"),
+    ("option", "flag"),
+];
+
+/// A change: the attribute of an element, and the text that it shall have.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Patch {
+    /// The element's kind, its name where it has one, and the attribute: `geom ball friction`, `option timestep`.
+    pub path: String,
+    /// What stands in the attribute then.
+    pub value: String,
+}
+
+/// Why a change cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Refusal {
+    /// What is wrong, in a sentence.
+    pub message: String,
+    /// What to write instead.
+    pub help: String,
+}
+
+/// An element with its place in the schema.
+#[derive(Clone, Copy)]
+struct Seen {
+    at: usize,
+    parent: usize,
+    schema: &'static schema::Element,
+    /// It stands among the defaults, which are found by no path.
+    default: bool,
+}
+
+/// Makes one change.
+pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Result<(), Refusal> {
+    let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
+    let words: Vec<&str> = patch.path.split_whitespace().collect();
+    let (kind, name, attribute) = match words.as_slice() {
+        [kind, attribute] => (*kind, None, *attribute),
+        [kind, .., attribute] => {
+            let name = patch.path.trim().get(kind.len()..).and_then(|rest| rest.strip_suffix(attribute));
+            (*kind, name.map(str::trim), *attribute)
+        }
+        _ => {
+            return refuse(
+                format!("`{}` is no attribute of an element", patch.path),
+                "write kind, name and attribute, as in \"geom ball friction\", or \"option timestep\"",
+            );
+        }
+    };
+    let seen = seen(list, root);
+    let named = |s: &Seen| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
+    let of_kind: Vec<Seen> = seen.iter().copied().filter(|s| !s.default && s.schema.name == kind).collect();
+    let names = of_kind.iter().filter_map(named);
+    let found = match name {
+        Some(name) => of_kind.iter().find(|s| named(s) == Some(name)).copied(),
+        None => of_kind.first().copied().filter(|_| of_kind.len() == 1),
+    };
+    let found = match (found, name) {
+        (Some(found), _) => found,
+        (None, None) if of_kind.is_empty() => match missing(list, root, kind, &seen) {
+            Some(made) => made,
+            None => {
+                let kinds = seen.iter().map(|s| s.schema.name).filter(|k| !["mujoco", "default"].contains(k));
+                return Err(no_kind(kind, kinds));
+            }
+        },
+        (None, Some(_)) if of_kind.is_empty() => {
+            return Err(no_kind(kind, seen.iter().filter(|s| named(s).is_some()).map(|s| s.schema.name)));
+        }
+        (None, Some(name)) => {
+            let help = near(name, names, "it has no named ones");
+            return refuse(format!("the model has no {kind} `{name}`"), &help);
+        }
+        (None, None) => {
+            let help = format!("say which one: {}", near("", names, "give it a name"));
+            return refuse(format!("the model has {} elements `{kind}`", of_kind.len()), &help);
+        }
+    };
+    // The mass of a body is written in what it consists of.
+    let found = match (kind, attribute) {
+        ("body", "mass") => mass_of(list, found, &seen, name.unwrap_or(""))?,
+        _ => found,
+    };
+    match found.schema.attribute(attribute) {
+        Some(attr) if matches!(attr.kind, Kind::Name(_)) => refuse(
+            format!("the name of a {kind} cannot be changed"),
+            "everything is found by it; change what it has",
+        ),
+        Some(_) => {
+            set(list, found.at, attribute, &patch.value);
+            Ok(())
+        }
+        None => {
+            let help = near(attribute, found.schema.attributes().map(|a| a.name), "it has none");
+            refuse(format!("`{kind}` has no attribute `{attribute}`"), &help)
+        }
+    }
+}
+
+/// Every element below the root that the schema knows; included ones count where they are included.
+fn seen(list: &[Element], root: usize) -> Vec<Seen> {
+    let (mut all, mut open) =
+        (Vec::new(), vec![Seen { at: root, parent: root, schema: &ROOT, default: false }]);
+    while let Some(seen) = open.pop() {
+        let Some(element) = list.get(seen.at) else { continue };
+        if element.name != INCLUDE.name {
+            all.push(seen);
+        }
+        for &child in element.children.iter().rev() {
+            let Some(name) = list.get(child).map(|c| c.name.as_str()) else { continue };
+            if name == INCLUDE.name {
+                open.push(Seen { at: child, ..seen });
+            } else if let Some(schema) = seen.schema.child(name) {
+                let default = seen.default || name == "default";
+                open.push(Seen { at: child, parent: seen.at, schema, default });
+            }
+        }
+    }
+    all
+}
+
+/// A setting that the text leaves out, written now.
+fn missing(list: &mut Vec<Element>, root: usize, kind: &str, seen: &[Seen]) -> Option<Seen> {
+    let (parent, name) = SETTINGS.iter().find(|(_, name)| *name == kind)?;
+    let holder = seen.iter().find(|s| s.schema.name == *parent).copied();
+    let holder = holder.or_else(|| missing(list, root, parent, seen))?;
+    let (at, span) = (list.len(), list.get(holder.at)?.span.clone());
+    list.push(Element {
+        name: (*name).to_string(),
+        span,
+        namespace: false,
+        attributes: Vec::new(),
+        children: Vec::new(),
+    });
+    list.get_mut(holder.at)?.children.push(at);
+    Some(Seen { at, parent: holder.at, schema: holder.schema.child(name)?, default: false })
+}
+
+/// Where the mass of a body is written: in its `inertial`, or in its only geom.
+fn mass_of(list: &[Element], body: Seen, seen: &[Seen], name: &str) -> Result<Seen, Refusal> {
+    let parts = |kind: &str| -> Vec<Seen> {
+        seen.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind).collect()
+    };
+    let (inertial, geoms) = (parts("inertial"), parts("geom"));
+    match (inertial.as_slice(), geoms.as_slice()) {
+        ([inertial], _) => Ok(*inertial),
+        ([], [geom]) => Ok(*geom),
+        _ => {
+            let names =
+                geoms.iter().filter_map(|s| list.get(s.at)?.attribute("name").map(|a| a.value.as_str()));
+            let names: Vec<&str> = names.collect();
+            Err(Refusal {
+                message: format!("the mass of the body `{name}` is that of its {} geoms", geoms.len()),
+                help: format!("change the mass of one of them: {}", names.join(", ")),
+            })
+        }
+    }
+}
+
+fn set(list: &mut [Element], at: usize, attribute: &str, value: &str) {
+    let Some(element) = list.get_mut(at) else { return };
+    let span = element.span.clone();
+    element.attributes.retain(|a| a.name != attribute || a.namespace);
+    element.attributes.push(Attribute {
+        name: attribute.to_string(),
+        value: value.to_string(),
+        name_span: span.clone(),
+        value_span: span,
+        exact: false,
+        namespace: false,
+    });
+}
+
+fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
+    let mut kinds: Vec<&str> = kinds.collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    Refusal {
+        message: format!("the model has no element `{kind}`"),
+        help: near(kind, kinds.into_iter(), "it has none that can be changed"),
+    }
+}
+
+/// The near name, or the names that there are.
+fn near<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> String {
+    let names: Vec<&str> = names.take(200).collect();
+    match nearest(word, names.iter().copied()) {
+        Some(right) if !word.is_empty() => format!("did you mean `{right}`?"),
+        _ if names.is_empty() => none.to_string(),
+        _ => names.iter().take(12).copied().collect::<Vec<_>>().join(", "),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Patch;
+    use crate::mjcf::{NoFiles, examine_patched};
+    use crate::model::Model;
+
+    const TEXT: &str = "<mujoco><default><geom friction='0.3'/></default><worldbody><geom name='floor' type='plane' size='1 1 1'/>\
+        <body name='heavy ball' pos='0 0 1'><freejoint/><geom name='iron' size='.1' mass='1'/></body>\
+        <body name='rod'><joint name='hinge'/><geom name='one' size='.1'/><geom name='two' size='.1'/></body></worldbody></mujoco>";
+
+    fn patched(path: &str, value: &str) -> Result<Model, String> {
+        let patch = Patch { path: path.into(), value: value.into() };
+        let (examined, refusals) = examine_patched(TEXT, &NoFiles, None, &[patch]);
+        match (refusals.into_iter().next().flatten(), examined.model) {
+            (Some(refusal), _) => Err(format!("{}; {}", refusal.message, refusal.help)),
+            (None, model) => model.ok_or_else(|| examined.findings[0].message.clone()),
+        }
+    }
+
+    #[test]
+    fn changes_are_made_before_the_model_is_compiled() {
+        let heavy = patched("body heavy ball mass", "5").unwrap();
+        assert_eq!(heavy.body_mass[1], 5.0);
+        assert!((heavy.body_inertia[3] - 0.4 * 5.0 * 0.01).abs() < 1e-15);
+        assert_eq!(patched("option timestep", "0.01").unwrap().opt.timestep, 0.01);
+        assert_eq!(
+            patched("geom iron friction", "1 0.005 0.0001").unwrap().geom_friction[3..6],
+            [1.0, 0.005, 0.0001]
+        );
+        assert_eq!(patched("flag gravity", "disable").unwrap().opt.disableflags.count_ones(), 1);
+        // An angle of the text is in its own unit, as every angle there.
+        let degrees = patched("joint hinge range", "-90 90").unwrap();
+        assert!((degrees.jnt_range[3] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_cannot_be_changed_is_said_with_what_is_near() {
+        for (path, value, words) in [
+            ("geom irn mass", "1", "no geom `irn`; did you mean `iron`?"),
+            ("geom iron mas", "1", "no attribute `mas`; did you mean `mass`?"),
+            ("goem iron mass", "1", "no element `goem`; did you mean `geom`?"),
+            ("geom mass", "1", "4 elements `geom`; say which one: floor"),
+            ("body rod mass", "1", "its 2 geoms; change the mass of one of them: one, two"),
+            ("geom iron name", "gold", "cannot be changed"),
+            ("mass", "1", "no attribute of an element"),
+            ("geom iron mass", "heavy", "`mass` of geom"),
+        ] {
+            match patched(path, value) {
+                Err(said) => assert!(said.contains(words), "{path}: {said}"),
+                Ok(_) => panic!("{path} was changed"),
+            }
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! One run of a `verify` object: the order of events of its lab, then its own controls and setup, and what is measured in it.
+
+use super::bound::{BoundRun, BoundScene, Named};
+use super::measure::Measure;
+use super::reads;
+use super::stage::Stage;
+use crate::bind::{include, scalar};
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::rules;
+use crate::run::{self, Breakdown, Budget, End, Numerics, Play, RunError, Session};
+use labspec_core::Model;
+use labspec_core::reflect::{self, Object};
+use labspec_expr::{Effects, Program, Value};
+use std::ops::{ControlFlow, Range};
+
+/// Most steps of one run of a `verify` object.
+const MAX_VERIFY_STEPS: usize = 2_000_000;
+
+/// What is asked for: a run under some numerics, and the measures of it.
+pub(super) struct Asked<'r, 'a> {
+    pub(super) scene: &'r BoundScene<'a>,
+    pub(super) run: &'r BoundRun<'a>,
+    pub(super) numerics: Numerics,
+    pub(super) measures: &'r [&'r Named<'r>],
+    /// Where to tell what is wrong with the run.
+    pub(super) place: Range<usize>,
+}
+
+/// What came of one run.
+#[derive(Clone, Debug)]
+pub(crate) struct Made {
+    pub(super) values: Vec<f64>,
+    /// Number of warnings of the engine.
+    pub(super) warnings: usize,
+    /// What broke in it.
+    pub(super) broke: Option<String>,
+}
+
+/// Makes a run, unless the same was made before: then what came of it is known, and was told.
+pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+    let key = key(asked);
+    if let Some(known) = stage.known(&key) {
+        return Some(known);
+    }
+    let made = make(asked, stage, findings)?;
+    stage.keep(key, &made);
+    Some(made)
+}
+
+/// Everything that the outcome of a run depends on, as a text.
+fn key(asked: &Asked<'_, '_>) -> String {
+    let Asked { scene, run, numerics, measures, .. } = asked;
+    let lab = &scene.scene.lab;
+    let texts: Vec<&str> = measures.iter().map(|m| m.text.as_str()).collect();
+    let own = run.spec.map(|spec| {
+        let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
+        let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
+        let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
+        let control = run.control.map(|(label, x)| (label.as_str(), x));
+        let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
+        format!("{set:?} {control:?} {press:?} {length:?} {code:?}")
+    });
+    let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
+    format!("{labs} {own:?} {numerics:?} {texts:?}")
+}
+
+fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+    let Asked { scene: bound, run, numerics, measures, place } = asked;
+    let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
+    let demand = demand(asked);
+    let budget = Budget { left: stage.left() };
+    let mut session = Session::start_within(
+        bound.scene.programs.clone(),
+        &bound.scene.model,
+        lab.keyframe(),
+        &demand,
+        budget,
+    );
+    let mut refuse_at = |place: Range<usize>, e: RunError| {
+        let message = format!("the run {} cannot be made: {e}", named(run.name));
+        findings.push(Finding::error(rules::RUN_IMPOSSIBLE, place, message));
+    };
+    let stated = states_timestep(bound, run);
+    set(&mut session, bound, run).map_err(|(at, e)| refuse_at(at, e)).ok()?;
+    let mut press = Vec::new();
+    let (mut until, mut steps) = (None, None);
+    if let Some(spec) = run.spec {
+        let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
+        press = run::presses(programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
+        until = spec.until.as_ref().map(|n| n.value);
+        // As many steps as reach as far.
+        let shorter = if stated { 1.0 } else { numerics.timestep };
+        steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / shorter).round() as usize);
+    }
+    if let Some(setup) = &run.setup {
+        session.run_statements(&setup.program, setup.text);
+    }
+    session.perturb(*numerics, stated);
+    let mut refuse = |e: RunError| refuse_at(place.clone(), e);
+    let timestep = session.world.model.opt.timestep;
+    let count = run::count_steps(lab, until, steps, timestep).map_err(&mut refuse).ok()?;
+    run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
+    if count > MAX_VERIFY_STEPS {
+        refuse(RunError(format!(
+            "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
+        )));
+        return None;
+    }
+    let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
+    let shown = bound.shown.asked();
+    let played = Play { steps: count, every: 1, presses: &press, watched: true };
+    run::play(&mut session, &played, |session, _| {
+        reads::show(&shown, lab, programs, session);
+        running.iter_mut().for_each(|m| m.sample(session));
+        match run.stop.as_ref().and_then(|stop| session.evaluate(&stop.program, stop.text)) {
+            Some(holds) if holds.truthy() => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        }
+    });
+    stage.spend(session.spent());
+    let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
+    for t in &session.troubles {
+        let message = format!("{} (in the run {}, at t = {} s)", t.message, named(run.name), t.time);
+        findings.push(Finding::error(t.rule, t.text.span_of(t.span.clone()), message));
+    }
+    Some(Made { values, warnings: session.warnings.iter().map(|w| w.number).sum(), broke: broke(&session) })
+}
+
+/// Sets the controls of a run. What cannot be set comes back with its place.
+fn set(
+    session: &mut Session<'_>,
+    bound: &BoundScene<'_>,
+    run: &BoundRun<'_>,
+) -> Result<(), (Range<usize>, RunError)> {
+    let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
+    // A control of the lab may have set it while the lab was loaded; what the run says counts.
+    if bound.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path)) {
+        *session.world.model.edit().opt.timestep = bound.scene.model.opt.timestep;
+    }
+    for (label, v) in run.spec.iter().flat_map(|spec| &spec.set) {
+        let known = lab.control(&label.value).is_some();
+        let at = if known { v.span() } else { label.span() };
+        let one = [(label.value.clone(), scalar(v))];
+        run::set_controls(session, lab, programs, &one).map_err(|e| (at, e))?;
+    }
+    if let Some((label, x)) = run.control {
+        match programs.control(&label.value).filter(|_| run.freely) {
+            Some((i, _)) => session.set_control(i, Value::Number(x)),
+            None => {
+                let one = [(label.value.clone(), Value::Number(x))];
+                run::set_controls(session, lab, programs, &one).map_err(|e| (label.span(), e))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The model of a run as it begins: after its controls and its setup. `None` for one that cannot be made.
+pub(super) fn begun(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
+    let scene = &bound.scene;
+    let (key, demand) = (scene.lab.keyframe(), scene.programs.demand);
+    let mut session =
+        Session::start_within(scene.programs.clone(), &scene.model, key, &demand, Budget::TRIAL);
+    set(&mut session, bound, run).ok()?;
+    if let Some(setup) = &run.setup {
+        session.run_statements(&setup.program, setup.text);
+    }
+    Some(session.world.model)
+}
+
+/// What the programs of the lab and of the run need.
+fn demand(asked: &Asked<'_, '_>) -> labspec_core::Demand {
+    let mut demand = asked.scene.scene.programs.demand;
+    let own = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
+    for program in asked.measures.iter().map(|m| &m.program).chain(own) {
+        include(program.effects(), &mut demand);
+        for arg in program.aggregates().iter().flat_map(|a| &a.args) {
+            include(arg.effects(), &mut demand);
+        }
+    }
+    demand
+}
+
+/// What broke in a run, in one clause.
+fn broke(session: &Session<'_>) -> Option<String> {
+    match (Breakdown::of(session), session.troubles.first()) {
+        (Some(breakdown), _) => Some(breakdown.what),
+        (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
+        (None, None) => session.ended().map(|end| match end {
+            End::Threw => "an error froze it".to_string(),
+            End::Interrupted => "it was interrupted".to_string(),
+            End::Foreign => "its programs belong to another model".to_string(),
+            End::Budget { time } => format!(
+                "the runs of this lesson take more work than a check may do, and this one ends at t = {} s",
+                run::time(*time)
+            ),
+        }),
+    }
+}
+
+/// Whether the lesson itself states the timestep of a run: in the run, or in the lab's setup.
+pub(super) fn states_timestep(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> bool {
+    let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
+    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
+    let programs = &scene.scene.programs;
+    let set = run.spec.iter().flat_map(|r| &r.set).map(|(label, _)| label);
+    let mut set = set.chain(run.control.map(|(label, _)| label));
+    let setups = run.setup.iter().map(|s| &s.program).chain(programs.setup.iter().map(|b| &b.program));
+    set.any(|label| programs.effects_of(&label.value).is_some_and(writes))
+        || setups.map(Program::effects).any(writes)
+        || scene.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path))
+}
+
+/// The timestep among the attributes of a model.
+pub(super) const TIMESTEP: &str = "option timestep";
+
+/// Whether a path of the model is the timestep.
+fn is_timestep(path: &str) -> bool {
+    path.split_whitespace().eq(TIMESTEP.split_whitespace())
+}
