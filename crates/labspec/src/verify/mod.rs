@@ -22,7 +22,7 @@ pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::{Allowance, BoundVerify};
 pub use exact::ClosedForm;
 pub use quote::{
-    Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, quoted, stated,
+    Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, quoted, stated,
 };
 
 use crate::finding::Finding;

@@ -16,7 +16,7 @@ mod unit;
 pub use number::{Form, Quoted, Style};
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
-pub use stated::{Stated, stated};
+pub use stated::{Stated, claimed, stated};
 
 use crate::finding::Finding;
 use crate::spec::{Question, Said};
