@@ -9,6 +9,9 @@ use std::path::{Path, PathBuf};
 /// Longest time that a lab is run for, s: many mutants have to be run.
 const LONGEST: f64 = 1.0;
 
+/// Lessons of our own that are taken. More would make a long test longer: into all of them lies are planted in `tests/course.rs`.
+const OURS: usize = 2;
+
 /// What a piece is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum What {
@@ -124,8 +127,12 @@ fn files(folder: &Path) -> Vec<PathBuf> {
         let name = p.file_name().unwrap().to_str().unwrap();
         name.ends_with(".json") || name.ends_with(".md") && !name.contains("damaged") && name != "NUMBERS.md"
     };
+    let ours = folder.ends_with("specs/lessons");
     let mut all: Vec<PathBuf> = entries.filter(is_one).collect();
     all.sort();
+    if ours {
+        all.truncate(OURS);
+    }
     all
 }
 
