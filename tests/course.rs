@@ -97,8 +97,6 @@ fn everything_that_the_course_says_is_true() {
     for own in course() {
         let checked = checked(&own.name, &own.text, &models, Depth::FULL);
         assert_eq!(complaints(&checked), [] as [&str; 0], "{}", own.name);
-        let notes: Vec<_> = checked.findings.iter().map(|f| f.code).collect();
-        assert!(notes.is_empty(), "{}: {notes:?}", own.name);
         let mut asked = 0;
         for claim in &checked.claims {
             for quote in &claim.judgement.quotes {

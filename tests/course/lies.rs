@@ -13,6 +13,9 @@ type Lie = fn(&str) -> Option<String>;
 /// The ways to lie about a number.
 const LIES: [(&str, Lie); 3] = [("a digit", digit), ("a tenth", tenth), ("a unit", unit)];
 
+/// Half of g h t is 0.73575 mm for the shortest step: it rounds to either, and the next one is no lie.
+const EITHER: &str = "-0.7357";
+
 /// One unit more in the last digit.
 fn digit(quote: &str) -> Option<String> {
     let at = digits(quote);
@@ -82,19 +85,28 @@ fn replaced(text: &str, changes: &[(Range<usize>, String)]) -> String {
     out + &text[from..]
 }
 
-/// The lesson with formulas that need no run for its claims: where a number stands does not depend on what was computed.
+/// The lesson with formulas in place of measures, and runs of one step: where a number stands does not depend on what was
+/// computed, and so a thousand lies are planted in the time of a few.
 fn without_runs(text: &str) -> String {
     let claims = |object: &Range<usize>| {
-        let says: Vec<_> = quotes(&text[object.clone()])
-            .into_iter()
-            .map(|quote| {
-                let at = digits(&quote);
-                let sign = if quote[..at.start].ends_with('-') { "-" } else { "" };
-                let value = format!("{sign}{}", &quote[at]);
-                serde_json::json!([quote, format!("{value} * 1")])
-            })
-            .collect();
-        (object.clone(), format!("\"verify\": {}", serde_json::json!({ "says": says })))
+        let object_text = &text[object.clone()];
+        let old: serde_json::Value =
+            serde_json::from_str(&object_text[object_text.find('{').unwrap()..]).unwrap();
+        let formula = |quote: String| {
+            let at = digits(&quote);
+            let sign = if quote[..at.start].ends_with('-') { "-" } else { "" };
+            let value = format!("{sign}{} * 1", &quote[at]);
+            serde_json::json!([quote, value])
+        };
+        let says: Vec<_> = quotes(object_text).into_iter().map(formula).collect();
+        let mut new = serde_json::json!({ "says": says });
+        if old["runs"].is_object() {
+            new["runs"] = serde_json::json!({"r": {"steps": 1}});
+        }
+        if !old["lab"].is_null() {
+            new["lab"] = old["lab"].clone();
+        }
+        (object.clone(), format!("\"verify\": {new}"))
     };
     let changes: Vec<_> = verifies(text).iter().map(claims).collect();
     replaced(text, &changes)
@@ -121,8 +133,7 @@ fn a_number_that_is_changed_in_the_text_is_found() {
         course().into_iter().map(|own| Own { text: without_runs(&own.text), ..own }).collect();
     for (l, own) in lessons.iter().enumerate() {
         let plain = checked(&own.name, &own.text, &models, Depth::CLAIMS);
-        let wrong: Vec<_> = complaints(&plain).into_iter().filter(|c| !c.contains("constant")).collect();
-        assert_eq!(wrong, [] as [&str; 0], "{}", own.name);
+        assert_eq!(complaints(&plain), [] as [&str; 0], "{}", own.name);
         for place in places(&own.text) {
             for (how, lie) in LIES {
                 cases.extend(lie(&place.quote).map(|lie| (l, place.clone(), how, lie)));
@@ -139,7 +150,7 @@ fn a_number_that_is_changed_in_the_text_is_found() {
         missed.push(format!("{}:{line}: {} as {lie} ({how})", lessons[*l].name, place.quote));
     }
     eprintln!("{} lies in the text, {} missed", cases.len(), missed.len());
-    assert!(cases.len() > 1000, "{}", cases.len());
+    assert!(cases.len() > 900, "{}", cases.len());
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }
 
@@ -170,7 +181,8 @@ fn a_number_that_is_claimed_wrongly_is_refuted() {
         let checked = checked(&own.name, &replaced(&own.text, &changes), &models, Depth::CLAIMS);
         let all: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
         assert_eq!(all.len(), count, "{}", own.name);
-        let right = all.iter().filter(|q| q.state == QuoteState::Right);
+        let either = digit(EITHER).unwrap();
+        let right = all.iter().filter(|q| q.state == QuoteState::Right && q.text != either);
         (count, right.map(|q| format!("{}: {} ({how})", own.name, q.text)).collect::<Vec<_>>())
     });
     let count: usize = missed.iter().map(|(count, _)| count).sum();
