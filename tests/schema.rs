@@ -188,7 +188,11 @@ fn wrong_ones_fail_and_right_ones_do_not() {
 fn places(value: &Value, at: &str, all: &mut Vec<String>) {
     all.push(at.to_string());
     match value {
-        Value::Object(entries) => entries.iter().for_each(|(k, v)| places(v, &format!("{at}/{k}"), all)),
+        Value::Object(entries) => {
+            // A pointer writes `/` of a key in two letters.
+            let pointed = |k: &str| k.replace('~', "~0").replace('/', "~1");
+            entries.iter().for_each(|(k, v)| places(v, &format!("{at}/{}", pointed(k)), all));
+        }
         Value::Array(items) => {
             items.iter().enumerate().for_each(|(i, v)| places(v, &format!("{at}/{i}"), all))
         }
@@ -199,6 +203,7 @@ fn places(value: &Value, at: &str, all: &mut Vec<String>) {
 /// What goes wrong in the format when somebody types: a key misspelt, a key forgotten, a value of another type.
 fn damaged(value: &Value, at: &str) -> Vec<Value> {
     let (parent, key) = at.rsplit_once('/').unwrap();
+    let key = &key.replace("~1", "/").replace("~0", "~");
     let with = |change: &dyn Fn(&mut serde_json::Map<String, Value>)| {
         let mut new = value.clone();
         let Some(Value::Object(entries)) = new.pointer_mut(parent) else { return None };

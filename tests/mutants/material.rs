@@ -9,6 +9,11 @@ use std::path::{Path, PathBuf};
 /// Longest time that a lab is run for, s: many mutants have to be run.
 const LONGEST: f64 = 1.0;
 
+/// Lessons of our own that are taken. More would make a long test longer: into all of them lies are planted in `tests/course.rs`.
+const OURS: usize = 2;
+/// How a quiz of ours begins that is lied to only there.
+const LATER: &str = "{\"id\": \"02-balls\"";
+
 /// What a piece is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum What {
@@ -124,8 +129,12 @@ fn files(folder: &Path) -> Vec<PathBuf> {
         let name = p.file_name().unwrap().to_str().unwrap();
         name.ends_with(".json") || name.ends_with(".md") && !name.contains("damaged") && name != "NUMBERS.md"
     };
+    let ours = folder.ends_with("specs/lessons");
     let mut all: Vec<PathBuf> = entries.filter(is_one).collect();
     all.sort();
+    if ours {
+        all.truncate(OURS);
+    }
     all
 }
 
@@ -137,6 +146,11 @@ fn lesson(all: &mut Vec<Piece>, name: &str, models: usize, text: &str) {
         let begin = at + start + text[at + start..].find('\n').unwrap() + 1;
         let end = begin + text[begin..].find("\n```").unwrap() + 1;
         number += 1;
+        // Which mistakes are planted follows from the number of a piece: one that came later would change all choices.
+        if text[begin..end].starts_with(LATER) {
+            at = end + 3;
+            continue;
+        }
         let around = (text[..begin].to_string(), text[end..].to_string());
         add(all, &format!("{name}#{number}"), models, &text[begin..end], Some(around));
         at = end + 3;

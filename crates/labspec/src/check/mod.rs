@@ -7,6 +7,7 @@ mod dimension;
 mod entries;
 mod expect;
 mod labels;
+mod left_out;
 mod mass_alone;
 mod named;
 mod params;
@@ -135,6 +136,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     told_once(lesson, &mut findings);
     let snapshots = snapshot::check(lesson, &ready, depth, &mut findings);
+    left_out::check(lesson, &mut findings);
     let nothing = Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) });
     if claims::have_formulas(lesson) {
         ready.extend(empty(&nothing));

@@ -71,7 +71,8 @@ fn said(span: Range<usize>, mistake: &Mistake) -> Finding {
         }
         Mistake::NoSwitch => wrong("an overlay is switched by true or false".into())
             .help("write true or false, without quotes"),
-        Mistake::NoPlace(text) => wrong(format!("{} is not a place of a lab", named(text)))
+        // A text of the right type, which the format cannot tell from an address.
+        Mistake::NoPlace(text) => Finding::new(rules::UNKNOWN_LAB, span.clone(), format!("{} is not a place of a lab", named(text)))
             .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
         Mistake::NoLab(found) => wrong(format!("`lab` must be a text or a lab object; this is {found}"))
             .help("write \"#2\" for the second lab of the lesson, or a lab object"),

@@ -31,7 +31,7 @@ use crate::interrupt;
 use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
-use crate::verify::{NUDGED, NUDGED_BACK, ShownText, Stage, Stated, stated};
+use crate::verify::{NUDGED, NUDGED_BACK, Stage, Stated, claimed, stated};
 use labspec_core::Model;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -97,13 +97,6 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
     let numbers =
         numbers.into_iter().zip(origins).map(|(stated, origin)| Traced { stated, origin }).collect();
     Traces { numbers, labs }
-}
-
-/// Where the text stands that the lesson quotes itself.
-fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
-    let shown = ShownText::of(lesson);
-    let says = lesson.verifies().flat_map(|verify| &verify.says);
-    says.flat_map(|said| shown.places(said.quote.as_str()).to_vec()).collect()
 }
 
 /// Tries what was found again, from starts that nobody could tell from the lab's own: digits that then change are told apart.

@@ -30,7 +30,8 @@ pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
 pub use exact::ClosedForm;
 pub use quote::{
-    Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, plain, quoted, stated,
+    Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, plain, quoted,
+    stated,
 };
 pub use reads::labels;
 pub use stage::{Scene, Stage};

@@ -17,7 +17,7 @@ mod unit;
 pub use number::{Form, Quoted, Style};
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
-pub use stated::{Stated, stated};
+pub use stated::{Stated, claimed, stated};
 
 use crate::finding::Finding;
 use crate::json::nearest;

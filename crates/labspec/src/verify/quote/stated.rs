@@ -82,6 +82,13 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     all
 }
 
+/// Where the text stands that the lesson quotes itself.
+pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
+    let shown = super::ShownText::of(lesson);
+    let says = lesson.verifies().flat_map(|verify| &verify.says);
+    says.flat_map(|said| shown.places(said.quote.as_str()).to_vec()).collect()
+}
+
 fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let paragraph: Arc<str> = Arc::from(text.value.as_str());
     let (folded, map) = fold::fold(&text.value, false);

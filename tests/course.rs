@@ -1,0 +1,138 @@
+//! Our own course (`specs/lessons`): everything that it says is true, lies that are planted into it are found, and another
+//! layout or other words around a number are no lie.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod lies;
+mod places;
+mod wording;
+
+use crate::support::workspace;
+use labspec::bind::scene::Models;
+use labspec::check::{self, Checked, Depth};
+use labspec::finding::Severity;
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::source::SourceFile;
+use labspec::spec::QuestionKind;
+use labspec::trace::{Origin, trace};
+use labspec::verify::{QuoteState, Verdict};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+/// A lesson of the course.
+pub(super) struct Own {
+    pub(super) name: String,
+    pub(super) text: String,
+}
+
+/// All lessons, by name.
+pub(super) fn course() -> Vec<Own> {
+    let folder = workspace().join("specs/lessons");
+    let mut names: Vec<String> = std::fs::read_dir(folder.as_path())
+        .unwrap()
+        .filter_map(|e| e.unwrap().file_name().into_string().ok())
+        .filter(|n| n.ends_with(".md"))
+        .collect();
+    names.sort();
+    assert_eq!(names.len(), 10, "{names:?}");
+    let read = |name: String| Own { text: std::fs::read_to_string(folder.join(&name)).unwrap(), name };
+    names.into_iter().map(read).collect()
+}
+
+pub(super) fn models() -> Models {
+    Models::new(ModelFolder::open(&workspace().join("specs/models")).unwrap())
+}
+
+/// What a check finds in a text.
+pub(super) fn checked(name: &str, text: &str, models: &Models, depth: Depth) -> Checked {
+    check::check(load_lesson(SourceFile::new(name, text), models.folder()), models, depth)
+}
+
+/// Warnings and errors, and what the settings of the course make an error (`specs/labspec.toml`), each in a line.
+pub(super) fn complaints(checked: &Checked) -> Vec<String> {
+    let told = checked.findings.iter().filter(|f| counts(f));
+    told.map(|f| {
+        let at = checked.lesson.file.position(f.span.start);
+        format!("{}:{}: {}: {}", at.line, at.column, f.code, f.message)
+    })
+    .collect()
+}
+
+pub(super) fn counts(f: &labspec::finding::Finding) -> bool {
+    f.severity != Severity::Note || DENIED.contains(&f.code)
+}
+
+/// What `specs/labspec.toml` denies.
+const DENIED: [&str; 1] = ["numbers-unclaimed"];
+
+/// Does something for each of so many, on all processors; the results stand in order.
+pub(super) fn for_each<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(2, usize::from);
+    let mut all: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let run = || {
+            let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|i| *i < count);
+            std::iter::from_fn(take).map(|i| (i, work(i))).collect::<Vec<_>>()
+        };
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+        handles.into_iter().flat_map(|h| h.join().unwrap()).collect()
+    });
+    all.sort_by_key(|(i, _)| *i);
+    all.into_iter().map(|(_, t)| t).collect()
+}
+
+#[test]
+fn the_settings_of_the_course_are_those_that_are_tested() {
+    let settings = std::fs::read_to_string(workspace().join("specs/labspec.toml")).unwrap();
+    assert!(DENIED.iter().all(|code| settings.contains(&format!("\"{code}\""))), "{settings}");
+}
+
+/// Every answer is verified or computed, every number with a unit is claimed and right, and nothing is complained of.
+#[test]
+fn everything_that_the_course_says_is_true() {
+    let models = models();
+    let begun = Instant::now();
+    let mut questions = 0;
+    let mut quotes = 0;
+    for own in course() {
+        let checked = checked(&own.name, &own.text, &models, Depth::FULL);
+        assert_eq!(complaints(&checked), [] as [&str; 0], "{}", own.name);
+        let mut asked = 0;
+        for claim in &checked.claims {
+            for quote in &claim.judgement.quotes {
+                assert_eq!(quote.state, QuoteState::Right, "{}, {}: {}", own.name, claim.name, quote.text);
+                quotes += 1;
+            }
+            let Some(answer) = &claim.judgement.answer else { continue };
+            let sure = matches!(answer.verdict, Verdict::Verified | Verdict::Computed);
+            assert!(sure, "{}, {}: {} {}", own.name, claim.name, answer.verdict.as_str(), answer.reason);
+            asked += 1;
+        }
+        // An open question has no answer that could be checked.
+        let all = checked.lesson.quizzes.iter().flat_map(|q| q.numbered());
+        let closed = all.filter(|(_, q)| !matches!(q.kind, QuestionKind::Open { .. }));
+        assert_eq!(asked, closed.count(), "{}", own.name);
+        questions += asked;
+    }
+    eprintln!(
+        "{questions} answers and {quotes} numbers in {:.2} s, on one processor",
+        begun.elapsed().as_secs_f64()
+    );
+    assert!(questions >= 40 && quotes > 300, "{questions} {quotes}");
+}
+
+/// What a reader sees as a number with a unit is claimed, and the answers of numeric questions have a value.
+#[test]
+fn no_number_is_unclaimed() {
+    let models = models();
+    let mut count = 0;
+    for own in course() {
+        let lesson = load_lesson(SourceFile::new(own.name.as_str(), own.text.as_str()), models.folder());
+        for n in trace(&lesson, &models, &mut |_| ()).numbers {
+            count += 1;
+            let claimed = matches!(n.origin, Origin::Claimed) || n.stated.answer;
+            assert!(claimed, "{}: {} is not claimed", own.name, n.stated.quote);
+        }
+    }
+    assert!(count > 300, "{count}");
+}

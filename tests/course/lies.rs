@@ -1,0 +1,254 @@
+//! Lies, planted in turn into every answer and every claimed number of the course.
+
+use super::places::{Place, digits, places, quotes, verifies};
+use super::{Own, checked, complaints, counts, course, for_each, models};
+use labspec::bind::scene::Models;
+use labspec::check::Depth;
+use labspec::verify::QuoteState;
+use std::ops::Range;
+
+/// A number as somebody got it wrong; `None` where that is no other number.
+type Lie = fn(&str) -> Option<String>;
+
+/// The ways to lie about a number.
+const LIES: [(&str, Lie); 3] = [("a digit", digit), ("a tenth", tenth), ("a unit", unit)];
+
+/// Half of g h t is 0.73575 mm for the shortest step: it rounds to either, and the next one is no lie.
+const EITHER: &str = "-0.7357";
+
+/// One unit more in the last digit.
+fn digit(quote: &str) -> Option<String> {
+    let at = digits(quote);
+    let decimals = quote[at.clone()].split_once('.').map_or(0, |(_, d)| d.len());
+    let value: f64 = quote[at.clone()].parse().ok()?;
+    let other = value + 0.1_f64.powi(decimals as i32);
+    Some(format!("{}{other:.decimals$}{}", &quote[..at.start], &quote[at.end..]))
+}
+
+/// A tenth more, with a digit more where that is needed.
+fn tenth(quote: &str) -> Option<String> {
+    let at = digits(quote);
+    let decimals = quote[at.clone()].split_once('.').map_or(0, |(_, d)| d.len());
+    let value: f64 = quote[at.clone()].parse().ok()?;
+    let print = |decimals: usize| format!("{:.decimals$}", 1.1 * value);
+    let same = print(decimals).parse::<f64>().ok()? == value;
+    let other = print(if same { decimals + 1 } else { decimals });
+    Some(format!("{}{other}{}", &quote[..at.start], &quote[at.end..]))
+}
+
+/// Units, and others that differ by a factor.
+const UNITS: [(&str, &str); 24] = [
+    ("kg m²", "g m²"),
+    ("kg m/s", "g m/s"),
+    ("g m²/s", "kg m²/s"),
+    ("g m²", "kg m²"),
+    ("m/s²", "mm/s²"),
+    ("N s/m", "N s/mm"),
+    ("N/m", "N/mm"),
+    ("N m", "N mm"),
+    ("mrad/s", "rad/s"),
+    ("rad/s", "mrad/s"),
+    ("mm/s", "m/s"),
+    ("m/s", "mm/s"),
+    ("rad", "mrad"),
+    ("mm", "m"),
+    ("cm", "m"),
+    ("ms", "s"),
+    ("mJ", "J"),
+    ("kg", "g"),
+    ("°", " rad"),
+    ("m", "mm"),
+    ("s", "ms"),
+    ("N", "mN"),
+    ("J", "mJ"),
+    ("g", "kg"),
+];
+
+/// Another unit.
+fn unit(quote: &str) -> Option<String> {
+    let at = digits(quote);
+    let rest = &quote[at.end..];
+    let own = rest.trim_start();
+    let (_, other) = UNITS.iter().find(|(unit, _)| *unit == own)?;
+    let space = &rest[..rest.len() - own.len()];
+    Some(format!("{}{space}{other}", &quote[..at.end]))
+}
+
+/// A text with something else at these places.
+fn replaced(text: &str, changes: &[(Range<usize>, String)]) -> String {
+    let (mut out, mut from) = (String::new(), 0);
+    for (at, new) in changes {
+        out.push_str(&text[from..at.start]);
+        out.push_str(new);
+        from = at.end;
+    }
+    out + &text[from..]
+}
+
+/// The lesson with formulas in place of measures, and runs of one step: where a number stands does not depend on what was
+/// computed, and so a thousand lies are planted in the time of a few.
+fn without_runs(text: &str) -> String {
+    let claims = |object: &Range<usize>| {
+        let object_text = &text[object.clone()];
+        let old: serde_json::Value =
+            serde_json::from_str(&object_text[object_text.find('{').unwrap()..]).unwrap();
+        let formula = |quote: String| {
+            let at = digits(&quote);
+            let sign = if quote[..at.start].ends_with('-') { "-" } else { "" };
+            let value = format!("{sign}{} * 1", &quote[at]);
+            serde_json::json!([quote, value])
+        };
+        let says: Vec<_> = quotes(object_text).into_iter().map(formula).collect();
+        let mut new = serde_json::json!({ "says": says });
+        if old["runs"].is_object() {
+            new["runs"] = serde_json::json!({"r": {"steps": 1}});
+        }
+        if !old["lab"].is_null() {
+            new["lab"] = old["lab"].clone();
+        }
+        (object.clone(), format!("\"verify\": {new}"))
+    };
+    let changes: Vec<_> = verifies(text).iter().map(claims).collect();
+    replaced(text, &changes)
+}
+
+/// What becomes of a lie in the text, where the claim knows better: found at its place, or in the claim that has lost its text.
+fn is_found(name: &str, text: &str, place: &Place, lie: &str, models: &Models) -> bool {
+    let lied = replaced(text, &[(place.at.clone(), lie.to_string())]);
+    let checked = checked(name, &lied, models, Depth::CLAIMS);
+    let end = place.at.start + lie.len();
+    let claim = |span: &Range<usize>| lied.get(span.clone()).is_some_and(|t| t.contains(&place.quote));
+    checked.findings.iter().filter(|f| counts(f)).any(|f| {
+        let here = |span: &Range<usize>| span.start < end && place.at.start < span.end;
+        here(&f.span) || claim(&f.span) || f.related.iter().any(|p| here(&p.span))
+    })
+}
+
+/// Somebody changes a number of the text and not the claim.
+#[test]
+fn a_number_that_is_changed_in_the_text_is_found() {
+    let models = models();
+    let mut cases = Vec::new();
+    let lessons: Vec<Own> =
+        course().into_iter().map(|own| Own { text: without_runs(&own.text), ..own }).collect();
+    for (l, own) in lessons.iter().enumerate() {
+        let plain = checked(&own.name, &own.text, &models, Depth::CLAIMS);
+        assert_eq!(complaints(&plain), [] as [&str; 0], "{}", own.name);
+        for place in places(&own.text) {
+            for (how, lie) in LIES {
+                cases.extend(lie(&place.quote).map(|lie| (l, place.clone(), how, lie)));
+            }
+        }
+    }
+    let found = for_each(cases.len(), |i| {
+        let (l, place, _, lie) = &cases[i];
+        is_found(&lessons[*l].name, &lessons[*l].text, place, lie, &models)
+    });
+    let mut missed = Vec::new();
+    for ((l, place, how, lie), _) in cases.iter().zip(&found).filter(|(_, found)| !**found) {
+        let line = lessons[*l].text[..place.at.start].matches('\n').count() + 1;
+        missed.push(format!("{}:{line}: {} as {lie} ({how})", lessons[*l].name, place.quote));
+    }
+    eprintln!("{} lies in the text, {} missed", cases.len(), missed.len());
+    assert!(cases.len() > 900, "{}", cases.len());
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// Somebody believes another number, and writes it into the text and into the claim.
+#[test]
+fn a_number_that_is_claimed_wrongly_is_refuted() {
+    let models = models();
+    let lessons = course();
+    let cases: Vec<_> = (0..lessons.len()).flat_map(|l| LIES[..2].iter().map(move |lie| (l, *lie))).collect();
+    let missed = for_each(cases.len(), |i| {
+        let (l, (how, lie)) = cases[i];
+        let own = &lessons[l];
+        // All at once: each is judged by itself.
+        let mut changes: Vec<_> =
+            places(&own.text).into_iter().map(|p| (p.at, lie(&p.quote).unwrap())).collect();
+        let mut count = 0;
+        for object in verifies(&own.text) {
+            let mut from = object.start;
+            for quote in quotes(&own.text[object.clone()]) {
+                let pair = format!("[\"{quote}\"");
+                let at = from + own.text[from..object.end].find(&pair).unwrap() + 2;
+                changes.push((at..at + quote.len(), lie(&quote).unwrap()));
+                from = at;
+                count += 1;
+            }
+        }
+        changes.sort_by_key(|(at, _)| at.start);
+        let checked = checked(&own.name, &replaced(&own.text, &changes), &models, Depth::CLAIMS);
+        let all: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
+        assert_eq!(all.len(), count, "{}", own.name);
+        let either = digit(EITHER).unwrap();
+        let right = all.iter().filter(|q| q.state == QuoteState::Right && q.text != either);
+        (count, right.map(|q| format!("{}: {} ({how})", own.name, q.text)).collect::<Vec<_>>())
+    });
+    let count: usize = missed.iter().map(|(count, _)| count).sum();
+    let missed: Vec<String> = missed.into_iter().flat_map(|(_, missed)| missed).collect();
+    eprintln!("{count} false claims, {} held to be right", missed.len());
+    assert!(count > 600 && missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// The keys of a lesson: the bytes of each `"answer": N` of a question with options, and how many options there are.
+fn keys(text: &str) -> Vec<(Range<usize>, usize, usize)> {
+    let mut all = Vec::new();
+    for (start, _) in text.match_indices("\"options\": [\"") {
+        let open = start + "\"options\": ".len();
+        let mut stream = serde_json::Deserializer::from_str(&text[open..]).into_iter::<Vec<String>>();
+        let Some(Ok(options)) = stream.next() else { continue };
+        let end = open + stream.byte_offset();
+        let Some(answer) = text[end..].strip_prefix(",\n   \"answer\": ") else { continue };
+        let length = answer.find(',').unwrap();
+        let at = text.len() - answer.len();
+        all.push((at..at + length, answer[..length].parse().unwrap(), options.len()));
+    }
+    all
+}
+
+/// Every other option is marked as the right one, in turn; and every numeric answer is made a tenth larger.
+#[test]
+fn every_wrong_key_is_found() {
+    let models = models();
+    let lessons = course();
+    let mut cases = Vec::new();
+    for (l, own) in lessons.iter().enumerate() {
+        for (at, right, count) in keys(&own.text) {
+            cases.extend((0..count).filter(|k| *k != right).map(|k| (l, at.clone(), k.to_string())));
+        }
+        for (start, found) in own.text.match_indices("\"answer\": ") {
+            let at = start + found.len();
+            let end = at + own.text[at..].find(',').unwrap();
+            if own.text[end..].starts_with(", \"tol\"") {
+                let value: f64 = own.text[at..end].parse().unwrap();
+                cases.push((l, at..end, format!("{}", 1.1 * value)));
+            }
+        }
+    }
+    let found = for_each(cases.len(), |i| {
+        let (l, at, key) = &cases[i];
+        let own = &lessons[*l];
+        let lied = replaced(&own.text, &[(at.clone(), key.clone())]);
+        let checked = checked(&own.name, &lied, &models, Depth::CLAIMS);
+        let end = at.start + key.len();
+        checked.findings.iter().any(|f| counts(f) && f.span.start < end && at.start < f.span.end)
+    });
+    let missed: Vec<String> = cases
+        .iter()
+        .zip(&found)
+        .filter(|(_, found)| !**found)
+        .map(|((l, at, key), _)| {
+            let line = lessons[*l].text[..at.start].matches('\n').count() + 1;
+            format!("{}:{line}: answer {key}", lessons[*l].name)
+        })
+        .collect();
+    eprintln!("{} wrong keys, {} missed", cases.len(), missed.len());
+    assert!(
+        cases.len() > 80 && missed.is_empty(),
+        "{} of {}:\n{}",
+        missed.len(),
+        cases.len(),
+        missed.join("\n")
+    );
+}
