@@ -154,6 +154,7 @@ fn holds(
         measure: case.measure.to_vec(),
         find: Vec::new(),
         options: Vec::new(),
+        over: Vec::new(),
         value: None,
         says: Vec::new(),
         table: Vec::new(),

@@ -30,6 +30,7 @@ static KEYED: [Part; 2] = [
     Part { what: "the list of its numbers", of: Type::Code(Form::Expression) },
 ];
 static A_COLUMN: Type = Type::Object(&COLUMN);
+static SPACE: Map = Map { names: "the label of a slider", of: Type::List(&NUMBER) };
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
 static QUOTE: [Part; 2] = [
@@ -85,6 +86,13 @@ pub static VERIFY: Object = Object {
             Type::List(&EXPRESSION),
             "on a question with options: one condition for each, in their order; that of the right option alone must hold; `undecided` for an option that this evidence says nothing about",
             r#"["speed < 7", "speed > 7 && speed < 15", "speed > 15"]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "over",
+            Type::Map(&SPACE),
+            "on a question with options: sliders and the smallest and largest value of each, over which the answer must hold as well; corners, a covering design, and a search for a counterexample are run, at values that a student can reach",
+            r#"{"gravity": [-20, -1]}"#,
         )
         .or(Absent::Empty),
         key(
