@@ -109,7 +109,7 @@ pub struct Find {
     /// The condition.
     pub holds: Text,
     /// How near the found value is to the true one.
-    pub tol: f64,
+    pub tol: Number,
 }
 
 /// Most runs of a sweep.
@@ -395,7 +395,7 @@ fn find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
     }
     fields.finish();
     let name = member.key.clone();
-    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol?.value })
+    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol? })
 }
 
 /// What a run is expected to do.

@@ -192,6 +192,19 @@ fn every_example_runs() {
             assert!(found.iter().all(told), "{found:#?}");
             continue;
         }
+        // What these keys are about is not in this lesson: a measure of a sweep is a list, there is no table, and no smallest value.
+        let absent = match (object.name, key.name) {
+            ("run", "sweep") => Some("speed"),
+            ("span", _) => Some("`height`"),
+            ("column", _) | ("verify", "table") => Some("no table has the columns"),
+            ("find", "smallest") => Some("it has a largest value, and no smallest"),
+            _ => None,
+        };
+        if let Some(words) = absent {
+            let told = |f: &Vec<Finding>| !f.is_empty() && f.iter().all(|f| f.message.contains(words));
+            assert!(found.iter().all(told), "{}.{}: {found:#?}", object.name, key.name);
+            continue;
+        }
         // Nothing is found that could be allowed.
         let unused = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.code == "unused-allowance");
         if object.name == "lint" || key.name == "lint" {
@@ -233,6 +246,7 @@ fn wrong(of: &Type) -> Vec<(Value, Value)> {
         Type::Map(map) => [whole(&[json!(707)]), inside(&map.of, &|v| json!({"height": v}))].concat(),
         Type::Switches(_) => vec![(json!(707), json!(707)), (json!({"com": 707}), json!(707))],
         Type::Object(_) | Type::OneOf(_) => whole(&[json!(707), json!(["a"])]),
+        Type::Either(Type::Scalar, _) => whole(&[json!(null)]),
         Type::Either(..) => whole(&[json!(707)]),
     }
 }
