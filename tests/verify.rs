@@ -785,7 +785,7 @@ fn tables_are_held_to_sweeps() {
             "no row of this table begins with \"Mars\"",
         ),
         (
-            json!([{"column": "touchdown (s)", "by": ["height (m)", "fall.value.map(x => x + 1)"], "is": "fall.touch"}]),
+            json!([{"column": "touchdown (s)", "by": ["height (m)", "fall.value.map(x => x + 0.1)"], "is": "fall.touch"}]),
             "nothing was run for the row \"0.5\"",
         ),
         (json!([{"column": "time", "is": "slow.touch"}]), "a column has `by`"),
