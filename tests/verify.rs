@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use crate::support::check_text;
+use crate::support::{check_text, codes};
 use labspec::check::Checked;
 use labspec::report;
 use labspec::verify::{QuoteState, Verdict};
@@ -800,9 +800,9 @@ fn tables_are_held_to_sweeps() {
 /// A question about the height after 0.3 s, which falls with gravity; `over` a range of it.
 fn space(over: &str, answer: usize) -> Checked {
     let question = format!(
-        r#"{{"kind": "mcq", "q": "How high is it after 0.3 s?", "options": ["above 0.4 m", "below 0.4 m"], "answer": {answer}, "verify": {{
+        r##"{{"kind": "mcq", "q": "How high is it after 0.3 s?", "options": ["above 0.4 m", "below 0.4 m"], "answer": {answer}, "verify": {{
             "lab": "#1", "runs": {{"fall": {{"until": 0.3}}}}, "measure": {{"z": "final(data.qpos[2])"}},
-            "options": ["z > 0.4", "z < 0.4"], "over": {over}}}}}"#
+            "options": ["z > 0.4", "z < 0.4"], "over": {over}}}}}"##
     );
     check_text("fall.md", &lesson("", &question))
 }
