@@ -109,7 +109,8 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
     let timestep = session.world.model.opt.timestep;
     let count = run::count_steps(lab, until, steps, timestep).map_err(&mut refuse).ok()?;
     run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
-    if count > MAX_VERIFY_STEPS {
+    // A shorter timestep takes more of them; the work is limited besides.
+    if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
         refuse(RunError(format!(
             "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
         )));
