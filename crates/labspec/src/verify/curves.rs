@@ -2,6 +2,7 @@
 
 use super::perform::{self, Asked};
 use super::stage::Stage;
+use crate::run::Session;
 use crate::spec::Plot;
 use labspec_expr::Value;
 use std::ops::Range;
@@ -35,13 +36,10 @@ pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves>
         return None;
     }
     let mut ready = perform::ready(asked, stage, &mut Vec::new())?;
-    let (last, every) = (ready.count, ready.count.div_ceil(SAMPLES).max(1));
+    let every = ready.count.div_ceil(SAMPLES).max(1);
     let mut times = Vec::new();
     let mut values = vec![Vec::new(); traces];
-    perform::play(asked, &mut ready, |session, made| {
-        if made % every != 0 && made != last {
-            return;
-        }
+    let mut take = |session: &mut Session<'_>| {
         times.push(session.world.data.time());
         for (probe, column) in programs.probes.iter().zip(&mut values) {
             let value = probe.bound.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
@@ -51,7 +49,18 @@ pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves>
                 _ => f64::NAN,
             });
         }
+    };
+    let mut seen = 0;
+    perform::play(asked, &mut ready, |session, made| {
+        seen = made;
+        if made % every == 0 {
+            take(session);
+        }
     });
+    // Where it stopped.
+    if seen % every != 0 && ready.session.ended().is_none() {
+        take(&mut ready.session);
+    }
     stage.spend(ready.session.spent());
     Some(Curves {
         run: asked.run.title(),

@@ -40,19 +40,23 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'
     out
 }
 
-/// A table in a box of its own, which scrolls where the screen is narrow; nothing without rows.
+/// A table in a box of its own, which scrolls where the screen is narrow; nothing without rows. A column in which nothing
+/// stands is left out.
 fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let mut out = format!("<div class=\"box\"><table><caption>{title}</caption>\n<thead><tr>");
-    for head in heads {
-        let _ = write!(out, "<th scope=\"col\">{head}</th>");
-    }
-    out.push_str("</tr></thead>\n<tbody>\n");
+    let used = |i: &usize| rows.iter().any(|row| row.get(*i).is_some_and(|cell| !cell.is_empty()));
+    let columns: Vec<usize> = (0..heads.len()).filter(used).collect();
+    let line = |cells: &dyn Fn(usize) -> String| columns.iter().map(|i| cells(*i)).collect::<String>();
+    let head = |i: usize| format!("<th scope=\"col\">{}</th>", heads.get(i).unwrap_or(&""));
+    let mut out = format!(
+        "<div class=\"box\"><table><caption>{title}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
+        line(&head)
+    );
     for row in rows {
-        let cells: String = row.iter().map(|cell| format!("<td>{cell}</td>")).collect();
-        let _ = writeln!(out, "<tr>{cells}</tr>");
+        let cell = |i: usize| format!("<td>{}</td>", row.get(i).map_or("", String::as_str));
+        let _ = writeln!(out, "<tr>{}</tr>", line(&cell));
     }
     out.push_str("</tbody></table></div>\n");
     out
@@ -109,11 +113,11 @@ fn forms(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String 
 
 fn measures(claim: &Claim) -> String {
     let row = |m: &Measured| {
-        let halved = m.halved.map_or("the same".to_string(), number);
+        let halved = m.halved.map_or("–".to_string(), number);
         vec![code(&m.name), number(m.value), halved]
     };
     let rows: Vec<Vec<String>> = claim.judgement.measures.iter().map(row).collect();
-    table("Measures", &["measure", "value", "at half the timestep"], &rows)
+    table("Measures", &["measure", "value", "at half the timestep, where it differs"], &rows)
 }
 
 fn runs(claim: &Claim, context: &Context<'_>) -> String {

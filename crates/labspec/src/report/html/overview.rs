@@ -62,8 +62,11 @@ fn table(parts: &[Part<'_>]) -> String {
             .map(|((state, word), n)| verdict(*state, &format!("{n} {}", called(*state, word))))
             .collect();
         let (all, claimed) = (part.coverage.all(), part.coverage.claimed);
-        let numbers =
-            if all == 0 { "none".into() } else { format!("{} {claimed} of {all}", bar(claimed, all)) };
+        let numbers = if all == 0 {
+            "none".into()
+        } else {
+            format!("<span class=\"number\">{} {claimed} of {all}</span>", bar(claimed, all))
+        };
         let findings: Vec<Finding> = part.findings.iter().map(|f| (*f).clone()).collect();
         let _ = writeln!(
             out,
@@ -101,9 +104,12 @@ fn verdicts(parts: &[Part<'_>]) -> String {
         return String::new();
     }
     let mut out = String::from("<section id=\"questions\">\n<h2>Questions by verdict</h2>\n");
-    for ((state, word), all) in &by_word {
+    // What is to be mended comes first, what is in order last.
+    let good = |state: &State| matches!(state, State::True(_));
+    let (last, first): (Vec<_>, Vec<_>) = by_word.iter().partition(|((state, _), _)| good(state));
+    for ((state, word), all) in first.into_iter().chain(last) {
         let title = verdict(*state, &format!("{} {}", many(all.len(), "question"), called(*state, word)));
-        out.push_str(&list(&title, all, !matches!(state, State::True(_))));
+        out.push_str(&list(&title, all, !good(state)));
     }
     if !undecided.is_empty() {
         let title = verdict(State::NotClaimed, &format!("{} undecided", many(options, "option")));

@@ -2,6 +2,7 @@
 
 use super::text::many;
 use crate::check::Drawn;
+use crate::printable::printable;
 use crate::spec::Plot;
 use crate::verify::Curves;
 use labspec_plot::{Chart, Series, line_chart};
@@ -73,9 +74,9 @@ fn chart(picture: &Picture<'_>, alone: bool) -> Chart {
     let series = runs.iter().flat_map(|run| {
         plot.traces.iter().zip(run.values.iter().skip(*first)).map(move |(trace, values)| Series {
             label: match (several, plot.traces.len()) {
-                (false, _) => trace.label.value.clone(),
-                (true, 1) => run.run.clone(),
-                (true, _) => format!("{}: {}", run.run, trace.label.value),
+                (false, _) => label(&trace.label.value),
+                (true, 1) => label(&run.run),
+                (true, _) => label(&format!("{}: {}", run.run, trace.label.value)),
             },
             dash: trace.dash,
             points: run.times.iter().copied().zip(values.iter().copied()).collect(),
@@ -83,11 +84,11 @@ fn chart(picture: &Picture<'_>, alone: bool) -> Chart {
     });
     Chart {
         title: match runs.as_slice() {
-            [run] if !alone => run.run.clone(),
+            [run] if !alone => label(&run.run),
             _ => String::new(),
         },
-        xlabel: plot.xlabel().to_string(),
-        ylabel: plot.ylabel.as_ref().map_or(String::new(), |t| t.value.clone()),
+        xlabel: label(plot.xlabel()),
+        ylabel: plot.ylabel.as_ref().map_or(String::new(), |t| label(t.as_str())),
         width: SIZE.0,
         height: SIZE.1,
         ymin: plot.ymin.as_ref().map(|n| n.value),
@@ -97,8 +98,13 @@ fn chart(picture: &Picture<'_>, alone: bool) -> Chart {
         ref_lines: plot
             .ref_lines
             .iter()
-            .map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone())))
+            .map(|l| (l.y.value, l.label.as_ref().map(|t| label(t.as_str()))))
             .collect(),
         series: series.collect(),
     }
+}
+
+/// A label of a picture: what cannot be seen in it is written out, as everywhere in the page.
+fn label(text: &str) -> String {
+    printable(text).into_owned()
 }

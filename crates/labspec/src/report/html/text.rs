@@ -8,7 +8,8 @@ const LONG: usize = 2000;
 
 /// A text in one line, to stand between tags. Its direction of writing ends with it.
 pub(super) fn text(text: &str) -> String {
-    format!("<bdi>{}</bdi>", plain(text))
+    let shown = plain(text);
+    if shown.is_empty() { shown } else { format!("<bdi>{shown}</bdi>") }
 }
 
 /// The same where no tag may stand: in attributes and in the title.
