@@ -166,7 +166,9 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 }
                 match value["halved"].as_f64() {
                     Some(x) => assert!(agrees(x, &row[2]), "{file}: {name}: {row:?}"),
-                    None => assert_eq!(row[2], "–"),
+                    None => {
+                        assert!(row[2].parse::<f64>().map_or(row[2] == "–", |x| !x.is_finite()), "{row:?}")
+                    }
                 }
             }
             for quote in claim["quotes"].as_array().unwrap() {
@@ -255,7 +257,7 @@ fn text_of_lessons_is_text() {
     let folder = tempfile::tempdir().unwrap();
     std::fs::create_dir(folder.path().join("models")).unwrap();
     std::fs::write(folder.path().join("models/free_fall.xml"), model_text("free_fall")).unwrap();
-    let long = format!("<b>{}", "<i>é&".repeat(250_000));
+    let [long, option] = [20_000, 250_000].map(|n| format!("<b>{}", "<i>é&".repeat(n)));
     for (i, bad) in HOSTILE.into_iter().chain([long.as_str()]).enumerate() {
         let lab = format!(
             r#"{{"model": "free_fall", "title": "{bad}", "stopAt": 0.1,
@@ -264,9 +266,10 @@ fn text_of_lessons_is_text() {
                 "measure": {{"high": "final(data.qpos[2])"}}, "says": [["{bad} 1 m", "other.high"], ["0.951 m", "other.high"]],
                 "exact": {{"{bad}": "1 - 4.905 * data.time * data.time"}}}}}}"#
         );
+        let option = if bad.len() > 1000 { option.as_str() } else { bad };
         let quiz = format!(
             r##"{{"id": "{bad}", "questions": [
-              {{"kind": "mcq", "q": "{bad}", "options": ["{bad}", "right"], "answer": 1, "explain": "{bad}",
+              {{"kind": "mcq", "q": "{bad}", "options": ["{option}", "right"], "answer": 1, "explain": "{bad}",
                 "verify": {{"lab": "#1", "measure": {{"high": "final(data.qpos[2])"}}, "options": ["high > 2 || '{}' === 'x'", "high < 2"]}}}},
               {{"kind": "numeric", "q": "{bad}", "answer": 1, "unit": "{bad}"}}, {{"kind": "open", "q": "{bad}", "reference": "{bad}"}}]}}"##,
             bad.replace('\'', "")

@@ -113,7 +113,8 @@ fn forms(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String 
 
 fn measures(claim: &Claim) -> String {
     let row = |m: &Measured| {
-        let halved = m.halved.map_or("–".to_string(), number);
+        let same = |x: &f64| x.is_nan() && m.value.is_nan();
+        let halved = m.halved.filter(|x| !same(x)).map_or("–".to_string(), number);
         vec![code(&m.name), number(m.value), halved]
     };
     let rows: Vec<Vec<String>> = claim.judgement.measures.iter().map(row).collect();
