@@ -21,6 +21,7 @@ pub mod check;
 pub mod checker;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod covering;
 pub mod error;
 pub mod finding;
 pub mod format;

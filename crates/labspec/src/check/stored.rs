@@ -186,7 +186,7 @@ fn read_kept(value: &Value) -> Option<Kept> {
 
 fn claim(c: &Claim) -> Value {
     let j = &c.judgement;
-    let weight = |w: &Weight| json!([w.option, w.holds, w.margin.map(bits)]);
+    let weight = |w: &Weight| json!([w.option, w.holds, w.margin.map(bits), w.spread.map(bits)]);
     let answer = |a: &Answer| {
         let weights: Vec<Value> = a.weights.iter().map(weight).collect();
         json!([place_in(&VERDICTS, &a.verdict), a.reason, weights])
@@ -237,9 +237,10 @@ fn read_claim(value: &Value) -> Option<Claim> {
 fn read_answer(value: &Value) -> Option<Answer> {
     let [verdict, reason, weights] = parts(value)?;
     let weight = |value: &Value| {
-        let [option, holds, margin] = parts(value)?;
+        let [option, holds, margin, spread] = parts(value)?;
         let (option, margin) = (maybe(option, count)?, maybe(margin, number_of)?);
-        Some(Weight { option, holds: maybe(holds, Value::as_bool)?, margin })
+        let spread = maybe(spread, number_of)?;
+        Some(Weight { option, holds: maybe(holds, Value::as_bool)?, margin, spread })
     };
     Some(Answer {
         verdict: one_of(&VERDICTS, verdict)?,

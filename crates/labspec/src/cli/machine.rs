@@ -107,9 +107,11 @@ fn claim(claim: &Claim, c: &Checked) -> Value {
 
 fn answer(a: &Answer) -> Value {
     let option = |w: &crate::verify::Weight| {
-        let mut value = json!({"option": w.option, "holds": w.holds, "margin": null});
-        if let Some(margin) = w.margin {
-            set_number(&mut value, "margin", margin);
+        let mut value = json!({"option": w.option, "holds": w.holds, "margin": null, "spread": null});
+        for (key, x) in [("margin", w.margin), ("spread", w.spread)] {
+            if let Some(x) = x {
+                set_number(&mut value, key, x);
+            }
         }
         value
     };

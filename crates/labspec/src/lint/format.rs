@@ -87,6 +87,8 @@ fn said(span: Range<usize>, mistake: &Mistake) -> Finding {
             wrong(format!("a sweep has 2 to {MOST_SWEPT} values; this one has {count}"))
                 .help("write [0.002, 0.005, 0.01], or {\"from\": 0.2, \"to\": 2, \"count\": 5}")
         }
+        Mistake::NoRange => wrong("a range is a pair [smallest, largest]".into())
+            .help("write the smaller end first: `\"gravity\": [-20, -1]`"),
         Mistake::NoPress => wrong("a press is a pair [label, time]".into())
             .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
         Mistake::NoQuote => wrong("what the text says is a pair [quote, expression]".into())

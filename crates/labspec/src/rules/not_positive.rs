@@ -3,7 +3,7 @@ use super::claims;
 use crate::finding::Finding;
 use crate::json::Number;
 use crate::spec::Lesson;
-use crate::spec::format::{LAB, Object, PLOT, RUN};
+use crate::spec::format::{FIND, LAB, Object, PLOT, RUN};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A number that must be greater than zero.
@@ -39,6 +39,9 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
             positive(&PLOT, "window", plot.window.as_ref(), "seconds");
             positive(&PLOT, "height", plot.height.as_ref(), "pixels");
         }
+    }
+    for find in claims::all(lesson).flat_map(|claim| &claim.verify.find) {
+        positive(&FIND, "tol", Some(&find.tol), "how near the value is found");
     }
     for run in claims::all(lesson).flat_map(|claim| &claim.verify.runs) {
         positive(&RUN, "until", run.until.as_ref(), "the length of the run in seconds");

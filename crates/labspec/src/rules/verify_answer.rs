@@ -25,6 +25,12 @@ pub(super) const CHECK: Check = Check::Lesson(check);
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson) {
         let verify = claim.verify;
+        if let Some((label, _)) = verify.over.first().filter(|_| verify.options.is_empty()) {
+            findings.push(
+                Finding::new(VERIFY_ANSWER, label.span(), "`over` holds conditions to a range, and there are none")
+                    .help("write `options`, one condition for each option of the question"),
+            );
+        }
         let Some(question) = claim.question else {
             for text in verify.options.first().into_iter().chain(&verify.value) {
                 findings.push(

@@ -38,11 +38,13 @@ pub struct Numerics {
     pub tight: bool,
     /// Every coordinate of the start is moved by this: far less than anybody could measure.
     pub nudge: f64,
+    /// Another integrator, where the scene has the one that it has unless somebody says otherwise.
+    pub integrator: Option<i32>,
 }
 
 impl Numerics {
     /// As the lesson states it.
-    pub const NOMINAL: Numerics = Numerics { timestep: 1.0, tight: false, nudge: 0.0 };
+    pub const NOMINAL: Numerics = Numerics { timestep: 1.0, tight: false, nudge: 0.0, integrator: None };
 }
 
 /// A running lab. Its clone goes on as it would.
@@ -445,6 +447,11 @@ impl<'p> Session<'p> {
         let opt = self.world.model.edit().opt;
         if !mentioned {
             *opt.timestep *= numerics.timestep;
+        }
+        if let Some(other) =
+            numerics.integrator.filter(|_| *opt.integrator == labspec_core::integrator::EULER)
+        {
+            *opt.integrator = other;
         }
         if numerics.tight {
             (*opt.tolerance, *opt.ls_tolerance) = (0.0, 1e-10);

@@ -100,6 +100,8 @@ pub enum Mistake {
     SweptValues(usize),
     /// Something else than a pair of label and time.
     NoPress,
+    /// Something else than the two ends of a range, the smaller one first.
+    NoRange,
     /// Something else than a pair of quote and expression.
     NoQuote,
     /// A `verify` object that compares nothing.

@@ -9,7 +9,7 @@ use super::read;
 use super::{Form, Lab, LabAddress, lab};
 use crate::json::read::shorten;
 use crate::json::{Json, Member, Node, Number, Scalar};
-use crate::source::Text;
+use crate::source::{SourceMap, Text};
 use std::ops::Range;
 
 /// Runs, measures over them, and what must hold.
@@ -27,6 +27,8 @@ pub struct Verify {
     pub find: Vec<Find>,
     /// One condition per option of the question.
     pub options: Vec<Text>,
+    /// Sliders by label, and the range of each over which the answer must hold.
+    pub over: Vec<(Text, [f64; 2])>,
     /// The value of a numeric answer.
     pub value: Option<Text>,
     /// Numbers quoted in the text, each with the expression it must equal as printed.
@@ -107,7 +109,7 @@ pub struct Find {
     /// The condition.
     pub holds: Text,
     /// How near the found value is to the true one.
-    pub tol: f64,
+    pub tol: Number,
 }
 
 /// Most runs of a sweep.
@@ -198,6 +200,25 @@ impl Verify {
 }
 
 impl Run {
+    /// A run of the lab as it stands.
+    pub fn named(name: &str) -> Run {
+        Run {
+            name: Text { value: name.to_string(), map: SourceMap::point(0) },
+            lab: None,
+            model: Vec::new(),
+            key: None,
+            controller: None,
+            set: Vec::new(),
+            press: Vec::new(),
+            setup: None,
+            until: None,
+            steps: None,
+            stop: None,
+            sweep: None,
+            breaks: false,
+        }
+    }
+
     /// Every text that is code, with what it is.
     pub fn code(&self) -> impl Iterator<Item = (Form, &Text)> {
         let statements = self.setup.iter().chain(&self.controller).map(|t| (Form::Statements, t));
@@ -221,6 +242,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
         measure: expressions(f, "measure"),
         find: f.map("find").iter().filter_map(|m| find(m, f.problems)).collect(),
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
+        over: f.map("over").iter().filter_map(|m| over(m, f.problems)).collect(),
         value: f.text("value"),
         says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
         table: f.list("table").iter().filter_map(|n| column(n, f.problems)).collect(),
@@ -329,6 +351,24 @@ fn sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Sweep> {
     Some(Sweep { what, values })
 }
 
+/// The range of a slider over which an answer holds.
+fn over(member: &Member, problems: &mut Vec<Problem>) -> Option<(Text, [f64; 2])> {
+    if member.value.is_broken() {
+        return None;
+    }
+    if let Json::Array(items) = &member.value.json
+        && let [low, high] = items.as_slice()
+    {
+        let [low, high] = [low, high].map(|n| read::number(n, "an end of the range", problems));
+        let ends = [low?.value, high?.value];
+        if ends[0] < ends[1] {
+            return Some((member.key.clone(), ends));
+        }
+    }
+    problems.push(Mistake::NoRange.at(member.value.span.clone()));
+    None
+}
+
 /// A value that is searched for.
 fn find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
     let mut fields = Fields::open(&member.value, &FIND, problems)?;
@@ -355,7 +395,7 @@ fn find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
     }
     fields.finish();
     let name = member.key.clone();
-    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol?.value })
+    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol? })
 }
 
 /// What a run is expected to do.

@@ -1,7 +1,7 @@
 //! What a student can do to a lab: sliders moved, options chosen, buttons pressed, each at its time; and the list of what is tried.
 
-use super::covering;
 use crate::bind::{Programs, scalar};
+use crate::covering;
 use crate::run::{RunError, presses, settings};
 use crate::spec::{ControlKind, Lab};
 use labspec_expr::Value;

@@ -3,7 +3,6 @@
 
 mod bodies;
 mod case;
-mod covering;
 mod fault;
 mod ground;
 mod handling;

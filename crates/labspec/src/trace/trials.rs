@@ -176,6 +176,7 @@ pub(super) fn values(
         measure: candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect(),
         find: Vec::new(),
         options: Vec::new(),
+        over: Vec::new(),
         value: None,
         says: Vec::new(),
         table: Vec::new(),

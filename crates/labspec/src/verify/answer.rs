@@ -4,7 +4,7 @@
 use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
-use super::{BoundVerify, Outcomes, PERTURBED, grounded, shorten, significant};
+use super::{BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, over, shorten, significant};
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
 use crate::rules;
@@ -77,20 +77,44 @@ pub struct Weight {
     pub holds: Option<bool>,
     /// How far the comparison that decides is from turning over; negative where the condition does not hold.
     pub margin: Option<f64>,
+    /// How much half and a quarter of the timestep, other integrators, a converged solver and a moved start change that.
+    pub spread: Option<f64>,
 }
 
 impl Weight {
+    /// Whether eight times what other numerics change could turn it over: with errors of the first order in the timestep, all
+    /// that is left to come is as much again as half of it changes.
+    fn is_close(&self) -> bool {
+        self.margin
+            .zip(self.spread)
+            .is_some_and(|(margin, spread)| spread > 0.0 && 8.0 * spread >= margin.abs())
+    }
+
+    /// Takes in what the margin is under other numerics.
+    fn widen(&mut self, other: Option<f64>) {
+        if let (Some(own), Some(other)) = (self.margin, other) {
+            self.spread = Some(self.spread.unwrap_or(0.0).max((other - own).abs()));
+        }
+    }
+
     /// `holds, by 0.02`; `does not hold, by 0.6`.
     pub fn words(&self) -> String {
         let Some(holds) = self.holds else { return "is not decided by this evidence".to_string() };
-        match (holds, self.margin) {
+        let spread = match self.spread {
+            Some(spread) if spread > 0.0 => {
+                format!("; other numerics change that by {}", significant(spread))
+            }
+            _ => String::new(),
+        };
+        let words = match (holds, self.margin) {
             (true, Some(0.0)) => "holds exactly".to_string(),
             (false, Some(0.0)) => "does not hold: both sides are equal".to_string(),
             (true, Some(margin)) => format!("holds, by {}", significant(margin.abs())),
             (false, Some(margin)) => format!("does not hold, by {}", significant(margin.abs())),
             (true, None) => "holds".to_string(),
             (false, None) => "does not hold".to_string(),
-        }
+        };
+        words + &spread
     }
 }
 
@@ -231,24 +255,39 @@ fn options(
     if open.len() + 1 == weights.len() {
         return done(Verdict::Failed, "none of the other options is decided".to_string());
     }
-    for (outcome, how) in perturbed(outcomes) {
+    let mut weights = weights.clone();
+    let mut spent = false;
+    let mut survives = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = conditions(bound, outcome, verify, &mut Vec::new());
-        let turned = match &again {
-            Err(reason) => Some((answer, reason.clone())),
+        spent |= again.is_err() && bound.stage().left() == 0;
+        for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
+            weight.widen(now.as_ref().and_then(|(_, weighed)| weighed.margin));
+        }
+        let (i, what) = match &again {
+            Err(reason) => (answer, reason.clone()),
             Ok(now) => {
                 let now = now.iter().enumerate().map(|(i, found)| weight(i, found.as_ref()));
-                let other = now.zip(&weights).find(|(now, then)| now.holds != then.holds);
-                other.map(|(now, _)| {
-                    let i = now.option.unwrap_or(answer);
-                    (i, format!("then the condition of {} {}", name(i), now.words()))
-                })
+                let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
+                let i = now.option.unwrap_or(answer);
+                (i, format!("then the condition of {} {}", name(i), now.words()))
             }
         };
-        if let Some((i, what)) = turned {
-            let now = format!("with the lesson's own numerics this {}", words(i));
-            findings.push(fragile(keyed.span.clone(), how, &what).related(condition(i), now));
-            return done(Verdict::Fragile, format!("it does not hold {how}"));
+        let now = format!("with the lesson's own numerics this {}", words(i));
+        Some((fragile(keyed.span.clone(), how, &what).related(condition(i), now), how.to_string()))
+    };
+    let mut turned = perturbed(outcomes).find_map(|(outcome, how)| survives(outcome, how, &mut weights));
+    for (numerics, how) in CLOSER {
+        if turned.is_none() && weights.iter().any(Weight::is_close) {
+            turned = bound.outcome(numerics, &mut Vec::new()).and_then(|o| survives(&o, how, &mut weights));
         }
+    }
+    if let Some((finding, how)) = turned {
+        if spent {
+            findings.push(too_much(keyed.span.clone(), &how));
+            return Answer::failed(format!("the work of a check is spent before it is tried {how}"));
+        }
+        findings.push(finding);
+        return done(Verdict::Fragile, format!("it does not hold {how}"));
     }
     let evidence = found.iter().flatten().map(|(f, _)| f.evidence).min();
     let reason = match open.as_slice() {
@@ -256,12 +295,47 @@ fn options(
         [one] => format!("option {} is not decided", name(*one)),
         all => format!("options {} are not decided", names(all)),
     };
-    done(held_by(evidence), reason)
+    let verdict = held_by(evidence);
+    let mut answer = Answer { verdict, reason, weights };
+    if !verify.over.is_empty() {
+        over::hold(bound, verify, keyed.span.clone(), &mut answer, findings);
+    }
+    answer
+}
+
+/// Whether exactly the same options hold; otherwise the first one that does not, in words. What breaks holds nowhere.
+pub(super) fn same(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    verify: &Verify,
+    weights: &[Weight],
+) -> (Option<String>, f64) {
+    let found = match conditions(bound, outcome, verify, &mut Vec::new()) {
+        Ok(found) => found,
+        Err(reason) => return (Some(reason), f64::NEG_INFINITY),
+    };
+    let now = found.iter().enumerate().map(|(i, found)| weight(i, found.as_ref()));
+    let mut least = f64::INFINITY;
+    let mut turned = None;
+    for (now, then) in now.zip(weights) {
+        if now.holds != then.holds {
+            let i = now.option.unwrap_or(0);
+            turned = turned.or_else(|| Some(format!("the condition of option {i} {}", now.words())));
+        }
+        let size = now.margin.map_or(f64::INFINITY, f64::abs);
+        least = least.min(if now.holds == then.holds { size } else { -size });
+    }
+    (turned, least)
 }
 
 fn weight(i: usize, found: Option<&(Found, Weighed)>) -> Weight {
     let weighed = found.map(|(_, w)| w);
-    Weight { option: Some(i), holds: weighed.map(|w| w.holds), margin: weighed.and_then(|w| w.margin) }
+    Weight {
+        option: Some(i),
+        holds: weighed.map(|w| w.holds),
+        margin: weighed.and_then(|w| w.margin),
+        spread: None,
+    }
 }
 
 /// The outcomes under other numerics, with their names.
@@ -297,7 +371,12 @@ fn value(
     }
     let margin = |x: f64| tol - (x - answer).abs();
     let right = |x: f64| margin(x) >= 0.0;
-    let weights = vec![Weight { option: None, holds: Some(right(computed)), margin: Some(margin(computed)) }];
+    let weights = vec![Weight {
+        option: None,
+        holds: Some(right(computed)),
+        margin: Some(margin(computed)),
+        spread: None,
+    }];
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
     if !right(computed) {
         let message = format!("the answer is {answer}, the simulation gives {}", significant(computed));
@@ -313,20 +392,37 @@ fn value(
         );
         return done(Verdict::Refuted, message);
     }
-    for (outcome, how) in perturbed(outcomes) {
+    let mut weights = weights.clone();
+    let mut spent = false;
+    let mut survives = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = grounded(bound, outcome, text, &mut Vec::new());
+        spent |= again.is_err() && bound.stage().left() == 0;
         let what = match again.map(|f| f.value.to_number()) {
             Err(reason) => reason,
-            Ok(x) if right(x) => continue,
+            Ok(x) if right(x) => {
+                weights.iter_mut().for_each(|w| w.widen(Some(margin(x))));
+                return None;
+            }
             Ok(x) => format!("then it is {}, and the tolerance is {}", significant(x), significant(tol)),
         };
-        findings.push(fragile(keyed.span.clone(), how, &what).related(
-            text.span(),
-            format!("with the lesson's own numerics this is {}", significant(computed)),
-        ));
+        let own = format!("with the lesson's own numerics this is {}", significant(computed));
+        Some((fragile(keyed.span.clone(), how, &what).related(text.span(), own), how.to_string()))
+    };
+    let mut turned = perturbed(outcomes).find_map(|(outcome, how)| survives(outcome, how, &mut weights));
+    for (numerics, how) in CLOSER {
+        if turned.is_none() && weights.iter().any(Weight::is_close) {
+            turned = bound.outcome(numerics, &mut Vec::new()).and_then(|o| survives(&o, how, &mut weights));
+        }
+    }
+    if let Some((finding, how)) = turned {
+        if spent {
+            findings.push(too_much(keyed.span.clone(), &how));
+            return Answer::failed(format!("the work of a check is spent before it is tried {how}"));
+        }
+        findings.push(finding);
         return done(Verdict::Fragile, format!("it does not hold {how}"));
     }
-    done(held_by(Some(found.evidence)), String::new())
+    Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights }
 }
 
 /// An expression that gives no number where one is claimed.
@@ -339,6 +435,16 @@ fn no_value(text: &Text, x: f64) -> Finding {
 
 fn shown(x: f64) -> &'static str {
     if x.is_nan() { "NaN" } else { "infinity" }
+}
+
+/// The work of a check was spent before an answer was put to all numerics.
+fn too_much(span: Range<usize>, how: &str) -> Finding {
+    let what = format!(
+        "whether the answer holds {how} was not tried: the runs of this lesson take more work than a check may do"
+    );
+    Finding::error(rules::RUN_BREAKS, span, what)
+        .why("an answer that holds under one numerics alone is no answer")
+        .help("make the runs shorter, or fewer of them in one lesson")
 }
 
 fn fragile(span: Range<usize>, how: &str, what: &str) -> Finding {

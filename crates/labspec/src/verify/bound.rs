@@ -228,6 +228,20 @@ impl<'a> BoundVerify<'a> {
         known
     }
 
+    /// The labs of every run, as [`BoundVerify::new`] takes them.
+    pub(super) fn labs(&self) -> Vec<Vec<Scene<'a>>> {
+        let of = |run: &'a Run| {
+            let own = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
+            own.filter_map(|b| self.scene_of(b).map(|s| s.scene.clone())).collect()
+        };
+        self.verify.runs.iter().map(of).collect()
+    }
+
+    /// What the `verify` objects of the lesson share.
+    pub(super) fn stage(&self) -> &'a Stage<'a> {
+        self.stage
+    }
+
     /// The lab of the object with its model and programs.
     pub(super) fn lab(&self) -> Option<&Scene<'a>> {
         self.scenes.first().map(|s| &s.scene)
@@ -307,7 +321,7 @@ impl<'a> BoundVerify<'a> {
     /// Whether every run states its own timestep, so that half of it says nothing new.
     pub(super) fn states_every_timestep(&self) -> bool {
         let states =
-            |run: &BoundRun<'_>| self.scene_of(run).is_some_and(|s| perform::states_timestep(s, run));
+            |run: &BoundRun<'_>| self.scene_of(run).is_some_and(|s| perform::states(s, run, "timestep"));
         self.runs.iter().all(states)
     }
 

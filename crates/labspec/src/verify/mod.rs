@@ -22,6 +22,7 @@ mod curves;
 mod exact;
 mod measure;
 mod outcome;
+mod over;
 mod perform;
 mod quote;
 mod reads;
@@ -45,6 +46,7 @@ use crate::rules;
 use crate::run::Numerics;
 use crate::source::Text;
 use crate::spec::{Question, Verify};
+use labspec_core::integrator;
 use outcome::Outcome;
 use std::ops::Range;
 
@@ -131,18 +133,29 @@ pub struct Measured {
 }
 
 pub(crate) const HALVED: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
+const QUARTERED: Numerics = Numerics { timestep: 0.25, ..Numerics::NOMINAL };
+const FAST: Numerics = Numerics { integrator: Some(integrator::IMPLICITFAST), ..Numerics::NOMINAL };
+const RK4: Numerics = Numerics { integrator: Some(integrator::RK4), ..Numerics::NOMINAL };
 const TIGHT: Numerics = Numerics { tight: true, ..Numerics::NOMINAL };
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
 const NUDGE: f64 = 1e-14;
 pub(crate) const NUDGED: Numerics = Numerics { nudge: NUDGE, ..Numerics::NOMINAL };
 pub(crate) const NUDGED_BACK: Numerics = Numerics { nudge: -NUDGE, ..Numerics::NOMINAL };
 
-/// The changes of the numerics that an answer must survive, and how to call them.
-const PERTURBED: [(Numerics, &str); 3] = [
+/// Other numerics that every answer is put to.
+const CHANGES: usize = 4;
+
+/// The changes of the numerics that an answer must survive, and how to call them. The first and the third are those of quotes.
+const PERTURBED: [(Numerics, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
     (TIGHT, "with the solver run to convergence"),
     (NUDGED, "with a start moved by 1e-14"),
+    (FAST, "with the integrator implicitfast"),
 ];
+
+/// Those that an answer must survive besides, where what the others change of a condition could turn it over.
+const CLOSER: [(Numerics, &str); 2] =
+    [(QUARTERED, "at a quarter of the timestep"), (RK4, "with the integrator RK4")];
 
 /// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
 pub(crate) fn measured(bound: &BoundVerify<'_>, numerics: Numerics) -> Option<Vec<f64>> {
@@ -155,7 +168,7 @@ pub(crate) fn measured(bound: &BoundVerify<'_>, numerics: Numerics) -> Option<Ve
 struct Outcomes {
     nominal: Outcome,
     /// In the order of [`PERTURBED`]; `None` where nothing needs them.
-    perturbed: [Option<Outcome>; 3],
+    perturbed: [Option<Outcome>; CHANGES],
     /// The other direction, for a value that the first one moved.
     nudged_back: Option<Outcome>,
 }
@@ -265,10 +278,11 @@ fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding
     let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
     let answers = verify.claims_answer();
     let quotes = !verify.says.is_empty() || !verify.table.is_empty();
-    let needed = [answers || quotes, answers, answers || quotes];
-    let mut perturbed = [None, None, None];
-    for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed[*i]) {
-        let same = i == 0 && bound.states_every_timestep();
+    let needed = |i: usize| answers || quotes && (i == 0 || i == 2);
+    let mut perturbed = [None, None, None, None];
+    let about_numerics = bound.states_every_timestep();
+    for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed(*i)) {
+        let same = about_numerics && (numerics.timestep != 1.0 || numerics.integrator.is_some());
         let mut said = Vec::new();
         perturbed[i] = if same { Some(nominal.clone()) } else { bound.outcome(numerics, &mut said) };
         if perturbed[i].is_none() {

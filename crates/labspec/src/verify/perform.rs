@@ -39,6 +39,16 @@ pub(crate) struct Made {
 
 /// Makes a run, unless the same was made before: then what came of it is known, and was told.
 pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+    // What the lesson states is not another numerics for it; a run that states its timestep is about the numerics.
+    let (timestep, integrator) =
+        (states(asked.scene, asked.run, "timestep"), states(asked.scene, asked.run, "integrator"));
+    let Numerics { timestep: shorter, integrator: other, .. } = asked.numerics;
+    let numerics = Numerics {
+        timestep: if timestep { 1.0 } else { shorter },
+        integrator: other.filter(|_| !timestep && !integrator),
+        ..asked.numerics
+    };
+    let asked = &Asked { numerics, place: asked.place.clone(), ..*asked };
     let key = key(asked);
     if let Some(known) = stage.known(&key) {
         return Some(known);
@@ -95,7 +105,6 @@ pub(super) fn ready<'r>(
         let message = format!("the run {} cannot be made: {e}", named(run.name));
         findings.push(Finding::error(rules::RUN_IMPOSSIBLE, place, message));
     };
-    let stated = states_timestep(bound, run);
     set(&mut session, bound, run).map_err(|(at, e)| refuse_at(at, e)).ok()?;
     let mut press = Vec::new();
     let (mut until, mut steps) = (None, None);
@@ -104,18 +113,18 @@ pub(super) fn ready<'r>(
         press = run::presses(programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
         until = spec.until.as_ref().map(|n| n.value);
         // As many steps as reach as far.
-        let shorter = if stated { 1.0 } else { numerics.timestep };
-        steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / shorter).round() as usize);
+        steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / numerics.timestep).round() as usize);
     }
     if let Some(setup) = &run.setup {
         session.run_statements(&setup.program, setup.text);
     }
-    session.perturb(*numerics, stated);
+    session.perturb(*numerics, false);
     let mut refuse = |e: RunError| refuse_at(place.clone(), e);
     let timestep = session.world.model.opt.timestep;
     let count = run::count_steps(lab, until, steps, timestep).map_err(&mut refuse).ok()?;
     run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
-    if count > MAX_VERIFY_STEPS {
+    // A shorter timestep takes more of them; the work is limited besides.
+    if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
         refuse(RunError(format!(
             "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
         )));
@@ -230,17 +239,17 @@ fn broke(session: &Session<'_>) -> Option<String> {
     }
 }
 
-/// Whether the lesson itself states the timestep of a run: in the run, or in the lab's setup.
-pub(super) fn states_timestep(scene: &BoundScene<'_>, run: &BoundRun<'_>) -> bool {
-    let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
-    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
+/// Whether the lesson itself states an option of a run: in the run, or in the lab's setup.
+pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, option: &str) -> bool {
+    let Some(field) = reflect::field(Object::Option, option) else { return false };
+    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == field.index());
     let programs = &scene.scene.programs;
     let set = run.spec.iter().flat_map(|r| &r.set).map(|(label, _)| label);
     let mut set = set.chain(run.control.map(|(label, _)| label));
     let setups = run.setup.iter().map(|s| &s.program).chain(programs.setup.iter().map(|b| &b.program));
     set.any(|label| programs.effects_of(&label.value).is_some_and(writes))
         || setups.map(Program::effects).any(writes)
-        || scene.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path))
+        || scene.scene.patches.iter().any(|(patch, _)| patch.path.split_whitespace().eq(["option", option]))
 }
 
 /// The timestep among the attributes of a model.

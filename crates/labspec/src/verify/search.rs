@@ -89,7 +89,7 @@ fn halve(find: &Find, holds: &mut dyn FnMut(f64) -> Option<bool>) -> Option<Resu
     };
     for _ in 0..HALVINGS {
         let middle = low + (high - low) / 2.0;
-        if high - low <= find.tol || middle <= low || middle >= high {
+        if high - low <= find.tol.value || middle <= low || middle >= high {
             break;
         }
         if holds(middle)? == find.largest { low = middle } else { high = middle }
@@ -154,6 +154,7 @@ fn holds(
         measure: case.measure.to_vec(),
         find: Vec::new(),
         options: Vec::new(),
+        over: Vec::new(),
         value: None,
         says: Vec::new(),
         table: Vec::new(),

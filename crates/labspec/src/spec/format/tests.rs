@@ -163,10 +163,20 @@ fn every_smallest_object_is_whole_and_every_key_that_must_stand_does() {
     }
 }
 
+/// An object with the example of a key, and what that key is about.
+fn with_its_kind(object: &'static Object, key: &Key) -> Value {
+    let mut whole = with_key(object, key.name, parse(key.example));
+    if (object.name, key.name) == (VERIFY.name, "over") {
+        let options = VERIFY.key("options").unwrap();
+        whole["options"] = parse(options.example);
+    }
+    whole
+}
+
 #[test]
 fn every_example_is_right() {
     for (object, key) in every_key() {
-        let whole = with_key(object, key.name, parse(key.example));
+        let whole = with_its_kind(object, key);
         let all = roots(object, &whole);
         let clean: Vec<_> = all.iter().filter(|(root, v)| load(root, v).findings.is_empty()).collect();
         assert!(!clean.is_empty(), "{}.{}: {:#?}", object.name, key.name, {
@@ -174,7 +184,7 @@ fn every_example_is_right() {
             load(root, value).findings
         });
         // Conditions belong to questions with options, values to numeric ones; everything else may stand everywhere.
-        let only_some = object.name == VERIFY.name && ["options", "value"].contains(&key.name);
+        let only_some = object.name == VERIFY.name && ["options", "value", "over"].contains(&key.name);
         assert_eq!(only_some, clean.len() < all.len(), "{}.{}", object.name, key.name);
     }
 }
@@ -183,13 +193,26 @@ fn every_example_is_right() {
 fn every_example_runs() {
     let mut wrong = Vec::new();
     for (object, key) in every_key() {
-        let whole = with_key(object, key.name, parse(key.example));
+        let whole = with_its_kind(object, key);
         let all = roots(object, &whole);
         let found: Vec<Vec<Finding>> = all.iter().map(|(root, value)| checked(root, value)).collect();
         // Nothing breaks here, and that is what this key is about.
         if key.name == "expect" {
             let told = |f: &Vec<Finding>| f.len() == 1 && f.iter().all(|f| f.message.contains("break"));
             assert!(found.iter().all(told), "{found:#?}");
+            continue;
+        }
+        // What these keys are about is not in this lesson: a measure of a sweep is a list, there is no table, and no smallest value.
+        let absent = match (object.name, key.name) {
+            ("run", "sweep") => Some("speed"),
+            ("span", _) => Some("`height`"),
+            ("column", _) | ("verify", "table") => Some("no table has the columns"),
+            ("find", "smallest") => Some("it has a largest value, and no smallest"),
+            _ => None,
+        };
+        if let Some(words) = absent {
+            let told = |f: &Vec<Finding>| !f.is_empty() && f.iter().all(|f| f.message.contains(words));
+            assert!(found.iter().all(told), "{}.{}: {found:#?}", object.name, key.name);
             continue;
         }
         // Nothing is found that could be allowed.
@@ -233,6 +256,7 @@ fn wrong(of: &Type) -> Vec<(Value, Value)> {
         Type::Map(map) => [whole(&[json!(707)]), inside(&map.of, &|v| json!({"height": v}))].concat(),
         Type::Switches(_) => vec![(json!(707), json!(707)), (json!({"com": 707}), json!(707))],
         Type::Object(_) | Type::OneOf(_) => whole(&[json!(707), json!(["a"])]),
+        Type::Either(Type::Scalar, _) => whole(&[json!(null)]),
         Type::Either(..) => whole(&[json!(707)]),
     }
 }

@@ -30,6 +30,7 @@ static KEYED: [Part; 2] = [
     Part { what: "the list of its numbers", of: Type::Code(Form::Expression) },
 ];
 static A_COLUMN: Type = Type::Object(&COLUMN);
+static SPACE: Map = Map { names: "the label of a slider", of: Type::List(&NUMBER) };
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
 static QUOTE: [Part; 2] = [
@@ -77,7 +78,7 @@ pub static VERIFY: Object = Object {
             "find",
             Type::Map(&FOUND),
             "values that are searched for by running: the largest or the smallest value of a control, or of an attribute of the model, with which a condition holds; each is read by its name, like a measure",
-            r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2]) > 0.049", "tol": 1e-5}}"#,
+            r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-5}}"#,
         )
         .or(Absent::Empty),
         key(
@@ -85,6 +86,13 @@ pub static VERIFY: Object = Object {
             Type::List(&EXPRESSION),
             "on a question with options: one condition for each, in their order; that of the right option alone must hold; `undecided` for an option that this evidence says nothing about",
             r#"["speed < 7", "speed > 7 && speed < 15", "speed > 15"]"#,
+        )
+        .or(Absent::Empty),
+        key(
+            "over",
+            Type::Map(&SPACE),
+            "on a question with options: sliders and the smallest and largest value of each, over which the answer must hold as well; corners, a covering design, and a search for a counterexample are run, at values that a student can reach",
+            r#"{"gravity": [-20, -1]}"#,
         )
         .or(Absent::Empty),
         key(
@@ -133,7 +141,7 @@ pub static RUN: Object = Object {
             "lab",
             Type::Either(&TEXT, &INLINE),
             "the lab that this run is of, written as the `lab` of the object; a measure that has no meaning in it is not taken there",
-            r##""#2""##,
+            r##""#1""##,
         )
         .or(Absent::Said("the lab of the object")),
         key(
@@ -143,7 +151,7 @@ pub static RUN: Object = Object {
             r#"{"body ball mass": 5, "option timestep": 0.01}"#,
         )
         .or(Absent::Empty),
-        key("key", Type::Scalar, "the keyframe to start from, by its name or its index", r#""tilted""#)
+        key("key", Type::Scalar, "the keyframe to start from, by its name or its index", "0")
             .or(Absent::Said("the lab's own")),
         key(
             "controller",
@@ -181,14 +189,14 @@ pub static RUN: Object = Object {
             "stop",
             Type::Code(Form::Expression),
             "the run ends at the first sample at which this holds; `until` or `steps` is its end at the latest",
-            r#""contact('ball', 'floor')""#,
+            r#""data.time >= 1""#,
         )
         .or(Absent::Said("the run goes on to its end")),
         key(
             "sweep",
             Type::Map(&SWEPT),
             "makes a run for each of these values of one control, or of one attribute of the model; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` are the values",
-            r#"{"timestep h": [0.002, 0.005, 0.01]}"#,
+            r#"{"option timestep": [0.002, 0.005, 0.01]}"#,
         ),
         key("expect", Type::Words(&EXPECTED), "what the run is meant to do", r#""breaks""#)
             .or(Absent::Said("the run goes well")),
@@ -235,7 +243,7 @@ pub static FIND: Object = Object {
     what: "a search",
     doc: "The largest or the smallest value with which a condition holds, found by running and halving.",
     tag: None,
-    minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2]) > 0.049", "tol": 1e-5}"#,
+    minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-5}"#,
     keys: &[
         key(
             "largest",
@@ -243,18 +251,18 @@ pub static FIND: Object = Object {
             "the largest value of this is wanted: the label of a control, an attribute of the model as in `model`, or `timestep`",
             r#""timestep""#,
         ),
-        key("smallest", Type::Text, "the smallest value of this is wanted", r#""geom ball mass""#),
+        key("smallest", Type::Text, "the smallest value of this is wanted", r#""timestep""#),
         key("from", Type::Number, "the smallest value that is tried", "0.001")
             .must("without it nobody knows where to search"),
         key("to", Type::Number, "the largest value that is tried", "0.05")
             .must("without it nobody knows where to search"),
-        key("run", Type::Text, "the run in which it is tried", r#""coarse""#)
+        key("run", Type::Text, "the run in which it is tried", r#""run""#)
             .or(Absent::Said("the only run")),
         key(
             "while",
             Type::Code(Form::Expression),
             "what holds up to the limit: a condition on measures of the run, by their own names, or written as a measure",
-            r#""final(data.qpos[2]) > 0.049""#,
+            r#""final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1""#,
         )
         .must("without it there is no limit"),
         key("tol", Type::Number, "how near the limit is found", "1e-5")

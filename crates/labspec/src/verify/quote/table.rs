@@ -38,7 +38,7 @@ impl Table {
 pub(super) fn shown(text: &str) -> String {
     let (text, _) = html::strip(text);
     let (text, _) = fold::fold(&text, true);
-    text.trim().trim_matches(['*', '_']).trim().to_string()
+    text.replace(['*', '`'], "").trim().to_string()
 }
 
 /// All tables outside of fences: a row of headings, a rule, and rows, each a line that begins with a bar.

@@ -6,7 +6,7 @@
 
 /// Rows of levels, one for each factor, so that each pair of levels of two factors stands in some row. `levels` is how many levels
 /// each factor has. Ends after `most` rows; the second number is how many pairs are in none of them then.
-pub(super) fn pairwise(levels: &[usize], most: usize) -> (Vec<Vec<usize>>, usize) {
+pub(crate) fn pairwise(levels: &[usize], most: usize) -> (Vec<Vec<usize>>, usize) {
     let mut missing = Missing::new(levels);
     let mut rows = Vec::new();
     while rows.len() < most
@@ -29,7 +29,7 @@ pub(super) fn pairwise(levels: &[usize], most: usize) -> (Vec<Vec<usize>>, usize
 }
 
 /// Every combination of levels, the last factor changing first.
-pub(super) fn all(levels: &[usize]) -> Vec<Vec<usize>> {
+pub(crate) fn all(levels: &[usize]) -> Vec<Vec<usize>> {
     let mut rows = vec![Vec::new()];
     for &n in levels {
         let longer = |row: &Vec<usize>| (0..n).map(|level| [row.as_slice(), &[level]].concat()).collect();

@@ -1,0 +1,219 @@
+//! The model space of a claim: an answer that has to hold over whole ranges of sliders.
+//!
+//! Corners first (all of them where there are few, else every two ends together), the middles, then a search for a counterexample:
+//! from where the answer is nearest to turning over, a step in each direction of each slider, half as long when none comes nearer
+//! (R. Hooke and T. A. Jeeves 1961). Every value is one that a student can reach.
+
+use super::answer::{self, Answer, Verdict};
+use super::{BoundVerify, significant};
+use crate::covering;
+use crate::finding::Finding;
+use crate::json::{Number, Scalar};
+use crate::rules;
+use crate::run::{Numerics, settings};
+use crate::source::Text;
+use crate::spec::{Control, ControlKind, Lab, Run, Verify};
+use labspec_expr::Value;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// All corners are run when there are no more than this.
+const FEW: usize = 16;
+/// Most rows of a covering design, and most settings of a search.
+const ROWS: usize = 24;
+const SEARCHED: usize = 40;
+/// The first step of the search and the last, as parts of the range.
+const FIRST: f64 = 0.25;
+const LAST: f64 = 1.0 / 64.0;
+
+/// A slider of the space, and the values on its grid between the ends that the claim names.
+struct Axis<'v> {
+    label: &'v Text,
+    from: f64,
+    step: f64,
+    count: f64,
+}
+
+impl Axis<'_> {
+    /// The value at a part of the range: the nearest that a student can reach.
+    fn at(&self, part: f64) -> f64 {
+        let x = self.from + (part * self.count).round() * self.step;
+        format!("{x:.12}").parse().unwrap_or(x)
+    }
+}
+
+/// Holds an answer that is true to the whole space that it is claimed over.
+pub(super) fn hold(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    place: Range<usize>,
+    answer: &mut Answer,
+    findings: &mut Vec<Finding>,
+) {
+    let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else { return };
+    let axes: Result<Vec<Axis<'_>>, Finding> =
+        verify.over.iter().map(|(label, ends)| axis(&lab, label, *ends)).collect();
+    let axes = match axes {
+        Ok(axes) => axes,
+        Err(wrong) => {
+            findings.push(wrong);
+            *answer = Answer::failed("the space that it is claimed over cannot be tried");
+            return;
+        }
+    };
+    let mut space = Space { bound, verify, axes, weights: answer.weights.clone(), tried: BTreeMap::new() };
+    match space.search(findings) {
+        None => *answer = Answer::failed("a run of the space that it is claimed over cannot be made"),
+        Some(Some((setting, how))) => {
+            let message = format!("the answer does not hold with {setting}: {how}");
+            findings.push(
+                Finding::error(rules::COUNTEREXAMPLE, place, message.clone())
+                    .why("a student can set the lab so, and sees something else than the question says")
+                    .help("narrow the range under `over`, or ask about what holds everywhere in it"),
+            );
+            (answer.verdict, answer.reason) = (Verdict::Refuted, message);
+        }
+        Some(None) => {
+            let count = space.tried.len();
+            let also = format!("it holds in {count} settings over its range as well");
+            answer.reason = match answer.reason.as_str() {
+                "" => also,
+                reason => format!("{reason}; {also}"),
+            };
+        }
+    }
+}
+
+/// A slider whose values the space names.
+fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Finding> {
+    let wrong = |what: String| {
+        Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
+            .why("only what a student can do is tried")
+            .help("name a slider of the lab, and ends that it reaches")
+    };
+    let control = lab.control(&label.value);
+    let Some(Control { kind: ControlKind::Slider { min, max, .. }, .. }) = control else {
+        return Err(wrong(format!("\"{}\" is no slider of the lab", label.value)));
+    };
+    let step = control.and_then(Control::step).filter(|s| *s > 0.0).unwrap_or((ends[1] - ends[0]) / 1000.0);
+    let slack = 1e-9 * step;
+    let from = min.value + ((ends[0] - min.value - slack) / step).ceil() * step;
+    let to = min.value + ((ends[1] - min.value + slack) / step).floor() * step;
+    let reached = ends[0] >= min.value - slack && ends[1] <= max.value + slack && to > from;
+    let values = [from, to].map(|x| format!("{x:.12}").parse::<f64>().unwrap_or(x));
+    let can = |x: &f64| control.is_some_and(|c| settings::value(c, &Value::Number(*x)).is_ok());
+    if !reached || !values.iter().all(can) {
+        return Err(wrong(format!(
+            "the slider \"{}\" goes from {} to {} in steps of {}: it has no two values from {} to {}",
+            label.value,
+            significant(min.value),
+            significant(max.value),
+            significant(step),
+            significant(ends[0]),
+            significant(ends[1])
+        )));
+    }
+    Ok(Axis { label, from, step, count: ((to - from) / step).round() })
+}
+
+/// The settings that were tried.
+struct Space<'b, 's, 'v> {
+    bound: &'b BoundVerify<'s>,
+    verify: &'v Verify,
+    axes: Vec<Axis<'v>>,
+    weights: Vec<answer::Weight>,
+    /// By the bits of the values: how far the answer is from turning over there.
+    tried: BTreeMap<Vec<u64>, f64>,
+}
+
+/// A setting in words, and what does not hold there.
+type Counterexample = (String, String);
+
+impl Space<'_, '_, '_> {
+    /// A counterexample, if there is one. `None` when a run cannot be made.
+    fn search(&mut self, findings: &mut Vec<Finding>) -> Option<Option<Counterexample>> {
+        let levels = vec![2; self.axes.len()];
+        let corners = match 1usize.checked_shl(levels.len() as u32) {
+            Some(n) if n <= FEW => covering::all(&levels),
+            _ => covering::pairwise(&levels, ROWS).0,
+        };
+        let mut starts: Vec<Vec<f64>> =
+            corners.iter().map(|row| row.iter().map(|k| *k as f64).collect()).collect();
+        starts.push(vec![0.5; self.axes.len()]);
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for parts in starts {
+            let (turned, margin) = self.look(&parts, findings)?;
+            if turned.is_some() {
+                return Some(turned);
+            }
+            if best.as_ref().is_none_or(|(least, _)| margin < *least) {
+                best = Some((margin, parts));
+            }
+        }
+        let (mut least, mut here) = best?;
+        let (mut step, before) = (FIRST, self.tried.len());
+        while step >= LAST && self.tried.len() < before + SEARCHED {
+            let mut nearer = false;
+            for k in 0..self.axes.len() {
+                for way in [-step, step] {
+                    let mut there = here.clone();
+                    if let Some(part) = there.get_mut(k) {
+                        *part = (*part + way).clamp(0.0, 1.0);
+                    }
+                    let (turned, margin) = self.look(&there, findings)?;
+                    if turned.is_some() {
+                        return Some(turned);
+                    }
+                    if margin < least {
+                        (least, here, nearer) = (margin, there, true);
+                    }
+                }
+            }
+            if !nearer {
+                step /= 2.0;
+            }
+        }
+        Some(None)
+    }
+
+    /// Whether the answer turns over in a setting, and how far it is from that.
+    fn look(&mut self, parts: &[f64], findings: &mut Vec<Finding>) -> Option<(Option<Counterexample>, f64)> {
+        let values: Vec<f64> = self.axes.iter().zip(parts).map(|(axis, part)| axis.at(*part)).collect();
+        let key: Vec<u64> = values.iter().map(|x| x.to_bits()).collect();
+        if let Some(known) = self.tried.get(&key) {
+            return Some((None, *known));
+        }
+        let verify = self.with(&values);
+        let (labs, stage) = (self.bound.labs(), self.bound.stage());
+        let base = self.bound.lab().cloned();
+        let labs = if self.verify.runs.is_empty() { vec![base.clone().into_iter().collect()] } else { labs };
+        let again = BoundVerify::new(&verify, base.as_ref(), &labs, stage, findings)?;
+        let outcome = again.outcome(Numerics::NOMINAL, findings)?;
+        let (turned, margin) = answer::same(&again, &outcome, &verify, &self.weights);
+        self.tried.insert(key, margin);
+        let setting = || {
+            let one = |(axis, x): (&Axis<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
+            self.axes.iter().zip(&values).map(one).collect::<Vec<_>>().join(", ")
+        };
+        Some((turned.map(|how| (setting(), how)), margin))
+    }
+
+    /// The object with these values: a run that sets a slider itself keeps its own.
+    fn with(&self, values: &[f64]) -> Verify {
+        let mut verify = Verify { over: Vec::new(), ..self.verify.clone() };
+        if verify.runs.is_empty() {
+            verify.runs.push(Run::named("run"));
+        }
+        for run in &mut verify.runs {
+            for (axis, x) in self.axes.iter().zip(values) {
+                if !run.set.iter().any(|(label, _)| label.value == axis.label.value) {
+                    run.set.push((
+                        axis.label.clone(),
+                        Scalar::Number(Number { value: *x, span: axis.label.span() }),
+                    ));
+                }
+            }
+        }
+        verify
+    }
+}
