@@ -31,7 +31,7 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'
         return out;
     }
     let open = if claim.is_doubtful() { " open=\"open\"" } else { "" };
-    let _ = write!(out, "<details{open}><summary>{}</summary>\n", told.join(", "));
+    let _ = writeln!(out, "<details{open}><summary>{}</summary>", told.join(", "));
     for table in [quotes(claim, context), forms(claim, spec, context), measures(claim), runs(claim, context)]
     {
         out.push_str(&table);

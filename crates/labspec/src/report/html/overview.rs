@@ -82,7 +82,7 @@ fn table(parts: &[Part<'_>]) -> String {
 }
 
 /// What a verdict is called in a list.
-fn called<'w>(state: State, word: &'w str) -> &'w str {
+fn called(state: State, word: &str) -> &str {
     if state == State::NotClaimed { "without a check" } else { word }
 }
 

@@ -31,7 +31,7 @@ pub(super) fn plots(drawn: &Drawn) -> String {
     for picture in all.iter().take(PICTURES) {
         let svg = line_chart(&chart(picture, alone));
         let lines: Vec<&str> = svg.lines().map(str::trim_start).collect();
-        let _ = write!(out, "<figure>{}</figure>\n", lines.join("\n"));
+        let _ = writeln!(out, "<figure>{}</figure>", lines.join("\n"));
     }
     if out.is_empty() {
         return out;
