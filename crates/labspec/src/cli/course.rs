@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Basis, Checked, Depth};
+use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -37,6 +37,8 @@ pub(super) struct Plan<'a> {
     pub(super) baseline: Option<&'a Baseline>,
     /// What every verdict rests on is asked for.
     pub(super) basis: bool,
+    /// What the labs show in the runs of the claims is asked for.
+    pub(super) curves: bool,
     /// Most threads.
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
@@ -51,6 +53,8 @@ pub(super) struct Course {
     pub(super) checked: Vec<Checked>,
     /// What the check of each lesson rests on, where that is asked for.
     pub(super) bases: Vec<Basis>,
+    /// What the labs of each lesson show in the runs of its claims, where that is asked for.
+    pub(super) curves: Vec<Vec<Drawn>>,
     pub(super) findings: Vec<Finding>,
     /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
     pub(super) last: Vec<Finding>,
@@ -83,7 +87,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>, Aside, Basis),
+    Lesson(Box<Checked>, Aside, Basis, Vec<Drawn>),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -114,7 +118,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
             let mut found = one(plan, cache, task, path, *named, &by_folder);
-            if let (Done::Lesson(c, aside, _), Some(policy)) = (&mut found, of_files.get(i)) {
+            if let (Done::Lesson(c, aside, ..), Some(policy)) = (&mut found, of_files.get(i)) {
                 let c = &mut **c;
                 put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
                 aside.allowed = std::mem::take(&mut c.allowed);
@@ -157,8 +161,9 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked, aside, basis) => {
+            Done::Lesson(checked, aside, basis, curves) => {
                 course.bases.push(basis);
+                course.curves.push(curves);
                 course.checked.push(*checked);
                 course.aside.ignored.extend(aside.ignored);
                 course.aside.allowed.extend(aside.allowed);
@@ -377,7 +382,8 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
         Done::Interrupted
     } else {
         let basis = if plan.basis { check::basis(&lesson, models, digest::hex_of) } else { Basis::default() };
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis)
+        let curves = if plan.curves { check::curves(&lesson, models) } else { Vec::new() };
+        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis, curves)
     }
 }
 

@@ -12,11 +12,13 @@
 //! | numbers in the text | `quote` |
 //! | columns of tables | `column` |
 //! | closed forms | `exact` |
+//! | what the labs show in the runs, for a report | `curves` |
 
 mod answer;
 mod bound;
 mod column;
 mod condition;
+mod curves;
 mod exact;
 mod measure;
 mod outcome;
@@ -29,6 +31,7 @@ mod stage;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
+pub use curves::Curves;
 pub use exact::ClosedForm;
 pub use quote::{
     Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, plain, quoted,
