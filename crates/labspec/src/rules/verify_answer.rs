@@ -27,8 +27,12 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         let verify = claim.verify;
         if let Some((label, _)) = verify.over.first().filter(|_| verify.options.is_empty()) {
             findings.push(
-                Finding::new(VERIFY_ANSWER, label.span(), "`over` holds conditions to a range, and there are none")
-                    .help("write `options`, one condition for each option of the question"),
+                Finding::new(
+                    VERIFY_ANSWER,
+                    label.span(),
+                    "`over` holds conditions to a range, and there are none",
+                )
+                .help("write `options`, one condition for each option of the question"),
             );
         }
         let Some(question) = claim.question else {
