@@ -2,13 +2,13 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Plan, STDIN, collect, look};
+use super::course::{Course, Judge, Plan, STDIN, collect, look};
 use super::fix::{Mode, fix};
 use super::output::{Wanted, look_ahead};
 use super::policy::PolicyOptions;
 use super::stdio::{complain, print_json};
 use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print, watch};
-use super::{reproduction, since};
+use super::{judge, reproduction, since};
 use crate::check::{self, Depth};
 use crate::ledger::{self, Entry, State, Subject};
 use crate::report::{self as drawn, Summary, printable, printable_path};
@@ -55,6 +55,12 @@ pub(super) struct Arguments {
     /// Write the baseline anew: whatever is found now is known from now on
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
+    /// Write what a second judge is to run: every run of every `verify` object, for tests/judge/record.mjs
+    #[arg(long, value_name = "FILE")]
+    judge_request: Option<PathBuf>,
+    /// Compare every measure with what the real library has recorded, and judge every claim again with its numbers
+    #[arg(long, value_name = "FILE")]
+    judge: Option<PathBuf>,
     /// Count the findings of each rule, and show no more of them
     #[arg(long)]
     statistics: bool,
@@ -146,13 +152,16 @@ fn work(
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
         _ => None,
     };
-    if let Some(file) = records.write {
+    let written = [("--record", records.write), ("--judge-request", a.judge_request.as_deref())];
+    for (option, file) in written.into_iter().filter_map(|(option, file)| Some((option, file?))) {
         let read: Vec<PathBuf> = collect(&a.paths).0.into_iter().map(|(path, _)| path).collect();
-        look_ahead(&read, &[Wanted { option: "--record", path: file.to_path_buf() }])?;
+        look_ahead(&read, &[Wanted { option, path: file.to_path_buf() }])?;
     }
     // Read before anything is written: it may be the same file.
     let before = records.since.map(|file| Ok::<_, Failure>((file, reproduction::read(file)?))).transpose()?;
+    let recording = a.judge.as_deref().map(judge::read).transpose()?;
     let plan = Plan {
+        judge: Judge { ask: a.judge_request.is_some(), recording: recording.as_ref() },
         paths: &a.paths,
         basis: records.write.is_some() || before.is_some(),
         stdin: stdin.as_ref(),
@@ -214,6 +223,9 @@ fn report(
     if let Some(file) = records.write.filter(|_| !interrupted()) {
         reproduction::write(file, &reproduction::now(file, course))?;
     }
+    if let Some(file) = a.judge_request.as_deref().filter(|_| !interrupted()) {
+        judge::ask(file, course)?;
+    }
     let changes = before.map(|(file, old)| (file, since::changes(old, &reproduction::now(file, course))));
     match a.format {
         _ if a.statistics => print(&drawn::statistics(&course.findings))?,
@@ -226,6 +238,9 @@ fn report(
             if let Some((file, changes)) = &changes {
                 text.push_str(&since::told(&file.display().to_string(), changes));
             }
+            if let (Some(file), Some(engine)) = (&a.judge, &course.judged_by) {
+                text.push_str(&judge::told(file, engine, course));
+            }
             if outcome == found {
                 let _ = writeln!(text, "{}", last_line(course));
             }
@@ -235,6 +250,8 @@ fn report(
             let name = if evidence { "verify" } else { "check" };
             let mut value = machine::value(name, outcome, course, &sources);
             value["since"] = changes.as_ref().map_or(Value::Null, |(_, changes)| since::machine(changes));
+            value["judge"] =
+                course.judged_by.as_ref().map_or(Value::Null, |engine| judge::machine(engine, course));
             print_json(&value, true)?;
         }
         Format::Concise => print(&drawn::concise(&course.findings, &sources))?,
@@ -258,6 +275,11 @@ fn report(
             Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
         }
         ledger::Outcome::Partial => Ok(Outcome::Partial),
+        ledger::Outcome::Clean | ledger::Outcome::Known
+            if course.judged_by.is_some() && judge::is_partial(course) =>
+        {
+            Ok(Outcome::Partial)
+        }
         ledger::Outcome::Clean | ledger::Outcome::Known => Ok(Outcome::Clean),
     }
 }

@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Basis, Checked, Depth};
+use crate::check::{self, Allowed, Basis, Checked, Depth, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -37,6 +37,8 @@ pub(super) struct Plan<'a> {
     pub(super) baseline: Option<&'a Baseline>,
     /// What every verdict rests on is asked for.
     pub(super) basis: bool,
+    /// A second judge is asked, or heard.
+    pub(super) judge: Judge<'a>,
     /// Most threads.
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
@@ -45,12 +47,25 @@ pub(super) struct Plan<'a> {
     pub(super) told: Option<bool>,
 }
 
+/// A second judge.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Judge<'a> {
+    /// Its runs are asked for.
+    pub(super) ask: bool,
+    /// What it has recorded.
+    pub(super) recording: Option<&'a Recording>,
+}
+
 /// Everything that was checked, and what it came to.
 #[derive(Default)]
 pub(super) struct Course {
     pub(super) checked: Vec<Checked>,
     /// What the check of each lesson rests on, where that is asked for.
     pub(super) bases: Vec<Basis>,
+    /// What a second judge is asked about each lesson, and what it says.
+    pub(super) hearings: Vec<Hearing>,
+    /// The engine of that judge.
+    pub(super) judged_by: Option<String>,
     pub(super) findings: Vec<Finding>,
     /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
     pub(super) last: Vec<Finding>,
@@ -83,7 +98,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>, Aside, Basis),
+    Lesson(Box<Checked>, Aside, Basis, Hearing),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -114,7 +129,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
             let mut found = one(plan, cache, task, path, *named, &by_folder);
-            if let (Done::Lesson(c, aside, _), Some(policy)) = (&mut found, of_files.get(i)) {
+            if let (Done::Lesson(c, aside, ..), Some(policy)) = (&mut found, of_files.get(i)) {
                 let c = &mut **c;
                 put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
                 aside.allowed = std::mem::take(&mut c.allowed);
@@ -150,14 +165,16 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         return Err(failure);
     }
     done.sort_by_key(|(i, _)| *i);
-    let mut course = Course::default();
+    let judged_by = plan.judge.recording.map(|r| r.engine.clone());
+    let mut course = Course { judged_by, ..Course::default() };
     let mut refused: Vec<(PathBuf, String)> = problems;
     let mut read = 0;
     for ((path, _), (_, done)) in files.iter().zip(done) {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked, aside, basis) => {
+            Done::Lesson(checked, aside, basis, hearing) => {
+                course.hearings.push(hearing);
                 course.bases.push(basis);
                 course.checked.push(*checked);
                 course.aside.ignored.extend(aside.ignored);
@@ -371,13 +388,21 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     if !named && is_other_json(&lesson) {
         return Done::Other;
     }
-    let found = cache.examine(path, &lesson, models, plan.depth, interrupted);
+    let mut found = cache.examine(path, &lesson, models, plan.depth, interrupted);
     // Runs may have been cut short: half of a check is none.
     if interrupted() {
         Done::Interrupted
     } else {
         let basis = if plan.basis { check::basis(&lesson, models, digest::hex_of) } else { Basis::default() };
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis)
+        let Judge { ask, recording } = plan.judge;
+        let hearing = match ask || recording.is_some() {
+            true => check::hear(&lesson, models, digest::hex_of, recording, &mut found.findings),
+            false => Hearing::default(),
+        };
+        if interrupted() {
+            return Done::Interrupted;
+        }
+        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis, hearing)
     }
 }
 

@@ -12,12 +12,14 @@
 //! | numbers in the text | `quote` |
 //! | columns of tables | `column` |
 //! | closed forms | `exact` |
+//! | the same with the numbers of the real library | `judge` |
 
 mod answer;
 mod bound;
 mod column;
 mod condition;
 mod exact;
+pub(crate) mod judge;
 mod measure;
 mod outcome;
 mod over;
