@@ -21,6 +21,7 @@ mod fresh;
 mod fuzz;
 mod init;
 mod javascript;
+mod judge;
 mod labs;
 mod ledger;
 mod lessons;

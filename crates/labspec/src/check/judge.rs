@@ -42,7 +42,7 @@ pub struct Hearing {
     pub requests: Vec<Request>,
     /// What it makes of every claim, by the name of its owner.
     pub claims: Vec<(String, Judged)>,
-    /// Runs that are recorded of another text, and runs that are not recorded at all.
+    /// Runs that are recorded of another text.
     pub stale: usize,
     /// Runs of which nothing is recorded.
     pub missing: usize,

@@ -6,6 +6,7 @@ use super::Failure;
 use super::course::Course;
 use super::output::write_file;
 use crate::check::{Hearing, Recording, file_name};
+use crate::printable::printable_lines;
 use crate::report::{printable_path, set_number};
 use crate::source::read_text;
 use crate::verify::judge::{Judged, Taken, shown_as};
@@ -187,7 +188,7 @@ pub(super) fn told(file: &Path, engine: &str, course: &Course) -> String {
         let _ =
             writeln!(text, "  record again: labspec check --judge-request FILE, then tests/judge/record.mjs");
     }
-    crate::report::printable(&text).to_string()
+    printable_lines(&text).into_owned()
 }
 
 /// What the judge says, for programs.

@@ -333,7 +333,7 @@ fn compare(
             made.iter().flatten().map(|o| numbers(o).into_iter().map(|(_, x)| x).collect()).collect()
         });
         let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);
-        if !(apart <= NUMERICS * moved) {
+        if apart.is_nan() || apart > NUMERICS * moved {
             judged.differing.push((name, a, b));
         }
     }
