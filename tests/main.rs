@@ -19,6 +19,7 @@ mod format;
 mod forms;
 mod fresh;
 mod fuzz;
+mod html;
 mod init;
 mod javascript;
 mod judge;

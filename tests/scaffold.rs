@@ -68,7 +68,7 @@ const BALL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='1 1
 
 fn quiz(question: &str) -> String {
     let lab = format!(
-        r#"{{"xml": "{BALL}", "stopAt": 0.3, "controls": [{{"label": "gravity", "unit": "m/s^2", "apply": "model.opt.gravity[2] = -value", "min": 1, "max": 20, "value": 10, "reset": true}}], "readouts": [{{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}}]}}"#
+        r#"{{"xml": "{BALL}", "stopAt": 0.3, "controls": [{{"label": "gravity", "unit": "m/s^2", "apply": "model.opt.gravity[2] = -value", "min": 1, "max": 20, "step": 1, "value": 10, "reset": true}}], "readouts": [{{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}}]}}"#
     );
     format!(
         "# Falls\n\n```lab simlab\n{lab}\n```\n\n```quiz\n{{\"id\": \"fall\", \"questions\": [\n  {question}\n]}}\n```\n"
@@ -121,7 +121,7 @@ fn what_cannot_be_told_is_left_open_with_the_reason() {
         let Found::Open(reason) = of(&all, "quiz fall, question 1") else { panic!("{question}: {all:?}") };
         assert!(reason.contains(why), "{question}: {reason}");
     }
-    let numeric = r#"{"kind": "numeric", "q": "With which speed does it fall after 0.3 s?", "answer": 3, "tol": 0.01, "unit": "m/s", "explain": "<p>$v = g t = 10 \\times 0.3$ = 3 m/s.</p>"}"#;
+    let numeric = r#"{"kind": "numeric", "q": "With which speed does it fall after 0.3 s?", "answer": 2.943, "tol": 0.01, "unit": "m/s", "explain": "<p>$v = g t = 9.81 \\times 0.3$ = 2.943 m/s.</p>"}"#;
     let (_, all) = one(numeric);
     let Found::Proposed { verdict: Some((verdict, _)), .. } = of(&all, "quiz fall, question 1") else {
         panic!("{all:?}")

@@ -125,9 +125,9 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "mj_integratePos",
-        args: &[Arg::Model, Arg::Numbers, Arg::Numbers, Arg::Number],
+        args: &[Arg::Model, Arg::Any, Arg::Numbers, Arg::Number],
         doc: "moves coordinates (the list of the second argument is written) with a velocity for so many seconds",
-        example: ("const q = [0.5]; mj.mj_integratePos(model, q, [2], 0.1); q[0]", "0.7"),
+        example: ("ctx.q = [0.5]; mj.mj_integratePos(model, ctx.q, [2], 0.1); ctx.q[0]", "0.7"),
         run: |w, heap, args| {
             let mut q = numbers(heap, args, 0)?;
             core::integrate_pos(
@@ -142,10 +142,10 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "mj_differentiatePos",
-        args: &[Arg::Model, Arg::Numbers, Arg::Number, Arg::Numbers, Arg::Numbers],
+        args: &[Arg::Model, Arg::Any, Arg::Number, Arg::Numbers, Arg::Numbers],
         doc: "writes the velocity that leads from one list of coordinates to another in so many seconds into the list of the second argument",
         example: (
-            "const v = [0]; mj.mj_differentiatePos(model, v, 0.1, [0.5], [0.7]); v[0].toFixed(6)",
+            "ctx.v = [0]; mj.mj_differentiatePos(model, ctx.v, 0.1, [0.5], [0.7]); ctx.v[0].toFixed(6)",
             "2.000000",
         ),
         run: |w, heap, args| {

@@ -170,6 +170,22 @@ pub(super) fn begun<'r>(
     Some(Begun { runs: bound.begun(), model: base.map(|scene| scene.model) })
 }
 
+/// What the labs show in the runs of a `verify` object, up to so many; nothing where they have mistakes.
+pub(super) fn curves<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [Ready<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+    most: usize,
+) -> Vec<verify::Curves> {
+    let ignored = &mut Vec::new();
+    let cast = cast(lesson, ready, verify, own, stage, ignored);
+    let bound =
+        cast.and_then(|cast| BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, stage, ignored));
+    bound.map_or(Vec::new(), |bound| bound.curves(most))
+}
+
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
 pub(super) fn check(
     lesson: &Lesson,

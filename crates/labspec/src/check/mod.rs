@@ -3,6 +3,7 @@
 mod allowed;
 mod claims;
 mod contact_time;
+mod curves;
 mod dimension;
 mod entries;
 mod expect;
@@ -23,6 +24,7 @@ mod units;
 
 pub use allowed::Allowed;
 pub use claims::Claim;
+pub use curves::{Drawn, curves};
 pub(crate) use dimension::given_by;
 pub use dimension::{Dimensions, dimension_of, dimensions};
 pub use entries::{evidence, ledger};

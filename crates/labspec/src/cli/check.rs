@@ -4,13 +4,14 @@ use super::baseline::Baseline;
 use super::cache::Cache;
 use super::course::{Course, Judge, Plan, STDIN, collect, look};
 use super::fix::{Mode, fix};
-use super::output::{Wanted, look_ahead};
+use super::output::{Wanted, look_ahead, write_file};
 use super::policy::PolicyOptions;
 use super::stdio::{complain, print_json};
 use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print, watch};
 use super::{judge, reproduction, since};
 use crate::check::{self, Depth};
 use crate::ledger::{self, Entry, State, Subject};
+use crate::report::html::Material;
 use crate::report::{self as drawn, Summary, printable, printable_path};
 use crate::source::SourceFile;
 use clap::ValueEnum;
@@ -90,15 +91,19 @@ pub(super) struct CheckArguments {
     /// Write every verdict with what it rests on: versions, settings of every run, digests of models and texts
     #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
     record: Option<PathBuf>,
+    /// Write a page for a browser: every verdict with its evidence, plots of the runs, and how much of the text is claimed
+    #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
+    html: Option<PathBuf>,
     /// Tell what has changed since a check that was recorded: verdicts and values, with the settings and models that changed too
     #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
     since: Option<PathBuf>,
 }
 
-/// Records of checks: one to write, one to compare with.
+/// Files beside what is printed: a record to write, one to compare with, a page.
 #[derive(Clone, Copy, Default)]
 struct Records<'a> {
     write: Option<&'a Path>,
+    html: Option<&'a Path>,
     since: Option<&'a Path>,
 }
 
@@ -125,7 +130,7 @@ enum Format {
 pub(super) fn check(a: &CheckArguments) -> Result<Outcome, Failure> {
     let depth = if a.no_run { Depth::STATIC } else { Depth::FULL };
     let fix = (a.fix || a.diff || a.unsafe_fixes).then_some(Mode { guesses: a.unsafe_fixes, diff: a.diff });
-    let records = Records { write: a.record.as_deref(), since: a.since.as_deref() };
+    let records = Records { write: a.record.as_deref(), html: a.html.as_deref(), since: a.since.as_deref() };
     work(&a.common, depth, false, fix, records)
 }
 
@@ -152,10 +157,18 @@ fn work(
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
         _ => None,
     };
-    let written = [("--record", records.write), ("--judge-request", a.judge_request.as_deref())];
-    for (option, file) in written.into_iter().filter_map(|(option, file)| Some((option, file?))) {
+    let outputs = [
+        ("--record", records.write),
+        ("--html", records.html),
+        ("--judge-request", a.judge_request.as_deref()),
+    ];
+    let outputs: Vec<Wanted> = outputs
+        .into_iter()
+        .filter_map(|(option, file)| Some(Wanted { option, path: file?.to_path_buf() }))
+        .collect();
+    if !outputs.is_empty() {
         let read: Vec<PathBuf> = collect(&a.paths).0.into_iter().map(|(path, _)| path).collect();
-        look_ahead(&read, &[Wanted { option, path: file.to_path_buf() }])?;
+        look_ahead(&read, &outputs)?;
     }
     // Read before anything is written: it may be the same file.
     let before = records.since.map(|file| Ok::<_, Failure>((file, reproduction::read(file)?))).transpose()?;
@@ -164,6 +177,7 @@ fn work(
         judge: Judge { ask: a.judge_request.is_some(), recording: recording.as_ref() },
         paths: &a.paths,
         basis: records.write.is_some() || before.is_some(),
+        curves: records.html.is_some(),
         stdin: stdin.as_ref(),
         policy: &a.policy,
         baseline: baseline.as_ref(),
@@ -225,6 +239,18 @@ fn report(
     }
     if let Some(file) = a.judge_request.as_deref().filter(|_| !interrupted()) {
         judge::ask(file, course)?;
+    }
+    if let Some(file) = records.html.filter(|_| !interrupted()) {
+        let material = Material {
+            lessons: &course.checked,
+            curves: &course.curves,
+            findings: &course.findings,
+            allowed: &course.aside.allowed,
+            ledger: &course.ledger,
+            sources: &sources,
+            summary: &last_line(course),
+        };
+        write_file(file, &drawn::html::page(&material))?;
     }
     let changes = before.map(|(file, old)| (file, since::changes(old, &reproduction::now(file, course))));
     match a.format {

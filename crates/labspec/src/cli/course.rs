@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Basis, Checked, Depth, Hearing, Recording};
+use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -39,6 +39,8 @@ pub(super) struct Plan<'a> {
     pub(super) basis: bool,
     /// A second judge is asked, or heard.
     pub(super) judge: Judge<'a>,
+    /// What the labs show in the runs of the claims is asked for.
+    pub(super) curves: bool,
     /// Most threads.
     pub(super) jobs: usize,
     /// Names of files are shown while they are checked.
@@ -66,6 +68,8 @@ pub(super) struct Course {
     pub(super) hearings: Vec<Hearing>,
     /// The engine of that judge.
     pub(super) judged_by: Option<String>,
+    /// What the labs of each lesson show in the runs of its claims, where that is asked for.
+    pub(super) curves: Vec<Vec<Drawn>>,
     pub(super) findings: Vec<Finding>,
     /// Those of the findings that are known only when all lessons are checked: of models, and of lessons together.
     pub(super) last: Vec<Finding>,
@@ -98,7 +102,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>, Aside, Basis, Hearing),
+    Lesson(Box<Checked>, Aside, Basis, Vec<Drawn>, Hearing),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -173,9 +177,10 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked, aside, basis, hearing) => {
+            Done::Lesson(checked, aside, basis, curves, hearing) => {
                 course.hearings.push(hearing);
                 course.bases.push(basis);
+                course.curves.push(curves);
                 course.checked.push(*checked);
                 course.aside.ignored.extend(aside.ignored);
                 course.aside.allowed.extend(aside.allowed);
@@ -402,7 +407,9 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
         if interrupted() {
             return Done::Interrupted;
         }
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis, hearing)
+        let curves = if plan.curves { check::curves(&lesson, models) } else { Vec::new() };
+        let checked = Box::new(check::join(lesson, found, plan.depth));
+        Done::Lesson(checked, Aside::default(), basis, curves, hearing)
     }
 }
 

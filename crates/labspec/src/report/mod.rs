@@ -3,6 +3,8 @@
 #[cfg(feature = "cli")]
 mod formats;
 #[cfg(feature = "cli")]
+pub mod html;
+#[cfg(feature = "cli")]
 mod human;
 mod machine;
 mod table;

@@ -7,6 +7,8 @@ use crate::trace::{Trial, si, trials};
 use crate::verify::Stated;
 use labspec_expr::Value;
 
+/// How long a run is after a button is pressed, s.
+const ROUTINE: f64 = 10.0;
 /// Words that change a quantity, and by how much.
 const CHANGES: [(&str, f64); 12] = [
     ("doubled", 2.0),
@@ -48,7 +50,11 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
     let pressed: Vec<String> = buttons.map(|c| c.label.value.clone()).filter(|label| named(label)).collect();
     if !pressed.is_empty() {
         all.retain(|t| t.press.is_empty());
-        all.iter_mut().for_each(|t| t.press = pressed.clone());
+        for t in &mut all {
+            t.press = pressed.clone();
+            // What a button begins takes its time.
+            t.until = t.until.or(lab.stop_at.is_none().then_some(ROUTINE));
+        }
     }
     let pairs = pairs(&all, asked, lab, &said);
     Runs { trials: all, pairs }

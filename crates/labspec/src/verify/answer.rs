@@ -4,7 +4,7 @@
 use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
-use super::{BoundVerify, Outcomes, PERTURBED, grounded, over, shorten, significant};
+use super::{BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, over, shorten, significant};
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
 use crate::rules;
@@ -82,6 +82,14 @@ pub struct Weight {
 }
 
 impl Weight {
+    /// Whether eight times what other numerics change could turn it over: with errors of the first order in the timestep, all
+    /// that is left to come is as much again as half of it changes.
+    fn is_close(&self) -> bool {
+        self.margin
+            .zip(self.spread)
+            .is_some_and(|(margin, spread)| spread > 0.0 && 8.0 * spread >= margin.abs())
+    }
+
     /// Takes in what the margin is under other numerics.
     fn widen(&mut self, other: Option<f64>) {
         if let (Some(own), Some(other)) = (self.margin, other) {
@@ -248,27 +256,38 @@ fn options(
         return done(Verdict::Failed, "none of the other options is decided".to_string());
     }
     let mut weights = weights.clone();
-    for (outcome, how) in perturbed(outcomes) {
+    let mut spent = false;
+    let mut survives = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = conditions(bound, outcome, verify, &mut Vec::new());
+        spent |= again.is_err() && bound.stage().left() == 0;
         for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
             weight.widen(now.as_ref().and_then(|(_, weighed)| weighed.margin));
         }
-        let turned = match &again {
-            Err(reason) => Some((answer, reason.clone())),
+        let (i, what) = match &again {
+            Err(reason) => (answer, reason.clone()),
             Ok(now) => {
                 let now = now.iter().enumerate().map(|(i, found)| weight(i, found.as_ref()));
-                let other = now.zip(&weights).find(|(now, then)| now.holds != then.holds);
-                other.map(|(now, _)| {
-                    let i = now.option.unwrap_or(answer);
-                    (i, format!("then the condition of {} {}", name(i), now.words()))
-                })
+                let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
+                let i = now.option.unwrap_or(answer);
+                (i, format!("then the condition of {} {}", name(i), now.words()))
             }
         };
-        if let Some((i, what)) = turned {
-            let now = format!("with the lesson's own numerics this {}", words(i));
-            findings.push(fragile(keyed.span.clone(), how, &what).related(condition(i), now));
-            return done(Verdict::Fragile, format!("it does not hold {how}"));
+        let now = format!("with the lesson's own numerics this {}", words(i));
+        Some((fragile(keyed.span.clone(), how, &what).related(condition(i), now), how.to_string()))
+    };
+    let mut turned = perturbed(outcomes).find_map(|(outcome, how)| survives(outcome, how, &mut weights));
+    for (numerics, how) in CLOSER {
+        if turned.is_none() && weights.iter().any(Weight::is_close) {
+            turned = bound.outcome(numerics, &mut Vec::new()).and_then(|o| survives(&o, how, &mut weights));
         }
+    }
+    if let Some((finding, how)) = turned {
+        if spent {
+            findings.push(too_much(keyed.span.clone(), &how));
+            return Answer::failed(format!("the work of a check is spent before it is tried {how}"));
+        }
+        findings.push(finding);
+        return done(Verdict::Fragile, format!("it does not hold {how}"));
     }
     let evidence = found.iter().flatten().map(|(f, _)| f.evidence).min();
     let reason = match open.as_slice() {
@@ -374,20 +393,33 @@ fn value(
         return done(Verdict::Refuted, message);
     }
     let mut weights = weights.clone();
-    for (outcome, how) in perturbed(outcomes) {
+    let mut spent = false;
+    let mut survives = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = grounded(bound, outcome, text, &mut Vec::new());
+        spent |= again.is_err() && bound.stage().left() == 0;
         let what = match again.map(|f| f.value.to_number()) {
             Err(reason) => reason,
             Ok(x) if right(x) => {
                 weights.iter_mut().for_each(|w| w.widen(Some(margin(x))));
-                continue;
+                return None;
             }
             Ok(x) => format!("then it is {}, and the tolerance is {}", significant(x), significant(tol)),
         };
-        findings.push(fragile(keyed.span.clone(), how, &what).related(
-            text.span(),
-            format!("with the lesson's own numerics this is {}", significant(computed)),
-        ));
+        let own = format!("with the lesson's own numerics this is {}", significant(computed));
+        Some((fragile(keyed.span.clone(), how, &what).related(text.span(), own), how.to_string()))
+    };
+    let mut turned = perturbed(outcomes).find_map(|(outcome, how)| survives(outcome, how, &mut weights));
+    for (numerics, how) in CLOSER {
+        if turned.is_none() && weights.iter().any(Weight::is_close) {
+            turned = bound.outcome(numerics, &mut Vec::new()).and_then(|o| survives(&o, how, &mut weights));
+        }
+    }
+    if let Some((finding, how)) = turned {
+        if spent {
+            findings.push(too_much(keyed.span.clone(), &how));
+            return Answer::failed(format!("the work of a check is spent before it is tried {how}"));
+        }
+        findings.push(finding);
         return done(Verdict::Fragile, format!("it does not hold {how}"));
     }
     Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights }
@@ -403,6 +435,16 @@ fn no_value(text: &Text, x: f64) -> Finding {
 
 fn shown(x: f64) -> &'static str {
     if x.is_nan() { "NaN" } else { "infinity" }
+}
+
+/// The work of a check was spent before an answer was put to all numerics.
+fn too_much(span: Range<usize>, how: &str) -> Finding {
+    let what = format!(
+        "whether the answer holds {how} was not tried: the runs of this lesson take more work than a check may do"
+    );
+    Finding::error(rules::RUN_BREAKS, span, what)
+        .why("an answer that holds under one numerics alone is no answer")
+        .help("make the runs shorter, or fewer of them in one lesson")
 }
 
 fn fragile(span: Range<usize>, how: &str, what: &str) -> Finding {

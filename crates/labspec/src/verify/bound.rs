@@ -1,6 +1,7 @@
 //! A `verify` object bound to its labs and models, ready to run.
 
 use super::condition::{self, Weighed};
+use super::curves::{self, Curves};
 use super::outcome::{Outcome, OutcomeNames, RunOutcome};
 use super::perform::{self, Asked};
 use super::reads;
@@ -71,6 +72,16 @@ pub(super) struct Found {
     pub(super) evidence: Evidence,
     /// A run that it rests on broke: its name and how, unless the expression reads the warnings of that run.
     pub(super) broke: Option<String>,
+}
+
+impl BoundRun<'_> {
+    /// How conditions call it: `fall`, `fall[2]`.
+    pub(super) fn title(&self) -> String {
+        match self.swept {
+            Some((i, _)) => format!("{}[{i}]", self.name),
+            None => self.name.to_string(),
+        }
+    }
 }
 
 impl BoundScene<'_> {
@@ -435,6 +446,17 @@ impl<'a> BoundVerify<'a> {
                 .help("correct the expression, or guard it with a condition")
         }));
         value
+    }
+
+    /// What the traces of its lab show in every run, up to so many; a run that cannot be made, or whose lab shows nothing, is left
+    /// out.
+    pub(crate) fn curves(&self, most: usize) -> Vec<Curves> {
+        let one = |run: &BoundRun<'a>| {
+            let (scene, place) = (self.scene_of(run)?, self.verify.span.clone());
+            let asked = Asked { scene, run, numerics: Numerics::NOMINAL, measures: &[], place };
+            curves::of_run(&asked, self.stage)
+        };
+        self.runs.iter().take(most).filter_map(one).collect()
     }
 
     /// The model of every run as it begins: after the run's controls and its setup. `None` for a run that cannot be made.

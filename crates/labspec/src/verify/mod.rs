@@ -13,11 +13,13 @@
 //! | columns of tables | `column` |
 //! | closed forms | `exact` |
 //! | the same with the numbers of the real library | `judge` |
+//! | what the labs show in the runs, for a report | `curves` |
 
 mod answer;
 mod bound;
 mod column;
 mod condition;
+mod curves;
 mod exact;
 pub(crate) mod judge;
 mod measure;
@@ -31,6 +33,7 @@ mod stage;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
+pub use curves::Curves;
 pub use exact::ClosedForm;
 pub use quote::{
     Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, plain, quoted,
@@ -141,18 +144,20 @@ const NUDGE: f64 = 1e-14;
 pub(crate) const NUDGED: Numerics = Numerics { nudge: NUDGE, ..Numerics::NOMINAL };
 pub(crate) const NUDGED_BACK: Numerics = Numerics { nudge: -NUDGE, ..Numerics::NOMINAL };
 
-/// Other numerics that claims are put to.
-const CHANGES: usize = 6;
+/// Other numerics that every answer is put to.
+const CHANGES: usize = 4;
 
 /// The changes of the numerics that an answer must survive, and how to call them. The first and the third are those of quotes.
 const PERTURBED: [(Numerics, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
     (TIGHT, "with the solver run to convergence"),
     (NUDGED, "with a start moved by 1e-14"),
-    (QUARTERED, "at a quarter of the timestep"),
     (FAST, "with the integrator implicitfast"),
-    (RK4, "with the integrator RK4"),
 ];
+
+/// Those that an answer must survive besides, where what the others change of a condition could turn it over.
+const CLOSER: [(Numerics, &str); 2] =
+    [(QUARTERED, "at a quarter of the timestep"), (RK4, "with the integrator RK4")];
 
 /// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
 pub(crate) fn measured(bound: &BoundVerify<'_>, numerics: Numerics) -> Option<Vec<f64>> {
@@ -276,7 +281,7 @@ fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding
     let answers = verify.claims_answer();
     let quotes = !verify.says.is_empty() || !verify.table.is_empty();
     let needed = |i: usize| answers || quotes && (i == 0 || i == 2);
-    let mut perturbed = [const { None }; CHANGES];
+    let mut perturbed = [None, None, None, None];
     let about_numerics = bound.states_every_timestep();
     for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed(*i)) {
         let same = about_numerics && (numerics.timestep != 1.0 || numerics.integrator.is_some());

@@ -51,12 +51,12 @@ pub(super) fn hold(
     findings: &mut Vec<Finding>,
 ) {
     let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else { return };
-    let axes: Result<Vec<Axis<'_>>, Finding> =
+    let axes: Result<Vec<Axis<'_>>, Box<Finding>> =
         verify.over.iter().map(|(label, ends)| axis(&lab, label, *ends)).collect();
     let axes = match axes {
         Ok(axes) => axes,
         Err(wrong) => {
-            findings.push(wrong);
+            findings.push(*wrong);
             *answer = Answer::failed("the space that it is claimed over cannot be tried");
             return;
         }
@@ -85,11 +85,12 @@ pub(super) fn hold(
 }
 
 /// A slider whose values the space names.
-fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Finding> {
+fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<Finding>> {
     let wrong = |what: String| {
-        Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
+        let told = Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
             .why("only what a student can do is tried")
-            .help("name a slider of the lab, and ends that it reaches")
+            .help("name a slider of the lab, and ends that it reaches");
+        Box::new(told)
     };
     let control = lab.control(&label.value);
     let Some(Control { kind: ControlKind::Slider { min, max, .. }, .. }) = control else {

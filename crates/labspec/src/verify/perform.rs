@@ -75,8 +75,22 @@ fn key(asked: &Asked<'_, '_>) -> String {
     format!("{labs} {own:?} {numerics:?} {texts:?}")
 }
 
-fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
-    let Asked { scene: bound, run, numerics, measures, place } = asked;
+/// A run that is set up, and how it is played.
+pub(super) struct Ready<'r> {
+    pub(super) session: Session<'r>,
+    /// Buttons by index, and when they are pressed.
+    pub(super) press: Vec<(usize, f64)>,
+    /// Number of steps.
+    pub(super) count: usize,
+}
+
+/// Sets a run up: its controls, its setup, its length. What cannot be goes to `findings`.
+pub(super) fn ready<'r>(
+    asked: &Asked<'r, '_>,
+    stage: &Stage<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<Ready<'r>> {
+    let Asked { scene: bound, run, numerics, place, .. } = asked;
     let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
     let demand = demand(asked);
     let budget = Budget { left: stage.left() };
@@ -109,23 +123,41 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
     let timestep = session.world.model.opt.timestep;
     let count = run::count_steps(lab, until, steps, timestep).map_err(&mut refuse).ok()?;
     run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
-    if count > MAX_VERIFY_STEPS {
+    // A shorter timestep takes more of them; the work is limited besides.
+    if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
         refuse(RunError(format!(
             "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
         )));
         return None;
     }
-    let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
-    let shown = bound.shown.asked();
-    let played = Play { steps: count, every: 1, presses: &press, watched: true };
-    run::play(&mut session, &played, |session, _| {
+    Some(Ready { session, press, count })
+}
+
+/// Plays a run to its end; `sample` sees its start and every step, with the number of steps made.
+pub(super) fn play<'r>(
+    asked: &Asked<'r, '_>,
+    ready: &mut Ready<'r>,
+    mut sample: impl FnMut(&mut Session<'_>, usize),
+) {
+    let Asked { scene: bound, run, .. } = asked;
+    let (lab, programs, shown) = (&*bound.scene.lab, &*bound.scene.programs, bound.shown.asked());
+    let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
+    run::play(&mut ready.session, &played, |session, made| {
         reads::show(&shown, lab, programs, session);
-        running.iter_mut().for_each(|m| m.sample(session));
+        sample(session, made);
         match run.stop.as_ref().and_then(|stop| session.evaluate(&stop.program, stop.text)) {
             Some(holds) if holds.truthy() => ControlFlow::Break(()),
             _ => ControlFlow::Continue(()),
         }
     });
+}
+
+fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+    let Asked { run, measures, .. } = asked;
+    let mut ready = ready(asked, stage, findings)?;
+    let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
+    play(asked, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
+    let mut session = ready.session;
     stage.spend(session.spent());
     let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
     for t in &session.troubles {

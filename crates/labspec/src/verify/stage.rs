@@ -54,7 +54,7 @@ impl<'a> Scene<'a> {
 }
 
 /// The work that the runs of all `verify` objects of a lesson may do together.
-const WORK: u64 = 6_000_000_000;
+const WORK: u64 = 12_000_000_000;
 
 /// What the `verify` objects of a lesson share: changed labs, each made once, and runs, each made once, within one budget.
 #[derive(Debug)]

@@ -71,7 +71,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
     };
     let found = match (found, name) {
         (Some(found), _) => found,
-        (None, None) if of_kind.is_empty() => match missing(list, root, kind, &seen) {
+        (None, None) if of_kind.is_empty() => match missing(list, kind, &seen) {
             Some(made) => made,
             None => {
                 let kinds = seen.iter().map(|s| s.schema.name).filter(|k| !["mujoco", "default"].contains(k));
@@ -134,10 +134,10 @@ fn seen(list: &[Element], root: usize) -> Vec<Seen> {
 }
 
 /// A setting that the text leaves out, written now.
-fn missing(list: &mut Vec<Element>, root: usize, kind: &str, seen: &[Seen]) -> Option<Seen> {
+fn missing(list: &mut Vec<Element>, kind: &str, seen: &[Seen]) -> Option<Seen> {
     let (parent, name) = SETTINGS.iter().find(|(_, name)| *name == kind)?;
     let holder = seen.iter().find(|s| s.schema.name == *parent).copied();
-    let holder = holder.or_else(|| missing(list, root, parent, seen))?;
+    let holder = holder.or_else(|| missing(list, parent, seen))?;
     let (at, span) = (list.len(), list.get(holder.at)?.span.clone());
     list.push(Element {
         name: (*name).to_string(),

@@ -92,7 +92,7 @@ pub static VERIFY: Object = Object {
             "over",
             Type::Map(&SPACE),
             "on a question with options: sliders and the smallest and largest value of each, over which the answer must hold as well; corners, a covering design, and a search for a counterexample are run, at values that a student can reach",
-            r#"{"gravity": [-20, -1]}"#,
+            r#"{"gravity": [-12, -8]}"#,
         )
         .or(Absent::Empty),
         key(

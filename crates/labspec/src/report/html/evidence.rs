@@ -1,0 +1,140 @@
+//! What a claim rests on: its runs, its measures, the numbers it quotes, its closed forms.
+
+use super::lesson::Context;
+use super::plots::plots;
+use super::text::{code, many, plain, text};
+use super::verdict::verdict;
+use crate::check::Claim;
+use crate::ledger::{Evidence, State, Subject};
+use crate::spec::Verify;
+use crate::verify::{Measured, Quote, QuoteState, significant};
+use std::fmt::Write;
+
+/// Most places of a quoted number that are named.
+const PLACES: usize = 8;
+
+/// The pictures of a claim, and its tables, folded up where there is nothing to doubt.
+pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+    let mut out = String::new();
+    if let Some(drawn) = spec.and_then(|verify| context.curves.iter().find(|d| d.span == verify.span)) {
+        out.push_str(&plots(drawn));
+    }
+    let judgement = &claim.judgement;
+    let counts = [
+        (judgement.runs.len(), "run"),
+        (judgement.measures.len(), "measure"),
+        (judgement.quotes.len(), "quoted number"),
+        (judgement.exact.len(), "closed form"),
+    ];
+    let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| many(*n, one)).collect();
+    if told.is_empty() {
+        return out;
+    }
+    let open = if claim.is_doubtful() { " open=\"open\"" } else { "" };
+    let _ = writeln!(out, "<details{open}><summary>{}</summary>", told.join(", "));
+    for table in [quotes(claim, context), forms(claim, spec, context), measures(claim), runs(claim, context)]
+    {
+        out.push_str(&table);
+    }
+    out.push_str("</details>\n");
+    out
+}
+
+/// A table in a box of its own, which scrolls where the screen is narrow; nothing without rows. A column in which nothing
+/// stands is left out.
+fn table(title: &str, heads: &[&str], rows: &[Vec<String>]) -> String {
+    if rows.is_empty() {
+        return String::new();
+    }
+    let used = |i: &usize| rows.iter().any(|row| row.get(*i).is_some_and(|cell| !cell.is_empty()));
+    let columns: Vec<usize> = (0..heads.len()).filter(used).collect();
+    let line = |cells: &dyn Fn(usize) -> String| columns.iter().map(|i| cells(*i)).collect::<String>();
+    let head = |i: usize| format!("<th scope=\"col\">{}</th>", heads.get(i).unwrap_or(&""));
+    let mut out = format!(
+        "<div class=\"box\"><table><caption>{title}</caption>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
+        line(&head)
+    );
+    for row in rows {
+        let cell = |i: usize| format!("<td>{}</td>", row.get(i).map_or("", String::as_str));
+        let _ = writeln!(out, "<tr>{}</tr>", line(&cell));
+    }
+    out.push_str("</tbody></table></div>\n");
+    out
+}
+
+fn number(x: f64) -> String {
+    format!("<span class=\"number\">{}</span>", plain(&significant(x)))
+}
+
+fn quotes(claim: &Claim, context: &Context<'_>) -> String {
+    let row = |q: &Quote| {
+        let own = match q.state {
+            QuoteState::Right => State::True(q.evidence),
+            QuoteState::Wrong => State::False,
+            QuoteState::Unclear => State::Unchecked,
+        };
+        let (state, word) = context.state(Subject::Quote, &q.span, &q.text).unwrap_or((own, q.verdict()));
+        let mut lines: Vec<usize> =
+            context.shown.places(&q.text).iter().map(|at| context.line(at.start)).collect();
+        // A cell of a table stands where it is claimed.
+        lines.extend(lines.is_empty().then(|| context.line(q.span.start)));
+        lines.dedup();
+        let more = if lines.len() > PLACES { ", …" } else { "" };
+        let lines: Vec<String> = lines.iter().take(PLACES).map(usize::to_string).collect();
+        let computed = if q.computed.is_nan() { "–".to_string() } else { number(q.computed) };
+        vec![
+            text(&q.text),
+            computed,
+            verdict(state, word),
+            format!("{}{more}", lines.join(", ")),
+            text(&context.names.told(&q.reason)),
+        ]
+    };
+    let rows: Vec<Vec<String>> = claim.judgement.quotes.iter().map(row).collect();
+    table("Quoted numbers", &["text", "computed", "verdict", "line", "why"], &rows)
+}
+
+fn forms(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+    let row = |form: &crate::verify::ClosedForm| {
+        let word = match form.state {
+            State::True(_) => "verified",
+            State::False => "refuted",
+            _ => "failed",
+        };
+        let (state, word) =
+            context.state(Subject::ClosedForm, &form.span, &form.trace).unwrap_or((form.state, word));
+        let written = spec.and_then(|v| v.exact.iter().find(|e| e.trace.span() == form.span));
+        let written = written.map_or(String::new(), |e| code(&e.form.value));
+        vec![text(&form.trace), written, verdict(state, word), text(&form.remark)]
+    };
+    let rows: Vec<Vec<String>> = claim.judgement.exact.iter().map(row).collect();
+    table("Closed forms", &["trace", "formula", "verdict", "how well"], &rows)
+}
+
+fn measures(claim: &Claim) -> String {
+    let row = |m: &Measured| {
+        let same = |x: &f64| x.is_nan() && m.value.is_nan();
+        let halved = m.halved.filter(|x| !same(x)).map_or("–".to_string(), number);
+        vec![code(&m.name), number(m.value), halved]
+    };
+    let rows: Vec<Vec<String>> = claim.judgement.measures.iter().map(row).collect();
+    table("Measures", &["measure", "value", "at half the timestep, where it differs"], &rows)
+}
+
+fn runs(claim: &Claim, context: &Context<'_>) -> String {
+    let judgement = &claim.judgement;
+    let row = |r: &crate::verify::RunReport| {
+        let own = match (&judgement.unmade, &r.broke, r.expected) {
+            (Some(_), ..) => (State::Unchecked, "not made"),
+            (None, Some(_), true) => (State::True(Evidence::Simulated), "breaks"),
+            (None, Some(_), false) => (State::False, "broken"),
+            (None, None, true) => (State::False, "does not break"),
+            (None, None, false) => (State::True(Evidence::Simulated), "made"),
+        };
+        let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(own);
+        let how = judgement.unmade.as_deref().or(r.broke.as_deref()).unwrap_or("");
+        vec![code(&r.name), verdict(state, word), text(&context.names.told(how))]
+    };
+    let rows: Vec<Vec<String>> = judgement.runs.iter().map(row).collect();
+    table("Runs", &["run", "", "what broke"], &rows)
+}

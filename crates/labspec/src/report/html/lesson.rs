@@ -1,0 +1,260 @@
+//! One lesson of the page: what was checked, what was found, its questions, its labs.
+
+use super::coverage::Coverage;
+use super::evidence::evidence;
+use super::question::{self, Asked};
+use super::text::{Names, code, many, plain, text};
+use super::verdict::{severity, verdict};
+use crate::check::{Allowed, Checked, Claim, Drawn};
+use crate::finding::Finding;
+use crate::ledger::{Entry, Ledger, State, Subject};
+use crate::source::SourceFile;
+use crate::spec::{Lesson, Quiz, Verify};
+use crate::verify::ShownText;
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::ops::Range;
+
+/// Most unclaimed numbers that are listed.
+const LISTED: usize = 200;
+
+/// Everything that the pieces of a lesson look things up in.
+pub(super) struct Context<'a> {
+    pub(super) lesson: &'a Lesson,
+    pub(super) names: &'a Names,
+    pub(super) curves: &'a [Drawn],
+    pub(super) shown: ShownText,
+    entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn line(&self, at: usize) -> usize {
+        self.lesson.file.position(at).line
+    }
+
+    fn entry(&self, subject: Subject, span: &Range<usize>, what: &str) -> Option<&'a Entry> {
+        let all = self.entries.get(&(subject, span.start, span.end))?;
+        all.iter().find(|e| e.what == what).or(all.first()).copied()
+    }
+
+    /// What the ledger says of a claim: its state, and that in a word.
+    pub(super) fn state(
+        &self,
+        subject: Subject,
+        span: &Range<usize>,
+        what: &str,
+    ) -> Option<(State, &'a str)> {
+        self.entry(subject, span, what).map(|e| (e.state, e.word))
+    }
+}
+
+/// A lesson, ready to be written.
+pub(super) struct Part<'a> {
+    /// Where links to it lead.
+    pub(super) anchor: String,
+    /// Its file.
+    pub(super) name: &'a str,
+    pub(super) summary: String,
+    pub(super) findings: Vec<&'a Finding>,
+    pub(super) allowed: Vec<&'a Allowed>,
+    pub(super) coverage: Coverage,
+    pub(super) questions: Vec<Asked<'a>>,
+    checked: &'a Checked,
+    context: Context<'a>,
+}
+
+impl<'a> Part<'a> {
+    pub(super) fn new(
+        number: usize,
+        checked: &'a Checked,
+        page: &super::Material<'a>,
+        names: &'a Names,
+    ) -> Part<'a> {
+        let lesson = &checked.lesson;
+        let path = lesson.file.path();
+        let mut own = Ledger::default();
+        let mut entries: BTreeMap<_, Vec<&Entry>> = BTreeMap::new();
+        for e in page.ledger.entries().iter().filter(|e| e.path == *path) {
+            own.add(e.clone());
+            entries.entry((e.subject, e.span.start, e.span.end)).or_default().push(e);
+        }
+        let curves = page.curves.get(number - 1).map_or(&[][..], Vec::as_slice);
+        let context = Context { lesson, names, curves, shown: ShownText::of(lesson), entries };
+        let anchor = format!("lesson-{number}");
+        let questions = asked(checked, &context, &anchor);
+        Part {
+            name: names.short(path),
+            summary: own.summary(),
+            findings: page.findings.iter().filter(|f| f.path == *path).collect(),
+            allowed: page.allowed.iter().filter(|a| a.finding.path == *path).collect(),
+            coverage: Coverage::of(checked),
+            anchor,
+            questions,
+            checked,
+            context,
+        }
+    }
+}
+
+/// Every question of a lesson, with its claim.
+fn asked<'a>(checked: &'a Checked, context: &Context<'a>, anchor: &str) -> Vec<Asked<'a>> {
+    let claims: BTreeMap<(usize, usize), &Claim> =
+        checked.claims.iter().map(|c| ((c.span.start, c.span.end), c)).collect();
+    let mut all = Vec::new();
+    for quiz in &checked.lesson.quizzes {
+        let id = quiz.id.as_ref().map_or("", |t| t.as_str());
+        for (n, question) in Quiz::numbered(quiz) {
+            let span = question.verify.as_ref().map_or(&question.span, |v| &v.span);
+            let entry = context.entry(Subject::Answer, span, "");
+            all.push(Asked {
+                anchor: format!("{anchor}-question-{}", all.len() + 1),
+                name: format!("quiz {id}, question {n}"),
+                question,
+                claim: claims.get(&(span.start, span.end)).copied(),
+                state: entry.map_or(State::NotClaimed, |e| e.state),
+                word: entry.map_or("open", |e| e.word),
+                remark: entry.map_or("", |e| &e.remark),
+            });
+        }
+    }
+    all
+}
+
+/// The lesson as a piece of the page.
+pub(super) fn write(part: &Part<'_>) -> String {
+    let Part { anchor, name, summary, findings, allowed, questions, context, .. } = part;
+    let mut out = format!("<section class=\"lesson\" id=\"{anchor}\">\n<h2>{}</h2>\n", text(name));
+    if let Some(title) = context.lesson.file.text().lines().find_map(|line| line.strip_prefix("# ")) {
+        let _ = writeln!(out, "<p class=\"title\">{}</p>", text(title));
+    }
+    let _ = writeln!(out, "<p class=\"summary\">{}</p>", plain(summary));
+    out.push_str(&found(findings, &[&context.lesson.file], context.names));
+    if !allowed.is_empty() {
+        let _ = writeln!(
+            out,
+            "<details><summary>{} allowed by the lesson</summary>\n<ul>",
+            many(allowed.len(), "finding")
+        );
+        for a in allowed {
+            let Finding { code: rule, message, span, .. } = &a.finding;
+            let line = context.line(span.start);
+            let _ = writeln!(
+                out,
+                "<li>line {line}: {} {}. Allowed: {}</li>",
+                code(rule),
+                text(message),
+                text(&a.why)
+            );
+        }
+        out.push_str("</ul></details>\n");
+    }
+    if !questions.is_empty() {
+        out.push_str("<h3>Questions</h3>\n");
+        questions.iter().for_each(|asked| out.push_str(&question::write(asked, context)));
+    }
+    out.push_str(&labs(part));
+    out.push_str(&unclaimed(part));
+    out.push_str("</section>\n");
+    out
+}
+
+/// What was found, finding by finding.
+pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Names) -> String {
+    if findings.is_empty() {
+        return String::new();
+    }
+    let mut out = String::from("<h3>Findings</h3>\n<ul class=\"findings\">\n");
+    for f in findings {
+        let file = sources.iter().find(|s| s.path() == &f.path);
+        let at = f.position.or_else(|| file.map(|file| file.position(f.span.start)));
+        let place = at.map_or(String::new(), |at| {
+            format!(" <span class=\"soft\">line {}, column {}</span>", at.line, at.column)
+        });
+        let _ = write!(
+            out,
+            "<li>{} {}{place}<p>{}</p>",
+            severity(f.severity),
+            code(f.code),
+            text(&names.told(&f.message))
+        );
+        for (word, said) in [("why", &f.why), ("help", &f.help)] {
+            if let Some(said) = said.as_ref().filter(|said| !said.is_empty()) {
+                let _ = write!(out, "<p class=\"soft\">{word}: {}</p>", text(&names.told(said)));
+            }
+        }
+        out.push_str("</li>\n");
+    }
+    out.push_str("</ul>\n");
+    out
+}
+
+/// The labs: what their runs came to, and what they claim.
+fn labs(part: &Part<'_>) -> String {
+    let Part { checked, context, questions, .. } = part;
+    let of = |verify: Option<&Verify>| {
+        verify.and_then(|v| checked.claims.iter().find(|claim| claim.span == v.span))
+    };
+    let mut out = String::new();
+    let mut write = |name: &str, title: &str, entry: Option<&Entry>, line: usize, verify: Option<&Verify>| {
+        let _ = write!(out, "<article class=\"claim\">\n<h4>");
+        if let Some(e) = entry {
+            let _ = write!(out, "{} ", verdict(e.state, e.word));
+        }
+        let title = if title.is_empty() { String::new() } else { format!(" {}", text(title)) };
+        let _ = writeln!(
+            out,
+            "<span class=\"name\">{}{title}</span> <span class=\"soft\">line {line}</span></h4>",
+            text(name)
+        );
+        if let Some(e) = entry.filter(|e| !e.remark.is_empty()) {
+            let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.told(&e.remark)));
+        }
+        if let Some(claim) = of(verify) {
+            out.push_str(&evidence(claim, verify, context));
+        }
+        out.push_str("</article>\n");
+    };
+    let addressed = context.lesson.addressed();
+    for (address, lab) in &addressed {
+        let entry = context.entry(Subject::Lab, &lab.span, lab.title());
+        let line = context.line(lab.span.start);
+        write(&format!("lab {address}"), lab.title(), entry, line, lab.verify.as_ref());
+    }
+    // Labs that stand inside `verify` objects, and claim something themselves.
+    let told = |claim: &Claim| {
+        let asked = questions.iter().any(|q| q.claim.is_some_and(|c| c.span == claim.span));
+        asked || addressed.iter().any(|(_, lab)| lab.verify.as_ref().is_some_and(|v| v.span == claim.span))
+    };
+    for claim in checked.claims.iter().filter(|claim| !told(claim)) {
+        let verify = context.lesson.verifies().find(|v| v.span == claim.span);
+        write(&claim.name, "", None, context.line(claim.span.start), verify);
+    }
+    if out.is_empty() { out } else { format!("<h3>Labs</h3>\n{out}") }
+}
+
+/// The numbers with units that nothing holds to a run.
+fn unclaimed(part: &Part<'_>) -> String {
+    let all = &part.coverage.unclaimed;
+    if all.is_empty() {
+        return String::new();
+    }
+    let mut out = format!(
+        "<details class=\"numbers\"><summary>{} that nothing claims</summary>\n<ul>\n",
+        many(all.len(), "number with a unit").replace("number with a units", "numbers with units")
+    );
+    for s in all.iter().take(LISTED) {
+        let line = part.context.line(s.span.start);
+        let unit = if s.quote.ends_with(&s.unit) { String::new() } else { format!(" {}", text(&s.unit)) };
+        let _ = writeln!(
+            out,
+            "<li><b>{}</b>{unit} <span class=\"soft\">line {line}: {}</span></li>",
+            text(&s.quote),
+            text(&s.context)
+        );
+    }
+    if all.len() > LISTED {
+        let _ = writeln!(out, "<li>and {} more</li>", all.len() - LISTED);
+    }
+    out.push_str("</ul></details>\n");
+    out
+}

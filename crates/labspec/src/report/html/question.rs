@@ -1,0 +1,104 @@
+//! A question: what is asked, what is keyed, and how each option fared.
+
+use super::evidence::evidence;
+use super::lesson::Context;
+use super::text::{code, plain, text};
+use super::verdict::{condition, verdict};
+use crate::check::Claim;
+use crate::ledger::State;
+use crate::spec::{Question, QuestionKind};
+use crate::verify::{self, Answer, Weight, significant};
+use std::fmt::Write;
+
+/// A question of a lesson, with what became of it.
+pub(super) struct Asked<'a> {
+    /// Where links to it lead.
+    pub(super) anchor: String,
+    /// `quiz fall, question 2`.
+    pub(super) name: String,
+    pub(super) question: &'a Question,
+    pub(super) claim: Option<&'a Claim>,
+    /// Its state, and that in a word.
+    pub(super) state: State,
+    pub(super) word: &'a str,
+    /// Why.
+    pub(super) remark: &'a str,
+}
+
+impl Asked<'_> {
+    /// Options of it that the evidence does not decide.
+    pub(super) fn undecided(&self) -> usize {
+        self.answer().map_or(0, |a| a.weights.iter().filter(|w| w.holds.is_none()).count())
+    }
+
+    fn answer(&self) -> Option<&Answer> {
+        self.claim.and_then(|claim| claim.judgement.answer.as_ref())
+    }
+
+    fn weight(&self, option: Option<usize>) -> Option<&Weight> {
+        self.answer()?.weights.iter().find(|w| w.option == option)
+    }
+}
+
+/// The question as a piece of the page.
+pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
+    let Asked { anchor, name, question, claim, state, word, remark } = asked;
+    let spec = question.verify.as_ref();
+    let line = context.line(question.span.start);
+    let mut out = format!(
+        "<article class=\"claim\" id=\"{anchor}\">\n<h4>{} <span class=\"name\">{}</span> <span class=\"soft\">line {line}</span></h4>\n",
+        verdict(*state, word),
+        text(name)
+    );
+    let _ = writeln!(out, "<p class=\"asked\">{}</p>", text(&verify::plain(&question.q.value)));
+    match &question.kind {
+        QuestionKind::Choice { options, .. } => {
+            // From 0, as conditions and messages count.
+            out.push_str("<ol class=\"options\" start=\"0\">\n");
+            for (i, option) in options.iter().enumerate() {
+                let keyed = question.right_option() == Some(i);
+                let (class, key) =
+                    if keyed { (" class=\"key\"", " <b class=\"badge\">key</b>") } else { ("", "") };
+                let _ = write!(out, "<li{class}><p>{}{key}</p>", text(&verify::plain(&option.value)));
+                let written = spec.and_then(|v| v.options.get(i)).map(|t| t.value.as_str());
+                out.push_str(&weighed(written, asked.weight(Some(i))));
+                out.push_str("</li>\n");
+            }
+            out.push_str("</ol>\n");
+        }
+        QuestionKind::Numeric { unit, .. } => {
+            let unit = unit.as_ref().map_or(String::new(), |u| format!(" {}", text(u.as_str())));
+            let keyed = match question.numeric() {
+                Some((x, tol)) => {
+                    let [x, tol] = [x, tol].map(|x| plain(&significant(x)));
+                    format!("{x} ± {tol}{unit} <b class=\"badge\">key</b>")
+                }
+                None => "no answer is keyed".to_string(),
+            };
+            let _ = writeln!(out, "<p class=\"key\">{keyed}</p>");
+            let written = spec.and_then(|v| v.value.as_ref()).map(|t| t.value.as_str());
+            out.push_str(&weighed(written, asked.weight(None)));
+        }
+        QuestionKind::Open { .. } => {
+            out.push_str("<p class=\"soft\">An open question: no answer is keyed.</p>\n");
+        }
+    }
+    if !remark.is_empty() {
+        let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.told(remark)));
+    }
+    if let Some(claim) = claim {
+        out.push_str(&evidence(claim, spec, context));
+    }
+    out.push_str("</article>\n");
+    out
+}
+
+/// A condition, and how well it holds.
+fn weighed(written: Option<&str>, weight: Option<&Weight>) -> String {
+    let Some(written) = written else { return String::new() };
+    let held = weight.map_or(String::new(), |w| condition(w.holds, &w.words()));
+    if written.trim() == verify::UNDECIDED {
+        return format!("<p class=\"condition\">{held}</p>\n");
+    }
+    format!("<p class=\"condition\">{} {held}</p>\n", code(written))
+}

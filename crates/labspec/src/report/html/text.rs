@@ -1,0 +1,130 @@
+//! Text of lessons in a page: whatever stands in it is shown as text, and acts on nothing.
+
+use crate::printable::printable;
+use std::borrow::Cow;
+
+/// Most characters of one text; what is longer is cut, and the page says so.
+const LONG: usize = 2000;
+
+/// A text in one line, to stand between tags. Its direction of writing ends with it.
+pub(super) fn text(text: &str) -> String {
+    let shown = plain(text);
+    if shown.is_empty() { shown } else { format!("<bdi>{shown}</bdi>") }
+}
+
+/// The same where no tag may stand: in attributes and in the title.
+pub(super) fn plain(text: &str) -> String {
+    let words: Vec<&str> = cut(text).split_whitespace().collect();
+    let mut out = escape(&words.join(" "));
+    out.push_str(&rest(text));
+    out
+}
+
+/// A piece of code, on as many lines as it is written.
+pub(super) fn code(text: &str) -> String {
+    let lines: Vec<String> = cut(text.trim()).lines().map(|line| escape(&line.replace('\t', "  "))).collect();
+    format!("<code>{}{}</code>", lines.join("\n"), rest(text.trim()))
+}
+
+/// What is shown of a text.
+fn cut(text: &str) -> &str {
+    let end = text.char_indices().nth(LONG).map_or(text.len(), |(at, _)| at);
+    text.get(..end).unwrap_or("")
+}
+
+fn rest(text: &str) -> String {
+    let left = text.get(cut(text).len()..).map_or(0, |rest| rest.chars().count());
+    if left == 0 { String::new() } else { format!(" … ({left} more characters)") }
+}
+
+/// What means something to a browser is written so that it means itself; what cannot be seen is written out.
+fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len() + 16);
+    for c in printable(text).chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            // No characters at all.
+            '\u{fffe}' | '\u{ffff}' => out.extend(c.escape_default()),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// `1 run`, `3 runs`.
+pub(super) fn many(n: usize, one: &str) -> String {
+    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
+}
+
+/// Paths without the folder that all of them share, so that a page says nothing of the machine.
+pub(super) struct Names {
+    folder: String,
+}
+
+impl Names {
+    /// For these files.
+    pub(super) fn of<'p>(mut paths: impl Iterator<Item = &'p str>) -> Names {
+        let folder_of = |path: &str| path.rfind(['/', '\\']).map_or(0, |at| at + 1);
+        let Some(first) = paths.next() else { return Names { folder: String::new() } };
+        let mut folder = first.get(..folder_of(first)).unwrap_or("");
+        for path in paths {
+            while !path.starts_with(folder) {
+                let outer = folder.trim_end_matches(['/', '\\']);
+                folder = outer.get(..folder_of(outer)).unwrap_or("");
+            }
+        }
+        Names { folder: folder.to_string() }
+    }
+
+    /// A path as the page shows it.
+    pub(super) fn short<'p>(&self, path: &'p str) -> &'p str {
+        let inside = path.strip_prefix(self.folder.as_str()).unwrap_or(path);
+        if inside.starts_with(['/', '\\']) { inside.rsplit(['/', '\\']).next().unwrap_or("") } else { inside }
+    }
+
+    /// A sentence that may name files.
+    pub(super) fn told<'t>(&self, text: &'t str) -> Cow<'t, str> {
+        let whole = self.folder.len() > 1 && self.folder.starts_with(['/', '\\']);
+        if whole && text.contains(&self.folder) {
+            Cow::Owned(text.replace(&self.folder, ""))
+        } else {
+            Cow::Borrowed(text)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_acts_on_nothing() {
+        assert_eq!(plain("<b a=\"'\">&"), "&lt;b a=&quot;&#39;&quot;&gt;&amp;");
+        assert_eq!(plain("a\u{202e}b\u{0}c\u{ffff}"), "a\\u{202e}b\\u{0}c\\u{ffff}");
+        assert_eq!(plain(" two\n lines\t"), "two lines");
+        assert_eq!(code("a\n\tb < c"), "<code>a\n  b &lt; c</code>");
+        assert_eq!(text("x"), "<bdi>x</bdi>");
+    }
+
+    #[test]
+    fn long_text_is_cut_between_characters() {
+        let long = plain(&"é<".repeat(LONG));
+        assert!(long.ends_with("é&lt; … (2000 more characters)"), "{}", &long[long.len() - 60..]);
+        assert_eq!(plain(&"é".repeat(LONG)).chars().count(), LONG);
+    }
+
+    #[test]
+    fn paths_lose_what_they_share() {
+        let names = Names::of(["/home/me/course/a.md", "/home/me/course/b/c.md"].into_iter());
+        assert_eq!(names.short("/home/me/course/b/c.md"), "b/c.md");
+        assert_eq!(names.short("/home/me/models/x.xml"), "x.xml");
+        assert_eq!(names.told("no /home/me/course/a.md"), "no a.md");
+        assert_eq!(Names::of(["a.md"].into_iter()).short("a.md"), "a.md");
+        assert_eq!(Names::of(["a/x.md", "b/x.md"].into_iter()).short("b/x.md"), "b/x.md");
+        assert_eq!(Names::of(std::iter::empty()).short("/root/a.md"), "a.md");
+    }
+}

@@ -1,0 +1,73 @@
+//! What a lab shows in a run: its traces over time, for a report that draws them.
+
+use super::perform::{self, Asked};
+use super::stage::Stage;
+use crate::run::Session;
+use crate::spec::Plot;
+use labspec_expr::Value;
+use std::ops::Range;
+
+/// Most samples of a run: a curve in a report has fewer pixels.
+const SAMPLES: usize = 300;
+
+/// What the plots of a lab show in one run of a `verify` object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    /// The run, as conditions call it: `fine`, `fall[2]`.
+    pub run: String,
+    /// The lab, by its bytes in the lesson.
+    pub lab: Range<usize>,
+    /// Its title, possibly empty.
+    pub title: String,
+    /// Its plots.
+    pub plots: Vec<Plot>,
+    /// When the samples were taken, s.
+    pub times: Vec<f64>,
+    /// The values of every trace, plot after plot; NaN where it shows no number.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// Makes a run once more and looks at the lab. `None` where it cannot be made, or has no trace.
+pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
+    let scene = &asked.scene.scene;
+    let (lab, programs) = (&*scene.lab, &*scene.programs);
+    let traces = lab.traces().count();
+    if traces == 0 {
+        return None;
+    }
+    let mut ready = perform::ready(asked, stage, &mut Vec::new())?;
+    let every = ready.count.div_ceil(SAMPLES).max(1);
+    let mut times = Vec::new();
+    let mut values = vec![Vec::new(); traces];
+    let mut take = |session: &mut Session<'_>| {
+        times.push(session.world.data.time());
+        for (probe, column) in programs.probes.iter().zip(&mut values) {
+            let value = probe.bound.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
+            column.push(match value {
+                Some(Value::Number(x)) => x,
+                Some(Value::Boolean(holds)) => f64::from(u8::from(holds)),
+                _ => f64::NAN,
+            });
+        }
+    };
+    let mut seen = 0;
+    perform::play(asked, &mut ready, |session, made| {
+        seen = made;
+        if made % every == 0 {
+            take(session);
+        }
+    });
+    // Where it stopped.
+    if seen % every != 0 && ready.session.ended().is_none() {
+        take(&mut ready.session);
+    }
+    stage.spend(ready.session.spent());
+    Some(Curves {
+        run: asked.run.title(),
+        lab: lab.span.clone(),
+        title: lab.title().to_string(),
+        plots: lab.plots.clone(),
+        times,
+        values,
+    })
+}

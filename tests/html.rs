@@ -1,0 +1,333 @@
+//! `labspec check --html FILE`: one page that holds every claim of a course, loads nothing, runs nothing, and says nothing of the
+//! machine it was written on. The page is XML, too: a parser of XML holds its nesting.
+
+#![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
+
+use crate::program::{folder, run_in};
+use crate::support::{model_text, workspace};
+use labspec::bind::scene::Models;
+use labspec::check;
+use labspec::lint::{ModelFolder, load_lesson, load_lesson_file};
+use labspec::source::SourceFile;
+use labspec::spec::{QuestionKind, Quiz};
+use labspec::verify::plain;
+use roxmltree::{Document, Node, ParsingOptions};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::OnceLock;
+
+/// Elements that a page may have.
+const ELEMENTS: &str = "a article b bdi body caption circle code dd desc details div dl dt figure footer g h1 h2 h3 h4 head \
+                        header html li line main meta ol p path polyline rect section span style summary svg table tbody td text \
+                        th thead title tr tspan ul";
+/// Attributes that it may have.
+const ATTRIBUTES: &str = "aria-hidden aria-label charset class content cx cy d dy fill font-family font-size font-weight height \
+                          href http-equiv id lang name open points r role scope start stroke stroke-dasharray stroke-linecap \
+                          stroke-linejoin stroke-width style text-anchor transform viewBox width x x1 x2 y y1 y2";
+/// Colours of pictures that can be seen on white and on black.
+const ON_BOTH: [&str; 4] = ["none", "#cc79a7", "#e69f00", "#56b4e9"];
+
+fn parse(page: &str) -> Document<'_> {
+    let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
+    Document::parse_with_options(page, options).unwrap_or_else(|e| {
+        let line = page.lines().nth(e.pos().row as usize - 1).unwrap_or("");
+        panic!("{e}: {}", line.chars().take(400).collect::<String>())
+    })
+}
+
+/// What a reader sees of an element, its spaces made one.
+fn seen(node: Node<'_, '_>) -> String {
+    let all: String = node.descendants().filter(Node::is_text).filter_map(|t| t.text()).collect();
+    all.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+fn with_class<'a, 'i>(node: Node<'a, 'i>, class: &str) -> Vec<Node<'a, 'i>> {
+    let has = |n: &Node<'_, '_>| n.attribute("class").is_some_and(|all| all.split(' ').any(|c| c == class));
+    node.descendants().filter(has).collect()
+}
+
+/// Nothing is loaded, nothing runs, and every link leads to a place of the page.
+fn harmless(page: &str) {
+    let tree = parse(page);
+    let ids: Vec<&str> = tree.descendants().filter_map(|n| n.attribute("id")).collect();
+    let unique: BTreeSet<&str> = ids.iter().copied().collect();
+    assert_eq!(ids.len(), unique.len(), "two elements have one id");
+    for node in tree.descendants().filter(Node::is_element) {
+        let name = node.tag_name().name();
+        assert!(ELEMENTS.split_whitespace().any(|e| e == name), "<{name}>");
+        for attribute in node.attributes() {
+            let (key, value) = (attribute.name(), attribute.value());
+            assert!(ATTRIBUTES.split_whitespace().any(|a| a == key), "<{name} {key}={value:?}>");
+            if key == "href" {
+                assert!(unique.contains(value.strip_prefix('#').unwrap()), "a link to {value}");
+            }
+            if key == "style" {
+                let width = value.strip_prefix("width:").and_then(|v| v.strip_suffix('%')).unwrap();
+                assert!((0.0..=100.0).contains(&width.parse::<f64>().unwrap()), "{value}");
+            }
+        }
+    }
+    for loads in ["url(", "@import", "<script", "javascript:"] {
+        assert!(!page.contains(loads), "{loads}");
+    }
+    let hidden = |c: &char| {
+        (c.is_control() && *c != '\n') || matches!(c, '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}')
+    };
+    assert_eq!(page.chars().find(hidden), None);
+}
+
+/// A page for these paths, and the report in JSON of the same check.
+fn page_of(folder: &Path, arguments: &[&str]) -> (String, Value) {
+    let out = tempfile::tempdir().unwrap();
+    let file = out.path().join("page.html");
+    let mut all = vec!["check"];
+    all.extend(arguments);
+    all.extend(["--format", "json", "--html", file.to_str().unwrap()]);
+    let done = run_in(folder, &all);
+    assert!(done.code <= 1 || done.code == 3, "{}", done.stderr);
+    (std::fs::read_to_string(&file).unwrap(), serde_json::from_str(&done.stdout).unwrap())
+}
+
+const COURSE: [&str; 3] = ["specs/lessons", "--models", "specs/models"];
+
+/// The page of our own course: two checks of it are enough for all tests.
+fn course() -> &'static (String, Value) {
+    static PAGE: OnceLock<(String, Value)> = OnceLock::new();
+    PAGE.get_or_init(|| page_of(&workspace(), &[&COURSE[..], &["--jobs", "4"]].concat()))
+}
+
+#[test]
+fn every_question_stands_in_the_page_with_its_verdict() {
+    let (page, report) = course();
+    let tree = parse(page);
+    let word = |claim: &Value| claim["answer"]["verdict"].as_str().unwrap_or("open").to_string();
+    let lessons = report["lessons"].as_array().unwrap();
+    let sections = with_class(tree.root(), "lesson");
+    assert_eq!(sections.len(), lessons.len());
+    let models = ModelFolder::open(&workspace().join("specs/models")).unwrap();
+    let (mut questions, mut measures, mut quotes) = (0, 0, 0);
+    for (section, lesson) in sections.iter().zip(lessons) {
+        let file = lesson["file"].as_str().unwrap();
+        assert_eq!(seen(section.first_element_child().unwrap()), file.rsplit('/').next().unwrap());
+        let verdicts: BTreeMap<&str, String> = lesson["claims"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|c| (c["name"].as_str().unwrap(), word(c)))
+            .collect();
+        let articles: BTreeMap<String, Node<'_, '_>> =
+            with_class(*section, "claim").into_iter().map(|a| (seen(with_class(a, "name")[0]), a)).collect();
+        let read = load_lesson_file(&workspace().join(file), &models).unwrap();
+        for quiz in &read.quizzes {
+            for (n, question) in Quiz::numbered(quiz) {
+                questions += 1;
+                let name = format!("quiz {}, question {n}", quiz.id.as_ref().map_or("", |t| t.as_str()));
+                let article = articles.get(&name).unwrap_or_else(|| panic!("{file}: {name}"));
+                let expected = verdicts.get(name.as_str()).map_or("open", String::as_str);
+                assert!(seen(with_class(*article, "verdict")[0]).ends_with(expected), "{file}: {name}");
+                let normal = |html: &str| plain(html).split_whitespace().collect::<Vec<_>>().join(" ");
+                assert_eq!(seen(with_class(*article, "asked")[0]), normal(&question.q.value));
+                let QuestionKind::Choice { options, .. } = &question.kind else { continue };
+                let shown: Vec<Node<'_, '_>> =
+                    with_class(*article, "options")[0].children().filter(Node::is_element).collect();
+                assert_eq!(shown.len(), options.len());
+                for (i, (item, option)) in shown.iter().zip(options).enumerate() {
+                    let keyed = question.right_option() == Some(i);
+                    let text = format!("{}{}", normal(&option.value), if keyed { " key" } else { "" });
+                    assert_eq!(seen(item.first_element_child().unwrap()), text);
+                    assert_eq!(item.attribute("class") == Some("key"), keyed);
+                    if let Some(condition) = question.verify.as_ref().and_then(|v| v.options.get(i)) {
+                        let held = seen(with_class(*item, "condition")[0]);
+                        let told = condition.value.trim() == "undecided" || held.contains("hold");
+                        assert!(told, "{file}: {name}: {held}");
+                    }
+                }
+            }
+        }
+        // Every measure and every quoted number, with its value.
+        for claim in lesson["claims"].as_array().unwrap() {
+            let name = claim["name"].as_str().unwrap();
+            let found =
+                articles.iter().find(|(title, _)| *title == name || title.starts_with(&format!("{name} ")));
+            let article = *found.unwrap_or_else(|| panic!("{file}: {name}")).1;
+            let text = seen(article);
+            let rows = article.descendants().filter(|n| n.has_tag_name("tr"));
+            let rows: Vec<Vec<String>> =
+                rows.map(|row| row.children().filter(Node::is_element).map(seen).collect()).collect();
+            for (measure, value) in claim["measures"].as_object().unwrap() {
+                measures += 1;
+                let row =
+                    rows.iter().find(|row| row[0] == *measure).unwrap_or_else(|| panic!("{file}: {measure}"));
+                // Six digits of it are shown.
+                let agrees = |x: f64, text: &str| (text.parse::<f64>().unwrap() - x).abs() <= 5e-6 * x.abs();
+                if let Some(x) = value["value"].as_f64() {
+                    assert!(agrees(x, &row[1]), "{file}: {name}: {row:?}");
+                }
+                match value["halved"].as_f64() {
+                    Some(x) => assert!(agrees(x, &row[2]), "{file}: {name}: {row:?}"),
+                    None => {
+                        assert!(row[2].parse::<f64>().map_or(row[2] == "–", |x| !x.is_finite()), "{row:?}")
+                    }
+                }
+            }
+            for quote in claim["quotes"].as_array().unwrap() {
+                quotes += 1;
+                let said = quote["text"].as_str().unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(text.contains(&said), "{file}: {name}: {said}");
+            }
+        }
+    }
+    assert!(
+        questions > 25 && measures > 60 && quotes > 60,
+        "{questions} questions, {measures} measures, {quotes} quotes"
+    );
+}
+
+#[test]
+fn the_page_of_a_course_loads_nothing_and_is_small() {
+    let (page, _) = course();
+    harmless(page);
+    assert!(page.len() < 1_500_000, "{} bytes", page.len());
+    let tree = parse(page);
+    let pictures =
+        tree.descendants().filter(|n| n.has_tag_name(("http://www.w3.org/2000/svg", "svg"))).count();
+    assert!(pictures > 30, "{pictures} pictures");
+    // The name of the language of pictures is no address that is loaded.
+    let rest = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    assert!(!rest.contains("src=") && !rest.contains("<link"));
+}
+
+/// On a dark screen every colour of a picture is one that was chosen for it.
+#[test]
+fn pictures_can_be_seen_in_the_dark() {
+    let (page, _) = course();
+    let tree = parse(page);
+    let style = seen(tree.descendants().find(|n| n.has_tag_name("style")).unwrap());
+    let dark = style.split("prefers-color-scheme: dark").nth(1).unwrap();
+    let inside =
+        tree.descendants().filter(|n| n.tag_name().namespace() == Some("http://www.w3.org/2000/svg"));
+    let mut colours = BTreeSet::new();
+    for node in inside {
+        for key in ["fill", "stroke"] {
+            colours.extend(node.attribute(key).map(|value| format!("[{key}=\"{value}\"]")));
+        }
+    }
+    assert!(colours.len() > 8);
+    for colour in &colours {
+        let fine = ON_BOTH.iter().any(|c| colour.contains(&format!("\"{c}\"")));
+        assert!(fine || dark.contains(&format!("svg {colour}")), "{colour}");
+    }
+}
+
+#[test]
+fn the_same_course_gives_the_same_bytes() {
+    let one = page_of(&workspace(), &[&COURSE[..], &["--jobs", "1"]].concat()).0;
+    assert!(one == course().0);
+}
+
+/// Where the course lies is no matter of the page.
+#[test]
+fn the_page_says_nothing_of_the_machine() {
+    let folder = folder();
+    let whole = folder.path().canonicalize().unwrap();
+    let absolute = page_of(&whole, &[whole.to_str().unwrap()]).0;
+    let relative = page_of(&whole, &["."]).0;
+    assert!(!absolute.contains(whole.to_str().unwrap()));
+    assert_eq!(absolute, relative);
+    harmless(&absolute);
+    for told in ["✗</span> refuted", "wrong.md", "unknown-field", "0.450 s", "in the baseline"] {
+        assert_eq!(absolute.contains(told), told != "in the baseline", "{told}");
+    }
+}
+
+/// What a lesson may hold that is meant to do something in a browser, a terminal or a reader's eye.
+const HOSTILE: [&str; 7] = [
+    "<script>alert(1)</script>",
+    "\\\"><img src=x onerror=alert(1)>",
+    "</style></title><svg onload=alert(1)>",
+    "a\\u0000b\\u001b[2Jc\\u009b",
+    "\\u202edeifirev\\u2066\\u200f",
+    "]]>&#x3c;script&#x3e;<!--",
+    "' onmouseover='alert(1)",
+];
+
+#[test]
+fn text_of_lessons_is_text() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("models")).unwrap();
+    std::fs::write(folder.path().join("models/free_fall.xml"), model_text("free_fall")).unwrap();
+    let [long, option] = [20_000, 250_000].map(|n| format!("<b>{}", "<i>é&".repeat(n)));
+    for (i, bad) in HOSTILE.into_iter().chain([long.as_str()]).enumerate() {
+        let lab = format!(
+            r#"{{"model": "free_fall", "title": "{bad}", "stopAt": 0.1,
+              "plots": [{{"ylabel": "{bad}", "refLines": [{{"y": 1, "label": "{bad}"}}], "traces": [{{"label": "{bad}", "expr": "data.qpos[2]"}}]}}],
+              "verify": {{"runs": {{"{bad}": {{"until": 0.1}}, "other": {{"until": 0.1}}}},
+                "measure": {{"high": "final(data.qpos[2])"}}, "says": [["{bad} 1 m", "other.high"], ["0.951 m", "other.high"]],
+                "exact": {{"{bad}": "1 - 4.905 * data.time * data.time"}}}}}}"#
+        );
+        let option = if bad.len() > 1000 { option.as_str() } else { bad };
+        let quiz = format!(
+            r##"{{"id": "{bad}", "questions": [
+              {{"kind": "mcq", "q": "{bad}", "options": ["{option}", "right"], "answer": 1, "explain": "{bad}",
+                "verify": {{"lab": "#1", "measure": {{"high": "final(data.qpos[2])"}}, "options": ["high > 2 || '{}' === 'x'", "high < 2"]}}}},
+              {{"kind": "numeric", "q": "{bad}", "answer": 1, "unit": "{bad}"}}, {{"kind": "open", "q": "{bad}", "reference": "{bad}"}}]}}"##,
+            bad.replace('\'', "")
+        );
+        let raw: String = serde_json::from_str(&format!("\"{bad}\"")).unwrap();
+        let text = format!(
+            "# {raw}\n\nIt falls {raw} 0.951 m, {raw} 3 m.\n\n```lab\n{lab}\n```\n\n```quiz\n{quiz}\n```\n"
+        );
+        std::fs::write(folder.path().join(format!("{i}.md")), text).unwrap();
+        let (page, report) = page_of(folder.path(), &[&format!("{i}.md")]);
+        harmless(&page);
+        assert!(page.len() < 400_000, "{} bytes", page.len());
+        let tree = parse(&page);
+        let asked: Vec<String> = with_class(tree.root(), "asked").into_iter().map(seen).collect();
+        assert_eq!(asked.len(), 3, "{report:#}");
+    }
+}
+
+/// A page is never written over a lesson.
+#[test]
+fn a_lesson_is_not_overwritten() {
+    let folder = folder();
+    let before = std::fs::read_to_string(folder.path().join("clean.md")).unwrap();
+    let done = run_in(folder.path(), &["check", "clean.md", "--html", "clean.md"]);
+    assert_eq!(done.code, 2, "{}", done.stdout);
+    assert!(done.stderr.contains("would overwrite a lesson"), "{}", done.stderr);
+    assert_eq!(std::fs::read_to_string(folder.path().join("clean.md")).unwrap(), before);
+}
+
+/// The curves are those of the runs: they begin where the run begins, end where it stops, and show what it measures.
+#[test]
+fn curves_are_those_of_the_runs() {
+    let folder = folder();
+    let models = ModelFolder::open(&folder.path().join("models")).unwrap();
+    let text = r#"{"model": "free_fall",
+      "controls": [{"label": "start", "set": "data.qpos[2]", "min": 0.5, "max": 3, "value": 1}],
+      "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}]}, {"traces": [{"label": "speed", "expr": "-data.qvel[2]"}]}],
+      "verify": {"runs": {"low": {"until": 1, "stop": "data.qpos[2] < 0.5"}, "high": {"set": {"start": 2}, "until": 2, "stop": "data.qpos[2] < 0.5"}},
+        "measure": {"t": "final(data.time)", "v": "final(-data.qvel[2])"},
+        "says": [["1 s", "low.t"]]}}"#;
+    let lesson = load_lesson(SourceFile::new("a.json", text), &models);
+    let models = Models::new(models);
+    let drawn = check::curves(&lesson, &models);
+    let checked = check::check(lesson, &models, check::Depth::CLAIMS);
+    let measures = &checked.claims[0].judgement.measures;
+    assert_eq!(drawn.len(), 1);
+    let [low, high] = drawn[0].runs.as_slice() else { panic!("{drawn:?}") };
+    assert_eq!([low.run.as_str(), high.run.as_str()], ["low", "high"]);
+    for (run, start) in [(low, 1.0), (high, 2.0)] {
+        let measured =
+            |m: &str| measures.iter().find(|x| x.name == format!("{}.{m}", run.run)).unwrap().value;
+        assert_eq!(run.plots.len(), 2);
+        assert_eq!((run.times[0], run.values[0][0], run.values[1][0]), (0.0, start, 0.0));
+        assert!(run.times.len() > 50 && run.times.len() <= 302);
+        assert!(run.times.windows(2).all(|w| w[0] < w[1]));
+        assert_eq!(
+            [measured("t"), measured("v")],
+            [*run.times.last().unwrap(), *run.values[1].last().unwrap()]
+        );
+    }
+}
