@@ -51,8 +51,7 @@ fn asked(folder: &Path) -> (Value, Value) {
             Some((sweep, at)) => format!("{sweep}.height[{at}"),
             None => format!("{run}.height"),
         };
-        let all = ours.as_array().unwrap();
-        all.iter().find(|m| m["name"] == name.as_str()).map(|m| m["value"].clone()).unwrap()
+        ours[name.as_str()]["value"].clone()
     };
     let request = read_json(&folder.join("request.json"));
     let run = |r: &Value| {
