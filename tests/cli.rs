@@ -71,7 +71,7 @@ fn check_for_programs() {
     let report: Value = serde_json::from_str(&report.stdout).unwrap();
     assert_eq!(
         keys(&report),
-        ["schemaVersion", "report", "findings", "summary", "aside", "lessons", "ledger", "since"]
+        ["schemaVersion", "report", "findings", "summary", "aside", "lessons", "ledger", "since", "judge"]
     );
     let lesson = &report["lessons"][0];
     assert_eq!(keys(lesson), ["file", "labs", "claims", "snapshots"]);

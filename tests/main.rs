@@ -22,6 +22,7 @@ mod fuzz;
 mod html;
 mod init;
 mod javascript;
+mod judge;
 mod labs;
 mod ledger;
 mod lessons;

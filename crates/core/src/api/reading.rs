@@ -38,6 +38,12 @@ pub fn examine_patched(
     (Examined { model: model.map(Model::new), findings }, refusals)
 }
 
+/// The text of a model with changes, and with what it includes in its place: what another program can read. Meshes and other files
+/// that it names are still named. `None` when it is not XML, or a change cannot be made.
+pub fn written(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
+    mjcf::written(xml, files, path, patches)
+}
+
 /// Compiles a model from its text; the mistakes as they were found.
 pub fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
     mjcf::compile(xml).map(Model::new)

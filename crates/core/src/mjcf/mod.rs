@@ -118,6 +118,12 @@ pub(crate) fn examine_patched(
     (Examined { model: built.map(|(_, model)| model), findings: report.finish() }, refusals)
 }
 
+/// The text of a model with changes, and with what it includes in its place: what another program can read. `None` when it is not
+/// XML, or a change cannot be made.
+pub(crate) fn written(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
+    text::load::Loader::new(files, patches).written(xml, path, &mut Report::new())
+}
+
 /// A model that can be simulated, and its tree.
 fn built(
     xml: &str,

@@ -115,6 +115,11 @@ impl Models {
         }
     }
 
+    /// The text of the model of a lab with changes, and with what it includes in its place: what another program can read.
+    pub fn written(&self, lab: &Lab, patches: &[Patch]) -> Option<String> {
+        self.texts(lab, |text, files, path| xml::written(text, files, path, patches))?
+    }
+
     /// The model of a lab with changes of its text, made before it is compiled.
     ///
     /// # Errors
@@ -122,26 +127,9 @@ impl Models {
     pub fn changed(&self, lab: &Lab, patches: &[Patch]) -> Result<Arc<Model>, (Option<usize>, Refusal)> {
         let unreadable =
             || (None, Refusal { message: "the model cannot be read".into(), help: String::new() });
-        let (examined, refusals) = match lab.scene().ok_or_else(unreadable)? {
-            Scene::Xml(text) => xml::examine_patched(&text.value, &NoFiles, None, patches),
-            Scene::Model(name) => {
-                let file = Some(format!("{}.xml", name.value));
-                match self.folder.given() {
-                    Some(given) => {
-                        let text = given.text(&name.value).ok_or_else(unreadable)?;
-                        xml::examine_patched(&text, &FilesOf(given), file.as_deref(), patches)
-                    }
-                    None => {
-                        let path = self.folder.path(&name.value).ok_or_else(unreadable)?;
-                        let text = SourceFile::read(&path).map_err(|_| unreadable())?;
-                        let folder =
-                            Folder::at(self.folder.root(), path.parent().unwrap_or(Path::new(""))).ok();
-                        let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-                        xml::examine_patched(text.text(), files, file.as_deref(), patches)
-                    }
-                }
-            }
-        };
+        let (examined, refusals) = self
+            .texts(lab, |text, files, path| xml::examine_patched(text, files, path, patches))
+            .ok_or_else(unreadable)?;
         if let Some((i, refusal)) = refusals.into_iter().enumerate().find_map(|(i, r)| Some((i, r?))) {
             return Err((Some(i), refusal));
         }
@@ -150,6 +138,24 @@ impl Models {
             let message = first.map_or("no model comes of this change".into(), |f| f.message);
             (None, Refusal { message, help: "change it to what the model can be".into() })
         })
+    }
+
+    /// What comes of the text of a lab's model, of the files that it names, and of its own name among them. `None` when it cannot be
+    /// read.
+    fn texts<T>(&self, lab: &Lab, of: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
+        let name = match lab.scene()? {
+            Scene::Xml(text) => return Some(of(&text.value, &NoFiles, None)),
+            Scene::Model(name) => &name.value,
+        };
+        let file = Some(format!("{name}.xml"));
+        if let Some(given) = self.folder.given() {
+            return Some(of(&given.text(name)?, &FilesOf(given), file.as_deref()));
+        }
+        let path = self.folder.path(name)?;
+        let text = SourceFile::read(&path).ok()?;
+        let folder = Folder::at(self.folder.root(), path.parent().unwrap_or(Path::new(""))).ok();
+        let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
+        Some(of(text.text(), files, file.as_deref()))
     }
 
     /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.

@@ -137,6 +137,18 @@ fn cast<'r>(
     (base.is_some() || !runs.is_empty()).then_some(Cast { base, runs })
 }
 
+/// A `verify` object bound to its labs. `None` where they have mistakes.
+pub(super) fn bound<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [Ready<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+) -> Option<BoundVerify<'r>> {
+    let Cast { base, runs } = cast(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())
+}
+
 /// What a `verify` object rests on.
 pub(super) struct Begun {
     /// The model of its lab.

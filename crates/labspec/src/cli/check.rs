@@ -2,13 +2,13 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Plan, STDIN, collect, look};
+use super::course::{Course, Judge, Plan, STDIN, collect, look};
 use super::fix::{Mode, fix};
 use super::output::{Wanted, look_ahead, write_file};
 use super::policy::PolicyOptions;
 use super::stdio::{complain, print_json};
 use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print, watch};
-use super::{reproduction, since};
+use super::{judge, reproduction, since};
 use crate::check::{self, Depth};
 use crate::ledger::{self, Entry, State, Subject};
 use crate::report::html::Material;
@@ -56,6 +56,12 @@ pub(super) struct Arguments {
     /// Write the baseline anew: whatever is found now is known from now on
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
+    /// Write what a second judge is to run: every run of every `verify` object, for tests/judge/record.mjs
+    #[arg(long, value_name = "FILE")]
+    judge_request: Option<PathBuf>,
+    /// Compare every measure with what the real library has recorded, and judge every claim again with its numbers
+    #[arg(long, value_name = "FILE")]
+    judge: Option<PathBuf>,
     /// Count the findings of each rule, and show no more of them
     #[arg(long)]
     statistics: bool,
@@ -151,7 +157,11 @@ fn work(
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
         _ => None,
     };
-    let outputs = [("--record", records.write), ("--html", records.html)];
+    let outputs = [
+        ("--record", records.write),
+        ("--html", records.html),
+        ("--judge-request", a.judge_request.as_deref()),
+    ];
     let outputs: Vec<Wanted> = outputs
         .into_iter()
         .filter_map(|(option, file)| Some(Wanted { option, path: file?.to_path_buf() }))
@@ -162,7 +172,9 @@ fn work(
     }
     // Read before anything is written: it may be the same file.
     let before = records.since.map(|file| Ok::<_, Failure>((file, reproduction::read(file)?))).transpose()?;
+    let recording = a.judge.as_deref().map(judge::read).transpose()?;
     let plan = Plan {
+        judge: Judge { ask: a.judge_request.is_some(), recording: recording.as_ref() },
         paths: &a.paths,
         basis: records.write.is_some() || before.is_some(),
         curves: records.html.is_some(),
@@ -225,6 +237,9 @@ fn report(
     if let Some(file) = records.write.filter(|_| !interrupted()) {
         reproduction::write(file, &reproduction::now(file, course))?;
     }
+    if let Some(file) = a.judge_request.as_deref().filter(|_| !interrupted()) {
+        judge::ask(file, course)?;
+    }
     if let Some(file) = records.html.filter(|_| !interrupted()) {
         let material = Material {
             lessons: &course.checked,
@@ -249,6 +264,9 @@ fn report(
             if let Some((file, changes)) = &changes {
                 text.push_str(&since::told(&file.display().to_string(), changes));
             }
+            if let (Some(file), Some(engine)) = (&a.judge, &course.judged_by) {
+                text.push_str(&judge::told(file, engine, course));
+            }
             if outcome == found {
                 let _ = writeln!(text, "{}", last_line(course));
             }
@@ -258,6 +276,8 @@ fn report(
             let name = if evidence { "verify" } else { "check" };
             let mut value = machine::value(name, outcome, course, &sources);
             value["since"] = changes.as_ref().map_or(Value::Null, |(_, changes)| since::machine(changes));
+            value["judge"] =
+                course.judged_by.as_ref().map_or(Value::Null, |engine| judge::machine(engine, course));
             print_json(&value, true)?;
         }
         Format::Concise => print(&drawn::concise(&course.findings, &sources))?,
@@ -281,6 +301,11 @@ fn report(
             Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
         }
         ledger::Outcome::Partial => Ok(Outcome::Partial),
+        ledger::Outcome::Clean | ledger::Outcome::Known
+            if course.judged_by.is_some() && judge::is_partial(course) =>
+        {
+            Ok(Outcome::Partial)
+        }
         ledger::Outcome::Clean | ledger::Outcome::Known => Ok(Outcome::Clean),
     }
 }

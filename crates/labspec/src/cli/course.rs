@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn};
+use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -37,6 +37,8 @@ pub(super) struct Plan<'a> {
     pub(super) baseline: Option<&'a Baseline>,
     /// What every verdict rests on is asked for.
     pub(super) basis: bool,
+    /// A second judge is asked, or heard.
+    pub(super) judge: Judge<'a>,
     /// What the labs show in the runs of the claims is asked for.
     pub(super) curves: bool,
     /// Most threads.
@@ -47,12 +49,25 @@ pub(super) struct Plan<'a> {
     pub(super) told: Option<bool>,
 }
 
+/// A second judge.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Judge<'a> {
+    /// Its runs are asked for.
+    pub(super) ask: bool,
+    /// What it has recorded.
+    pub(super) recording: Option<&'a Recording>,
+}
+
 /// Everything that was checked, and what it came to.
 #[derive(Default)]
 pub(super) struct Course {
     pub(super) checked: Vec<Checked>,
     /// What the check of each lesson rests on, where that is asked for.
     pub(super) bases: Vec<Basis>,
+    /// What a second judge is asked about each lesson, and what it says.
+    pub(super) hearings: Vec<Hearing>,
+    /// The engine of that judge.
+    pub(super) judged_by: Option<String>,
     /// What the labs of each lesson show in the runs of its claims, where that is asked for.
     pub(super) curves: Vec<Vec<Drawn>>,
     pub(super) findings: Vec<Finding>,
@@ -87,7 +102,7 @@ enum Task {
 
 /// What came of a file.
 enum Done {
-    Lesson(Box<Checked>, Aside, Basis, Vec<Drawn>),
+    Lesson(Box<Checked>, Aside, Basis, Vec<Drawn>, Hearing),
     /// JSON that is not ours.
     Other,
     Model(bool, Vec<Finding>, Vec<SourceFile>),
@@ -154,14 +169,16 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         return Err(failure);
     }
     done.sort_by_key(|(i, _)| *i);
-    let mut course = Course::default();
+    let judged_by = plan.judge.recording.map(|r| r.engine.clone());
+    let mut course = Course { judged_by, ..Course::default() };
     let mut refused: Vec<(PathBuf, String)> = problems;
     let mut read = 0;
     for ((path, _), (_, done)) in files.iter().zip(done) {
         course.read.insert(path.clone());
         read += usize::from(!matches!(done, Done::Refused(_)));
         match done {
-            Done::Lesson(checked, aside, basis, curves) => {
+            Done::Lesson(checked, aside, basis, curves, hearing) => {
+                course.hearings.push(hearing);
                 course.bases.push(basis);
                 course.curves.push(curves);
                 course.checked.push(*checked);
@@ -376,14 +393,23 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     if !named && is_other_json(&lesson) {
         return Done::Other;
     }
-    let found = cache.examine(path, &lesson, models, plan.depth, interrupted);
+    let mut found = cache.examine(path, &lesson, models, plan.depth, interrupted);
     // Runs may have been cut short: half of a check is none.
     if interrupted() {
         Done::Interrupted
     } else {
         let basis = if plan.basis { check::basis(&lesson, models, digest::hex_of) } else { Basis::default() };
+        let Judge { ask, recording } = plan.judge;
+        let hearing = match ask || recording.is_some() {
+            true => check::hear(&lesson, models, digest::hex_of, recording, &mut found.findings),
+            false => Hearing::default(),
+        };
+        if interrupted() {
+            return Done::Interrupted;
+        }
         let curves = if plan.curves { check::curves(&lesson, models) } else { Vec::new() };
-        Done::Lesson(Box::new(check::join(lesson, found, plan.depth)), Aside::default(), basis, curves)
+        let checked = Box::new(check::join(lesson, found, plan.depth));
+        Done::Lesson(checked, Aside::default(), basis, curves, hearing)
     }
 }
 

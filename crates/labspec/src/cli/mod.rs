@@ -12,6 +12,7 @@ mod fix;
 mod fmt;
 mod handle;
 mod init;
+mod judge;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod machine;

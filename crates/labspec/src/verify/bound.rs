@@ -269,7 +269,7 @@ impl<'a> BoundVerify<'a> {
         }
         let find = |f: &Find| Some((f.name.value.clone(), self.search(f, numerics, findings)?));
         let found = self.verify.find.iter().map(find).collect::<Option<_>>()?;
-        Some(Outcome { runs, found, numerics })
+        Some(Outcome { runs, found, numerics, elsewhere: Vec::new() })
     }
 
     /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
@@ -352,6 +352,9 @@ impl<'a> BoundVerify<'a> {
             || looks_at_data(&program);
         let value = match self.runs.as_slice() {
             // Measured on the spot, as a lesson with one run may write it: the same run once more.
+            [_] if !program.aggregates().is_empty() && outcome.measured_elsewhere(&text.value).is_some() => {
+                Value::Number(outcome.measured_elsewhere(&text.value)?)
+            }
             [run] if !program.aggregates().is_empty() => {
                 let named = Named { text, program };
                 let made = self.perform(run, outcome.numerics, &[&named], findings)?;
@@ -366,8 +369,8 @@ impl<'a> BoundVerify<'a> {
         Some(Found { value, evidence, broke })
     }
 
-    /// Looks at the names of expressions over the outcome before there is one.
-    pub(super) fn look<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
+    /// An outcome before there is one, for those who look at names.
+    fn blank(&self) -> Outcome {
         // Some number stands for each measure: what only depends on the number is not said.
         let run = |run: &BoundRun<'_>| {
             let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
@@ -380,8 +383,30 @@ impl<'a> BoundVerify<'a> {
             }
         };
         let found = self.verify.find.iter().map(|f| (f.name.value.clone(), 0.0)).collect();
-        let outcome =
-            Outcome { runs: self.runs.iter().map(run).collect(), found, numerics: Numerics::NOMINAL };
+        let runs = self.runs.iter().map(run).collect();
+        Outcome { runs, found, numerics: Numerics::NOMINAL, elsewhere: Vec::new() }
+    }
+
+    /// Those of the texts that look at the samples of the only run themselves.
+    pub(super) fn on_the_spot<'t>(&self, texts: impl Iterator<Item = &'t Text>) -> Vec<&'t Text> {
+        let (Some(base), [_]) = (self.scenes.first(), self.runs.as_slice()) else { return Vec::new() };
+        let outcome = self.blank();
+        let looks = |text: &&Text| {
+            let names = OutcomeNames::new(&outcome, base.names(Scope::Measure));
+            let compiled = Compiler::new(&names, &mut base.globals.clone()).expression(&text.value);
+            compiled.program.is_some_and(|program| !program.aggregates().is_empty())
+        };
+        texts.filter(looks).collect()
+    }
+
+    /// Every run with its lab, in the order of an outcome.
+    pub(super) fn cast(&self) -> impl Iterator<Item = (&BoundRun<'a>, &BoundScene<'a>)> {
+        self.runs.iter().filter_map(|run| Some((run, self.scene_of(run)?)))
+    }
+
+    /// Looks at the names of expressions over the outcome before there is one.
+    pub(super) fn look<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
+        let outcome = self.blank();
         let Some(base) = self.scenes.first() else { return };
         for text in texts {
             let names = OutcomeNames::new(&outcome, base.names(Scope::Measure));

@@ -12,6 +12,7 @@
 //! | numbers in the text | `quote` |
 //! | columns of tables | `column` |
 //! | closed forms | `exact` |
+//! | the same with the numbers of the real library | `judge` |
 //! | what the labs show in the runs, for a report | `curves` |
 
 mod answer;
@@ -20,6 +21,7 @@ mod column;
 mod condition;
 mod curves;
 mod exact;
+pub(crate) mod judge;
 mod measure;
 mod outcome;
 mod over;

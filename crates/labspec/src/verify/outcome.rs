@@ -41,6 +41,8 @@ pub(super) struct Outcome {
     /// Values that were searched for.
     pub(super) found: Vec<(String, f64)>,
     pub(super) numerics: Numerics,
+    /// Expressions that look at the samples themselves, measured by somebody else; empty where we measure.
+    pub(super) elsewhere: Vec<(String, f64)>,
 }
 
 impl Outcome {
@@ -48,6 +50,11 @@ impl Outcome {
     pub(super) fn members(&self, place: usize) -> impl Iterator<Item = (usize, &RunOutcome)> {
         let all = self.runs.iter().enumerate().skip(place);
         all.take_while(move |(i, run)| *i == place || matches!(run.swept, Some((n, _)) if n > 0))
+    }
+
+    /// What somebody else measured with this expression.
+    pub(super) fn measured_elsewhere(&self, text: &str) -> Option<f64> {
+        self.elsewhere.iter().find(|(known, _)| known == text).map(|(_, x)| *x)
     }
 
     /// All measures, named as conditions read them.

@@ -256,6 +256,6 @@ pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, option: &str) -
 pub(super) const TIMESTEP: &str = "option timestep";
 
 /// Whether a path of the model is the timestep.
-fn is_timestep(path: &str) -> bool {
+pub(super) fn is_timestep(path: &str) -> bool {
     path.split_whitespace().eq(TIMESTEP.split_whitespace())
 }

@@ -71,6 +71,12 @@ impl<'a> Stage<'a> {
         Stage { models, changed: RefCell::default(), runs: RefCell::default(), left: Cell::new(WORK) }
     }
 
+    /// The text of the model of a lab, with its changes.
+    pub(super) fn written(&self, scene: &Scene<'_>) -> Option<String> {
+        let patches: Vec<Patch> = scene.patches.iter().map(|(p, _)| p.clone()).collect();
+        self.models.written(&scene.lab, &patches)
+    }
+
     /// What came of a run that was made before.
     pub(super) fn known(&self, run: &str) -> Option<Made> {
         self.runs.borrow().get(run).cloned()

@@ -51,6 +51,19 @@ impl<'f> Loader<'f> {
         Loader { files, counts, files_read: 0, open, patches, refusals }
     }
 
+    /// The text of a model with its changes, and with what it includes in its place. `None` when it is not XML, or a change cannot be
+    /// made.
+    pub(crate) fn written(&mut self, text: &str, file: Option<&str>, report: &mut Report) -> Option<String> {
+        let base = report.source(None, text.into());
+        let mut list = Vec::new();
+        let root = self.parse(text, base, &mut list, report)?;
+        self.include(&mut list, file, folder_of(file.unwrap_or("")), report);
+        for p in self.patches {
+            patch::apply(&mut list, root, p).ok()?;
+        }
+        report.is_clean().then(|| xml::print(&list, root))
+    }
+
     /// What is wrong with each of the changes, in their order.
     pub(crate) fn refusals(self) -> Vec<Option<Refusal>> {
         self.refusals

@@ -43,6 +43,51 @@ impl Element {
     }
 }
 
+/// Elements as text again: what stands in an `include` stands in its place.
+pub(crate) fn print(list: &[Element], root: usize) -> String {
+    enum Piece {
+        Start(usize),
+        End(usize),
+    }
+    let mut text = String::new();
+    let mut open = vec![Piece::Start(root)];
+    while let Some(piece) = open.pop() {
+        let (Piece::Start(at) | Piece::End(at)) = piece;
+        let Some(element) = list.get(at) else { continue };
+        let plain = element.name != "include" && !element.namespace;
+        if let Piece::End(_) = piece {
+            text.extend(plain.then(|| format!("</{}>", element.name)));
+            continue;
+        }
+        if plain {
+            text.push('<');
+            text.push_str(&element.name);
+            for a in element.attributes.iter().filter(|a| !a.namespace) {
+                text.push_str(&format!(" {}=\"{}\"", a.name, escaped(&a.value)));
+            }
+            text.push('>');
+        }
+        open.push(Piece::End(at));
+        open.extend(element.children.iter().rev().map(|c| Piece::Start(*c)));
+    }
+    text
+}
+
+/// A value as it stands between quotes.
+fn escaped(value: &str) -> String {
+    let mut text = String::with_capacity(value.len());
+    for c in value.chars() {
+        match c {
+            '&' => text.push_str("&amp;"),
+            '<' => text.push_str("&lt;"),
+            '"' => text.push_str("&quot;"),
+            '\n' | '\r' | '\t' => text.push(' '),
+            c => text.push(c),
+        }
+    }
+    text
+}
+
 /// Adds the elements of a text, whose spans as it is written begin at `base`, to a list; returns the place of the root. `None` after
 /// reporting that the text is not XML.
 pub(crate) fn parse(

@@ -1,0 +1,110 @@
+//! The claims of a lesson before a second judge: what it is asked, and what its recording makes of them.
+
+use super::claims;
+use super::{Depth, Ready};
+use crate::bind::parts::Mark;
+use crate::bind::scene::Models;
+use crate::finding::Finding;
+use crate::spec::Lesson;
+use crate::verify::judge::{self, Judged, Taken, Witness};
+use crate::verify::{ShownText, Stage};
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A run that a judge is asked to make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request {
+    /// Whose run it is: `quiz fall, question 2`.
+    pub claim: String,
+    /// Its name.
+    pub run: String,
+    /// The digest of what is asked; of nothing where nobody else can make the run.
+    pub hash: String,
+    /// What is asked; or why nobody else can make the run.
+    pub task: Result<Value, String>,
+}
+
+/// What a judge has recorded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Recording {
+    /// `MuJoCo 3.14.0`.
+    pub engine: String,
+    /// By the digest of what was asked.
+    pub runs: BTreeMap<String, Taken>,
+    /// Lesson (the name of its file), claim and run of everything in it: so that one of another text is known.
+    pub known: BTreeSet<[String; 3]>,
+}
+
+/// What a judge makes of a lesson.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hearing {
+    /// What it is asked.
+    pub requests: Vec<Request>,
+    /// What it makes of every claim, by the name of its owner.
+    pub claims: Vec<(String, Judged)>,
+    /// Runs that are recorded of another text.
+    pub stale: usize,
+    /// Runs of which nothing is recorded.
+    pub missing: usize,
+}
+
+/// Asks and hears: all runs of the lesson, and what the recording makes of its claims where there is one.
+pub fn hear(
+    lesson: &Lesson,
+    models: &Models,
+    mark: Mark,
+    recording: Option<&Recording>,
+    findings: &mut Vec<Finding>,
+) -> Hearing {
+    let mut ignored = Vec::new();
+    let labs = lesson.all_labs().into_iter();
+    let ready: Vec<Ready<'_>> =
+        labs.filter_map(|lab| super::prepare(lab, models, Depth::STATIC, &mut ignored)).collect();
+    let stage = Stage::new(models);
+    let shown = ShownText::of(lesson);
+    let mut hearing = Hearing::default();
+    for (name, owner) in claims::owners(lesson) {
+        let Some((verify, own, question)) = owner.claim() else { continue };
+        let Some(bound) = claims::bound(lesson, &ready, verify, own, &stage) else { continue };
+        let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
+            let text = one.task.as_ref().map_or(String::new(), Value::to_string);
+            let hash: String = mark(&[text.as_bytes()]).chars().take(16).collect();
+            Request { claim: name.clone(), run: one.run, hash, task: one.task }
+        });
+        let requests: Vec<Request> = requests.collect();
+        if let Some(recording) = recording {
+            let runs = requests.iter().map(|r| taken(lesson, recording, r, &mut hearing)).collect();
+            let witness = Witness { engine: &recording.engine, runs };
+            let judged = judge::judge(&bound, verify, question, &shown, &witness, findings);
+            hearing.claims.extend(judged.map(|judged| (name.clone(), judged)));
+        }
+        hearing.requests.extend(requests);
+    }
+    hearing
+}
+
+/// What is recorded of a run; or why nothing is.
+fn taken<'r>(
+    lesson: &Lesson,
+    recording: &'r Recording,
+    request: &Request,
+    hearing: &mut Hearing,
+) -> Result<&'r Taken, String> {
+    request.task.as_ref().map_err(Clone::clone)?;
+    if let Some(taken) = recording.runs.get(&request.hash) {
+        return Ok(taken);
+    }
+    let key = [file_name(lesson), request.claim.clone(), request.run.clone()];
+    if recording.known.contains(&key) {
+        hearing.stale += 1;
+        return Err("the lesson or its model has changed since it was recorded".into());
+    }
+    hearing.missing += 1;
+    Err("its run is not recorded".into())
+}
+
+/// The name of a lesson's file, without its folder.
+pub fn file_name(lesson: &Lesson) -> String {
+    let path: &str = lesson.file.path();
+    path.rsplit(['/', '\\']).next().unwrap_or(path).to_string()
+}

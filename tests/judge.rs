@@ -1,0 +1,231 @@
+//! `--judge-request FILE` and `--judge FILE`: the real library as a second judge. `tests/golden/judge.json` was recorded from MuJoCo
+//! 3.14.0 by `tests/judge/record.mjs`.
+
+#![allow(clippy::unwrap_used)]
+
+use crate::program::run_in;
+use crate::support::{read_json, recording, workspace};
+use serde_json::{Value, json};
+use std::path::Path;
+use tempfile::TempDir;
+
+const BALL: &str = "<mujoco><include file='floor.xml'/><worldbody>\
+    <body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>";
+const FLOOR: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/></worldbody></mujoco>";
+
+/// A question with a run as the lab stands, one with a change of its model, and a sweep.
+fn lesson() -> String {
+    let lab = json!({"title": "A fall", "model": "ball", "stopAt": 0.3,
+        "controls": [{"label": "gravity", "apply": "model.opt.gravity[2] = -value", "min": 1, "max": 20, "step": 1, "value": 10, "reset": true}],
+        "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}]}]});
+    let quiz = json!({"id": "fall", "questions": [{
+        "kind": "mcq", "q": "Where is the ball after 0.3 s?", "options": ["above 0.5 m", "below 0.5 m"], "answer": 0,
+        "verify": {
+            "lab": "#1",
+            "runs": {"plain": {}, "high": {"model": {"body ball pos": "0 0 2"}}, "many": {"sweep": {"gravity": [5, 10]}}},
+            "measure": {"height": "final(data.qpos[2])", "never": "first(contact('ball', 'floor'))"},
+            "options": ["plain.height > 0.5 && high.height > 1.5", "plain.height < 0.5"],
+            "says": [["0.55 m", "plain.height"]],
+        },
+    }]});
+    format!("# A fall\n\nAfter 0.3 s it is at 0.55 m.\n\n```lab simlab\n{lab}\n```\n\n```quiz\n{quiz}\n```\n")
+}
+
+fn folder() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("models")).unwrap();
+    for (name, text) in [("models/ball.xml", BALL), ("models/floor.xml", FLOOR), ("fall.md", &lesson())] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+/// What the lesson asks, and a recording in which a judge has found exactly what we find.
+fn asked(folder: &Path) -> (Value, Value) {
+    let done = run_in(folder, &["verify", "fall.md", "--judge-request", "request.json", "--format", "json"]);
+    assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{}", done.stdout);
+    let report: Value = serde_json::from_str(&done.stdout).unwrap();
+    let ours = &report["lessons"][0]["claims"][0]["measures"];
+    let value = |run: &str| {
+        let name = match run.split_once('[') {
+            Some((sweep, at)) => format!("{sweep}.height[{at}"),
+            None => format!("{run}.height"),
+        };
+        ours[name.as_str()]["value"].clone()
+    };
+    let request = read_json(&folder.join("request.json"));
+    let run = |r: &Value| {
+        json!({"file": r["file"], "claim": r["claim"], "run": r["run"], "hash": r["hash"],
+            "values": {"height": value(r["run"].as_str().unwrap()), "never": "NaN"}})
+    };
+    let runs: Vec<Value> = request["runs"].as_array().unwrap().iter().map(run).collect();
+    (request, json!({"recording": "judge", "version": 1, "engine": "MuJoCo 3.14.0", "runs": runs}))
+}
+
+/// The exit code, the report, and what people are told, with this recording.
+fn judged(folder: &Path, recording: &Value) -> (i32, Value, String) {
+    std::fs::write(folder.join("judge.json"), recording.to_string()).unwrap();
+    let [machine, human] = [&["--format", "json"][..], &[]]
+        .map(|more| run_in(folder, &[&["verify", "fall.md", "--judge", "judge.json"], more].concat()));
+    assert_eq!(machine.code, human.code);
+    (machine.code, serde_json::from_str(&machine.stdout).unwrap(), human.stdout)
+}
+
+#[test]
+fn every_measure_of_our_course_is_what_mujoco_gives() {
+    let recorded = recording("judge");
+    let runs = recorded["runs"].as_array().unwrap();
+    let count: usize = runs.iter().map(|r| r["values"].as_object().unwrap().len()).sum();
+    assert!(runs.len() >= 143 && count >= 795, "{} runs, {count} measures", runs.len());
+    let arguments = ["verify", "specs/lessons", "--judge", "tests/golden/judge.json", "--format", "json"];
+    let done = run_in(&workspace(), &arguments);
+    let report: Value = serde_json::from_str(&done.stdout).unwrap();
+    let judge = &report["judge"];
+    assert_eq!(judge["engine"], "MuJoCo 3.14.0");
+    assert_eq!((&judge["differing"], &judge["unjudged"]), (&json!([]), &json!([])));
+    assert_eq!((&judge["compared"], &judge["turned"]), (&json!(count), &json!(0)));
+    assert!(judge["verdicts"].as_u64() >= Some(373), "{}", judge["verdicts"]);
+    assert_eq!(done.code, 0);
+}
+
+#[test]
+fn a_request_holds_the_models_as_the_runs_have_them() {
+    let folder = folder();
+    let (request, _) = asked(folder.path());
+    let runs = request["runs"].as_array().unwrap();
+    let names: Vec<&str> = runs.iter().map(|r| r["run"].as_str().unwrap()).collect();
+    assert_eq!(names, ["plain", "high", "many[0]", "many[1]"]);
+    let xml = |i: usize| runs[i]["task"]["xml"].as_str().unwrap();
+    assert!(xml(0).contains("name=\"floor\"") && !xml(0).contains("include"), "{}", xml(0));
+    assert!(xml(0).contains("pos=\"0 0 1\"") && xml(1).contains("pos=\"0 0 2\""));
+    assert_eq!(
+        (&runs[2]["task"]["set"], &runs[2]["task"]["until"]),
+        (&json!([["gravity", 5.0]]), &json!(0.3))
+    );
+    assert_eq!(runs[0]["task"]["measures"][0], json!(["height", "final(data.qpos[2])"]));
+}
+
+#[test]
+fn a_judge_that_agrees_changes_nothing() {
+    let folder = folder();
+    let (_, recording) = asked(folder.path());
+    let (code, report, told) = judged(folder.path(), &recording);
+    assert_eq!((code, &report["findings"]), (0, &json!([])));
+    assert_eq!((&report["judge"]["compared"], &report["judge"]["turned"]), (&json!(8), &json!(0)));
+    assert!(
+        told.contains("judge.json: agrees with MuJoCo 3.14.0: 8 of 8 measures, all 2 verdicts\n"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_verdict_that_turns_over_is_found() {
+    let folder = folder();
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"][0]["values"]["height"] = json!(0.46);
+    let (code, report, told) = judged(folder.path(), &recording);
+    assert_eq!(code, 1);
+    let found: Vec<(&str, &str)> = report["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|f| (f["code"].as_str().unwrap(), f["message"].as_str().unwrap()))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (
+                "engine-dependent",
+                "this answer depends on the engine: verified here, refuted with MuJoCo 3.14.0"
+            ),
+            (
+                "engine-dependent",
+                "\"0.55 m\" depends on the engine: verified here, refuted with MuJoCo 3.14.0"
+            ),
+        ]
+    );
+    assert_eq!(report["judge"]["differing"][0]["theirs"], json!(0.46));
+    assert!(told.contains("differs from MuJoCo 3.14.0: 7 of 8 measures, 0 of 2 verdicts"), "{told}");
+    assert!(told.contains("`plain.height` is"), "{told}");
+
+    // A number that differs and turns nothing over is told, and is no fault.
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"][2]["values"]["height"] = json!(0.7);
+    let (code, report, told) = judged(folder.path(), &recording);
+    assert_eq!((code, &report["findings"], &report["judge"]["turned"]), (0, &json!([]), &json!(0)));
+    assert!(
+        told.contains("7 of 8 measures, all 2 verdicts") && told.contains("`many[0].height` is"),
+        "{told}"
+    );
+
+    // A run that breaks there and not here is evidence of nothing there.
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"][0]["broke"] = json!("badqacc at t = 0.1 s");
+    assert_eq!(judged(folder.path(), &recording).0, 1);
+}
+
+#[test]
+fn a_recording_of_another_text_is_told_and_not_used() {
+    let folder = folder();
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"][0]["values"]["height"] = json!(0.46);
+    let text = lesson().replace("\"value\":10", "\"value\":11").replace("0.55 m", "0.50 m");
+    std::fs::write(folder.path().join("fall.md"), text).unwrap();
+    let (code, report, told) = judged(folder.path(), &recording);
+    assert_eq!((&report["judge"]["staleRuns"], &report["judge"]["compared"]), (&json!(4), &json!(0)));
+    assert!(report["findings"].as_array().unwrap().iter().all(|f| f["code"] != "engine-dependent"));
+    assert_eq!(code, 3, "{told}");
+    assert!(told.contains("not judged 8 measures: the lesson or its model has changed"), "{told}");
+
+    // What is not recorded at all, and what the judge could not take.
+    let (_, mut recording) = asked(folder.path());
+    recording["runs"].as_array_mut().unwrap().truncate(1);
+    recording["runs"][0]["values"].as_object_mut().unwrap().remove("never");
+    recording["runs"][0]["refused"] = json!({"never": "first is not known"});
+    let (code, report, told) = judged(folder.path(), &recording);
+    assert_eq!((code, &report["judge"]["missingRuns"]), (3, &json!(3)));
+    assert!(told.contains("not judged 1 measure: first is not known"), "{told}");
+    assert!(told.contains("not judged 6 measures: its run is not recorded"), "{told}");
+}
+
+#[test]
+fn what_is_no_recording_is_refused() {
+    let folder = folder();
+    let (_, good) = asked(folder.path());
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut bad = good.clone();
+        change(&mut bad);
+        bad.to_string()
+    };
+    let twice = with(&|r| {
+        let mut again = r["runs"][0].clone();
+        again["values"]["height"] = json!(7);
+        r["runs"].as_array_mut().unwrap().push(again);
+    });
+    let cases = [
+        ("{", "EOF"),
+        ("[]", "does not say that it is one"),
+        ("{\"recording\": \"judge\", \"version\": 2}", "of this version"),
+        (&with(&|r| r["engine"] = json!("")), "does not name its engine"),
+        (&with(&|r| r["runs"] = json!(5)), "has no runs"),
+        (&with(&|r| r["runs"][0]["hash"] = json!(5)), "run 0 has no \"hash\""),
+        (
+            &with(&|r| r["runs"][1]["values"]["height"] = json!("high")),
+            "the value of \"height\" is no number",
+        ),
+        (&with(&|r| r["runs"][0]["warnings"] = json!(-1)), "\"warnings\""),
+        (&twice, "recorded twice"),
+    ];
+    for (text, why) in cases {
+        std::fs::write(folder.path().join("judge.json"), text).unwrap();
+        let done = run_in(folder.path(), &["check", "fall.md", "--judge", "judge.json"]);
+        assert_eq!(done.code, 2, "{text}");
+        assert!(
+            done.stderr.contains("judge.json is no recording of a judge") && done.stderr.contains(why),
+            "{}",
+            done.stderr
+        );
+    }
+    let done = run_in(folder.path(), &["check", "fall.md", "--judge", "nothing.json"]);
+    assert_eq!(done.code, 2);
+}
