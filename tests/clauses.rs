@@ -19,6 +19,8 @@ const DROP: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='1 1
 const MOTOR: &str = "<mujoco><option gravity='0 0 0'/><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' damping='1'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody><actuator><motor joint='hinge' ctrlrange='-1 1' ctrllimited='true'/></actuator></mujoco>";
 const PLATE: &str = "<mujoco><worldbody><geom name='plate' type='box' size='1 1 THICK'/><body name='ball' pos='0 0 .3'><freejoint/><geom name='ball' size='.01' mass='.1'/></body></worldbody></mujoco>";
 
+const CART: &str = "<mujoco><option gravity='0 0 0'/><worldbody><body name='cart'><joint name='rail' type='slide' stiffness='10'/><geom size='.1' mass='10'/></body></worldbody></mujoco>";
+
 /// Labs are written without their model: the first word says which it is.
 const CLAUSES: &[Clause] = &[
     Clause {
@@ -203,6 +205,37 @@ const CLAUSES: &[Clause] = &[
         ],
     },
     Clause {
+        says: "a lab that breaks only where two sliders meet",
+        code: "simulation-diverges",
+        wrong: &[
+            // sqrt(k / m) h is 0.28 with one of them at its end, and 4 with both.
+            r#"CART "stopAt": 1, "setup": "data.qpos[0] = 0.1", "controls": [{"label": "stiffness", "set": "model.jnt_stiffness[0]", "min": 10, "max": 200000, "value": 10}, {"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 0.05, "max": 10, "value": 10, "reset": true}], "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
+        ],
+        right: &[
+            r#"CART "stopAt": 1, "setup": "data.qpos[0] = 0.1", "controls": [{"label": "stiffness", "set": "model.jnt_stiffness[0]", "min": 10, "max": 12000, "value": 10}, {"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 0.05, "max": 10, "value": 10, "reset": true}], "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
+        ],
+    },
+    Clause {
+        says: "buttons that break it only one after the other",
+        code: "simulation-diverges",
+        wrong: &[
+            r#"CART "stopAt": 2, "setup": "ctx.armed = 0", "controls": [{"type": "button", "label": "Arm", "run": "ctx.armed = 1e12; data.qvel[0] = 0.1"}, {"type": "button", "label": "Fire", "run": "data.qvel[0] = ctx.armed"}], "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
+        ],
+        right: &[
+            r#"CART "stopAt": 2, "setup": "ctx.armed = 0", "controls": [{"type": "button", "label": "Arm", "run": "ctx.armed = 2; data.qvel[0] = 0.1"}, {"type": "button", "label": "Fire", "run": "data.qvel[0] = ctx.armed"}], "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
+        ],
+    },
+    Clause {
+        says: "a timestep whose double breaks the lab",
+        code: "near-its-limit",
+        wrong: &[
+            r#"CART "stopAt": 2, "setup": "data.qpos[0] = 0.1; model.jnt_stiffness[0] = 5e6", "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
+        ],
+        right: &[
+            r#"CART "stopAt": 2, "setup": "data.qpos[0] = 0.1; model.jnt_stiffness[0] = 1e6", "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,
+        ],
+    },
+    Clause {
         says: "a link or an image inside the course that does not exist",
         code: "dead-link",
         wrong: &["# A\n\nSee [below](#c).\n\n## B\n", "# A\n\n![a picture](#nowhere)\n"],
@@ -227,7 +260,9 @@ const CLAUSES: &[Clause] = &[
 fn file(case: &str) -> (&'static str, String) {
     let thin = PLATE.replace("THICK", ".0005");
     let thick = PLATE.replace("THICK", ".05");
-    for (word, xml) in [("ROD", ROD), ("DROP", DROP), ("MOTOR", MOTOR), ("THIN", &thin), ("PLATE", &thick)] {
+    for (word, xml) in
+        [("ROD", ROD), ("DROP", DROP), ("MOTOR", MOTOR), ("CART", CART), ("THIN", &thin), ("PLATE", &thick)]
+    {
         if let Some(rest) = case.strip_prefix(word) {
             return ("lab.json", format!("{{\"xml\": \"{xml}\", {rest}}}"));
         }

@@ -22,8 +22,12 @@ pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
 pub(super) const CHECK: Check = Check::Lesson(check);
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    let without =
-        |c: &claims::Claim<'_>| c.verify.lab.is_none() && c.own.is_none() && !c.verify.is_formulas() && !c.verify.every_run_names_its_lab();
+    let without = |c: &claims::Claim<'_>| {
+        c.verify.lab.is_none()
+            && c.own.is_none()
+            && !c.verify.is_formulas()
+            && !c.verify.every_run_names_its_lab()
+    };
     for claim in claims::all(lesson).filter(without) {
         let start = claim.verify.span.start;
         findings.push(
