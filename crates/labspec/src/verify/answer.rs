@@ -438,7 +438,7 @@ fn shown(x: f64) -> &'static str {
 }
 
 /// The work of a check was spent before an answer was put to all numerics.
-fn too_much(span: Range<usize>, how: &str) -> Finding {
+pub(super) fn too_much(span: Range<usize>, how: &str) -> Finding {
     let what = format!(
         "whether the answer holds {how} was not tried: the runs of this lesson take more work than a check may do"
     );

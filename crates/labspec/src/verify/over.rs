@@ -50,7 +50,10 @@ pub(super) fn hold(
     answer: &mut Answer,
     findings: &mut Vec<Finding>,
 ) {
-    let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else { return };
+    let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else {
+        *answer = Answer::failed("there is no lab with the sliders that it is claimed over");
+        return;
+    };
     let axes: Result<Vec<Axis<'_>>, Box<Finding>> =
         verify.over.iter().map(|(label, ends)| axis(&lab, label, *ends)).collect();
     let axes = match axes {
@@ -191,6 +194,11 @@ impl Space<'_, '_, '_> {
         let again = BoundVerify::new(&verify, base.as_ref(), &labs, stage, findings)?;
         let outcome = again.outcome(Numerics::NOMINAL, findings)?;
         let (turned, margin) = answer::same(&again, &outcome, &verify, &self.weights);
+        // What ends because the work of a check is spent says nothing of the answer.
+        if turned.is_some() && stage.left() == 0 {
+            findings.push(answer::too_much(self.verify.span.clone(), "everywhere in its range"));
+            return None;
+        }
         self.tried.insert(key, margin);
         let setting = || {
             let one = |(axis, x): (&Axis<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
