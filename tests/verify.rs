@@ -837,6 +837,18 @@ fn an_answer_over_a_range_holds_in_all_of_it_or_has_a_counterexample() {
     }
 }
 
+/// A range of a slider that every run sets itself is never tried, and that is said.
+#[test]
+fn a_range_that_no_run_tries_verifies_nothing() {
+    let question = r##"{"kind": "mcq", "q": "How high is it?", "options": ["above 0.4 m", "below 0.4 m"], "answer": 0, "verify": {
+        "lab": "#1", "runs": {"fall": {"set": {"gravity": -10}, "until": 0.3}}, "measure": {"z": "final(data.qpos[2])"},
+        "options": ["z > 0.4", "z < 0.4"], "over": {"gravity": [-20, -1]}}}"##;
+    let checked = check_text("fall.md", &lesson("", question));
+    let answer = checked.claims[0].judgement.answer.clone().unwrap();
+    assert_eq!(answer.verdict, Verdict::Failed, "{answer:?}");
+    assert!(codes(&checked).contains(&"run-impossible"), "{:?}", codes(&checked));
+}
+
 /// Inside of a range, where both ends are fine: a resonance is found by the search.
 #[test]
 fn a_counterexample_between_the_corners_is_found() {

@@ -254,7 +254,8 @@ pub(crate) fn genuine(
     }
     let firm = case.run(handling, Some(&firmer), length, budget);
     let moves = |f: &Fault| firm.speeds.iter().any(|(who, speed)| *who == f.who && 2.0 * speed > f.size);
-    faults.retain(|f| f.kind != FaultKind::Drifts || !moves(f));
+    // Without the other run to its end nothing is known of it.
+    faults.retain(|f| f.kind != FaultKind::Drifts || !firm.cut && !moves(f));
     (faults, firm.spent)
 }
 

@@ -19,7 +19,7 @@ pub enum Verdict {
     Verified,
     /// Exactly the keyed answer holds, by formulas alone: nothing was simulated for it.
     Computed,
-    /// It holds, but not when the timestep is halved, the solver tightened or the start moved by 1e-14.
+    /// It holds, but not under other numerics: a shorter timestep, a converged solver, a start moved by 1e-14, another integrator.
     Fragile,
     /// The keyed answer holds, and another one too.
     Ambiguous,
@@ -256,10 +256,8 @@ fn options(
         return done(Verdict::Failed, "none of the other options is decided".to_string());
     }
     let mut weights = weights.clone();
-    let mut spent = false;
-    let mut survives = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = conditions(bound, outcome, verify, &mut Vec::new());
-        spent |= again.is_err() && bound.stage().left() == 0;
         for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
             weight.widen(now.as_ref().and_then(|(_, weighed)| weighed.margin));
         }
@@ -273,21 +271,12 @@ fn options(
             }
         };
         let now = format!("with the lesson's own numerics this {}", words(i));
-        Some((fragile(keyed.span.clone(), how, &what).related(condition(i), now), how.to_string()))
+        Some(fragile(keyed.span.clone(), how, &what).related(condition(i), now))
     };
-    let mut turned = perturbed(outcomes).find_map(|(outcome, how)| survives(outcome, how, &mut weights));
-    for (numerics, how) in CLOSER {
-        if turned.is_none() && weights.iter().any(Weight::is_close) {
-            turned = bound.outcome(numerics, &mut Vec::new()).and_then(|o| survives(&o, how, &mut weights));
-        }
-    }
-    if let Some((finding, how)) = turned {
-        if spent {
-            findings.push(too_much(keyed.span.clone(), &how));
-            return Answer::failed(format!("the work of a check is spent before it is tried {how}"));
-        }
-        findings.push(finding);
-        return done(Verdict::Fragile, format!("it does not hold {how}"));
+    if let Err((verdict, reason)) =
+        survives(bound, outcomes, &mut weights, keyed.span.clone(), findings, &mut turns)
+    {
+        return done(verdict, reason);
     }
     let evidence = found.iter().flatten().map(|(f, _)| f.evidence).min();
     let reason = match open.as_slice() {
@@ -343,6 +332,48 @@ fn perturbed(outcomes: &Outcomes) -> impl Iterator<Item = (&Outcome, &'static st
     outcomes.perturbed.iter().zip(PERTURBED).filter_map(|(o, (_, how))| Some((o.as_ref()?, how)))
 }
 
+/// What turns over in an outcome under other numerics, so called; the margins are widened by it.
+type Turns<'t> = dyn FnMut(&Outcome, &str, &mut [Weight]) -> Option<Finding> + 't;
+
+/// Puts an answer to the other numerics, and to those that are closer where these come near. `turns` says what turns over in an
+/// outcome, and widens the margins by it.
+///
+/// # Errors
+/// It does not hold in one of them, or could not be tried: the verdict, and why.
+fn survives(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    weights: &mut [Weight],
+    place: Range<usize>,
+    findings: &mut Vec<Finding>,
+    turns: &mut Turns<'_>,
+) -> Result<(), (Verdict, String)> {
+    let mut told = |outcome: Option<&Outcome>, how: &str, weights: &mut [Weight]| {
+        let turned = outcome.map(|outcome| turns(outcome, how, weights));
+        match turned {
+            Some(None) => Ok(()),
+            // What ends because the work of a check is spent, or cannot be run at all, says nothing of the answer.
+            Some(Some(finding)) if bound.stage().left() > 0 => {
+                findings.push(finding);
+                Err((Verdict::Fragile, format!("it does not hold {how}")))
+            }
+            _ => {
+                findings.push(too_much(place.clone(), how));
+                Err((Verdict::Failed, format!("the work of a check is spent before it is tried {how}")))
+            }
+        }
+    };
+    for (outcome, how) in perturbed(outcomes) {
+        told(Some(outcome), how, weights)?;
+    }
+    for (numerics, how) in CLOSER {
+        if weights.iter().any(Weight::is_close) {
+            told(bound.outcome(numerics, &mut Vec::new()).as_ref(), how, weights)?;
+        }
+    }
+    Ok(())
+}
+
 fn held_by(evidence: Option<Evidence>) -> Verdict {
     if evidence == Some(Evidence::Simulated) { Verdict::Verified } else { Verdict::Computed }
 }
@@ -393,10 +424,8 @@ fn value(
         return done(Verdict::Refuted, message);
     }
     let mut weights = weights.clone();
-    let mut spent = false;
-    let mut survives = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = grounded(bound, outcome, text, &mut Vec::new());
-        spent |= again.is_err() && bound.stage().left() == 0;
         let what = match again.map(|f| f.value.to_number()) {
             Err(reason) => reason,
             Ok(x) if right(x) => {
@@ -406,21 +435,12 @@ fn value(
             Ok(x) => format!("then it is {}, and the tolerance is {}", significant(x), significant(tol)),
         };
         let own = format!("with the lesson's own numerics this is {}", significant(computed));
-        Some((fragile(keyed.span.clone(), how, &what).related(text.span(), own), how.to_string()))
+        Some(fragile(keyed.span.clone(), how, &what).related(text.span(), own))
     };
-    let mut turned = perturbed(outcomes).find_map(|(outcome, how)| survives(outcome, how, &mut weights));
-    for (numerics, how) in CLOSER {
-        if turned.is_none() && weights.iter().any(Weight::is_close) {
-            turned = bound.outcome(numerics, &mut Vec::new()).and_then(|o| survives(&o, how, &mut weights));
-        }
-    }
-    if let Some((finding, how)) = turned {
-        if spent {
-            findings.push(too_much(keyed.span.clone(), &how));
-            return Answer::failed(format!("the work of a check is spent before it is tried {how}"));
-        }
-        findings.push(finding);
-        return done(Verdict::Fragile, format!("it does not hold {how}"));
+    if let Err((verdict, reason)) =
+        survives(bound, outcomes, &mut weights, keyed.span.clone(), findings, &mut turns)
+    {
+        return done(verdict, reason);
     }
     Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights }
 }

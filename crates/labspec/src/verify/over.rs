@@ -64,6 +64,24 @@ pub(super) fn hold(
             return;
         }
     };
+    // A run that sets a slider keeps its own value: where all do, the range is never tried.
+    let own = |label: &Text| {
+        let sets = |run: &Run| run.set.iter().any(|(set, _)| set.value == label.value);
+        !verify.runs.is_empty() && verify.runs.iter().all(sets)
+    };
+    if let Some((label, _)) = verify.over.iter().find(|(label, _)| own(label)) {
+        findings.push(
+            Finding::error(
+                rules::RUN_IMPOSSIBLE,
+                label.span(),
+                format!("every run sets \"{}\" itself, so that no other value of it is tried", label.value),
+            )
+            .why("a run keeps what it sets, and the answer would be claimed over values that nobody has seen")
+            .help("leave it out of `set` in the runs that it is to be tried in"),
+        );
+        *answer = Answer::failed("the space that it is claimed over is not tried");
+        return;
+    }
     let mut space = Space { bound, verify, axes, weights: answer.weights.clone(), tried: BTreeMap::new() };
     match space.search(findings) {
         None => *answer = Answer::failed("a run of the space that it is claimed over cannot be made"),
