@@ -154,6 +154,34 @@ fn a_number_that_is_changed_in_the_text_is_found() {
     assert!(missed.is_empty(), "{}", missed.join("\n"));
 }
 
+/// What the course says when somebody believes this lie about each of its numbers that can be told so, and writes it into the text
+/// and into the claim: how many there are, and those that are held to be right.
+fn believed(own: &Own, how: &str, lie: Lie, models: &Models) -> (usize, Vec<String>) {
+    // All at once: each is judged by itself.
+    let mut changes: Vec<_> =
+        places(&own.text).into_iter().filter_map(|p| Some((p.at, lie(&p.quote)?))).collect();
+    let mut lies = Vec::new();
+    for object in verifies(&own.text) {
+        let mut from = object.start;
+        for quote in quotes(&own.text[object.clone()]) {
+            let pair = format!("[\"{quote}\"");
+            let at = from + own.text[from..object.end].find(&pair).unwrap() + 2;
+            from = at;
+            let Some(other) = lie(&quote) else { continue };
+            changes.push((at..at + quote.len(), other.clone()));
+            lies.push(other);
+        }
+    }
+    changes.sort_by_key(|(at, _)| at.start);
+    let checked = checked(&own.name, &replaced(&own.text, &changes), models, Depth::CLAIMS);
+    let quoted: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
+    let all: Vec<_> = quoted.into_iter().filter(|q| lies.contains(&q.text)).collect();
+    assert_eq!(all.len(), lies.len(), "{}", own.name);
+    let either = digit(EITHER).unwrap();
+    let right = all.iter().filter(|q| q.state == QuoteState::Right && q.text != either);
+    (lies.len(), right.map(|q| format!("{}: {} ({how})", own.name, q.text)).collect())
+}
+
 /// Somebody believes another number, and writes it into the text and into the claim.
 #[test]
 fn a_number_that_is_claimed_wrongly_is_refuted() {
@@ -162,33 +190,25 @@ fn a_number_that_is_claimed_wrongly_is_refuted() {
     let cases: Vec<_> = (0..lessons.len()).flat_map(|l| LIES[..2].iter().map(move |lie| (l, *lie))).collect();
     let missed = for_each(cases.len(), |i| {
         let (l, (how, lie)) = cases[i];
-        let own = &lessons[l];
-        // All at once: each is judged by itself.
-        let mut changes: Vec<_> =
-            places(&own.text).into_iter().map(|p| (p.at, lie(&p.quote).unwrap())).collect();
-        let mut count = 0;
-        for object in verifies(&own.text) {
-            let mut from = object.start;
-            for quote in quotes(&own.text[object.clone()]) {
-                let pair = format!("[\"{quote}\"");
-                let at = from + own.text[from..object.end].find(&pair).unwrap() + 2;
-                changes.push((at..at + quote.len(), lie(&quote).unwrap()));
-                from = at;
-                count += 1;
-            }
-        }
-        changes.sort_by_key(|(at, _)| at.start);
-        let checked = checked(&own.name, &replaced(&own.text, &changes), &models, Depth::CLAIMS);
-        let all: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
-        assert_eq!(all.len(), count, "{}", own.name);
-        let either = digit(EITHER).unwrap();
-        let right = all.iter().filter(|q| q.state == QuoteState::Right && q.text != either);
-        (count, right.map(|q| format!("{}: {} ({how})", own.name, q.text)).collect::<Vec<_>>())
+        believed(&lessons[l], how, lie, &models)
     });
     let count: usize = missed.iter().map(|(count, _)| count).sum();
     let missed: Vec<String> = missed.into_iter().flat_map(|(_, missed)| missed).collect();
     eprintln!("{count} false claims, {} held to be right", missed.len());
     assert!(count > 600 && missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// Somebody believes that the number has another unit, and writes it into the text and into the claim. It is found where the fields
+/// that the claim reads have a unit: not of numbers of the text, of gains and of `solref`, and not where a factor may have one.
+#[test]
+fn a_unit_that_is_claimed_wrongly_is_refuted() {
+    let models = models();
+    let lessons = course();
+    let missed = for_each(lessons.len(), |l| believed(&lessons[l], "a unit", unit, &models));
+    let count: usize = missed.iter().map(|(count, _)| count).sum();
+    let missed: Vec<String> = missed.into_iter().flat_map(|(_, missed)| missed).collect();
+    eprintln!("{count} false units, {} held to be right", missed.len());
+    assert!(count > 300 && missed.len() * 7 <= count, "{} of {count}:\n{}", missed.len(), missed.join("\n"));
 }
 
 /// The keys of a lesson: the bytes of each `"answer": N` of a question with options, and how many options there are.

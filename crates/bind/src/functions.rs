@@ -14,6 +14,7 @@ use super::shown::LABELS;
 use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
+use labspec_expr::dimension::Dimension;
 use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Heap, Param, Touch, Type, Value};
 
 /// The objects that hold functions.
@@ -86,6 +87,8 @@ pub(super) enum Unit {
     Of(&'static str),
     /// What its argument measures, in numbers that are larger by this factor.
     Argument(f64),
+    /// What this argument measures, times this unit.
+    Times(usize, &'static str),
 }
 
 /// A row of the table.
@@ -206,7 +209,8 @@ fn info(f: &Function) -> FunctionInfo {
         writes: touch(f.writes),
         gives: match f.unit {
             Unit::Of(unit) => units::parse(unit).map_or(Gives::Unknown, Gives::This),
-            Unit::Argument(factor) => Gives::Argument(factor),
+            Unit::Argument(factor) => Gives::Argument(0, Dimension::NUMBER.times(factor)),
+            Unit::Times(i, unit) => units::parse(unit).map_or(Gives::Unknown, |d| Gives::Argument(i, d)),
             Unit::Unknown => Gives::Unknown,
         },
         doc: f.doc.to_string(),

@@ -12,7 +12,7 @@ use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema,
     Value, Words,
 };
 
@@ -450,6 +450,14 @@ impl Schema for ModelNames<'_> {
 
     fn element_help(&self, FieldKey(f): FieldKey, index: usize) -> Option<String> {
         elements::help(self.model, FieldId::new(f as usize)?, index)
+    }
+
+    fn gives(&self, FunctionId(f): FunctionId, first: Option<f64>) -> Gives {
+        let label = || self.shown?.measure(handle::index_of(first?));
+        match TABLE.get(f as usize) {
+            Some(row) if row.name == "shown" => label().map_or(Gives::Unknown, Gives::This),
+            _ => self.function(FunctionId(f)).gives,
+        }
     }
 
     fn measure(&self, FieldKey(f): FieldKey, first: usize, count: Option<usize>) -> Measure {

@@ -1,5 +1,6 @@
 //! What a page shows under labels: readouts and traces, which `shown('label')` reads. Whoever has the page computes them.
 
+use labspec_expr::dimension::Dimension;
 use labspec_expr::{CollectionId, ObjectId};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
@@ -11,13 +12,20 @@ pub(crate) const LABELS: CollectionId = CollectionId(u32::MAX);
 #[derive(Clone, Debug, Default)]
 pub struct Shown {
     labels: Vec<String>,
+    /// What the numbers measure, as far as the labels say it.
+    measures: Vec<Option<Dimension>>,
     asked: RefCell<BTreeSet<usize>>,
 }
 
 impl Shown {
-    /// With these labels. Of two equal ones the first counts.
-    pub fn new(labels: impl IntoIterator<Item = String>) -> Shown {
-        Shown { labels: labels.into_iter().collect(), asked: RefCell::default() }
+    /// With these labels, and what each says of its unit. Of two equal ones the first counts.
+    pub fn new(labels: impl IntoIterator<Item = (String, Option<Dimension>)>) -> Shown {
+        let (labels, measures) = labels.into_iter().unzip();
+        Shown { labels, measures, asked: RefCell::default() }
+    }
+
+    pub(crate) fn measure(&self, label: usize) -> Option<Dimension> {
+        self.measures.get(label).copied().flatten()
     }
 
     /// The labels.

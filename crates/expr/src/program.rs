@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::Span;
+use crate::dimension::Measure;
 use crate::effects::{Access, Effects};
 use crate::form::order::Order;
 use crate::form::{self, Form, pure};
@@ -278,6 +279,8 @@ pub struct Aggregate {
     pub slot: usize,
     /// Where the call stands.
     pub span: Span,
+    /// What its result measures, where the compiler [measures](crate::Compiler::measuring).
+    pub measure: Measure,
 }
 
 /// A compiled text.

@@ -189,8 +189,23 @@ pub enum Gives {
     Unknown,
     /// This.
     This(Dimension),
-    /// What the first argument measures, in numbers that are larger by this factor.
-    Argument(f64),
+    /// What this argument measures, times this dimension.
+    Argument(usize, Dimension),
+}
+
+impl Gives {
+    /// What a result measures whose arguments measure this.
+    pub(crate) fn of(self, argument: impl Fn(usize) -> Measure) -> Measure {
+        match self {
+            Gives::Unknown => Measure::Unknown,
+            Gives::This(dimension) => Measure::Known(dimension),
+            Gives::Argument(i, times) => match argument(i) {
+                Measure::Known(d) => d.product(times).map_or(Measure::Unknown, Measure::Known),
+                // A number of the text may stand for anything, and so may what it is multiplied with.
+                other => other,
+            },
+        }
+    }
 }
 
 /// What a parameter takes.
@@ -382,6 +397,12 @@ pub trait Schema {
     fn role(&self, field: FieldKey, index: usize) -> Role {
         let _ = (field, index);
         Role::Other
+    }
+
+    /// What the result of a function measures; `first` is its first argument, where that is a known number or name.
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+        let _ = first;
+        self.function(function).gives
     }
 
     /// What the elements of a whole field from `first` on measure, where they all measure the same; without a count, all of them.

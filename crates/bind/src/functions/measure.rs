@@ -160,6 +160,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "at",
         args: &[Arg::Lazy, Arg::Lazy],
+        unit: Unit::Times(1, "1"),
         doc: "at(condition, x): x at the first sample at which the condition holds; NaN if it never does",
         example: ("at(data.time > 0.049, data.qpos[0])", "0"),
         ..OVER_RUN
@@ -167,6 +168,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "before",
         args: &[Arg::Lazy, Arg::Lazy],
+        unit: Unit::Times(1, "1"),
         doc: "before(condition, x): x at the sample just before the condition first holds; NaN if there is none",
         example: ("before(data.time > 0.049, data.time)", "0.048"),
         ..OVER_RUN
@@ -236,48 +238,56 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "rate",
+        unit: Unit::Times(0, "1/s"),
         doc: "how fast x changes in a second, as the slope of the straight line through all samples that is nearest in the sense of least squares; NaN with one sample",
         example: ("rate(3 * data.time)", "3"),
         ..OVER_RUN
     },
     Function {
         name: "integral",
+        unit: Unit::Times(0, "s"),
         doc: "integral over time, by the trapezoid rule",
         example: ("integral(2 * data.time)", "0.01"),
         ..OVER_RUN
     },
     Function {
         name: "rms",
+        unit: Unit::Argument(1.0),
         doc: "root of the mean square over time, by the trapezoid rule",
         example: ("rms(data.qpos[0] - 3)", "3"),
         ..OVER_RUN
     },
     Function {
         name: "mean",
+        unit: Unit::Argument(1.0),
         doc: "mean over time, by the trapezoid rule",
         example: ("mean(data.time)", "0.05"),
         ..OVER_RUN
     },
     Function {
         name: "initial",
+        unit: Unit::Argument(1.0),
         doc: "value at the first sample",
         example: ("initial(data.time)", "0"),
         ..OVER_RUN
     },
     Function {
         name: "final",
+        unit: Unit::Argument(1.0),
         doc: "value at the last sample",
         example: ("final(data.time)", "0.1"),
         ..OVER_RUN
     },
     Function {
         name: "min",
+        unit: Unit::Argument(1.0),
         doc: "smallest value over the run",
         example: ("min(data.qpos[0])", "0"),
         ..OVER_RUN
     },
     Function {
         name: "max",
+        unit: Unit::Argument(1.0),
         doc: "largest value over the run",
         example: ("max(data.time)", "0.1"),
         ..OVER_RUN

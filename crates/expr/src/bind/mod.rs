@@ -164,7 +164,10 @@ impl<'s> Compiler<'s> {
         let measured = parts
             .as_ref()
             .zip(self.given)
-            .map(|(parts, given)| measured(&Form::of(&parts.tree), self.schema, given).of_type(parts.result));
+            .map(|(parts, given)| {
+                let given = given.with(&parts.aggregates);
+                measured(&Form::of(&parts.tree), self.schema, &given).of_type(parts.result)
+            });
         let program = parts.map(|parts| {
             Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)
         });

@@ -11,7 +11,8 @@ use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
 use crate::math;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::schema::{Gives, Schema, Type};
+use crate::program::Aggregate;
+use crate::schema::{Schema, Type};
 use crate::value::{Value, View};
 
 use super::effects::{element, whole};
@@ -23,6 +24,16 @@ pub struct Given {
     pub variables: BTreeMap<u32, Measure>,
     /// What a control gives.
     pub value: Measure,
+    /// What the aggregates of the text give, by their slots.
+    pub aggregates: BTreeMap<usize, Measure>,
+}
+
+impl Given {
+    /// The same for a text with these aggregates.
+    pub(crate) fn with(&self, aggregates: &[Aggregate]) -> Given {
+        let aggregates = aggregates.iter().map(|a| (a.slot, a.measure)).collect();
+        Given { aggregates, ..self.clone() }
+    }
 }
 
 /// The dimensions in a text.
@@ -256,18 +267,15 @@ impl<'f> Work<'f> {
                 of_number(d, Measure::NUMBER, self);
             }
             Op::CallHost(d, function, args) => {
-                let m = match self.schema.function(function).gives {
-                    Gives::Unknown => Measure::Unknown,
-                    Gives::This(d) => Measure::Known(d),
-                    Gives::Argument(factor) => {
-                        let first = args.of(&self.unit.args).first().map(|v| self.value(Val(*v)));
-                        match first.unwrap_or_default() {
-                            Measure::Known(d) => Measure::Known(d.times(factor)),
-                            other => other,
-                        }
-                    }
-                };
+                let args = args.of(&self.unit.args);
+                let number = args.first().and_then(|v| self.unit.known_value(Val(*v)));
+                let gives = self.schema.gives(function, number.map(Value::to_number));
+                let m = gives.of(|i| args.get(i).map_or(Measure::Unknown, |v| self.value(Val(*v))));
                 of_value(d, m, self);
+            }
+            Op::Aggregate(d, slot) => {
+                let m = self.given.aggregates.get(&(slot as usize)).copied().unwrap_or_default();
+                of_number(d, m, self);
             }
             Op::Element(d, list, _) | Op::ElementAt(d, list, _) => of_value(d, self.value(list), self),
             Op::Member(d, of, name) => {

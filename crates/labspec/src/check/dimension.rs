@@ -30,13 +30,19 @@ pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
 /// The dimension of an expression that names what a lab's texts name; `None` where it is not certain.
 pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -> Option<Dimension> {
     let (mut work, variables, _) = settle(lab, model, programs);
-    let given = Given { variables, value: Measure::Unknown };
+    let given = Given { variables, ..Given::default() };
     let measured =
         Compiler::new(&work.names, &mut work.globals).measuring(&given).expression(code).measured?;
     match measured.value {
         Measure::Known(dimension) => Some(dimension),
         _ => None,
     }
+}
+
+/// What the variables of a lab hold, for texts that read them.
+pub(crate) fn given(lab: &Lab, model: &Model, programs: &Programs) -> Given {
+    let (_, variables, _) = settle(lab, model, programs);
+    Given { variables, ..Given::default() }
 }
 
 /// Measures all texts until the variables that they store have settled.
@@ -87,7 +93,7 @@ impl Work<'_> {
     /// Every text once.
     fn round(&mut self, variables: &BTreeMap<u32, Measure>) -> Dimensions {
         let (lab, programs) = (self.lab, self.programs);
-        let given = Given { variables: variables.clone(), value: Measure::Unknown };
+        let given = Given { variables: variables.clone(), ..Given::default() };
         let probes = programs.probes.iter().map(|p| {
             let text = &p.bound.as_ref()?.text;
             Compiler::new(&self.names, &mut self.globals).measuring(&given).expression(&text.value).measured

@@ -7,6 +7,7 @@ use super::perform::{self, Asked};
 use super::reads;
 use super::search::{self, Case};
 use super::stage::{Scene, Stage};
+use super::units;
 use crate::bind::{ModelNames, Scope, Shown, functions, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
@@ -17,7 +18,7 @@ use crate::spec::{Find, Run, Sweep, Verify};
 use labspec_core::reflect::{FieldId, Object};
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
-use std::cell::RefCell;
+use std::cell::{OnceCell, RefCell};
 
 /// A program with the text that it came from.
 #[derive(Debug)]
@@ -62,6 +63,8 @@ pub struct BoundVerify<'a> {
     stage: &'a Stage<'a>,
     /// A lab at its start, for expressions over measures: they read nothing of it.
     idle: RefCell<Option<Session<'a>>>,
+    /// What the measures measure, once somebody has asked.
+    units: OnceCell<Option<units::Known>>,
 }
 
 /// The value of an expression over the measures, and what it rests on.
@@ -86,7 +89,7 @@ impl BoundRun<'_> {
 
 impl BoundScene<'_> {
     /// The names of a measure, or of what it is compared with.
-    fn names(&self, scope: Scope) -> ModelNames<'_> {
+    pub(super) fn names(&self, scope: Scope) -> ModelNames<'_> {
         ModelNames::new(&self.scene.model, scope).with(&self.scene.programs.functions).showing(&self.shown)
     }
 
@@ -105,8 +108,14 @@ impl<'a> BoundVerify<'a> {
         stage: &'a Stage<'a>,
         findings: &mut Vec<Finding>,
     ) -> Option<BoundVerify<'a>> {
-        let mut bound =
-            BoundVerify { scenes: Vec::new(), runs: Vec::new(), verify, stage, idle: RefCell::default() };
+        let mut bound = BoundVerify {
+            scenes: Vec::new(),
+            runs: Vec::new(),
+            verify,
+            stage,
+            idle: RefCell::default(),
+            units: OnceCell::new(),
+        };
         if verify.runs.is_empty() {
             let scene = bound.add(base?);
             bound.runs.push(BoundRun {
@@ -242,6 +251,16 @@ impl<'a> BoundVerify<'a> {
         self.stage
     }
 
+    /// The lab that expressions over measures are read in.
+    pub(super) fn base(&self) -> Option<&BoundScene<'a>> {
+        self.scenes.first()
+    }
+
+    /// What is known of the units of the measures.
+    pub(super) fn units(&self) -> Option<&units::Known> {
+        self.units.get_or_init(|| units::Known::of(self)).as_ref()
+    }
+
     /// The lab of the object with its model and programs.
     pub(super) fn lab(&self) -> Option<&Scene<'a>> {
         self.scenes.first().map(|s| &s.scene)
@@ -370,7 +389,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// An outcome before there is one, for those who look at names.
-    fn blank(&self) -> Outcome {
+    pub(super) fn blank(&self) -> Outcome {
         // Some number stands for each measure: what only depends on the number is not said.
         let run = |run: &BoundRun<'_>| {
             let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);

@@ -6,6 +6,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Column, Said};
+use labspec_expr::dimension::Dimension;
 
 /// Holds a column, or one cell of it, to what was measured.
 pub(super) fn check(
@@ -26,10 +27,11 @@ pub(super) fn check(
             return vec![Quote::unclear(&claim.column, &message)];
         }
     };
+    let unit = quote::unit_of_head(claim.column.as_str());
     let Some((_, list)) = &claim.by else {
         return cells
             .into_iter()
-            .map(|[_, cell]| number(bound, outcomes, cell, claim.is.clone(), shown, findings))
+            .map(|[_, cell]| number(bound, outcomes, cell, claim.is.clone(), &unit, shown, findings))
             .collect();
     };
     let values = match values(bound, outcomes, list, findings) {
@@ -51,7 +53,7 @@ pub(super) fn check(
             all.push(Quote::unclear(&cell, &message));
             continue;
         };
-        all.push(number(bound, outcomes, cell, part(&claim.is, &format!("[{member}]")), shown, findings));
+        all.push(number(bound, outcomes, cell, part(&claim.is, &format!("[{member}]")), &unit, shown, findings));
     }
     all
 }
@@ -62,10 +64,11 @@ fn number(
     outcomes: &Outcomes,
     cell: Text,
     expr: Text,
+    unit: &Option<(String, Dimension)>,
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> Quote {
-    super::quote(bound, outcomes, &Said { quote: cell, expr }, Asked::There, shown, findings)
+    super::quote(bound, outcomes, &Said { quote: cell, expr }, Asked::There(unit.clone()), shown, findings)
 }
 
 /// The numbers of a list.

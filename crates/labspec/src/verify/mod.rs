@@ -11,6 +11,7 @@
 //! | the answer of a question | `answer` |
 //! | numbers in the text | `quote` |
 //! | columns of tables | `column` |
+//! | what their numbers measure | `units` |
 //! | closed forms | `exact` |
 //! | the same with the numbers of the real library | `judge` |
 //! | what the labs show in the runs, for a report | `curves` |
@@ -30,6 +31,7 @@ mod quote;
 mod reads;
 mod search;
 mod stage;
+mod units;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
@@ -49,6 +51,7 @@ use crate::run::Numerics;
 use crate::source::Text;
 use crate::spec::{Question, Verify};
 use labspec_core::integrator;
+use labspec_expr::dimension::Dimension;
 use outcome::Outcome;
 use std::ops::Range;
 
@@ -209,8 +212,8 @@ pub fn check(
 enum Asked<'q> {
     /// Wherever a reader sees it; first in this question.
     Where(Option<&'q Question>),
-    /// Where it was taken from: in a cell.
-    There,
+    /// Where it was taken from: in a cell, with the unit in the heading of its column.
+    There(Option<(String, Dimension)>),
 }
 
 /// What became of a quoted number.
@@ -233,9 +236,10 @@ fn quote(
     let mut nudged: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
     nudged.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
     let computed = found.value.to_number();
+    let value = quote::Value { computed, timestep: &halved, start: &nudged, unit: &|| units::of_claim(bound, expr) };
     let o = match asked {
-        Asked::Where(question) => quote::check(said, computed, &halved, &nudged, question, shown, findings),
-        Asked::There => quote::check_at(said, vec![text.span()], computed, &halved, &nudged, shown, findings),
+        Asked::Where(question) => quote::check(said, &value, question, shown, findings),
+        Asked::There(unit) => quote::check_at(said, vec![text.span()], unit, &value, shown, findings),
     };
     Quote { state: o.state, evidence: found.evidence, reason: o.reason, computed, ..Quote::unclear(text, "") }
 }

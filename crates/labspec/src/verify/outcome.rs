@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, ObjectId, Role, Schema,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema,
     Value, Words,
 };
 
@@ -102,7 +102,14 @@ pub(super) struct OutcomeNames<'a> {
     /// The lists of sweeps.
     lists: Lists,
     used: RefCell<Used>,
+    /// What the measures of each run measure, where that is what is looked for, and no number.
+    units: Option<&'a Units>,
+    /// What was looked up for that, a place for each number.
+    placed: RefCell<Vec<Measure>>,
 }
+
+/// What the measures of each run measure, by the place of the run.
+pub(super) type Units = Vec<Vec<(String, Measure)>>;
 
 /// The numbers of the measures of sweeps, one list after the other; the values of each measure stand before its numbers.
 #[derive(Debug, Default)]
@@ -147,7 +154,13 @@ impl<'a> OutcomeNames<'a> {
     pub(super) fn new(outcome: &'a Outcome, model: ModelNames<'a>) -> OutcomeNames<'a> {
         let mut claims = model;
         claims.scope = Scope::Claim;
-        OutcomeNames { outcome, model, claims, lists: Lists::of(outcome), used: RefCell::default() }
+        let (used, placed) = (RefCell::default(), RefCell::default());
+        OutcomeNames { outcome, model, claims, lists: Lists::of(outcome), used, units: None, placed }
+    }
+
+    /// The same for a look at what expressions measure: their numbers are none.
+    pub(super) fn measuring(self, units: &'a Units) -> OutcomeNames<'a> {
+        OutcomeNames { units: Some(units), ..self }
     }
 
     /// What was looked up until now, and the numbers of the lists.
@@ -175,6 +188,12 @@ impl<'a> OutcomeNames<'a> {
     }
 
     fn measure(&self, place: usize, run: &RunOutcome, name: &str) -> Option<Entry> {
+        if let Some(units) = self.units {
+            let own = units.get(place)?.iter().find(|(m, _)| m == name);
+            let measure = own.map_or(Measure::Unknown, |(_, measure)| *measure);
+            let count = self.outcome.members(place).count();
+            return Some(self.unit_of(measure, run.swept.map(|_| count)));
+        }
         if run.swept.is_some() {
             return self.list(place, run, name);
         }
@@ -185,6 +204,24 @@ impl<'a> OutcomeNames<'a> {
         let (_, x) = run.measures.iter().find(|(m, _)| m == name)?;
         self.used.borrow_mut().measures.insert((place, name.to_string()));
         Some(Entry::Constant(Value::Number(*x)))
+    }
+
+    /// Something with this unit: a list of so many numbers, or one.
+    fn unit_of(&self, measure: Measure, count: Option<usize>) -> Entry {
+        let mut placed = self.placed.borrow_mut();
+        let first = placed.len();
+        placed.extend(std::iter::repeat_n(measure, count.unwrap_or(1)));
+        Entry::Field(Field {
+            key: NUMBERS,
+            path: String::new(),
+            first,
+            shape: count.map(Some).into_iter().collect(),
+            kind: FieldKind::Structure,
+            elem: Elem::Double,
+            unit: String::new(),
+            doc: String::new(),
+            owner: String::new(),
+        })
     }
 
     /// The numbers of a measure in all members of a sweep.
@@ -222,6 +259,9 @@ impl Schema for OutcomeNames<'_> {
 
     fn root(&self, name: &str) -> Option<Entry> {
         if let Some((_, x)) = self.outcome.found.iter().find(|(n, _)| n == name) {
+            if self.units.is_some() {
+                return Some(self.unit_of(Measure::Unknown, None));
+            }
             self.used.borrow_mut().found = true;
             return Some(Entry::Constant(Value::Number(*x)));
         }
@@ -295,7 +335,14 @@ impl Schema for OutcomeNames<'_> {
     }
 
     fn measure(&self, field: FieldKey, first: usize, count: Option<usize>) -> Measure {
-        self.model.measure(field, first, count)
+        match self.units {
+            Some(_) if field == NUMBERS => self.placed.borrow().get(first).copied().unwrap_or_default(),
+            _ => self.model.measure(field, first, count),
+        }
+    }
+
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+        self.model.gives(function, first)
     }
 
     fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {

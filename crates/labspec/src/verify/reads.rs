@@ -2,18 +2,30 @@
 
 use crate::bind::{Programs, Shown};
 use crate::run::{Cell, Session};
-use crate::spec::Lab;
+use crate::check::of_label;
+use crate::source::Text;
+use crate::spec::{Lab, Plot, Readout, Trace};
+use labspec_expr::dimension::Dimension;
 use labspec_expr::Value;
 
 /// The labels of a lab: its readouts, its traces, and each of both as a table of `labspec run` calls it.
 pub fn labels(lab: &Lab) -> Shown {
-    let own = lab.readouts.iter().map(|r| r.label.value.clone());
-    let traces = lab.traces().map(|t| t.label.value.clone());
-    let plots = lab.plots.iter().enumerate();
-    let called = plots
-        .flat_map(|(i, plot)| plot.traces.iter().map(move |trace| format!("plot/{i}/{}", trace.label.value)));
-    let readouts = lab.readouts.iter().map(|r| format!("readout/{}", r.label.value));
+    let readout = |prefix: &str, r: &Readout| (format!("{prefix}{}", r.label.value), unit(&[Some(&r.label)]));
+    let trace = |prefix: &str, plot: &Plot, t: &Trace| {
+        (format!("{prefix}{}", t.label.value), unit(&[Some(&t.label), plot.ylabel.as_ref()]))
+    };
+    let own = lab.readouts.iter().map(|r| readout("", r));
+    let traces = lab.plots.iter().flat_map(|plot| plot.traces.iter().map(move |t| trace("", plot, t)));
+    let called = lab.plots.iter().enumerate().flat_map(|(i, plot)| {
+        plot.traces.iter().map(move |t| trace(&format!("plot/{i}/"), plot, t))
+    });
+    let readouts = lab.readouts.iter().map(|r| readout("readout/", r));
     Shown::new(own.chain(traces).chain(called).chain(readouts))
+}
+
+/// The unit of the first label that has one.
+fn unit(labels: &[Option<&Text>]) -> Option<Dimension> {
+    labels.iter().flatten().find_map(|label| of_label(label.as_str())).map(|(_, unit)| unit)
 }
 
 /// Stores what is shown now under these labels. A number of a readout is taken as it is printed, with its decimals.

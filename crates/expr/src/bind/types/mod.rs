@@ -29,6 +29,7 @@ use std::collections::BTreeMap;
 use super::names::Names;
 use super::{Compiler, MAX_LEVELS, Mode};
 use crate::ast::Expr;
+use crate::form::measure::Given;
 use crate::globals::{Globals, ProgramId};
 use crate::ir::{Ir, Step, Tree, Unit, UnitId};
 use crate::math;
@@ -148,6 +149,8 @@ struct Binder<'a> {
     schema: &'a dyn Schema,
     globals: Globals,
     value: Option<Type>,
+    /// What variables measure, where that is asked for.
+    given: Option<&'a Given>,
     source: &'a str,
     mode: Mode,
     names: &'a Names,
@@ -194,6 +197,7 @@ impl<'a> Binder<'a> {
             schema: compiler.schema,
             globals: std::mem::take(compiler.globals),
             value: compiler.value,
+            given: compiler.given,
             source,
             mode,
             names,

@@ -17,7 +17,8 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
     let mut findings = Vec::new();
     let shown = ShownText::of(&lesson);
-    let outcome = check(said, computed, &half, &starts, None, &shown, &mut findings);
+    let value = Value { computed, timestep: &half, start: &starts, unit: &|| None };
+    let outcome = check(said, &value, None, &shown, &mut findings);
     (outcome, findings)
 }
 
@@ -51,6 +52,14 @@ fn digits_that_no_reader_can_reproduce_are_never_to_be_written() {
     let (outcome, findings) = checked("-10.05 %", -20.75, &[], &[-13.58]);
     assert_eq!((outcome.state, told(&findings).0), (QuoteState::Unclear, "quote-chaotic"));
     assert!(!told(&findings).1.contains("write"));
+}
+
+#[test]
+fn a_number_far_from_everything_that_comes_out_is_wrong() {
+    let (outcome, findings) = checked("-60 %", -20.75, &[], &[-13.58]);
+    assert_eq!((outcome.state, told(&findings).0), (QuoteState::Wrong, "quote-wrong"));
+    let (outcome, _) = checked("-60 %", -20.75, &[], &[f64::NAN]);
+    assert_eq!(outcome.state, QuoteState::Unclear, "nobody knows what comes out");
 }
 
 #[test]

@@ -18,11 +18,15 @@ pub use number::{Form, Quoted, Style};
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
 pub use stated::{Stated, claimed, stated};
+pub(super) use stated::unit_of_head;
 
+use crate::check::{contradicts, unit as is_unit};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Question, Said};
+use labspec_bind::units::written;
+use labspec_expr::dimension::Dimension;
 use std::ops::Range;
 
 /// What a reader sees of a piece of HTML.
@@ -67,33 +71,42 @@ pub struct QuoteOutcome {
     pub moved: Vec<(&'static str, String)>,
 }
 
+/// What the expression of a quote gives.
+#[derive(Clone, Copy)]
+pub(super) struct Value<'v> {
+    /// In the lesson's own runs.
+    pub(super) computed: f64,
+    /// With finer numerics.
+    pub(super) timestep: &'v [Other],
+    /// From starts that no reader could tell from the lesson's own.
+    pub(super) start: &'v [Other],
+    /// What it measures, where that is certain.
+    pub(super) unit: &'v dyn Fn() -> Option<Dimension>,
+}
+
 /// Compares a quoted number with what its expression gives, at every place where it is shown.
-///
-/// `timestep_others` are the values of the expression with finer numerics, `start_others` those from starts that no
-/// reader could tell from the lesson's own.
 pub(super) fn check(
     said: &Said,
-    computed: f64,
-    timestep_others: &[Other],
-    start_others: &[Other],
+    value: &Value<'_>,
     question: Option<&Question>,
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
     let places = own_first(shown.places(said.quote.as_str()), question);
-    check_at(said, places, computed, timestep_others, start_others, shown, findings)
+    let unit = stated::unit_of_quote(said.quote.as_str());
+    check_at(said, places, unit, value, shown, findings)
 }
 
-/// The same for a quote that stands at these places.
+/// The same for a quote that stands at these places, in this unit.
 pub(super) fn check_at(
     said: &Said,
     places: Vec<Range<usize>>,
-    computed: f64,
-    timestep_others: &[Other],
-    start_others: &[Other],
+    unit: Option<(String, Dimension)>,
+    value: &Value<'_>,
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
+    let Value { computed, timestep: timestep_others, start: start_others, .. } = *value;
     let mut outcome = QuoteOutcome {
         state: QuoteState::Unclear,
         reason: String::new(),
@@ -132,14 +145,28 @@ pub(super) fn check_at(
         differs.map(|o| (o.how, told::printed(&read, o.value))).collect()
     };
     let chaotic = moved(start_others);
-    if !chaotic.is_empty() {
-        let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
+    let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
+    let readings = [Some(read), reading.share].into_iter().flatten().chain(reading.doubts.iter().map(|(q, _)| *q));
+    if !chaotic.is_empty() && readings.into_iter().any(|q| may_come_out(&q, &values)) {
         outcome.moved = chaotic;
         let finding = told::chaotic(said, &outcome, &read, &values);
         return unclear(outcome, "no reader can reproduce these digits", finding, findings);
     }
     outcome.moved = moved(timestep_others);
-    if fits.is_some() {
+    if let Some(fits) = fits {
+        // Of a fraction that is told in percent the number is right in any unit.
+        let unit = unit.filter(|_| fits == reading.read);
+        if let Some((text, wanted)) = unit
+            && let Some(found) = (value.unit)().filter(|found| contradicts(found, &wanted))
+            // A `g` may be more than grams; beside a mass it is not.
+            && (is_unit(&text).is_some() || found.agrees(&wanted))
+        {
+            let gives = written(&found);
+            outcome.reason = format!("the text says {text}, the expression gives {gives}");
+            outcome.state = QuoteState::Wrong;
+            findings.push(told::wrong_unit(said, &outcome, &text, &gives));
+            return outcome;
+        }
         if !outcome.moved.is_empty() {
             findings.push(told::of_timestep(said, &outcome, &read));
         }
@@ -162,6 +189,17 @@ pub(super) fn check_at(
     outcome.reason = format!("the text says {read}, the simulation gives {}", told::printed(&read, computed));
     outcome.state = QuoteState::Wrong;
     outcome
+}
+
+/// Whether a run from another start could give these digits: what the runs gave lies around them, or so near that as much again
+/// reaches them.
+fn may_come_out(read: &Quoted, values: &[f64]) -> bool {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let spread = high - low;
+    // Where one of them is no number, nobody knows.
+    !spread.is_finite()
+        || read.value + read.half_unit >= low - spread && read.value - read.half_unit <= high + spread
 }
 
 /// The cells of a column, or the one cell that is meant: each with what stands in the cell that tells its row.

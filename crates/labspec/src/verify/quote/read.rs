@@ -49,9 +49,7 @@ pub(super) fn reading(text: &str) -> Result<Reading, Unread> {
     }
     let chars = Chars(&chars);
     let numbers = numbers(chars);
-    let equals = (0..chars.0.len())
-        .rev()
-        .find(|&i| matches!(chars.at(i), Some('=' | '≈')) && numbers.iter().any(|n| n.start > i));
+    let equals = last_equals(chars, &numbers);
     let mut stated = numbers.iter().filter(|n| equals.is_none_or(|i| n.start > i));
     let Some(first) = stated.next() else {
         let is_formula = ["frac", "sqrt", "√"].into_iter().any(|word| folded.contains(word));
@@ -95,6 +93,19 @@ pub(super) fn reading(text: &str) -> Result<Reading, Unread> {
         return Err(Unread::Form("a number beyond all computing"));
     }
     Ok(reading)
+}
+
+/// The last sign of equality that a number follows.
+fn last_equals(chars: Chars<'_>, numbers: &[Numeral]) -> Option<usize> {
+    let equals = |&i: &usize| matches!(chars.at(i), Some('=' | '≈')) && numbers.iter().any(|n| n.start > i);
+    (0..chars.0.len()).rev().find(equals)
+}
+
+/// The number that a text states.
+pub(super) fn stated(chars: Chars<'_>) -> Option<Numeral> {
+    let numbers = numbers(chars);
+    let equals = last_equals(chars, &numbers);
+    numbers.into_iter().find(|n| equals.is_none_or(|i| n.start > i))
 }
 
 /// All numbers of a text. Digits of words, indexes and exponents (`H2O`, `x_1`, `L^2`, `3D`, `2nd`) are none.

@@ -86,7 +86,10 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     let shown = super::ShownText::of(lesson);
     let says = lesson.verifies().flat_map(|verify| &verify.says);
-    says.flat_map(|said| shown.places(said.quote.as_str()).to_vec()).collect()
+    let quoted = says.flat_map(|said| shown.places(said.quote.as_str()).to_vec());
+    let columns = lesson.verifies().flat_map(|verify| &verify.table);
+    let cells = columns.filter_map(|claim| super::cells(claim, &shown).ok()).flatten().flatten();
+    quoted.chain(cells.map(|cell| cell.span())).collect()
 }
 
 fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
@@ -161,8 +164,19 @@ fn own_unit(rest: &str) -> Option<(String, Dimension, usize)> {
     })
 }
 
+/// The unit behind the number that a quote states, if it has one.
+pub(super) fn unit_of_quote(quote: &str) -> Option<(String, Dimension)> {
+    let (shown, _) = html::strip(quote);
+    let (folded, _) = fold::fold(&shown, false);
+    let chars: Vec<char> = folded.chars().collect();
+    let number = read::stated(Chars(&chars))?;
+    let rest: String = chars.get(number.end..)?.iter().collect();
+    let (unit, dimension, _) = own_unit(&rest)?;
+    Some((unit, dimension))
+}
+
 /// The unit in the brackets of a head: `error (mm)`.
-fn unit_of_head(head: &str) -> Option<(String, Dimension)> {
+pub(in crate::verify) fn unit_of_head(head: &str) -> Option<(String, Dimension)> {
     let inner = head.trim().strip_suffix(')')?;
     let (_, unit) = inner.rsplit_once('(')?;
     Some((unit.to_string(), parse(unit)?))

@@ -112,6 +112,13 @@ fn as_read(said: &Said, read: &Quoted) -> String {
     if plain.contains(&text) { String::new() } else { format!(" (read as {text})") }
 }
 
+pub(super) fn wrong_unit(said: &Said, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
+    let message = format!("the text says {text}, and the expression gives {gives}");
+    at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
+        .why("the digits are right, and the unit is another one")
+        .help("correct the unit in the text, or convert the number in the expression")
+}
+
 pub(super) fn wrong(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let right = printed(read, outcome.computed);
     let within = match read.form {
