@@ -46,6 +46,7 @@ mod refresh;
 mod reports;
 mod reproduction;
 mod rules;
+mod said;
 mod scaffold;
 mod scenery;
 mod scenes;

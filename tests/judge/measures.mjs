@@ -9,6 +9,7 @@ const HOW = {
   final: () => { let r = NaN; return [(a) => { r = +a(0); }, () => r]; },
   min: () => { let r = NaN; return [(a) => { const x = +a(0); if (!(x >= r) && !Number.isNaN(x)) r = x; }, () => r]; },
   max: () => { let r = NaN; return [(a) => { const x = +a(0); if (!(x <= r) && !Number.isNaN(x)) r = x; }, () => r]; },
+  previous: () => { let now = NaN, was = NaN; return [(a) => { was = now; now = +a(0); }, () => was]; },
   last: () => { let r = NaN; return [(a, t) => { if (a(0)) r = t; }, () => r]; },
   holds: () => { let r = 1; return [(a) => { if (!a(0)) r = 0; }, () => r]; },
   count: () => { let r = 0, was = false; return [(a) => { const now = !!a(0); if (now && !was) r += 1; was = now; }, () => r]; },
@@ -105,13 +106,13 @@ function split(text, from) {
   throw new Error('a parenthesis is not closed');
 }
 
-// A measure: `sample` at every sample, `finish` at the end. The names are those that its text may use.
+// A measure: `sample` at every sample, `finish` at the end. The names are those that its text may use. What stands within
+// another one is what it is up to the sample that the other looks at.
 export function measure(text, names) {
   const compile = (code, more = []) => new Function(...names, ...more, `"use strict"; return (${code});`);
   const all = calls(text).map((call) => {
-    if (call.args.some((arg) => calls(arg).length)) throw new Error('a measure within a measure is not known here');
     const [take, result] = HOW[call.name](call.args.length);
-    return { ...call, take, result, args: call.args.map((arg) => compile(arg)) };
+    return { ...call, take, result, args: call.args.map((arg) => measure(arg, names)) };
   });
   let rest = '', from = 0;
   all.forEach((call, i) => { rest += `${text.slice(from, call.start)}(__${i})`; from = call.end; });
@@ -120,9 +121,11 @@ export function measure(text, names) {
     sample(values, time) {
       for (const call of all) {
         // A name that nobody knows is told; whatever else throws is nothing, as on a page.
-        call.take((i) => { try { return call.args[i](...values); } catch (e) { if (e instanceof ReferenceError) throw e; return undefined; } }, time);
+        for (const arg of call.args) arg.sample(values, time);
+        call.take((i) => { try { return call.args[i].now(values); } catch (e) { if (e instanceof ReferenceError) throw e; return undefined; } }, time);
       }
     },
-    finish(values) { return +end(...values, ...all.map((call) => call.result())); },
+    now(values) { return end(...values, ...all.map((call) => call.result())); },
+    finish(values) { return +this.now(values); },
   };
 }

@@ -12,8 +12,8 @@ use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema,
-    Value, Words,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
+    Schema, Value, Words,
 };
 
 /// Where a program stands: decides which functions exist.

@@ -279,6 +279,13 @@ pub(super) const ROWS: &[Function] = &[
         ..OVER_RUN
     },
     Function {
+        name: "previous",
+        unit: Unit::Argument(1.0),
+        doc: "value at the sample before this one, within another measure: `first(x < previous(x))` is when x begins to fall; NaN at the first sample",
+        example: ("max(data.time - previous(data.time))", "0.002"),
+        ..OVER_RUN
+    },
+    Function {
         name: "min",
         unit: Unit::Argument(1.0),
         doc: "smallest value over the run",

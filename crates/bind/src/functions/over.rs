@@ -23,16 +23,19 @@ pub(super) const ROWS: &[Function] = &[
         name: "fit",
         args: &[Arg::Any, Arg::Text, Arg::Any],
         optional: 1,
-        unit: Unit::Of("1"),
-        doc: "fit(run.measure, 'power'): the exponent of the nearest power law, which is the slope of the logarithm over that of the value; NaN where a number is not above zero; fit(y, 'power', x) for two lists",
+        doc: "fit(run.measure, law): what the nearest law of this kind says, by least squares in the logarithms that make it a straight line: 'power' the exponent n of a xⁿ, 'exponential' the rate k of a exp(k x), 'logarithm' the factor b of a + b ln x; NaN where a number that a logarithm is taken of is not above zero; fit(y, law, x) for two lists",
         example: ("fit(run.h, 'power') + fit([1, 4, 9], 'power', [1, 2, 3])", "3"),
         run: |w, heap, args| {
-            match args.get(1) {
-                Some(Value::String(law)) if &**law == "power" => {}
-                _ => return Err("`fit` knows one law, 'power'".into()),
-            }
+            let law = match args.get(1) {
+                Some(Value::String(law)) => LAWS.iter().find(|(name, ..)| *name == &**law),
+                _ => None,
+            };
+            let &(_, of_x, of_y) =
+                law.ok_or("`fit` knows the laws 'power', 'exponential' and 'logarithm'")?;
             let (y, x) = pairs(w, heap, args.first(), args.get(2))?;
-            let [x, y] = [x, y].map(|list| list.into_iter().map(ln).collect::<Vec<_>>());
+            let line =
+                |list: Vec<f64>, bent: bool| list.into_iter().map(|x| if bent { ln(x) } else { x }).collect();
+            let [x, y]: [Vec<f64>; 2] = [line(x, of_x), line(y, of_y)];
             Ok(Value::Number(slope(&x, &y)))
         },
         ..OVER
@@ -65,6 +68,10 @@ pub(super) const ROWS: &[Function] = &[
         ..OVER
     },
 ];
+
+/// Laws that logarithms make straight: whether that of x is taken, and that of y.
+const LAWS: [(&str, bool, bool); 3] =
+    [("power", true, true), ("exponential", false, true), ("logarithm", true, false)];
 
 /// The natural logarithm of a number above zero.
 fn ln(x: f64) -> f64 {

@@ -161,13 +161,10 @@ impl<'s> Compiler<'s> {
         found.extend(bound.found);
         let failed = told || found.iter().any(Finding::is_error);
         let parts = bound.program.filter(|_| !failed);
-        let measured = parts
-            .as_ref()
-            .zip(self.given)
-            .map(|(parts, given)| {
-                let given = given.with(&parts.aggregates);
-                measured(&Form::of(&parts.tree), self.schema, &given).of_type(parts.result)
-            });
+        let measured = parts.as_ref().zip(self.given).map(|(parts, given)| {
+            let given = given.with(&parts.aggregates);
+            measured(&Form::of(&parts.tree), self.schema, &given).of_type(parts.result)
+        });
         let program = parts.map(|parts| {
             Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)
         });

@@ -3,8 +3,10 @@
 use super::{Ready, refresh};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
+use crate::json::read;
 use crate::ledger::State;
-use crate::spec::{Lab, Lesson, Question, QuestionKind, Verify};
+use crate::rules;
+use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify, VerifyLab};
 use crate::verify::{self, Answer, BoundVerify, Judgement, QuoteState, Scene, ShownText, Stage};
 use labspec_core::Model;
 use std::ops::Range;
@@ -38,19 +40,26 @@ pub(super) enum Owner<'a> {
     Lab(&'a Lab),
     /// A question, with or without one.
     Question(&'a Question),
+    /// A comment in the text.
+    Remark(&'a Remark),
 }
 
 impl<'a> Owner<'a> {
-    /// Its `verify` object, the lab that this is about unless it names another, and its question.
-    pub(super) fn claim(&self) -> Option<(&'a Verify, Option<&'a Lab>, Option<&'a Question>)> {
-        match self {
-            Owner::Lab(lab) => Some((lab.verify.as_ref()?, Some(lab), None)),
-            Owner::Question(q) => Some((q.verify.as_ref()?, q.sim(), Some(q))),
-        }
+    /// Its `verify` object with what that uses, the lab that this is about unless it names another, and its question.
+    pub(super) fn claim(
+        &self,
+        lesson: &'a Lesson,
+    ) -> Option<(&'a Verify, Option<&'a Lab>, Option<&'a Question>)> {
+        let (verify, own, question) = match self {
+            Owner::Lab(lab) => (lab.verify.as_ref()?, Some(*lab), None),
+            Owner::Question(q) => (q.verify.as_ref()?, q.sim(), Some(*q)),
+            Owner::Remark(remark) => (&remark.verify, None, None),
+        };
+        Some((lesson.whole(verify), own, question))
     }
 }
 
-/// Everybody who claims something, by name: labs, then questions.
+/// Everybody who claims something, by name: labs, then questions, then comments.
 pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
     let mut all = Vec::new();
     let addressed = lesson.addressed();
@@ -69,7 +78,11 @@ pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
         let questions = quiz.numbered();
         all.extend(questions.map(|(n, q)| (format!("quiz {id}, question {n}"), Owner::Question(q))));
     }
-    all.retain(|(_, owner)| matches!(owner, Owner::Question(_)) || owner.claim().is_some());
+    all.retain(|(_, owner)| matches!(owner, Owner::Question(_)) || owner.claim(lesson).is_some());
+    for remark in &lesson.remarks {
+        let line = lesson.file.position(remark.span.start).line;
+        all.push((format!("comment in line {line}"), Owner::Remark(remark)));
+    }
     all
 }
 
@@ -88,7 +101,7 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], models: &Models, findings: &mut Vec<Finding>) {
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
-        if let Some((verify, own, _)) = owner.claim()
+        if let Some((verify, own, _)) = owner.claim(lesson)
             && let Some(cast) = cast(lesson, ready, verify, own, &stage, findings)
             && let Some(bound) = BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, &stage, findings)
         {
@@ -99,7 +112,7 @@ pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], models: &Models, findin
 
 /// Whether somebody claims something by formulas alone.
 pub(super) fn have_formulas(lesson: &Lesson) -> bool {
-    let claims = owners(lesson).into_iter().filter_map(|(_, owner)| owner.claim());
+    let claims = owners(lesson).into_iter().filter_map(|(_, owner)| owner.claim(lesson));
     claims.into_iter().any(|(verify, own, _)| verify.lab.is_none() && own.is_none() && verify.is_formulas())
 }
 
@@ -118,23 +131,52 @@ fn cast<'r>(
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<Cast<'r>> {
-    let scene = |r: &'r Ready<'r>| Scene::of(r.lab, &r.model, &r.programs);
-    let of = |lab: &Lab| ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(scene);
     let base = match &verify.lab {
         // Formulas need no lab: they have one in which nothing is.
-        None if own.is_none() && verify.is_formulas() => ready.iter().find(|r| r.lab.is_nothing()).map(scene),
-        None => own.and_then(of),
-        Some(named) => lesson.named(named).and_then(of),
+        None if own.is_none() && verify.is_formulas() => {
+            ready.iter().find(|r| r.lab.is_nothing()).map(Ready::scene)
+        }
+        None => own.and_then(|lab| scene_of(ready, lab)),
+        Some(named) => named_scene(lesson, ready, named, findings),
     };
     let mut runs = Vec::new();
     for run in &verify.runs {
         let lab = match &run.lab {
             None => base.clone(),
-            Some(named) => lesson.named(named).and_then(of),
+            Some(named) => named_scene(lesson, ready, named, findings),
         };
         runs.push(stage.of_run(&lab?, run, findings)?);
     }
     (base.is_some() || !runs.is_empty()).then_some(Cast { base, runs })
+}
+
+fn scene_of<'r>(ready: &'r [Ready<'r>], lab: &Lab) -> Option<Scene<'r>> {
+    ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(Ready::scene)
+}
+
+/// The lab that is named. Why one of another lesson is not there, or cannot run, goes to `findings`.
+fn named_scene<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [Ready<'r>],
+    named: &'r VerifyLab,
+    findings: &mut Vec<Finding>,
+) -> Option<Scene<'r>> {
+    let scene = lesson.named(named).and_then(|lab| scene_of(ready, lab));
+    let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
+    let name = read::named(text.as_str());
+    let message = match lesson.other(&text.span()).map(|other| &other.lab) {
+        Some(Ok(_)) => format!("{name} cannot run: its model or its code has mistakes"),
+        Some(Err(why)) => format!("{name} is not there: {why}"),
+        None => format!("{name} is not there: only this lesson was given"),
+    };
+    findings.push(
+        Finding::error(rules::UNKNOWN_LAB, text.span(), message)
+            .why("nothing that is claimed of it could be checked")
+            .help(
+                "check that lesson; a lab of another one is named by the path from this lesson: other.md#2",
+            ),
+    );
+    None
 }
 
 /// A `verify` object bound to its labs. `None` where they have mistakes.
@@ -199,6 +241,7 @@ pub(super) fn check(
         match owner {
             Owner::Lab(lab) => court.judge_lab(name, lab, findings),
             Owner::Question(question) => court.judge_question(name, question, findings),
+            Owner::Remark(remark) => court.judge_remark(name, remark, findings),
         }
     }
     court.list
@@ -215,14 +258,14 @@ struct Court<'a> {
 impl Court<'_> {
     fn judge_lab(&mut self, name: String, lab: &Lab, findings: &mut Vec<Finding>) {
         if let Some(verify) = &lab.verify {
-            let judgement = self.judge(verify, Some(lab), None, findings);
+            let judgement = self.judge(verify, Some(lab), None, &self.shown, findings);
             self.list.push(Claim { name, span: verify.span.clone(), judgement });
         }
     }
 
     fn judge_question(&mut self, name: String, question: &Question, findings: &mut Vec<Finding>) {
         let mut judgement = match &question.verify {
-            Some(verify) => self.judge(verify, question.sim(), Some(question), findings),
+            Some(verify) => self.judge(verify, question.sim(), Some(question), &self.shown, findings),
             None => Judgement::default(),
         };
         if judgement.answer.is_none() {
@@ -234,13 +277,21 @@ impl Court<'_> {
         }
     }
 
+    fn judge_remark(&mut self, name: String, remark: &Remark, findings: &mut Vec<Finding>) {
+        let shown = self.shown.within(&remark.over, &remark.verify);
+        let judgement = self.judge(&remark.verify, None, None, &shown, findings);
+        self.list.push(Claim { name, span: remark.span.clone(), judgement });
+    }
+
     fn judge(
         &self,
         verify: &Verify,
         own: Option<&Lab>,
         question: Option<&Question>,
+        shown: &ShownText,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
+        let verify = self.lesson.whole(verify);
         let before = findings.len();
         let Some(Cast { base, runs }) = cast(self.lesson, self.ready, verify, own, &self.stage, findings)
         else {
@@ -254,7 +305,7 @@ impl Court<'_> {
             }
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
-            Some(bound) => verify::check(&bound, verify, question, &self.shown, findings),
+            Some(bound) => verify::check(&bound, verify, question, shown, findings),
             None => verify::unmade(verify, question, "its runs or measures have mistakes"),
         }
     }

@@ -1,6 +1,6 @@
 //! What the labs show in the runs that the claims of a lesson rest on, for a report that draws it.
 
-use super::{Depth, Ready, claims};
+use super::claims;
 use crate::bind::scene::Models;
 use crate::spec::Lesson;
 use crate::verify::{Curves, Stage};
@@ -20,14 +20,11 @@ pub struct Drawn {
 
 /// Makes the runs of every claim once more and records what the plots of its lab show.
 pub fn curves(lesson: &Lesson, models: &Models) -> Vec<Drawn> {
-    let mut ignored = Vec::new();
-    let labs = lesson.all_labs().into_iter();
-    let ready: Vec<Ready<'_>> =
-        labs.filter_map(|lab| super::prepare(lab, models, Depth::STATIC, &mut ignored)).collect();
+    let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
     let owners = claims::owners(lesson).into_iter();
     let drawn = owners.filter_map(|(_, owner)| {
-        let (verify, own, _) = owner.claim()?;
+        let (verify, own, _) = owner.claim(lesson)?;
         let runs = claims::curves(lesson, &ready, verify, own, &stage, RUNS);
         (!runs.is_empty()).then(|| Drawn { span: verify.span.clone(), runs })
     });

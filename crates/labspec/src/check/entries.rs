@@ -178,12 +178,13 @@ fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
             let about = entry(Subject::Answer, &name, span, "");
             ledger.push(Entry { state, word, remark: answer.reason, ..about });
         }
-        let Some((verify, _, question)) = owner.claim() else { continue };
+        let Some((verify, _, question)) = owner.claim(&c.lesson) else { continue };
         if question.is_some() && verify.claims_answer() {
             ledger.push(entry(Subject::Answer, &name, verify.span.clone(), ""));
         }
         let mut add = |subject, text: &Text| ledger.push(entry(subject, &name, text.span(), text.as_str()));
         verify.says.iter().for_each(|said| add(Subject::Quote, &said.quote));
+        verify.table.iter().for_each(|column| add(Subject::Quote, &column.column));
         verify.exact.iter().for_each(|exact| add(Subject::ClosedForm, &exact.trace));
         verify.runs.iter().for_each(|run| add(Subject::Run, &run.name));
     }

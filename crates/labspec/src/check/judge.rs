@@ -1,7 +1,6 @@
 //! The claims of a lesson before a second judge: what it is asked, and what its recording makes of them.
 
 use super::claims;
-use super::{Depth, Ready};
 use crate::bind::parts::Mark;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
@@ -56,15 +55,12 @@ pub fn hear(
     recording: Option<&Recording>,
     findings: &mut Vec<Finding>,
 ) -> Hearing {
-    let mut ignored = Vec::new();
-    let labs = lesson.all_labs().into_iter();
-    let ready: Vec<Ready<'_>> =
-        labs.filter_map(|lab| super::prepare(lab, models, Depth::STATIC, &mut ignored)).collect();
+    let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
     let shown = ShownText::of(lesson);
     let mut hearing = Hearing::default();
     for (name, owner) in claims::owners(lesson) {
-        let Some((verify, own, question)) = owner.claim() else { continue };
+        let Some((verify, own, question)) = owner.claim(lesson) else { continue };
         let Some(bound) = claims::bound(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), Value::to_string);

@@ -25,8 +25,8 @@ mod units;
 pub use allowed::Allowed;
 pub use claims::Claim;
 pub use curves::{Drawn, curves};
-pub(crate) use dimension::{given, given_by};
 pub use dimension::{Dimensions, dimension_of, dimensions};
+pub(crate) use dimension::{given, given_by};
 pub use entries::{evidence, ledger};
 pub use judge::{Hearing, Recording, Request, file_name, hear};
 pub(crate) use labels::{contradicts, of_label, unit};
@@ -41,8 +41,9 @@ use crate::finding::{self, Finding, InFile, Severity};
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson, Scene};
+use crate::verify;
 use labspec_core::Model;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// A lab that was run, for the report.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,6 +112,12 @@ struct Ready<'l> {
     mistakes: usize,
 }
 
+impl<'l> Ready<'l> {
+    fn scene(&'l self) -> verify::Scene<'l> {
+        verify::Scene::of(self.lab, &self.model, &self.programs)
+    }
+}
+
 /// What a check found beyond the structure of a lesson, not yet tied to its file.
 #[derive(Debug, Default)]
 pub struct Found {
@@ -144,10 +151,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     if depth.claims {
         left_out::check(lesson, &mut findings);
     }
-    let nothing = Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) });
-    if claims::have_formulas(lesson) {
-        ready.extend(empty(&nothing));
-    }
+    ready.extend(beside(lesson, models));
     let claims = if depth.claims {
         claims::check(lesson, &ready, models, &mut findings)
     } else {
@@ -157,11 +161,32 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     Found { findings, labs, claims, snapshots }
 }
 
-/// A lab in which nothing is, for claims that are formulas.
-fn empty(nothing: &Lab) -> Option<Ready<'_>> {
+/// All labs that claims of a lesson are about. What is wrong with them has been told.
+fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<Ready<'l>> {
+    let labs = lesson.all_labs().into_iter();
+    let own = labs.filter_map(|lab| prepare(lab, models, Depth::STATIC, &mut Vec::new()));
+    own.chain(beside(lesson, models)).collect()
+}
+
+/// The labs of claims that are none of the lesson's own: those of other lessons, and one in which nothing is, for formulas.
+fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = Ready<'l>> {
+    let labs = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
+    let others = labs.filter_map(|lab| {
+        // What is wrong with it is told where it stands.
+        let (model, programs, mistakes) = bind(lab, models, &mut Vec::new())?;
+        (mistakes == 0).then_some(Ready { lab, model, programs, mistakes })
+    });
+    others.chain(if claims::have_formulas(lesson) { empty() } else { None })
+}
+
+/// A lab in which nothing is.
+static NOTHING: LazyLock<Lab> =
+    LazyLock::new(|| Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) }));
+
+fn empty() -> Option<Ready<'static>> {
     let model = Arc::new(Model::from_xml("<mujoco/>").ok()?);
-    let programs = Programs::compile(nothing, &model, &mut Vec::new());
-    Some(Ready { lab: nothing, model, programs, mistakes: 0 })
+    let programs = Programs::compile(&NOTHING, &model, &mut Vec::new());
+    Some(Ready { lab: &NOTHING, model, programs, mistakes: 0 })
 }
 
 /// A control of which a reset takes everything away changes nothing, and the reset is what is told.

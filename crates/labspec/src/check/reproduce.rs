@@ -1,8 +1,8 @@
 //! What a check rested on: models, settings and contacts of every lab and every run, so that it can be made again and that a
 //! change can be told from its cause.
 
+use super::Ready;
 use super::claims::{self, Owner};
-use super::{Depth, Ready};
 use crate::bind::parts::Mark;
 use crate::bind::scene::Models;
 use crate::precision::Integrator;
@@ -74,10 +74,7 @@ pub struct Basis {
 
 /// Finds what a check of the lesson rests on: models are compiled and runs are set up, and nothing is run. `mark` makes digests.
 pub fn basis(lesson: &Lesson, models: &Models, mark: Mark) -> Basis {
-    let mut ignored = Vec::new();
-    let labs = lesson.all_labs().into_iter();
-    let ready: Vec<Ready<'_>> =
-        labs.filter_map(|lab| super::prepare(lab, models, Depth::STATIC, &mut ignored)).collect();
+    let ready = super::of_claims(lesson, models);
     let block = |span: &Range<usize>| mark(&[lesson.file.slice(span.clone()).as_bytes()]);
     let compiled = |ready: &Ready<'_>| mark(&[&ready.model.to_bytes()]);
     let labs = lesson.addressed().into_iter().map(|(address, lab)| {
@@ -92,10 +89,11 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Mark) -> Basis {
     let labs = labs.collect();
     let stage = Stage::new(models);
     let claims = claims::owners(lesson).into_iter().filter_map(|(name, owner)| {
-        let (verify, own, _) = owner.claim()?;
+        let (verify, own, _) = owner.claim(lesson)?;
         let span = match &owner {
             Owner::Lab(lab) => &lab.span,
             Owner::Question(question) => &question.span,
+            Owner::Remark(remark) => &remark.span,
         };
         let begun = claims::begun(lesson, &ready, verify, own, &stage);
         let model = begun.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));

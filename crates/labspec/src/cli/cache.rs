@@ -82,7 +82,12 @@ impl Cache {
         };
         let texts = [file.path().as_bytes(), file.text().as_bytes(), snapshot.as_bytes()];
         let [path, text, snapshot] = texts;
-        digest::hex_of(&[self.program.as_bytes(), &flags, path, text, &[stored], snapshot])
+        let own = [self.program.as_bytes(), &flags, path, text, &[stored], snapshot];
+        let others = lesson.others.iter().flat_map(|other| {
+            let why = other.lab.as_ref().err().map_or("", String::as_str);
+            [other.path.as_bytes(), other.text.as_bytes(), why.as_bytes()]
+        });
+        digest::hex_of(&own.into_iter().chain(others).collect::<Vec<_>>())
     }
 
     fn load(&self, slot: &str) -> Option<String> {
@@ -129,7 +134,8 @@ fn slot(path: &Path, depth: Depth) -> String {
 /// The names of the models of a lesson's labs, once each.
 fn named_models(lesson: &Lesson) -> BTreeSet<&str> {
     let named = |lab: &'_ Lab| matches!(lab.scene(), Some(Scene::Model(_)));
-    let labs = lesson.all_labs().into_iter().filter(|lab| named(lab));
+    let others = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
+    let labs = lesson.all_labs().into_iter().chain(others).filter(|lab| named(lab));
     labs.filter_map(|lab| lab.model.as_ref().map(Text::as_str)).collect()
 }
 

@@ -208,6 +208,8 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         course.last.push(f);
     }
     course.read.extend(files.iter().map(|(path, _)| lint::snapshot_path(path)));
+    let others = course.checked.iter().flat_map(|c| &c.lesson.others);
+    course.read.extend(others.map(|other| PathBuf::from(&other.path)));
     course.last.extend(lost_snapshots(plan.paths).iter().map(|path| lost(path)));
     let lessons: Vec<_> = course.checked.iter().map(|c| &c.lesson).collect();
     course.last.extend(lint::check_course(&lessons));

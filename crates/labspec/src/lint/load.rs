@@ -3,8 +3,9 @@
 use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{BadText, SourceFile, read_text};
-use crate::spec::{Lesson, read_lesson};
+use crate::source::{BadText, MAX_FILE, SourceFile, read_text};
+use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Most findings that are kept per file. Whoever has more fixes the first ones first.
@@ -55,7 +56,49 @@ pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, Str
     lesson.findings.extend(found.into_iter().map(|f| f.at(&lesson.file)));
     finding::sort(&mut lesson.findings);
     lesson.snapshot = read_snapshot(path);
+    lesson.others = read_others(&lesson, path);
     Ok(lesson)
+}
+
+/// Most labs of other lessons that one lesson may name.
+const MOST_OTHERS: usize = 100;
+
+/// The labs of other lessons that this one names.
+fn read_others(lesson: &Lesson, path: &Path) -> Vec<Other> {
+    let named = lesson.verifies().flat_map(Verify::labs).filter_map(|lab| match lab {
+        VerifyLab::Elsewhere(text, file, address) => Some((text.span(), file, address)),
+        _ => None,
+    });
+    let read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
+        let there = path.parent().unwrap_or(Path::new("")).join(file);
+        let shown = there.display().to_string();
+        let (text, lab) = match read_other_file(path, &there) {
+            Ok(text) => {
+                let lab = read_other(SourceFile::new(file.as_str(), text.as_str()), address, span.clone());
+                (text, lab)
+            }
+            Err(why) => (String::new(), Err(why)),
+        };
+        Other { span, path: shown, text, lab }
+    };
+    named.take(MOST_OTHERS).map(read).collect()
+}
+
+/// The text of another lesson, whose labs find the same models.
+fn read_other_file(own: &Path, other: &Path) -> Result<String, String> {
+    if !is_lesson(other) {
+        return Err("a lab stands in a lesson (.md) or in a JSON file".into());
+    }
+    let text = read_text(other, MAX_FILE, "a lesson")?;
+    let same = |a: &Path, b: &Path| ModelFolder::find_near(a) == ModelFolder::find_near(b);
+    if !same(own, other) {
+        return Err("that lesson has another folder of models".into());
+    }
+    Ok(text)
+}
+
+fn is_lesson(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e == "md" || e == "json")
 }
 
 /// Where the snapshot of a lesson lies: beside it.

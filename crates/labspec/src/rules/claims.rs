@@ -12,22 +12,25 @@ pub(crate) struct Claim<'a> {
     pub(crate) question: Option<&'a Question>,
 }
 
-/// All of a lesson: those of labs, then those of questions.
+/// All of a lesson: those of labs, then those of questions, then those in comments.
 pub(crate) fn all(lesson: &Lesson) -> impl Iterator<Item = Claim<'_>> {
     let of_labs = lesson
         .all_labs()
         .into_iter()
         .filter_map(|lab| Some(Claim { verify: lab.verify.as_ref()?, own: Some(lab), question: None }));
     let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
-    of_labs.chain(questions.filter_map(|(_, question)| {
+    let of_questions = questions.filter_map(|(_, question)| {
         Some(Claim { verify: question.verify.as_ref()?, own: question.sim(), question: Some(question) })
-    }))
+    });
+    let remarks = lesson.remarks.iter();
+    let remarks = remarks.map(|remark| Claim { verify: &remark.verify, own: None, question: None });
+    of_labs.chain(of_questions).chain(remarks)
 }
 
 impl<'a> Claim<'a> {
     /// The lab that it is about; `None` when there is none, or when it could not be read.
     pub(crate) fn lab(&self, lesson: &'a Lesson) -> Option<&'a Lab> {
-        match &self.verify.lab {
+        match &lesson.whole(self.verify).lab {
             Some(named) => lesson.named(named),
             None => self.own,
         }

@@ -24,6 +24,18 @@ pub(super) const CHECK: Check = Check::Lesson(check);
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let named = claims::all(lesson).flat_map(|claim| claim.verify.labs());
+    for claim in claims::all(lesson) {
+        let Some((text, address)) = &claim.verify.uses else { continue };
+        let message = match lesson.verify_at(address) {
+            None => format!("nothing at {} has a `verify`", read::named(text.as_str())),
+            Some(used) if used.span == claim.verify.span => "this `verify` uses itself".to_string(),
+            Some(_) => continue,
+        };
+        findings.push(
+            Finding::new(UNKNOWN_LAB, text.span(), message)
+                .help("name a lab (#1) or a question (#quiz-id.2) that has one"),
+        );
+    }
     for lab in named {
         let VerifyLab::Reference(text, address) = lab else { continue };
         // A lab that is there and could not be read has been told of.

@@ -36,9 +36,9 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
             );
         }
         let Some(question) = claim.question else {
-            for text in verify.options.first().into_iter().chain(&verify.value) {
+            for text in verify.options.first().into_iter().chain(&verify.value).chain(verify.wrong.first()) {
                 findings.push(
-                    Finding::new(VERIFY_ANSWER, text.span(), "a lab has no answer to compare this with")
+                    Finding::new(VERIFY_ANSWER, text.span(), "there is no question here whose answer this could be")
                         .help("move it to the question, or say it as [quote, expression] under `says`"),
                 );
             }
@@ -54,6 +54,12 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
             findings.push(
                 Finding::new(VERIFY_ANSWER, span, format!("{conditions} conditions for {options} options"))
                     .help("write one condition per option, in their order"),
+            );
+        }
+        if let Some(wrong) = verify.wrong.first().filter(|_| verify.value.is_none()) {
+            findings.push(
+                Finding::new(VERIFY_ANSWER, wrong.span(), "nothing says what the right value is")
+                    .help("write it as `value`, on a question of kind numeric"),
             );
         }
         if let Some(value) = &verify.value

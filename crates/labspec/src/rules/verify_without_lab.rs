@@ -23,7 +23,7 @@ pub(super) const CHECK: Check = Check::Lesson(check);
 
 fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let without = |c: &claims::Claim<'_>| {
-        c.verify.lab.is_none()
+        lesson.whole(c.verify).lab.is_none()
             && c.own.is_none()
             && !c.verify.is_formulas()
             && !c.verify.every_run_names_its_lab()

@@ -41,6 +41,13 @@ impl SourceMap {
         map
     }
 
+    /// The map of a text of so many bytes that was made from `origin` as a whole.
+    pub fn whole(length: usize, origin: Range<usize>) -> SourceMap {
+        let mut map = SourceMap::default();
+        map.push_whole(length, origin);
+        map
+    }
+
     /// The map of an empty text that still has a place.
     pub fn point(at: usize) -> SourceMap {
         SourceMap { pieces: vec![Piece { derived: 0..0, origin: at..at, verbatim: true }] }

@@ -4,6 +4,7 @@
 use super::fields::Fields;
 use super::format::LINT;
 use super::problem::Problem;
+use super::remark::Comment;
 use super::{Lesson, read as values};
 use crate::json::Node;
 use crate::source::Text;
@@ -38,10 +39,6 @@ pub(super) fn read(
     Some(Allowance { span, codes, why, over })
 }
 
-/// How the comment begins.
-const OPENS: &str = "<!--";
-const WORDS: [&str; 2] = ["labspec", "allow"];
-
 impl Lesson {
     /// Everything that is allowed in it, in the order of the text.
     pub fn allowances(&self) -> Vec<Allowance> {
@@ -50,67 +47,27 @@ impl Lesson {
             all.extend(quiz.lint.clone());
             all.extend(quiz.numbered().filter_map(|(_, question)| question.lint.clone()));
         }
-        all.extend(self.comments());
+        all.extend(self.remarked());
         all.sort_by_key(|a| a.span.start);
         all
     }
 
-    /// Those in comments. Each is about the block that follows: a fence whole, or the text up to the next empty line.
-    fn comments(&self) -> Vec<Allowance> {
+    /// Those in comments.
+    fn remarked(&self) -> Vec<Allowance> {
         let text = self.file.text();
-        let mut all = Vec::new();
-        let mut paragraph = 0..0;
-        for html in &self.scan.html {
-            let mut from = html.start;
-            while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
-                let Some(end) = text.get(start..html.end).and_then(|t| t.find("-->")).map(|at| start + at)
-                else {
-                    break;
-                };
-                from = end + 3;
-                all.extend(comment(text, start + OPENS.len()..end).map(|(codes, why)| Allowance {
-                    span: start..from,
-                    codes,
-                    why,
-                    over: self.following(from, &mut paragraph),
-                }));
-            }
-        }
-        all
-    }
-
-    /// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
-    /// where it does, and is not read again.
-    fn following(&self, from: usize, paragraph: &mut Range<usize>) -> Range<usize> {
-        let rest = self.file.text().get(from..).unwrap_or_default();
-        let text = rest.trim_start();
-        let start = from + rest.len() - text.len();
-        let blocks = &self.scan.blocks;
-        let last = blocks.partition_point(|b| b.span.start <= start).checked_sub(1);
-        if let Some(block) = last.and_then(|at| blocks.get(at)).filter(|b| b.span.contains(&start)) {
-            return start..block.span.end;
-        }
-        if !paragraph.contains(&start) {
-            let empty = |line: &str| line.trim().is_empty();
-            let length =
-                text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
-            *paragraph = start..start + length;
-        }
-        start..paragraph.end
+        let one = |comment: Comment| {
+            let (codes, why) = codes(text, comment.inside)?;
+            Some(Allowance { span: comment.span, codes, why, over: comment.over })
+        };
+        self.comments("allow").into_iter().filter_map(one).collect()
     }
 }
 
 /// Codes with their places, and the reason, of a comment that is ours.
 type Said = (Vec<(String, Range<usize>)>, String);
 
-fn comment(text: &str, inside: Range<usize>) -> Option<Said> {
-    let mut rest = text.get(inside.clone())?;
-    for word in WORDS {
-        rest = rest.trim_start().strip_prefix(word)?;
-    }
-    if !rest.starts_with(char::is_whitespace) {
-        return None;
-    }
+fn codes(text: &str, inside: Range<usize>) -> Option<Said> {
+    let rest = text.get(inside.clone())?;
     let (codes, why) = rest.split_once(':').unwrap_or((rest, ""));
     let mut at = inside.end - rest.len();
     let mut found = Vec::new();

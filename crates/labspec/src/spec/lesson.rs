@@ -2,7 +2,8 @@
 
 use super::kind::{FileKind, Nature, kind_of, nature};
 use super::problem::{Mistake, Problem};
-use super::{Lab, Quiz, Verify, VerifyLab, lab, quiz};
+use super::remark::{self, Remark};
+use super::{Lab, Quiz, Verify, VerifyLab, lab, quiz, shared};
 use crate::finding::{Finding, Severity};
 use crate::json::{self, Json, Node};
 use crate::markdown::{self, Block, BlockKind, Scan};
@@ -28,6 +29,12 @@ pub struct Lesson {
     pub broken: Vec<Range<usize>>,
     /// The fences, the HTML and the listings of its Markdown.
     pub scan: Scan,
+    /// Claims about blocks of the text, in comments before them.
+    pub remarks: Vec<Remark>,
+    /// `verify` objects that use the runs and measures of others, with these.
+    pub wholes: Vec<Verify>,
+    /// Labs of other lessons that this one names. Whoever has the files reads them.
+    pub others: Vec<Other>,
     /// What was wrong where it was read.
     pub problems: Vec<Problem>,
     /// What the rules of structure say of it, in order; nothing until [`lint`](crate::lint) has looked.
@@ -47,6 +54,19 @@ pub struct LabEntry {
     pub broken: bool,
     /// The lab; `None` when it could not be read, which is reported.
     pub lab: Option<Lab>,
+}
+
+/// A lab of another lesson.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Other {
+    /// Bytes of its name in this lesson. All places in the lab are these.
+    pub span: Range<usize>,
+    /// The file that it stands in.
+    pub path: String,
+    /// What stands in that file.
+    pub text: String,
+    /// The lab, or why there is none.
+    pub lab: Result<Lab, String>,
 }
 
 /// A block of another widget.
@@ -114,15 +134,27 @@ impl Lesson {
         match lab {
             VerifyLab::Inline(lab) => Some(lab),
             VerifyLab::Reference(_, address) => self.lab(address),
+            VerifyLab::Elsewhere(text, ..) => self.other(&text.span())?.lab.as_ref().ok(),
             VerifyLab::Broken => None,
         }
     }
 
-    /// Every `verify` object: those of labs, then those of questions.
+    /// The lab of another lesson that is named at these bytes, where somebody has looked for it.
+    pub fn other(&self, span: &Range<usize>) -> Option<&Other> {
+        self.others.iter().find(|other| other.span == *span)
+    }
+
+    /// Every `verify` object: those of labs, then those of questions, then those in comments.
     pub fn verifies(&self) -> impl Iterator<Item = &Verify> {
+        self.scoped().map(|(verify, _)| verify)
+    }
+
+    /// The same, each with the bytes that its quotes are looked for in, where that is not all of the lesson.
+    pub fn scoped(&self) -> impl Iterator<Item = (&Verify, Option<&Range<usize>>)> {
         let labs = self.all_labs().into_iter().filter_map(|lab| lab.verify.as_ref());
         let questions = self.quizzes.iter().flat_map(Quiz::numbered).filter_map(|(_, q)| q.verify.as_ref());
-        labs.chain(questions)
+        let remarks = self.remarks.iter().map(|remark| (&remark.verify, Some(&remark.over)));
+        labs.chain(questions).map(|verify| (verify, None)).chain(remarks)
     }
 
     /// Every lab that has an address: labs in order, then the sims of the questions.
@@ -145,6 +177,7 @@ impl Lesson {
         let mut open: Vec<&Lab> = self.addressed().into_iter().map(|(_, lab)| lab).collect();
         let questions = self.quizzes.iter().flat_map(|q| q.numbered());
         open.extend(questions.filter_map(|(_, q)| q.verify.as_ref()).flat_map(inline));
+        open.extend(self.remarks.iter().flat_map(|remark| inline(&remark.verify)));
         let mut all = Vec::new();
         // An inline lab may carry a verify object with another inline lab; JSON depth bounds the chain.
         while let Some(lab) = open.pop() {
@@ -157,6 +190,10 @@ impl Lesson {
     /// Whether a page cannot read the block that holds these bytes: its JSON is broken.
     pub fn is_broken(&self, span: &Range<usize>) -> bool {
         self.broken.iter().any(|b| b.start <= span.start && span.end <= b.end)
+    }
+
+    fn blocks_are_broken(&self) -> bool {
+        !self.broken.is_empty()
     }
 
     /// Whether anything is an error.
@@ -176,12 +213,41 @@ fn inline(verify: &Verify) -> impl Iterator<Item = &Lab> {
 /// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them. This never fails: what is wrong
 /// is among the problems, and what is right is there.
 pub fn read_lesson(file: SourceFile) -> Lesson {
+    let mut lesson = read_at(file, None);
+    lesson.remarks = remark::read(&mut lesson);
+    lesson.wholes = shared::wholes(&lesson);
+    lesson
+}
+
+/// A lab of another lesson; all places in it are `at`, where it is named.
+///
+/// # Errors
+/// Why there is none.
+pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> Result<Lab, String> {
+    let path = file.path().to_string();
+    let lesson = read_at(file, Some(at));
+    match lesson.lab(address) {
+        Some(_) if lesson.blocks_are_broken() => Err(format!("{path} has JSON that a page cannot read")),
+        Some(lab) => Ok(lab.clone()),
+        None => {
+            let all: Vec<String> = lesson.addressed().iter().take(12).map(|(a, _)| a.to_string()).collect();
+            let known = if all.is_empty() { "no labs".to_string() } else { all.join(", ") };
+            Err(format!("{path} has no lab {address}: it has {known}"))
+        }
+    }
+}
+
+/// Reads a lesson; all places in its JSON are `at`, if that is given.
+fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
     let mut lesson = Lesson {
         file,
         labs: Vec::new(),
         quizzes: Vec::new(),
         widgets: Vec::new(),
         broken: Vec::new(),
+        remarks: Vec::new(),
+        wholes: Vec::new(),
+        others: Vec::new(),
         scan: Scan::default(),
         problems: Vec::new(),
         findings: Vec::new(),
@@ -190,14 +256,14 @@ pub fn read_lesson(file: SourceFile) -> Lesson {
     if lesson.file.text().len() as u64 > MAX_FILE {
         lesson.problems.push(Mistake::TooLarge.at(0..0));
     } else if kind_of(Path::new(&**lesson.file.path())) == FileKind::Json {
-        json_file(&mut lesson);
+        json_file(&mut lesson, at);
     } else {
-        markdown_file(&mut lesson);
+        markdown_file(&mut lesson, at);
     }
     lesson
 }
 
-fn markdown_file(lesson: &mut Lesson) {
+fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     let file = lesson.file.clone();
     let (mut scan, text) = (markdown::scan(&file), file.text());
     lesson.problems.extend(scan.problems.drain(..).map(Problem::Fence));
@@ -207,7 +273,7 @@ fn markdown_file(lesson: &mut Lesson) {
         }
         match &block.kind {
             BlockKind::Lab(widget) if widget == "simlab" => {
-                let node = body(block, lesson);
+                let node = body(block, &at, lesson);
                 if let Some(node) = &node
                     && nature(node) == Nature::Quiz
                 {
@@ -220,7 +286,7 @@ fn markdown_file(lesson: &mut Lesson) {
                 push_lab(lesson, block.span.clone(), lab);
             }
             BlockKind::Lab(widget) => {
-                let node = body(block, lesson);
+                let node = body(block, &at, lesson);
                 let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
                     Json::Text(text) => Some(text.clone()),
                     _ => None,
@@ -228,7 +294,7 @@ fn markdown_file(lesson: &mut Lesson) {
                 lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
             }
             BlockKind::Quiz => {
-                let Some(node) = body(block, lesson) else { continue };
+                let Some(node) = body(block, &at, lesson) else { continue };
                 if nature(&node) == Nature::Lab {
                     let mistake = Mistake::HoldsLab(head(text, block, "lab simlab"));
                     lesson.problems.push(mistake.at(block.info.clone()));
@@ -252,13 +318,14 @@ fn head(text: &str, block: &Block, kind: &str) -> String {
 }
 
 /// The JSON of a block.
-fn body(block: &Block, lesson: &mut Lesson) -> Option<Node> {
+fn body(block: &Block, at: &Option<Range<usize>>, lesson: &mut Lesson) -> Option<Node> {
     if block.body.value.trim().is_empty() {
         lesson.broken.push(block.span.clone());
         lesson.problems.push(Mistake::EmptyFence.at(block.info.clone()));
         return None;
     }
-    read_json(&block.body.value, &block.body.map, block.span.clone(), lesson)
+    let map = at.as_ref().map(|at| SourceMap::whole(block.body.value.len(), at.clone()));
+    read_json(&block.body.value, map.as_ref().unwrap_or(&block.body.map), block.span.clone(), lesson)
 }
 
 /// Parses JSON, which may be broken: what can be read of it is read.
@@ -278,11 +345,12 @@ fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
 }
 
 /// A lab, a quiz, or a list of them, told apart by their keys.
-fn json_file(lesson: &mut Lesson) {
+fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
     let text = lesson.file.text();
     // A byte order mark is no part of JSON, and editors hide it.
     let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-    let (map, whole) = (SourceMap::verbatim(start..text.len()), 0..text.len());
+    let (length, whole) = (text.len() - start, 0..text.len());
+    let map = at.map_or(SourceMap::verbatim(start..text.len()), |at| SourceMap::whole(length, at));
     let text = text.get(start..).unwrap_or("").to_string();
     let Some(node) = read_json(&text, &map, whole, lesson) else { return };
     match &node.json {

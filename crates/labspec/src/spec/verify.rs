@@ -19,6 +19,8 @@ pub struct Verify {
     pub span: Range<usize>,
     /// The lab that runs; `None` means the question's `sim`, or the lab that carries this object.
     pub lab: Option<VerifyLab>,
+    /// Whose runs and measures are those of this one, too: the lab or the question that carries them.
+    pub uses: Option<(Text, LabAddress)>,
     /// The runs. Empty means one run of the lab as it stands.
     pub runs: Vec<Run>,
     /// Measures: name and expression, taken in every run.
@@ -31,6 +33,8 @@ pub struct Verify {
     pub over: Vec<(Text, [f64; 2])>,
     /// The value of a numeric answer.
     pub value: Option<Text>,
+    /// Values that the tolerance of a numeric answer must refuse: what a mistake leads to.
+    pub wrong: Vec<Text>,
     /// Numbers quoted in the text, each with the expression it must equal as printed.
     pub says: Vec<Said>,
     /// Columns and cells of tables, each with what it must state.
@@ -49,6 +53,8 @@ pub enum VerifyLab {
     Inline(Box<Lab>),
     /// Another lab of the lesson: `#2`, `#quiz-id.1`.
     Reference(Text, LabAddress),
+    /// A lab of another lesson: `other.md#2`. The path of its file is from the folder of this one.
+    Elsewhere(Text, String, LabAddress),
     /// Something that is no lab, which is reported.
     Broken,
 }
@@ -144,17 +150,37 @@ pub struct Column {
     pub by: Option<(Text, Text)>,
     /// What stands in the first column of the one row that is meant.
     pub row: Option<Text>,
-    /// The expression: a list, or one number for one cell.
-    pub is: Text,
+    /// What stands in the cells.
+    pub is: Stands,
 }
 
-/// A number quoted in the text and where it comes from.
+/// What stands in the cells of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stands {
+    /// Numbers: a list of them, or one for one cell.
+    Number(Text),
+    /// Words, each with the list of what must hold for it, or one condition for one cell.
+    Words(Vec<(Text, Text)>),
+}
+
+impl Column {
+    /// Its expressions.
+    pub fn expressions(&self) -> impl Iterator<Item = &Text> {
+        let (number, words) = match &self.is {
+            Stands::Number(text) => (Some(text), &[][..]),
+            Stands::Words(words) => (None, words.as_slice()),
+        };
+        self.by.iter().map(|(_, list)| list).chain(number).chain(words.iter().map(|(_, holds)| holds))
+    }
+}
+
+/// What the text says and where that comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
     /// The quoted text, such as `0.442 s`.
     pub quote: Text,
-    /// The expression whose value it states.
-    pub expr: Text,
+    /// The expressions whose values it states, in the order of its numbers; a condition is what its words say.
+    pub exprs: Vec<Text>,
 }
 
 impl Verify {
@@ -188,13 +214,16 @@ impl Verify {
         self.runs.iter().flat_map(Run::code).chain(self.expressions()).collect()
     }
 
+    /// The expressions of what the text says.
+    pub fn quoted(&self) -> impl Iterator<Item = &Text> {
+        self.says.iter().flat_map(|s| &s.exprs).chain(self.table.iter().flat_map(Column::expressions))
+    }
+
     /// The measures and what is claimed of them: every text that is code, but for that of the runs.
     pub fn expressions(&self) -> impl Iterator<Item = (Form, &Text)> {
         let measures = self.measure.iter().map(|(_, expr)| expr).chain(self.exact.iter().map(|e| &e.form));
         let measures = measures.chain(self.find.iter().map(|f| &f.holds));
-        let values = self.options.iter().chain(&self.value).chain(self.says.iter().map(|s| &s.expr));
-        let columns = self.table.iter().flat_map(|c| c.by.iter().map(|(_, list)| list).chain([&c.is]));
-        let values = values.chain(columns);
+        let values = self.options.iter().chain(&self.value).chain(&self.wrong).chain(self.quoted());
         measures.chain(values).map(|t| (Form::Expression, t))
     }
 }
@@ -238,12 +267,14 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
     let verify = Verify {
         span: f.span(),
         lab: f.node("lab").map(|n| which(n, f.problems).unwrap_or(VerifyLab::Broken)),
+        uses: f.text("use").and_then(|text| uses(text, f.problems)),
         runs: f.map("runs").iter().filter_map(|m| run(m, f.problems)).collect(),
         measure: expressions(f, "measure"),
         find: f.map("find").iter().filter_map(|m| find(m, f.problems)).collect(),
         options: f.list("options").iter().filter_map(|n| read::text(n, "a condition", f.problems)).collect(),
         over: f.map("over").iter().filter_map(|m| over(m, f.problems)).collect(),
         value: f.text("value"),
+        wrong: f.list("wrong").iter().filter_map(|n| read::text(n, "a wrong value", f.problems)).collect(),
         says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
         table: f.list("table").iter().filter_map(|n| column(n, f.problems)).collect(),
         exact: f.map("exact").iter().filter_map(|m| exact(m, f.problems)).collect(),
@@ -259,13 +290,17 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
 
 fn which(node: &Node, problems: &mut Vec<Problem>) -> Option<VerifyLab> {
     match &node.json {
-        Json::Text(text) => match LabAddress::parse(&text.value) {
-            Some(address) => Some(VerifyLab::Reference(text.clone(), address)),
-            None => {
-                problems.push(Mistake::NoPlace(text.value.clone()).at(text.span()));
-                None
+        Json::Text(text) => {
+            let (file, place) = text.value.rsplit_once('#').unwrap_or((&text.value, ""));
+            match (file, LabAddress::parse(&format!("#{place}"))) {
+                ("", Some(address)) => Some(VerifyLab::Reference(text.clone(), address)),
+                (file, Some(address)) => Some(VerifyLab::Elsewhere(text.clone(), file.to_string(), address)),
+                (_, None) => {
+                    problems.push(Mistake::NoPlace(text.value.clone()).at(text.span()));
+                    None
+                }
             }
-        },
+        }
         Json::Object(_) => lab::read(node, problems).map(|l| VerifyLab::Inline(Box::new(l))),
         Json::Broken => None,
         _ => {
@@ -273,6 +308,15 @@ fn which(node: &Node, problems: &mut Vec<Problem>) -> Option<VerifyLab> {
             None
         }
     }
+}
+
+/// Whose runs and measures are used.
+fn uses(text: Text, problems: &mut Vec<Problem>) -> Option<(Text, LabAddress)> {
+    let address = LabAddress::parse(&text.value);
+    if address.is_none() {
+        problems.push(Mistake::NoPlace(text.value.clone()).at(text.span()));
+    }
+    Some((text, address?))
 }
 
 fn run(member: &Member, problems: &mut Vec<Problem>) -> Option<Run> {
@@ -443,19 +487,51 @@ fn said(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
         && let [quote, expr] = pair.as_slice()
     {
         let quote = read::text(quote, "a quoted number", problems);
-        let expr = read::text(expr, "the expression of a quoted number", problems);
-        return Some(Said { quote: quote?, expr: expr? });
+        let mut expression = |node: &Node| read::text(node, "the expression of a quoted number", problems);
+        let exprs = match &expr.json {
+            Json::Array(items) if !items.is_empty() => items.iter().map(&mut expression).collect(),
+            _ => expression(expr).map(|one| vec![one]),
+        };
+        return Some(Said { quote: quote?, exprs: exprs? });
     }
     problems.push(Mistake::NoQuote.at(node.span.clone()));
     None
+}
+
+/// The heading that tells rows apart, and the list of what stands below it.
+fn keyed(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Text)> {
+    if let Json::Array(pair) = &node.json
+        && let [heading, list] = pair.as_slice()
+    {
+        let heading = read::text(heading, "a heading", problems);
+        let list = read::text(list, "the list of its values", problems);
+        return Some((heading?, list?));
+    }
+    if !node.is_broken() {
+        problems.push(Mistake::NoQuote.at(node.span.clone()));
+    }
+    None
+}
+
+/// What stands in cells: numbers, or words with what must hold for each.
+fn stands(node: &Node, problems: &mut Vec<Problem>) -> Option<Stands> {
+    let text = |node: &Node, problems: &mut Vec<Problem>| read::text(node, "what the cells state", problems);
+    match &node.json {
+        Json::Object(members) => {
+            let one = |m: &Member| Some((m.key.clone(), text(&m.value, problems)?));
+            members.iter().map(one).collect::<Option<_>>().map(Stands::Words)
+        }
+        _ => text(node, problems).map(Stands::Number),
+    }
 }
 
 /// A column of a table, or a cell of it.
 fn column(node: &Node, problems: &mut Vec<Problem>) -> Option<Column> {
     let mut fields = Fields::open(node, &COLUMN, problems)?;
     let f = &mut fields;
-    let (column, row, is) = (f.text("column"), f.text("row"), f.text("is"));
-    let by = f.node("by").and_then(|n| said(n, f.problems)).map(|pair| (pair.quote, pair.expr));
+    let (column, row) = (f.text("column"), f.text("row"));
+    let is = f.node("is").and_then(|n| stands(n, f.problems));
+    let by = f.node("by").and_then(|n| keyed(n, f.problems));
     if by.is_some() == row.is_some() {
         let mistake = Mistake::NoRows.at(f.span());
         f.problems.push(mistake);

@@ -140,7 +140,8 @@ pub(super) fn check(
 ) -> Option<Answer> {
     let by_options =
         (!verify.options.is_empty()).then(|| options(bound, outcomes, verify, question, findings));
-    let by_value = verify.value.as_ref().map(|text| value(bound, outcomes, text, question, findings));
+    let by_value =
+        verify.value.as_ref().map(|text| value(bound, outcomes, text, &verify.wrong, question, findings));
     // An object may hold both only by mistake, which is reported: the worse of the two counts.
     by_options.into_iter().chain(by_value).max_by_key(|a| a.verdict)
 }
@@ -183,7 +184,7 @@ pub(super) fn is_undecided(text: &Text) -> bool {
 }
 
 /// A comparison that was decided by NaN.
-fn no_number(text: &Text, part: &str) -> Finding {
+pub(super) fn no_number(text: &Text, part: &str) -> Finding {
     Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares with what is no number"))
         .why("a comparison with NaN never holds, whatever the other side is: here it says nothing about the answer. A measure is NaN when its event never happens in the run")
         .help("make the run longer, correct the measure, or ask for it: `isNaN(x)`")
@@ -383,6 +384,7 @@ fn value(
     bound: &BoundVerify<'_>,
     outcomes: &Outcomes,
     text: &Text,
+    wrong: &[Text],
     question: &Question,
     findings: &mut Vec<Finding>,
 ) -> Answer {
@@ -422,6 +424,28 @@ fn value(
                 .related(text.span(), format!("this is {}", significant(computed))),
         );
         return done(Verdict::Refuted, message);
+    }
+    for mistake in wrong {
+        let Some(taken) = bound.find(&outcomes.nominal, mistake, findings) else {
+            return done(Verdict::Failed, "a wrong value cannot be evaluated".into());
+        };
+        let taken = taken.value.to_number();
+        if right(taken) {
+            let message = format!(
+                "the tolerance takes {} for right, which is what a mistake gives",
+                significant(taken)
+            );
+            findings.push(
+                Finding::error(rules::ANSWER_AMBIGUOUS, mistake.span(), message.clone())
+                    .why("a student who makes this mistake is told that they are right")
+                    .help(format!(
+                        "a tolerance below {} tells them apart",
+                        significant((taken - answer).abs())
+                    ))
+                    .related(keyed.span.clone(), "this is the answer"),
+            );
+            return done(Verdict::Ambiguous, message);
+        }
     }
     let mut weights = weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {

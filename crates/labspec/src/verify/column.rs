@@ -1,22 +1,17 @@
-//! Columns of tables: every cell is a number that is quoted, and its row says which member of a sweep it is about.
+//! Columns of tables: every cell is a number that is quoted, or words, and its row says which member of a sweep it is about.
 
-use super::quote::{self, whole};
-use super::{Asked, BoundVerify, Outcomes, Quote, ShownText, grounded};
+use super::grounded;
+use super::quote;
+use super::says::{self, Court, Given, Place, Quote};
 use crate::finding::Finding;
 use crate::rules;
-use crate::source::Text;
-use crate::spec::{Column, Said};
+use crate::source::{SourceMap, Text};
+use crate::spec::{Column, Stands};
 use labspec_expr::dimension::Dimension;
 
 /// Holds a column, or one cell of it, to what was measured.
-pub(super) fn check(
-    bound: &BoundVerify<'_>,
-    outcomes: &Outcomes,
-    claim: &Column,
-    shown: &ShownText,
-    findings: &mut Vec<Finding>,
-) -> Vec<Quote> {
-    let cells = match quote::cells(claim, shown) {
+pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Finding>) -> Vec<Quote> {
+    let cells = match quote::cells(claim, court.shown) {
         Ok(cells) => cells,
         Err([message, help]) => {
             findings.push(
@@ -31,15 +26,15 @@ pub(super) fn check(
     let Some((_, list)) = &claim.by else {
         return cells
             .into_iter()
-            .map(|[_, cell]| number(bound, outcomes, cell, claim.is.clone(), &unit, shown, findings))
+            .map(|[_, text]| cell(court, &text, &claim.is, &unit, "", findings))
             .collect();
     };
-    let values = match values(bound, outcomes, list, findings) {
+    let values = match values(court, list, findings) {
         Ok(values) => values,
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
     let mut all = Vec::new();
-    for [key, cell] in cells {
+    for [key, text] in cells {
         let read = quote::quoted(&key.value).ok();
         let member = read.and_then(|read| values.iter().position(|x| read.is(*x)));
         let Some(member) = member else {
@@ -50,43 +45,85 @@ pub(super) fn check(
                     .help("run the sweep with this value, too, or correct the row")
                     .related(list.span(), "these are the values"),
             );
-            all.push(Quote::unclear(&cell, &message));
+            all.push(Quote::unclear(&text, &message));
             continue;
         };
-        all.push(number(bound, outcomes, cell, part(&claim.is, &format!("[{member}]")), &unit, shown, findings));
+        all.push(cell(court, &text, &claim.is, &unit, &format!("[{member}]"), findings));
     }
     all
 }
 
-/// One cell.
-fn number(
-    bound: &BoundVerify<'_>,
-    outcomes: &Outcomes,
-    cell: Text,
-    expr: Text,
+/// One cell; `member` picks its number out of a list.
+fn cell(
+    court: Court<'_, '_>,
+    text: &Text,
+    is: &Stands,
     unit: &Option<(String, Dimension)>,
-    shown: &ShownText,
+    member: &str,
     findings: &mut Vec<Finding>,
 ) -> Quote {
-    super::quote(bound, outcomes, &Said { quote: cell, expr }, Asked::There(unit.clone()), shown, findings)
+    let words = match is {
+        Stands::Words(words) => words,
+        Stands::Number(expr) => {
+            let expr = part(expr, member);
+            let place = Place { at: vec![text.span()], unit: unit.clone() };
+            let claim = quote::Claim { quote: text, part: text.as_str(), expr: &expr };
+            return match Given::of(court, &expr, findings) {
+                Ok(given) => says::number(court, &claim, given, place, findings),
+                Err(reason) => Quote::unclear(text, &reason),
+            };
+        }
+    };
+    let mut judged = None;
+    for (word, expr) in words {
+        let expr = part(expr, member);
+        let given = match Given::of(court, &expr, findings) {
+            Ok(given) => given,
+            Err(reason) => return Quote::unclear(text, &reason),
+        };
+        let claim = quote::Claim { quote: text, part: "", expr: &expr };
+        match (quote::same(word.as_str(), text.as_str()), given.holds()) {
+            (true, _) => judged = Some(says::words(court, &claim, &given, &[text.span()], findings)),
+            (false, true) if words.iter().any(|(w, _)| quote::same(w.as_str(), text.as_str())) => {
+                let message = format!("\"{}\" holds for this row, too", word.value);
+                findings.push(
+                    Finding::error(rules::QUOTE_UNCLEAR, expr.span(), message.clone())
+                        .why("one of several words can be right only where the others are not")
+                        .help("write conditions that exclude each other")
+                        .related(text.span(), "the row"),
+                );
+                return Quote::unclear(text, &message);
+            }
+            (false, _) => {}
+        }
+    }
+    judged.unwrap_or_else(|| {
+        let message = format!("nothing says when \"{}\" is right", text.value);
+        let known: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
+        findings.push(
+            Finding::new(rules::QUOTE_UNCLEAR, text.span(), message.clone())
+                .why("this cell was compared with nothing")
+                .help(format!("write one of {}, or a condition for this word", known.join(", "))),
+        );
+        Quote::unclear(text, &message)
+    })
 }
 
 /// The numbers of a list.
-fn values(
-    bound: &BoundVerify<'_>,
-    outcomes: &Outcomes,
-    list: &Text,
-    findings: &mut Vec<Finding>,
-) -> Result<Vec<f64>, String> {
-    let mut number =
-        |text: &Text| grounded(bound, &outcomes.nominal, text, findings).map(|f| f.value.to_number());
+fn values(court: Court<'_, '_>, list: &Text, findings: &mut Vec<Finding>) -> Result<Vec<f64>, String> {
+    let mut number = |text: &Text| {
+        grounded(court.bound, &court.outcomes.nominal, text, findings).map(|f| f.value.to_number())
+    };
     let count = number(&part(list, ".length"))?;
     (0..count.clamp(0.0, 1000.0) as usize).map(|i| number(&part(list, &format!("[{i}]")))).collect()
 }
 
 /// An expression with something behind it; its place is that of the whole.
 fn part(list: &Text, behind: &str) -> Text {
+    if behind.is_empty() {
+        return list.clone();
+    }
     let value = format!("({}){behind}", list.value);
-    let map = whole(value.len(), list.span());
+    let map = SourceMap::whole(value.len(), list.span());
     Text { value, map }
 }

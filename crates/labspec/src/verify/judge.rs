@@ -3,9 +3,7 @@
 use super::bound::{BoundRun, BoundScene};
 use super::outcome::Outcome;
 use super::perform::is_timestep;
-use super::{
-    Answer, Asked, BoundVerify, NUDGED, Outcomes, Quote, ShownText, TIGHT, answer, column, significant,
-};
+use super::{Answer, BoundVerify, NUDGED, Outcomes, Quote, ShownText, TIGHT, answer, says, significant};
 use crate::bind::scalar;
 use crate::finding::Finding;
 use crate::json::Scalar;
@@ -77,9 +75,7 @@ fn title(run: &BoundRun<'_>) -> String {
 
 /// The texts that look at the samples themselves.
 fn own_texts<'v>(bound: &BoundVerify<'_>, verify: &'v Verify) -> Vec<&'v Text> {
-    let says = verify.says.iter().map(|said| &said.expr);
-    let all =
-        verify.options.iter().chain(&verify.value).chain(says).chain(verify.table.iter().map(|c| &c.is));
+    let all = verify.options.iter().chain(&verify.value).chain(verify.quoted());
     bound.on_the_spot(all.filter(|text| !answer::is_undecided(text)))
 }
 
@@ -351,12 +347,6 @@ fn verdicts(
         Outcomes { nominal: outcome.clone(), perturbed: [const { None }; super::CHANGES], nudged_back: None };
     let ignored = &mut Vec::new();
     let answer = question.and_then(|q| answer::check(bound, &outcomes, verify, q, ignored));
-    let mut quotes: Vec<Quote> = Vec::new();
-    for said in &verify.says {
-        quotes.push(super::quote(bound, &outcomes, said, Asked::Where(question), shown, ignored));
-    }
-    for claim in &verify.table {
-        quotes.extend(column::check(bound, &outcomes, claim, shown, ignored));
-    }
-    (answer, quotes)
+    let court = says::Court { bound, outcomes: &outcomes, shown };
+    (answer, says::check(court, verify, question, ignored))
 }

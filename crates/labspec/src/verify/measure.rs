@@ -12,6 +12,7 @@ enum How {
     Before,
     Initial,
     Final,
+    Previous,
     Min,
     Max,
     Mean,
@@ -36,6 +37,7 @@ impl How {
             "before" => How::Before,
             "initial" => How::Initial,
             "final" => How::Final,
+            "previous" => How::Previous,
             "min" => How::Min,
             "max" => How::Max,
             "mean" => How::Mean,
@@ -60,6 +62,8 @@ impl How {
 struct Running<'a> {
     how: How,
     args: &'a [Program],
+    /// The aggregates in its arguments, which look at each sample before it does.
+    inner: Vec<Running<'a>>,
     slot: usize,
     /// The result so far, NaN before there is one.
     result: f64,
@@ -201,30 +205,23 @@ impl Trail {
     }
 }
 
-/// The aggregates of one measure.
-#[derive(Debug)]
-pub(super) struct Measure<'a> {
-    program: &'a Program,
-    text: &'a Text,
-    running: Vec<Running<'a>>,
-}
-
-impl<'a> Measure<'a> {
-    /// A measure before the first sample.
-    pub(super) fn new(program: &'a Program, text: &'a Text) -> Measure<'a> {
+impl<'a> Running<'a> {
+    /// The aggregates of a program, before the first sample.
+    fn all(program: &'a Program) -> Vec<Running<'a>> {
         let start = |a: &'a Aggregate| {
             let how = How::of(a)?;
             Some(Running {
                 how,
                 args: &a.args,
+                inner: a.args.iter().flat_map(Running::all).collect(),
                 slot: a.slot,
-                result: Measure::before(how),
+                result: Running::before(how),
                 done: false,
                 previous: f64::NAN,
                 trail: Trail::START,
             })
         };
-        Measure { program, text, running: program.aggregates().iter().filter_map(start).collect() }
+        program.aggregates().iter().filter_map(start).collect()
     }
 
     /// The result before the first sample: nothing is there yet, nothing was counted, nothing has failed.
@@ -236,109 +233,131 @@ impl<'a> Measure<'a> {
         }
     }
 
-    /// Looks at the current sample.
-    pub(super) fn sample(&mut self, session: &mut Session<'_>) {
-        let time = session.world.data.time();
-        for r in &mut self.running {
-            let mut value = |i: usize| {
-                r.args.get(i).and_then(|p| session.evaluate(p, self.text)).unwrap_or(Value::Undefined)
-            };
-            match r.how {
-                How::First | How::At | How::Before | How::Crossing if r.done => {}
-                How::First => {
-                    if value(0).truthy() {
-                        (r.result, r.done) = (time, true);
-                    }
-                }
-                How::At => {
-                    if value(0).truthy() {
-                        (r.result, r.done) = (value(1).to_number(), true);
-                    }
-                }
-                How::Before => {
-                    if value(0).truthy() {
-                        (r.result, r.done) = (r.previous, true);
-                    } else {
-                        r.previous = value(1).to_number();
-                    }
-                }
-                How::Initial => {
-                    if !r.done {
-                        (r.result, r.done) = (value(0).to_number(), true);
-                    }
-                }
-                How::Final => r.result = value(0).to_number(),
-                // The extremes of what is a number: a NaN among the samples says nothing.
-                How::Min => r.result = r.result.min(value(0).to_number()),
-                How::Max => r.result = r.result.max(value(0).to_number()),
-                How::Mean => {
-                    r.trail.add_area(time, value(0).to_number());
-                    r.result = r.trail.mean();
-                }
-                How::Crossing => {
-                    let x = above(&mut value, r.args);
-                    if let Some(at) = r.trail.zero(time, x) {
-                        (r.result, r.done) = (at, true);
-                    }
-                    r.trail.remember(time, x);
-                }
-                How::Period => {
-                    let x = above(&mut value, r.args);
-                    r.trail.oscillate(time, x);
-                    r.result = r.trail.period();
-                }
-                How::Last => {
-                    if value(0).truthy() {
-                        r.result = time;
-                    }
-                }
-                How::Count => {
-                    let holds = value(0).truthy();
-                    r.result += f64::from(holds && !r.done);
-                    r.done = holds;
-                }
-                How::Crossings => {
-                    let x = above(&mut value, r.args);
-                    r.trail.pass(time, x);
-                    r.result = r.trail.count as f64;
-                }
-                How::Settles => {
-                    let [x, target, band] = [0, 1, 2].map(|i| value(i).to_number());
-                    let inside = (x - target).abs() <= band;
-                    r.result = if !inside {
-                        f64::NAN
-                    } else if r.result.is_nan() {
-                        time
-                    } else {
-                        r.result
-                    };
-                }
-                How::Peak => {
-                    let x = value(0).to_number();
-                    if x > r.previous || (r.previous.is_nan() && !x.is_nan()) {
-                        (r.result, r.previous) = (time, x);
-                    }
-                }
-                How::Holds => {
-                    if !value(0).truthy() {
-                        r.result = 0.0;
-                    }
-                }
-                How::Rate => {
-                    r.trail.line.add(time, value(0).to_number());
-                    r.result = r.trail.line.slope();
-                }
-                How::Integral => {
-                    r.trail.add_area(time, value(0).to_number());
-                    r.result = r.trail.area;
-                }
-                How::Rms => {
-                    let x = value(0).to_number();
-                    r.trail.add_area(time, x * x);
-                    r.result = r.trail.mean().sqrt();
+    /// Looks at the current sample. What stands in its arguments is what it is up to this sample.
+    fn sample(&mut self, session: &mut Session<'_>, text: &Text) {
+        for inner in &mut self.inner {
+            inner.sample(session, text);
+            session.context.set_aggregate(inner.slot, inner.result);
+        }
+        let (r, time) = (self, session.world.data.time());
+        let mut value =
+            |i: usize| r.args.get(i).and_then(|p| session.evaluate(p, text)).unwrap_or(Value::Undefined);
+        match r.how {
+            How::First | How::At | How::Before | How::Crossing if r.done => {}
+            How::First => {
+                if value(0).truthy() {
+                    (r.result, r.done) = (time, true);
                 }
             }
+            How::At => {
+                if value(0).truthy() {
+                    (r.result, r.done) = (value(1).to_number(), true);
+                }
+            }
+            How::Before => {
+                if value(0).truthy() {
+                    (r.result, r.done) = (r.previous, true);
+                } else {
+                    r.previous = value(1).to_number();
+                }
+            }
+            How::Initial => {
+                if !r.done {
+                    (r.result, r.done) = (value(0).to_number(), true);
+                }
+            }
+            How::Final => r.result = value(0).to_number(),
+            How::Previous => (r.result, r.previous) = (r.previous, value(0).to_number()),
+            // The extremes of what is a number: a NaN among the samples says nothing.
+            How::Min => r.result = r.result.min(value(0).to_number()),
+            How::Max => r.result = r.result.max(value(0).to_number()),
+            How::Mean => {
+                r.trail.add_area(time, value(0).to_number());
+                r.result = r.trail.mean();
+            }
+            How::Crossing => {
+                let x = above(&mut value, r.args);
+                if let Some(at) = r.trail.zero(time, x) {
+                    (r.result, r.done) = (at, true);
+                }
+                r.trail.remember(time, x);
+            }
+            How::Period => {
+                let x = above(&mut value, r.args);
+                r.trail.oscillate(time, x);
+                r.result = r.trail.period();
+            }
+            How::Last => {
+                if value(0).truthy() {
+                    r.result = time;
+                }
+            }
+            How::Count => {
+                let holds = value(0).truthy();
+                r.result += f64::from(holds && !r.done);
+                r.done = holds;
+            }
+            How::Crossings => {
+                let x = above(&mut value, r.args);
+                r.trail.pass(time, x);
+                r.result = r.trail.count as f64;
+            }
+            How::Settles => {
+                let [x, target, band] = [0, 1, 2].map(|i| value(i).to_number());
+                let inside = (x - target).abs() <= band;
+                r.result = if !inside {
+                    f64::NAN
+                } else if r.result.is_nan() {
+                    time
+                } else {
+                    r.result
+                };
+            }
+            How::Peak => {
+                let x = value(0).to_number();
+                if x > r.previous || (r.previous.is_nan() && !x.is_nan()) {
+                    (r.result, r.previous) = (time, x);
+                }
+            }
+            How::Holds => {
+                if !value(0).truthy() {
+                    r.result = 0.0;
+                }
+            }
+            How::Rate => {
+                r.trail.line.add(time, value(0).to_number());
+                r.result = r.trail.line.slope();
+            }
+            How::Integral => {
+                r.trail.add_area(time, value(0).to_number());
+                r.result = r.trail.area;
+            }
+            How::Rms => {
+                let x = value(0).to_number();
+                r.trail.add_area(time, x * x);
+                r.result = r.trail.mean().sqrt();
+            }
         }
+    }
+}
+
+/// The aggregates of one measure.
+#[derive(Debug)]
+pub(super) struct Measure<'a> {
+    program: &'a Program,
+    text: &'a Text,
+    running: Vec<Running<'a>>,
+}
+
+impl<'a> Measure<'a> {
+    /// A measure before the first sample.
+    pub(super) fn new(program: &'a Program, text: &'a Text) -> Measure<'a> {
+        Measure { program, text, running: Running::all(program) }
+    }
+
+    /// Looks at the current sample.
+    pub(super) fn sample(&mut self, session: &mut Session<'_>) {
+        self.running.iter_mut().for_each(|r| r.sample(session, self.text));
     }
 
     /// The measure, when the run is over.

@@ -9,7 +9,7 @@
 //! | what conditions read | `outcome` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
-//! | numbers in the text | `quote` |
+//! | numbers and words in the text | `says`, `quote` |
 //! | columns of tables | `column` |
 //! | what their numbers measure | `units` |
 //! | closed forms | `exact` |
@@ -29,6 +29,7 @@ mod over;
 mod perform;
 mod quote;
 mod reads;
+mod says;
 mod search;
 mod stage;
 mod units;
@@ -42,16 +43,15 @@ pub use quote::{
     stated,
 };
 pub use reads::labels;
+pub use says::Quote;
 pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
-use crate::ledger::Evidence;
 use crate::rules;
 use crate::run::Numerics;
 use crate::source::Text;
 use crate::spec::{Question, Verify};
 use labspec_core::integrator;
-use labspec_expr::dimension::Dimension;
 use outcome::Outcome;
 use std::ops::Range;
 
@@ -70,47 +70,6 @@ pub struct Judgement {
     pub measures: Vec<Measured>,
     /// Why no run was made, where none could be.
     pub unmade: Option<String>,
-}
-
-/// A quoted number.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Quote {
-    /// The text that is quoted.
-    pub text: String,
-    /// Where it is claimed: under `says`.
-    pub span: Range<usize>,
-    /// What became of it.
-    pub state: QuoteState,
-    /// How its value was found.
-    pub evidence: Evidence,
-    /// Why it is not right.
-    pub reason: String,
-    /// What the simulation gives; NaN when nothing could be computed.
-    pub computed: f64,
-}
-
-impl Quote {
-    /// One that could not be checked.
-    fn unclear(text: &Text, reason: &str) -> Quote {
-        Quote {
-            text: text.value.clone(),
-            span: text.span(),
-            state: QuoteState::Unclear,
-            evidence: Evidence::Computed,
-            reason: reason.to_string(),
-            computed: f64::NAN,
-        }
-    }
-
-    /// In one word.
-    pub fn verdict(&self) -> &'static str {
-        match (self.state, self.evidence) {
-            (QuoteState::Right, Evidence::Simulated) => "verified",
-            (QuoteState::Right, Evidence::Computed) => "computed",
-            (QuoteState::Wrong, _) => "refuted",
-            (QuoteState::Unclear, _) => "failed",
-        }
-    }
 }
 
 /// A run of a `verify` object.
@@ -198,58 +157,18 @@ pub fn check(
     if let Some(question) = question {
         judgement.answer = answer::check(bound, &outcomes, verify, question, findings);
     }
-    for said in &verify.says {
-        judgement.quotes.push(quote(bound, &outcomes, said, Asked::Where(question), shown, findings));
-    }
-    for claim in &verify.table {
-        judgement.quotes.extend(column::check(bound, &outcomes, claim, shown, findings));
-    }
+    judgement.quotes = {
+        let court = says::Court { bound, outcomes: &outcomes, shown };
+        says::check(court, verify, question, findings)
+    };
     judgement.exact = verify.exact.iter().map(|claim| exact::check(bound, claim, findings)).collect();
     judgement
 }
 
-/// Where a quote stands.
-enum Asked<'q> {
-    /// Wherever a reader sees it; first in this question.
-    Where(Option<&'q Question>),
-    /// Where it was taken from: in a cell, with the unit in the heading of its column.
-    There(Option<(String, Dimension)>),
-}
-
-/// What became of a quoted number.
-fn quote(
-    bound: &BoundVerify<'_>,
-    outcomes: &Outcomes,
-    said: &crate::spec::Said,
-    asked: Asked<'_>,
-    shown: &ShownText,
-    findings: &mut Vec<Finding>,
-) -> Quote {
-    let [text, expr] = [&said.quote, &said.expr];
-    let found = match grounded(bound, &outcomes.nominal, expr, findings) {
-        Ok(found) => found,
-        Err(reason) => return Quote::unclear(text, &reason),
-    };
-    let other = |n: usize, how| value_of(bound, outcomes.perturbed[n].as_ref()?, expr, how);
-    let halved: Vec<Other> = other(0, "at half the timestep").into_iter().collect();
-    let back = "with a start moved by -1e-14";
-    let mut nudged: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
-    nudged.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
-    let computed = found.value.to_number();
-    let value = quote::Value { computed, timestep: &halved, start: &nudged, unit: &|| units::of_claim(bound, expr) };
-    let o = match asked {
-        Asked::Where(question) => quote::check(said, &value, question, shown, findings),
-        Asked::There(unit) => quote::check_at(said, vec![text.span()], unit, &value, shown, findings),
-    };
-    Quote { state: o.state, evidence: found.evidence, reason: o.reason, computed, ..Quote::unclear(text, "") }
-}
-
 /// Looks at every text of a `verify` object, and runs nothing.
 pub(crate) fn look(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
-    let columns = verify.table.iter().flat_map(|c| c.by.iter().map(|(_, list)| list).chain([&c.is]));
-    let quoted = verify.says.iter().map(|said| &said.expr).chain(columns);
     let options = verify.options.iter().filter(|text| !answer::is_undecided(text));
-    bound.look(options.chain(&verify.value).chain(quoted), findings);
+    bound.look(options.chain(&verify.value).chain(verify.quoted()), findings);
     for claim in &verify.exact {
         let _ = exact::bind(bound, claim, findings);
     }
@@ -366,11 +285,6 @@ fn grounded(
         Some(broke) => Err(broke.clone()),
         None => Ok(found),
     }
-}
-
-fn value_of(bound: &BoundVerify<'_>, outcome: &Outcome, expr: &Text, how: &'static str) -> Option<Other> {
-    let found = bound.find(outcome, expr, &mut Vec::new())?;
-    Some(Other { how, value: found.value.to_number() })
 }
 
 /// A number with six significant digits, without trailing zeros.

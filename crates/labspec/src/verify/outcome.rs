@@ -7,8 +7,8 @@ use std::collections::BTreeSet;
 
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema,
-    Value, Words,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
+    Schema, Value, Words,
 };
 
 /// The measures of one run.

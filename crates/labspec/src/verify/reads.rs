@@ -1,12 +1,12 @@
 //! What a student reads under a label, or sees on a curve: the numbers of `shown('label')`.
 
 use crate::bind::{Programs, Shown};
-use crate::run::{Cell, Session};
 use crate::check::of_label;
+use crate::run::{Cell, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Plot, Readout, Trace};
-use labspec_expr::dimension::Dimension;
 use labspec_expr::Value;
+use labspec_expr::dimension::Dimension;
 
 /// The labels of a lab: its readouts, its traces, and each of both as a table of `labspec run` calls it.
 pub fn labels(lab: &Lab) -> Shown {
@@ -16,9 +16,11 @@ pub fn labels(lab: &Lab) -> Shown {
     };
     let own = lab.readouts.iter().map(|r| readout("", r));
     let traces = lab.plots.iter().flat_map(|plot| plot.traces.iter().map(move |t| trace("", plot, t)));
-    let called = lab.plots.iter().enumerate().flat_map(|(i, plot)| {
-        plot.traces.iter().map(move |t| trace(&format!("plot/{i}/"), plot, t))
-    });
+    let called = lab
+        .plots
+        .iter()
+        .enumerate()
+        .flat_map(|(i, plot)| plot.traces.iter().map(move |t| trace(&format!("plot/{i}/"), plot, t)));
     let readouts = lab.readouts.iter().map(|r| readout("readout/", r));
     Shown::new(own.chain(traces).chain(called).chain(readouts))
 }

@@ -35,8 +35,14 @@ static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Typ
 
 static QUOTE: [Part; 2] = [
     Part { what: "the text that a reader sees, with its number", of: Type::Text },
-    Part { what: "what the number must be", of: Type::Code(Form::Expression) },
+    Part {
+        what: "what the number must be, or a list: one for each of its numbers, and conditions that its words state",
+        of: Type::Either(&EXPRESSION, &EXPRESSIONS),
+    },
 ];
+static EXPRESSIONS: Type = Type::List(&EXPRESSION);
+static IN_WORDS: Map = Map { names: "what stands in a cell", of: Type::Code(Form::Expression) };
+static WORDED: Type = Type::Map(&IN_WORDS);
 static SAID: Type = Type::Pair(&QUOTE);
 
 static PRESSED: [Part; 2] = [
@@ -49,17 +55,23 @@ static PRESS: Type = Type::Pair(&PRESSED);
 pub static VERIFY: Object = Object {
     name: "verify",
     what: "a verify object",
-    doc: "How a machine can check what the text claims: runs of a lab, measures taken in every run, and what must hold. The guide is [verify.md](../verify.md).",
+    doc: "How a machine can check what the text claims: runs of a lab, measures taken in every run, and what must hold. It may also stand in a comment before a block of the text, `<!-- labspec verify {…} -->`, and is then about this block. The guide is [verify.md](../verify.md).",
     tag: None,
     minimal: r##"{"lab": "#1", "measure": {"speed": "final(-data.joint('ball').qvel[2])"}, "says": [["9.81 m/s", "speed"]]}"##,
     keys: &[
         key(
             "lab",
             Type::Either(&TEXT, &INLINE),
-            "the lab that runs: `#2` is the second lab of the lesson, `#quiz-id.1` the sim of the first question of a quiz; or a lab written here",
+            "the lab that runs: `#2` is the second lab of the lesson, `#quiz-id.1` the sim of the first question of a quiz, `other.md#2` a lab of another lesson; or a lab written here",
             r##""#1""##,
         )
         .or(Absent::Said("the question's own `sim`, or the lab that carries this object")),
+        key(
+            "use",
+            Type::Text,
+            "the lab (`#1`) or the question (`#quiz-id.2`) whose `verify` has runs, measures and searches that this one uses, too; what both name is as it is here",
+            r##""#1""##,
+        ),
         key(
             "runs",
             Type::Map(&RUNS),
@@ -101,6 +113,13 @@ pub static VERIFY: Object = Object {
             "on a numeric question: what its answer must be, within `tol`",
             r#""speed""#,
         ),
+        key(
+            "wrong",
+            Type::List(&EXPRESSION),
+            "on a numeric question: values that a mistake leads to, which the tolerance must not take for right",
+            r#"["2 * speed"]"#,
+        )
+        .or(Absent::Empty),
         key(
             "says",
             Type::List(&SAID),
@@ -228,8 +247,8 @@ pub static COLUMN: Object = Object {
         ),
         key(
             "is",
-            Type::Code(Form::Expression),
-            "what the cells state: a list in the order of the values, or one number for one cell",
+            Type::Either(&EXPRESSION, &WORDED),
+            "what the cells state: a list in the order of the values, or one number for one cell; for words an object with a list of conditions for each, as `{\"stable\": \"fall.depth.map(d => d < 1)\", …}`",
             r#""fall.touch""#,
         )
         .must("without it there is nothing that the cells are compared with"),

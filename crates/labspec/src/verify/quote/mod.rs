@@ -13,18 +13,21 @@ mod stated;
 mod table;
 mod told;
 mod unit;
+mod words;
 
 pub use number::{Form, Quoted, Style};
+pub(super) use read::parts;
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
 pub use stated::{Stated, claimed, stated};
-pub(super) use stated::unit_of_head;
+pub(super) use stated::{unit_of_head, unit_of_quote};
+pub(super) use words::{Condition, check_words};
 
 use crate::check::{contradicts, unit as is_unit};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::source::{SourceMap, Text};
-use crate::spec::{Column, Question, Said};
+use crate::spec::{Column, Question};
 use labspec_bind::units::written;
 use labspec_expr::dimension::Dimension;
 use std::ops::Range;
@@ -84,22 +87,22 @@ pub(super) struct Value<'v> {
     pub(super) unit: &'v dyn Fn() -> Option<Dimension>,
 }
 
-/// Compares a quoted number with what its expression gives, at every place where it is shown.
-pub(super) fn check(
-    said: &Said,
-    value: &Value<'_>,
-    question: Option<&Question>,
-    shown: &ShownText,
-    findings: &mut Vec<Finding>,
-) -> QuoteOutcome {
-    let places = own_first(shown.places(said.quote.as_str()), question);
-    let unit = stated::unit_of_quote(said.quote.as_str());
-    check_at(said, places, unit, value, shown, findings)
+/// A quoted text, the part of it that states a number, and the expression that gives it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Claim<'c> {
+    pub(super) quote: &'c Text,
+    pub(super) part: &'c str,
+    pub(super) expr: &'c Text,
 }
 
-/// The same for a quote that stands at these places, in this unit.
-pub(super) fn check_at(
-    said: &Said,
+/// Where a quote stands: in the question that claims it first.
+pub(super) fn places(quote: &Text, question: Option<&Question>, shown: &ShownText) -> Vec<Range<usize>> {
+    own_first(shown.places(quote.as_str()), question)
+}
+
+/// Compares a quoted number with what its expression gives, at every place where it stands; with its unit, where it has one.
+pub(super) fn check(
+    said: &Claim<'_>,
     places: Vec<Range<usize>>,
     unit: Option<(String, Dimension)>,
     value: &Value<'_>,
@@ -120,7 +123,7 @@ pub(super) fn check_at(
         findings.push(finding);
         outcome
     };
-    let reading = match read::reading(said.quote.as_str()) {
+    let reading = match read::reading(said.part) {
         Ok(reading) => reading,
         Err(Unread::NoNumber) => {
             return unclear(outcome, "the quote holds no number", told::no_number(said), findings);
@@ -146,7 +149,8 @@ pub(super) fn check_at(
     };
     let chaotic = moved(start_others);
     let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
-    let readings = [Some(read), reading.share].into_iter().flatten().chain(reading.doubts.iter().map(|(q, _)| *q));
+    let readings =
+        [Some(read), reading.share].into_iter().flatten().chain(reading.doubts.iter().map(|(q, _)| *q));
     if !chaotic.is_empty() && readings.into_iter().any(|q| may_come_out(&q, &values)) {
         outcome.moved = chaotic;
         let finding = told::chaotic(said, &outcome, &read, &values);
@@ -198,7 +202,7 @@ fn may_come_out(read: &Quoted, values: &[f64]) -> bool {
     let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let spread = high - low;
     // Where one of them is no number, nobody knows.
-    !spread.is_finite()
+    !values.iter().all(|x| x.is_finite())
         || read.value + read.half_unit >= low - spread && read.value - read.half_unit <= high + spread
 }
 
@@ -233,7 +237,7 @@ pub(super) fn cells(claim: &Column, shown: &ShownText) -> Result<Vec<[Text; 2]>,
     let (column, by) = (at(claim.column.as_str()), key.map_or(0, at));
     let text = |cell: &table::Cell| Text {
         value: cell.text.clone(),
-        map: whole(cell.text.len(), cell.span.clone()),
+        map: SourceMap::whole(cell.text.len(), cell.span.clone()),
     };
     let wanted = claim.row.as_ref().map(|row| table::shown(row.as_str()));
     let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
@@ -249,11 +253,9 @@ pub(super) fn cells(claim: &Column, shown: &ShownText) -> Result<Vec<[Text; 2]>,
     }
 }
 
-/// A text that was made from these bytes.
-pub(super) fn whole(length: usize, span: Range<usize>) -> SourceMap {
-    let mut map = SourceMap::default();
-    map.push_whole(length, span);
-    map
+/// Whether a reader sees the same in both.
+pub(super) fn same(a: &str, b: &str) -> bool {
+    table::shown(a) == table::shown(b)
 }
 
 /// The places of a question itself, then the others.

@@ -5,7 +5,7 @@ use super::{fold, html};
 use std::ops::Range;
 
 /// Most places that are told of one quote.
-const MAX_PLACES: usize = 1000;
+pub(super) const MAX_PLACES: usize = 1000;
 
 /// Longest text that is looked for, in bytes: so much may be walked at every number.
 const MAX_LENGTH: usize = 120;

@@ -108,6 +108,22 @@ pub(super) fn stated(chars: Chars<'_>) -> Option<Numeral> {
     numbers.into_iter().find(|n| equals.is_none_or(|i| n.start > i))
 }
 
+/// The parts of a text that state one number each, in order: from behind the number before to the number behind.
+pub(in crate::verify) fn parts(text: &str) -> Vec<String> {
+    let (shown, _) = html::strip(text);
+    let (folded, _) = fold::fold(&shown, false);
+    let chars: Vec<char> = folded.chars().take(MAX_QUOTE + 1).collect();
+    let numbers = numbers(Chars(&chars));
+    let edge = |i: Option<usize>, of: fn(&Numeral) -> usize, none: usize| {
+        i.and_then(|i| numbers.get(i)).map_or(none, of)
+    };
+    let part = |i: usize| {
+        let (from, to) = (edge(i.checked_sub(1), |n| n.end, 0), edge(Some(i + 1), |n| n.start, chars.len()));
+        chars.get(from..to).unwrap_or_default().iter().collect()
+    };
+    (0..numbers.len()).map(part).collect()
+}
+
 /// All numbers of a text. Digits of words, indexes and exponents (`H2O`, `x_1`, `L^2`, `3D`, `2nd`) are none.
 pub(super) fn numbers(chars: Chars<'_>) -> Vec<Numeral> {
     let mut all: Vec<Numeral> = Vec::new();

@@ -1,11 +1,12 @@
 //! The text of a lesson that a reader sees: prose, headings, cells, captions, printed output, and the shown texts of
 //! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
 
-use super::places::Search;
+use super::places::{MAX_PLACES, Search};
 use super::table::{self, Table};
 use super::{fold, html, prose};
+use crate::run::Cell;
 use crate::source::{SourceMap, Text};
-use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind};
+use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind, Verify};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -48,15 +49,21 @@ impl ShownText {
         if numbers.is_empty() {
             return shown;
         }
-        let (text, map) = join(pieces(lesson));
+        let wordy: Vec<&str> = numbers.keys().copied().filter(|quote| !has_number(quote)).collect();
+        let (text, map) = join(pieces(lesson), !wordy.is_empty());
         let plain = |origin: &str| {
             let rest = origin.trim_matches([' ', '\n', '\r', '\t']);
             rest.is_empty() || matches!(rest, "\\n" | "\\t" | "\\r")
         };
         search.walk(&text, |at| !plain(file.get(map.span(at..at + 1)).unwrap_or("")));
+        let sliders = at_sliders(lesson, &numbers);
         for (&quote, &number) in &numbers {
-            let mut places: Vec<_> =
-                search.found(number).iter().map(|r| lesson.file.snap(&map.span(r.clone()))).collect();
+            let words = if wordy.contains(&quote) { words(&text, quote) } else { Vec::new() };
+            let found = search.found(number).iter().cloned().chain(words);
+            let mut places: Vec<_> = found.map(|r| lesson.file.snap(&map.span(r))).collect();
+            if places.is_empty() {
+                places.extend(sliders.get(quote).cloned());
+            }
             places.sort_by_key(|r| (r.start, r.end));
             places.dedup();
             if places.is_empty() && shown.hidden.len() < MAX_HIDDEN {
@@ -73,6 +80,18 @@ impl ShownText {
         self.places.get(quote).map_or(&[], Vec::as_slice)
     }
 
+    /// What of the quotes and tables of one object stands within some bytes of the file.
+    pub fn within(&self, block: &Range<usize>, verify: &Verify) -> ShownText {
+        let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
+        let places = verify.says.iter().map(|said| {
+            let quote = said.quote.as_str();
+            (quote.to_string(), self.places(quote).iter().filter(inside).cloned().collect())
+        });
+        let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
+        let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
+        ShownText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
+    }
+
     /// The tables that have these columns.
     pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
         self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
@@ -87,6 +106,20 @@ impl ShownText {
     pub(super) fn hidden(&self, quote: &str) -> Option<Range<usize>> {
         self.hidden.get(quote).cloned()
     }
+}
+
+/// Quotes that a slider shows at first, with its unit: `0.010 s`. Only asked where nothing else says them.
+fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMap<&'q str, Range<usize>> {
+    let folded = |text: &str| fold::fold(&html::strip(text).0, true).0;
+    let wanted: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
+    let labs = lesson.addressed().into_iter();
+    let shown = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
+        let ControlKind::Slider { unit, value, .. } = &control.kind else { return None };
+        let number = Cell::Number(value.value).shown(control.digits()?);
+        let text = unit.as_ref().map_or(number.clone(), |unit| format!("{number} {}", unit.as_str()));
+        Some((*wanted.get(&folded(&text))?, value.span.clone()))
+    });
+    shown.collect()
 }
 
 /// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.
@@ -106,14 +139,35 @@ fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
     })
 }
 
+/// Whether a text holds a number. `&frac12;` and `&#49;` are numbers, too.
+fn has_number(text: &str) -> bool {
+    text.contains(|c: char| c.is_numeric()) || text.contains("&frac")
+}
+
+/// Where words without a number stand: whole words.
+fn words(text: &str, quote: &str) -> Vec<Range<usize>> {
+    let (shown, _) = html::strip(quote);
+    let wanted = fold::fold(&shown, true).0.trim_matches('\n').to_string();
+    if wanted.trim().is_empty() {
+        return Vec::new();
+    }
+    let goes_on =
+        |a: Option<char>, b: Option<char>| [a, b].iter().all(|c| c.is_some_and(char::is_alphanumeric));
+    let found = text.match_indices(&wanted).map(|(at, found)| at..at + found.len());
+    let own = |r: &Range<usize>| {
+        let [before, after] = [text.get(..r.start).unwrap_or(""), text.get(r.end..).unwrap_or("")];
+        !goes_on(before.chars().next_back(), wanted.chars().next())
+            && !goes_on(wanted.chars().next_back(), after.chars().next())
+    };
+    found.filter(own).take(MAX_PLACES).collect()
+}
+
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
-/// quote.
-fn join(pieces: Vec<Piece>) -> (String, SourceMap) {
+/// number; `words` takes them, too.
+fn join(pieces: Vec<Piece>, words: bool) -> (String, SourceMap) {
     let (mut all, mut map) = (String::new(), SourceMap::default());
     for piece in pieces {
-        let number = |c: char| c.is_numeric();
-        // `&frac12;` and `&#49;` are numbers too.
-        if !(piece.text.value.contains(number) || piece.html && piece.text.value.contains("&frac")) {
+        if !words && !has_number(&piece.text.value) {
             continue;
         }
         let mut back = piece.text.map;

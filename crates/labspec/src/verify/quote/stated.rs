@@ -85,11 +85,15 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
 /// Where the text stands that the lesson quotes itself.
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     let shown = super::ShownText::of(lesson);
-    let says = lesson.verifies().flat_map(|verify| &verify.says);
-    let quoted = says.flat_map(|said| shown.places(said.quote.as_str()).to_vec());
-    let columns = lesson.verifies().flat_map(|verify| &verify.table);
-    let cells = columns.filter_map(|claim| super::cells(claim, &shown).ok()).flatten().flatten();
-    quoted.chain(cells.map(|cell| cell.span())).collect()
+    let mut all = Vec::new();
+    for (verify, block) in lesson.scoped() {
+        let narrow = block.map(|block| shown.within(block, verify));
+        let shown = narrow.as_ref().unwrap_or(&shown);
+        all.extend(verify.says.iter().flat_map(|said| shown.places(said.quote.as_str()).to_vec()));
+        let cells = verify.table.iter().filter_map(|claim| super::cells(claim, shown).ok());
+        all.extend(cells.flatten().flatten().map(|cell| cell.span()));
+    }
+    all
 }
 
 fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
@@ -165,7 +169,7 @@ fn own_unit(rest: &str) -> Option<(String, Dimension, usize)> {
 }
 
 /// The unit behind the number that a quote states, if it has one.
-pub(super) fn unit_of_quote(quote: &str) -> Option<(String, Dimension)> {
+pub(in crate::verify) fn unit_of_quote(quote: &str) -> Option<(String, Dimension)> {
     let (shown, _) = html::strip(quote);
     let (folded, _) = fold::fold(&shown, false);
     let chars: Vec<char> = folded.chars().collect();

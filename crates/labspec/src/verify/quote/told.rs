@@ -1,11 +1,10 @@
 //! What is told to an author about a quoted number.
 
-use super::QuoteOutcome;
 use super::number::{Form, Quoted, ten};
 use super::unit::Shift;
+use super::{Claim, QuoteOutcome};
 use crate::finding::{Finding, Severity};
 use crate::rules;
-use crate::spec::Said;
 use crate::verify::significant;
 use std::ops::Range;
 
@@ -24,17 +23,17 @@ pub(super) fn printed(read: &Quoted, x: f64) -> String {
 }
 
 /// The quote as a message may show it.
-fn shown(said: &Said) -> String {
-    crate::json::read::shorten(said.quote.as_str())
+pub(super) fn shown(said: &Claim<'_>) -> String {
+    crate::json::read::shorten(if said.part.is_empty() { said.quote.as_str() } else { said.part.trim() })
 }
 
-pub(super) fn no_number(said: &Said) -> Finding {
+pub(super) fn no_number(said: &Claim<'_>) -> Finding {
     Finding::error(rules::QUOTE_WITHOUT_NUMBER, said.quote.span(), "there is no number in this quote")
         .why("nothing was compared: digits of names, indexes and exponents, as in t2, x_1 or L^2, are no numbers")
         .help("quote the number as the text prints it, such as \"0.442 s\"")
 }
 
-pub(super) fn unread(said: &Said, form: &str) -> Finding {
+pub(super) fn unread(said: &Claim<'_>, form: &str) -> Finding {
     Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), format!("\"{}\" is {form}, which is not read", shown(said)))
         .why("nothing was compared: it is better to say so than to guess which number is meant")
         .help(match form {
@@ -43,7 +42,7 @@ pub(super) fn unread(said: &Said, form: &str) -> Finding {
         })
 }
 
-pub(super) fn not_found(said: &Said, hidden: Option<Range<usize>>) -> Finding {
+pub(super) fn not_found(said: &Claim<'_>, hidden: Option<Range<usize>>) -> Finding {
     let found = Finding::warning(
         rules::QUOTE_NOT_FOUND,
         said.quote.span(),
@@ -59,7 +58,7 @@ pub(super) fn not_found(said: &Said, hidden: Option<Range<usize>>) -> Finding {
     }
 }
 
-pub(super) fn no_value(said: &Said, computed: f64) -> Finding {
+pub(super) fn no_value(said: &Claim<'_>, computed: f64) -> Finding {
     let (message, why) = if computed.is_nan() {
         (
             "this expression has no value in this run, so the quoted number was not checked",
@@ -81,7 +80,7 @@ pub(super) fn no_value(said: &Said, computed: f64) -> Finding {
 fn at_places(
     rule: &'static rules::Rule,
     severity: Severity,
-    said: &Said,
+    said: &Claim<'_>,
     outcome: &QuoteOutcome,
     message: String,
 ) -> Finding {
@@ -106,20 +105,20 @@ fn list(outcome: &QuoteOutcome) -> String {
 }
 
 /// What was read, when that is not plain from the quote.
-fn as_read(said: &Said, read: &Quoted) -> String {
+fn as_read(said: &Claim<'_>, read: &Quoted) -> String {
     let text = read.to_string();
-    let plain = said.quote.value.replace('\u{2212}', "-");
+    let plain = said.part.replace('\u{2212}', "-");
     if plain.contains(&text) { String::new() } else { format!(" (read as {text})") }
 }
 
-pub(super) fn wrong_unit(said: &Said, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
+pub(super) fn wrong_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
     let message = format!("the text says {text}, and the expression gives {gives}");
     at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
         .why("the digits are right, and the unit is another one")
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
-pub(super) fn wrong(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
+pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let right = printed(read, outcome.computed);
     let within = match read.form {
         Form::PlusMinus(..) | Form::Range(..) => ", which does not lie in it",
@@ -143,7 +142,7 @@ pub(super) fn wrong(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Findi
     })
 }
 
-pub(super) fn of_timestep(said: &Said, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
+pub(super) fn of_timestep(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let message = format!(
         "the digits of {} depend on the timestep: {} as the lesson stands, {}",
         shown(said),
@@ -155,7 +154,7 @@ pub(super) fn of_timestep(said: &Said, outcome: &QuoteOutcome, read: &Quoted) ->
         .help("state it with its timestep, and `set` the timestep in the run; there is nothing to rewrite")
 }
 
-pub(super) fn chaotic(said: &Said, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
+pub(super) fn chaotic(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
     let message = format!(
         "no reader can reproduce the digits of {}: {} as the lesson stands, {}",
         shown(said),
@@ -183,7 +182,7 @@ fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
 }
 
 pub(super) fn doubtful(
-    said: &Said,
+    said: &Claim<'_>,
     outcome: &QuoteOutcome,
     read: &Quoted,
     why: &str,
@@ -203,7 +202,7 @@ pub(super) fn doubtful(
         .related(said.expr.span(), format!("this is {value}"))
 }
 
-pub(super) fn other_unit(said: &Said, outcome: &QuoteOutcome, read: &Quoted, shift: &Shift) -> Finding {
+pub(super) fn other_unit(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, shift: &Shift) -> Finding {
     let value = significant(outcome.computed);
     let factor = ten(shift.power.abs());
     let what = match &shift.units {

@@ -1,0 +1,106 @@
+//! Comments of ours in the text of a lesson, each about the block that follows: `<!-- labspec allow … -->`,
+//! `<!-- labspec verify {…} -->`.
+
+use super::problem::Problem;
+use super::{Lesson, Verify, verify};
+use crate::json;
+use crate::source::SourceMap;
+use std::ops::Range;
+
+const OPENS: &str = "<!--";
+const CLOSES: &str = "-->";
+const OURS: &str = "labspec";
+
+/// A comment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Comment {
+    /// Its bytes, marks included.
+    pub(super) span: Range<usize>,
+    /// What stands behind its word.
+    pub(super) inside: Range<usize>,
+    /// The bytes that it is about.
+    pub(super) over: Range<usize>,
+}
+
+/// A claim about a block of the text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// Bytes of the comment.
+    pub span: Range<usize>,
+    /// Bytes of the block that it is about.
+    pub over: Range<usize>,
+    /// What is claimed.
+    pub verify: Verify,
+}
+
+impl Lesson {
+    /// The comments of ours that begin with this word. Each is about the block that follows: a fence whole, or the text up to the
+    /// next empty line.
+    pub(super) fn comments(&self, word: &str) -> Vec<Comment> {
+        let text = self.file.text();
+        let mut all = Vec::new();
+        let mut paragraph = 0..0;
+        for html in &self.scan.html {
+            let mut from = html.start;
+            while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
+                let Some(end) = text.get(start..html.end).and_then(|t| t.find(CLOSES)).map(|at| start + at)
+                else {
+                    break;
+                };
+                from = end + CLOSES.len();
+                if let Some(inside) = behind(text, start + OPENS.len()..end, word) {
+                    all.push(Comment {
+                        span: start..from,
+                        inside,
+                        over: self.following(from, &mut paragraph),
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    /// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
+    /// where it does, and is not read again.
+    fn following(&self, from: usize, paragraph: &mut Range<usize>) -> Range<usize> {
+        let rest = self.file.text().get(from..).unwrap_or_default();
+        let text = rest.trim_start();
+        let start = from + rest.len() - text.len();
+        let blocks = &self.scan.blocks;
+        let last = blocks.partition_point(|b| b.span.start <= start).checked_sub(1);
+        if let Some(block) = last.and_then(|at| blocks.get(at)).filter(|b| b.span.contains(&start)) {
+            return start..block.span.end;
+        }
+        if !paragraph.contains(&start) {
+            let empty = |line: &str| line.trim().is_empty();
+            let length =
+                text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
+            *paragraph = start..start + length;
+        }
+        start..paragraph.end
+    }
+}
+
+/// What stands behind our name and the word in a comment.
+fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> {
+    let mut rest = text.get(inside.clone())?;
+    for part in [OURS, word] {
+        rest = rest.trim_start().strip_prefix(part)?;
+    }
+    rest.starts_with(|c: char| c.is_whitespace() || c == '{').then(|| inside.end - rest.len()..inside.end)
+}
+
+/// The claims that stand in comments.
+pub(super) fn read(lesson: &mut Lesson) -> Vec<Remark> {
+    let mut all = Vec::new();
+    for Comment { span, inside, over } in lesson.comments("verify") {
+        let parsed = json::parse(lesson.file.slice(inside.clone()), &SourceMap::verbatim(inside.clone()));
+        if parsed.broken {
+            lesson.broken.push(span.clone());
+        }
+        lesson.problems.extend(parsed.problems.into_iter().map(Problem::Json));
+        let found = parsed.node.and_then(|node| verify::read(&node, &mut lesson.problems));
+        all.extend(found.map(|verify| Remark { span, over, verify }));
+    }
+    all
+}

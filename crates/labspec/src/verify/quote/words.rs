@@ -1,0 +1,74 @@
+//! Words that say that something holds: `stable`, `it tips over`.
+
+use super::{Claim, QuoteState, ShownText, told};
+use crate::finding::{Finding, Severity};
+use crate::rules;
+use std::ops::Range;
+
+/// What becomes of a condition.
+#[derive(Clone, Debug)]
+pub(in crate::verify) struct Condition {
+    /// It holds in the lesson's own runs.
+    pub(in crate::verify) holds: bool,
+    /// The finer numerics under which that is otherwise.
+    pub(in crate::verify) timestep: Vec<&'static str>,
+    /// The starts, no other than the lesson's to any reader, from which that is otherwise.
+    pub(in crate::verify) start: Vec<&'static str>,
+}
+
+/// Holds words to a condition, at every place where they stand; with a short sentence when they are not right.
+pub(in crate::verify) fn check_words(
+    said: &Claim<'_>,
+    places: &[Range<usize>],
+    condition: &Condition,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> (QuoteState, String) {
+    let Some(first) = places.first() else {
+        let finding = told::not_found(said, shown.hidden(said.quote.as_str()));
+        findings.push(finding);
+        return (QuoteState::Unclear, "no reader sees this text".into());
+    };
+    let words = told::shown(said);
+    let mut tell = |rule, severity, message: String, why: &str, help: &str| {
+        findings.push(
+            Finding::error(rule, first.clone(), message)
+                .severity(severity)
+                .why(why.to_string())
+                .help(help.to_string())
+                .related(said.expr.span(), "this is what the words say"),
+        );
+    };
+    if let Some(how) = condition.start.first() {
+        let message =
+            format!("whether \"{words}\" is right depends on the last digits: it is otherwise {how}");
+        tell(
+            rules::QUOTE_CHAOTIC,
+            Severity::Warning,
+            message.clone(),
+            "another computer, or another version of the simulator, comes to the other answer",
+            "say it of a shorter run, or of a case that lies further from the edge",
+        );
+        return (QuoteState::Unclear, message);
+    }
+    if !condition.holds {
+        tell(
+            rules::QUOTE_WRONG,
+            Severity::Error,
+            format!("the text says \"{words}\", and that is not so in the simulation"),
+            "a reader who tries it finds the contrary",
+            "correct the text, or the condition that it is compared with",
+        );
+        return (QuoteState::Wrong, "what the words say does not hold".into());
+    }
+    if let Some(how) = condition.timestep.first() {
+        tell(
+            rules::QUOTE_OF_TIMESTEP,
+            Severity::Note,
+            format!("\"{words}\" is right for this timestep only: it is otherwise {how}"),
+            "a reader with another timestep finds the contrary",
+            "state it with its timestep, and `set` the timestep in the run",
+        );
+    }
+    (QuoteState::Right, String::new())
+}
