@@ -41,7 +41,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
         let Some(model) = models.of(&lab, &mut findings) else { panic!("{}", piece.name) };
         let programs = Programs::compile(&lab, &model, &mut findings);
         let names = ModelNames::new(&model, Scope::Lab);
-        let found = check::dimensions(&lab, &model, &programs);
+        let found = labspec::bind::dimensions(&lab, &model, &programs);
         writeln!(page, "{}", piece.name).unwrap();
         for (probe, measured) in programs.probes.iter().zip(&found.probes) {
             let measure = measured.as_ref().unwrap().value;

@@ -7,8 +7,8 @@
 use super::eyes;
 use super::material::{Piece, What};
 use labspec::bind::Programs;
+use labspec::bind::dimensions;
 use labspec::bind::scene::Models;
-use labspec::check::dimensions;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
 use labspec_core::Obj;

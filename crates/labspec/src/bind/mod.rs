@@ -2,10 +2,15 @@
 //! business of the crate `labspec-bind`, which knows no labs.
 
 mod compile;
+mod dimension;
+mod labels;
 pub mod parts;
 pub mod scene;
 
 pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
 pub(crate) use compile::{include, scalar, writes_kind};
+pub use dimension::{Dimensions, dimension_of, dimensions};
+pub(crate) use dimension::{given, given_by};
+pub(crate) use labels::{contradicts, of_label, unit};
 pub(crate) use labspec_bind::named_field;
 pub use labspec_bind::{Functions, ModelNames, NUMBERS, Scope, Shown, World, functions};

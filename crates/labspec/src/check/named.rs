@@ -175,7 +175,7 @@ fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[Named]) -> Option<Findi
 
 /// The words of a label without its unit.
 fn words_of(label: &str) -> Vec<String> {
-    let end = super::labels::of_label(label).and_then(|(unit, _)| label.rfind(unit));
+    let end = crate::bind::of_label(label).and_then(|(unit, _)| label.rfind(unit));
     words(end.and_then(|at| label.get(..at)).unwrap_or(label))
 }
 

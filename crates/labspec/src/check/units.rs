@@ -1,8 +1,7 @@
 //! Units against dimensions: what labels say of numbers, controls of what they set, and sums of what cannot be added.
 
-use super::dimension::{dimensions, given_by};
-use super::labels::{contradicts, of_label, unit};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope};
+use crate::bind::{contradicts, dimensions, given_by, of_label, unit};
 use crate::finding::{Finding, Severity};
 use crate::rules;
 use crate::source::Text;

@@ -1,8 +1,8 @@
 //! Labs at their start, for whoever points at something in them: what it is worth before the first step.
 
 use super::course::Around;
+use crate::bind::dimension_of;
 use crate::bind::{ModelNames, Programs, Scope};
-use crate::check::dimension_of;
 use crate::finding::Finding;
 use crate::run::{Budget, Session};
 use crate::source::{SourceMap, Text};

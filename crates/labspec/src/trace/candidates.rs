@@ -4,6 +4,7 @@
 use super::trials::{second, si};
 use super::words;
 use crate::bind::{ModelNames, Programs, Scope};
+use crate::bind::{dimensions, of_label};
 use crate::check;
 use crate::run::{self, Play, Session};
 use crate::spec::Lab;
@@ -122,11 +123,11 @@ fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, 
 
 /// Traces and readouts, each text once.
 fn shown(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Shown> {
-    let found = check::dimensions(lab, model, programs);
+    let found = dimensions(lab, model, programs);
     let mut all: Vec<Shown> = Vec::new();
     for ((labels, probe), measured) in check::labels_of(lab).zip(&programs.probes).zip(&found.probes) {
         let Some(bound) = &probe.bound else { continue };
-        let label = labels.iter().find_map(|l| check::of_label(l.as_str()));
+        let label = labels.iter().find_map(|l| of_label(l.as_str()));
         let known = measured.as_ref().and_then(|m| match m.value {
             Measure::Known(d) if d.factor.is_finite() && d.factor != 0.0 => Some(d),
             _ => None,

@@ -2,8 +2,8 @@
 
 use super::candidates::Candidate;
 use super::text;
+use crate::bind::given_by;
 use crate::bind::{Programs, scalar};
-use crate::check;
 use crate::json::{Number, Scalar};
 use crate::run::{Numerics, settings};
 use crate::spec::format::RUN_LENGTH;
@@ -83,7 +83,7 @@ fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec
     let label = control.label.as_str();
     match &control.kind {
         ControlKind::Slider { value: start, .. } => {
-            let Measure::Known(unit) = check::given_by(control) else { return };
+            let Measure::Known(unit) = given_by(control) else { return };
             let mut values: Vec<f64> = Vec::new();
             for s in numbers.iter().filter(|s| s.dimension.agrees(&unit)) {
                 let x = round(si(s) * unit.factor);

@@ -74,30 +74,7 @@ fn cell(
             };
         }
     };
-    let mut judged = None;
-    for (word, expr) in words {
-        let expr = part(expr, member);
-        let given = match Given::of(court, &expr, findings) {
-            Ok(given) => given,
-            Err(reason) => return Quote::unclear(text, &reason),
-        };
-        let claim = quote::Claim { quote: text, part: "", expr: &expr };
-        match (quote::same(word.as_str(), text.as_str()), given.holds()) {
-            (true, _) => judged = Some(says::words(court, &claim, &given, &[text.span()], findings)),
-            (false, true) if words.iter().any(|(w, _)| quote::same(w.as_str(), text.as_str())) => {
-                let message = format!("\"{}\" holds for this row, too", word.value);
-                findings.push(
-                    Finding::error(rules::QUOTE_UNCLEAR, expr.span(), message.clone())
-                        .why("one of several words can be right only where the others are not")
-                        .help("write conditions that exclude each other")
-                        .related(text.span(), "the row"),
-                );
-                return Quote::unclear(text, &message);
-            }
-            (false, _) => {}
-        }
-    }
-    judged.unwrap_or_else(|| {
+    let Some((_, expr)) = words.iter().find(|(word, _)| quote::same(word.as_str(), text.as_str())) else {
         let message = format!("nothing says when \"{}\" is right", text.value);
         let known: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
         findings.push(
@@ -105,8 +82,31 @@ fn cell(
                 .why("this cell was compared with nothing")
                 .help(format!("write one of {}, or a condition for this word", known.join(", "))),
         );
-        Quote::unclear(text, &message)
-    })
+        return Quote::unclear(text, &message);
+    };
+    let expr = part(expr, member);
+    let given = match Given::of(court, &expr, findings) {
+        Ok(given) => given,
+        Err(reason) => return Quote::unclear(text, &reason),
+    };
+    if given.holds() {
+        for (word, other) in words.iter().filter(|(word, _)| !quote::same(word.as_str(), text.as_str())) {
+            let other = part(other, member);
+            if Given::of(court, &other, findings).is_ok_and(|given| !given.holds()) {
+                continue;
+            }
+            let message = format!("\"{}\" may be right in this row, too", word.value);
+            findings.push(
+                Finding::error(rules::QUOTE_UNCLEAR, other.span(), message.clone())
+                    .why("one of several words can be right only where the others are not")
+                    .help("write conditions that exclude each other")
+                    .related(text.span(), "the row"),
+            );
+            return Quote::unclear(text, &message);
+        }
+    }
+    let claim = quote::Claim { quote: text, part: "", expr: &expr };
+    says::words(court, &claim, &given, &[text.span()], findings)
 }
 
 /// The numbers of a list.

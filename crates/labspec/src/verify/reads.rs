@@ -1,7 +1,7 @@
 //! What a student reads under a label, or sees on a curve: the numbers of `shown('label')`.
 
+use crate::bind::of_label;
 use crate::bind::{Programs, Shown};
-use crate::check::of_label;
 use crate::run::{Cell, Session};
 use crate::source::Text;
 use crate::spec::{Lab, Plot, Readout, Trace};

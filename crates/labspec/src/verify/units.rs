@@ -3,7 +3,7 @@
 use super::bound::{BoundScene, BoundVerify};
 use super::outcome::{OutcomeNames, Units};
 use crate::bind::Scope;
-use crate::check::given;
+use crate::bind::given;
 use crate::source::Text;
 use crate::verify::Scene;
 use labspec_expr::dimension::{Dimension, Measure};

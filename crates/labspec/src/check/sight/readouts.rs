@@ -22,7 +22,7 @@ fn text_with_unit<'c>(
     readout: &Readout,
     mut cells: impl Iterator<Item = &'c Cell>,
 ) -> Option<Finding> {
-    let (unit, _) = crate::check::labels::of_label(readout.label.as_str())?;
+    let (unit, _) = crate::bind::of_label(readout.label.as_str())?;
     let Cell::Text(first) = cells.next()? else { return None };
     let words = first.chars().filter(|c| c.is_alphabetic()).count() > 1;
     (words && cells.all(|c| matches!(c, Cell::Text(_)))).then(|| {

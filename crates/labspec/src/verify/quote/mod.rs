@@ -23,7 +23,7 @@ pub use stated::{Stated, claimed, stated};
 pub(super) use stated::{unit_of_head, unit_of_quote};
 pub(super) use words::{Condition, check_words};
 
-use crate::check::{contradicts, unit as is_unit};
+use crate::bind::{contradicts, unit as is_unit};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::source::{SourceMap, Text};
@@ -151,10 +151,18 @@ pub(super) fn check(
     let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
     let readings =
         [Some(read), reading.share].into_iter().flatten().chain(reading.doubts.iter().map(|(q, _)| *q));
+    let readings: Vec<Quoted> = readings.collect();
     if !chaotic.is_empty() && readings.into_iter().any(|q| may_come_out(&q, &values)) {
         outcome.moved = chaotic;
         let finding = told::chaotic(said, &outcome, &read, &values);
         return unclear(outcome, "no reader can reproduce these digits", finding, findings);
+    }
+    if !chaotic.is_empty() {
+        outcome.moved = chaotic;
+        outcome.reason = format!("the text says {read}, and no run comes near");
+        outcome.state = QuoteState::Wrong;
+        findings.push(told::far(said, &outcome, &read, &values));
+        return outcome;
     }
     outcome.moved = moved(timestep_others);
     if let Some(fits) = fits {

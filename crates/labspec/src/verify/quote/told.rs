@@ -154,6 +154,31 @@ pub(super) fn of_timestep(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quote
         .help("state it with its timestep, and `set` the timestep in the run; there is nothing to rewrite")
 }
 
+/// A number that no run comes near, where no run can be repeated to its digits either.
+pub(super) fn far(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
+    let message = format!(
+        "the text says {}{}, and no run comes near: {} as the lesson stands, {}",
+        shown(said),
+        as_read(said, read),
+        printed(read, outcome.computed),
+        list(outcome)
+    );
+    at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
+        .why("a reader who measures it finds another number, and each reader another one")
+        .help(fewer(read, values))
+}
+
+/// What to write where digits cannot be reproduced.
+fn fewer(read: &Quoted, values: &[f64]) -> String {
+    match agreed(read, values) {
+        Some(text) => {
+            format!("print fewer digits: {text} is what all of these runs give; or quote a shorter run")
+        }
+        None => "quote a shorter run, before such starts part, or say in words what all of these runs share"
+            .into(),
+    }
+}
+
 pub(super) fn chaotic(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
     let message = format!(
         "no reader can reproduce the digits of {}: {} as the lesson stands, {}",
@@ -163,10 +188,7 @@ pub(super) fn chaotic(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, v
     );
     at_places(rules::QUOTE_CHAOTIC, Severity::Warning, said, outcome, message)
         .why("such a start is within rounding of the lesson's own: another computer, or another version of the simulator, prints other digits")
-        .help(match agreed(read, values) {
-            Some(text) => format!("print fewer digits: {text} is what all of these runs give; or quote a shorter run"),
-            None => "quote a shorter run, before such starts part, or say in words what all of these runs share".into(),
-        })
+        .help(fewer(read, values))
 }
 
 /// The longest print on which all values agree, with fewer decimals than the quote; `None` when there is none.

@@ -1,7 +1,7 @@
 //! What the numbers of a lab measure: every text with the variables that the other texts store.
 
 use super::labels;
-use crate::bind::{ControlProgram, ModelNames, Programs, Scope};
+use super::{ControlProgram, ModelNames, Programs, Scope};
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_core::Model;
 use labspec_expr::dimension::{Dimension, Measure};
