@@ -6,7 +6,7 @@ use crate::bind::parts::Mark;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Taken, Witness};
+use crate::verify::judge::{self, Judged, Left, Taken, Witness};
 use crate::verify::{ShownText, Stage};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,6 +42,8 @@ pub struct Hearing {
     pub requests: Vec<Request>,
     /// What it makes of every claim, by the name of its owner.
     pub claims: Vec<(String, Judged)>,
+    /// Claims that no judge is asked about, of all owners.
+    pub left: Left,
     /// Runs that are recorded of another text.
     pub stale: usize,
     /// Runs of which nothing is recorded.
@@ -65,6 +67,7 @@ pub fn hear(
     let mut hearing = Hearing::default();
     for (name, owner) in claims::owners(lesson) {
         let Some((verify, own, question)) = owner.claim() else { continue };
+        hearing.left = hearing.left.and(Left::of(verify));
         let Some(bound) = claims::bound(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), Value::to_string);

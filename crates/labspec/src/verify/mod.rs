@@ -35,6 +35,7 @@ pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
 pub use curves::Curves;
 pub use exact::ClosedForm;
+pub(crate) use quote::folded;
 pub use quote::{
     Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, plain, quoted,
     stated,
