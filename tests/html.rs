@@ -127,8 +127,9 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 let expected = verdicts.get(name.as_str()).map_or("open", String::as_str);
                 assert!(seen(with_class(*article, "verdict")[0]).ends_with(expected), "{file}: {name}");
                 // Formulas of one letter are that letter.
-                let normal =
-                    |html: &str| plain(html).replace('$', "").split_whitespace().collect::<Vec<_>>().join(" ");
+                let normal = |html: &str| {
+                    plain(html).replace('$', "").split_whitespace().collect::<Vec<_>>().join(" ")
+                };
                 assert_eq!(seen(with_class(*article, "asked")[0]), normal(&question.q.value));
                 let QuestionKind::Choice { options, .. } = &question.kind else { continue };
                 let shown: Vec<Node<'_, '_>> =
@@ -291,6 +292,38 @@ fn text_of_lessons_is_text() {
     }
 }
 
+/// The numbers that the page lists as claimed by nothing are those that the rule tells.
+#[test]
+fn numbers_that_nothing_claims_are_those_of_the_rule() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("models")).unwrap();
+    let numbers: Vec<String> = (1..=10).map(|n| format!("{n} m")).collect();
+    let says: Vec<Value> =
+        (1..=10).map(|n| serde_json::json!([format!("{n} m"), format!("0.5 * {}", 2 * n)])).collect();
+    let quiz = serde_json::json!({"id": "long", "questions": [
+        {"kind": "numeric", "q": "How long is it?", "answer": 3, "tol": 0.1, "unit": "m",
+         "verify": {"value": "1.5 * 2", "says": says}}]});
+    let text =
+        format!("# Long\n\nIt is {}, below 20 m, and 11 m.\n\n```quiz\n{quiz}\n```\n", numbers.join(", "));
+    std::fs::write(folder.path().join("a.md"), text).unwrap();
+    let (page, report) = page_of(folder.path(), &["a.md"]);
+    let told: Vec<&str> =
+        report["findings"].as_array().unwrap().iter().filter_map(|f| f["message"].as_str()).collect();
+    assert_eq!(told, ["11 m is claimed nowhere, as nearly all of the other 10 numbers are"]);
+    let tree = parse(&page);
+    let listed: Vec<String> = with_class(tree.root(), "numbers")[0]
+        .descendants()
+        .filter(|n| n.has_tag_name("b"))
+        .map(seen)
+        .collect();
+    assert_eq!(listed, ["11 m"]);
+    // The answer counts as one more.
+    assert_eq!(
+        seen(with_class(tree.root(), "whole")[0]),
+        "Questions 1 of 1 have a check Numbers with units 11 of 12 are claimed"
+    );
+}
+
 /// Formulas of plain letters are read, and others stand as they are written; in questions, options and explanations.
 #[test]
 fn formulas_are_read() {
@@ -314,7 +347,10 @@ fn formulas_are_read() {
         tree.descendants().filter(|n| n.has_tag_name(name)).map(seen).collect()
     };
     assert_eq!(all("code"), ["v = \\sqrt{2gd}", "\\tfrac12 m v^2 = m g d"]);
-    assert_eq!((all("sup"), all("sub")), (["2", "-t/τ", "-3"].map(String::from).into(), vec!["0".to_string()]));
+    assert_eq!(
+        (all("sup"), all("sub")),
+        (["2", "-t/τ", "-3"].map(String::from).into(), vec!["0".to_string()])
+    );
 }
 
 /// Beside each run stands what is done in it, and the settings with which it begins: those of the record.
@@ -333,10 +369,16 @@ fn runs_have_their_settings_beside_them() {
           "setup": "model.opt.gravity[2] = -1.5", "controller": "", "until": 0.5, "stop": "data.qpos[2] < 0.1"},
           "many": {"sweep": {"h": [0.001, 0.005]}, "steps": 10}},
         "measure": {"z": "final(data.qpos[2])"}, "says": [["0.8 m", "plain.z"]]}}"#;
-    let steady = lab.replace(r#", "many": {"sweep": {"h": [0.001, 0.005]}, "steps": 10}"#, "");
-    let steady = steady.replace(r#""set": {"h": 0.004}, "#, "").replace(r#""setup": "model.opt.gravity[2] = -1.5", "#, "");
+    let steady = lab.replace(r#""many": {"sweep": {"h": [0.001, 0.005]}, "steps": 10}"#, r#""last": {}"#);
+    let steady = steady
+        .replace(r#""set": {"h": 0.004}, "#, "")
+        .replace(r#""setup": "model.opt.gravity[2] = -1.5", "#, "");
     for (name, lab) in [("a.md", lab), ("b.md", steady.as_str())] {
-        std::fs::write(folder.path().join(name), format!("# A fall\n\nIt is at 0.8 m.\n\n```lab\n{lab}\n```\n")).unwrap();
+        std::fs::write(
+            folder.path().join(name),
+            format!("# A fall\n\nIt is at 0.8 m.\n\n```lab\n{lab}\n```\n"),
+        )
+        .unwrap();
     }
     let record = folder.path().join("record.json");
     let (page, _) = page_of(folder.path(), &["a.md", "--record", record.to_str().unwrap()]);

@@ -5,10 +5,12 @@
 
 use super::text::{cut, escape, rest};
 use crate::printable::printable;
-use crate::verify::folded;
+use crate::verify::{folded, plain};
 
 /// How deep a script may stand in another one.
 const DEEP: usize = 3;
+/// What parts the blocks of a text.
+const APART: char = '\u{1}';
 /// Letters in whose place a script stands while the rest is read: they mean nothing.
 const PLACES: std::ops::RangeInclusive<char> = '\u{e000}'..='\u{e0ff}';
 
@@ -63,8 +65,14 @@ const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "exp", "ln", "log", "min", "m
 const RELATIONS: [&str; 12] =
     ["approx", "simeq", "cong", "sim", "to", "rightarrow", "le", "leq", "ge", "geq", "lt", "gt"];
 
-/// A text with its formulas, to stand between tags.
-pub(super) fn text(text: &str) -> String {
+/// What a reader sees of a piece of HTML, with its formulas, to stand between tags.
+pub(super) fn of_html(html: &str) -> String {
+    // Paragraphs follow each other in one line.
+    text(&plain(html).replace(APART, " "))
+}
+
+/// A text with its formulas.
+fn text(text: &str) -> String {
     let shown: Vec<&str> = cut(text).split_whitespace().collect();
     let shown = shown.join(" ");
     if shown.is_empty() {
@@ -120,7 +128,7 @@ fn read(tex: &str, deep: usize) -> Option<String> {
     if deep > DEEP || unseen {
         return None;
     }
-    let mut plain = String::new();
+    let mut letters = String::new();
     let mut scripts = Vec::new();
     let mut left = tex;
     while let Some(c) = left.chars().next() {
@@ -130,7 +138,7 @@ fn read(tex: &str, deep: usize) -> Option<String> {
                 let tag = if c == '^' { "sup" } else { "sub" };
                 let place = PLACES.clone().nth(scripts.len())?;
                 scripts.push(format!("<{tag}>{}</{tag}>", read(inner, deep + 1)?));
-                plain.push(place);
+                letters.push(place);
                 left = after;
             }
             '\\' => {
@@ -138,38 +146,43 @@ fn read(tex: &str, deep: usize) -> Option<String> {
                 let name = left.get(1..1 + length)?;
                 let after = left.get(1 + length..)?;
                 if let Some((_, letter)) = LETTERS.iter().find(|(known, _)| *known == name) {
-                    plain.push(*letter);
-                    left = if letter.is_alphabetic() { after.trim_start_matches(' ') } else { after };
+                    letters.push(*letter);
+                    let next = after.trim_start_matches(' ');
+                    left = if next.starts_with(char::is_alphanumeric) && letter.is_alphabetic() {
+                        next
+                    } else {
+                        after
+                    };
                 } else if FUNCTIONS.contains(&name) {
                     let apart =
                         after.trim_start_matches(' ').starts_with(|c: char| c.is_alphanumeric() || c == '\\');
-                    plain.push_str(name);
-                    plain.push_str(if apart { " " } else { "" });
+                    letters.push_str(name);
+                    letters.push_str(if apart { " " } else { "" });
                     left = after.trim_start_matches(' ');
                 } else {
                     // What stands behind one sign belongs to it: `\,`, `\%`.
                     let sign = after.chars().next().filter(|_| length == 0).map_or(0, char::len_utf8);
-                    plain.push_str(left.get(..1 + length + sign)?);
+                    letters.push_str(left.get(..1 + length + sign)?);
                     // A space behind a relation is shown; behind other names it ends the name.
                     let apart = RELATIONS.contains(&name) && after.starts_with(' ');
-                    plain.push_str(if apart { "{}" } else { "" });
+                    letters.push_str(if apart { "{}" } else { "" });
                     left = after.get(sign..)?;
                 }
             }
             // Columns of a matrix, and remarks.
             '&' | '%' => return None,
             c => {
-                plain.push(c);
+                letters.push(c);
                 left = left.get(c.len_utf8()..)?;
             }
         }
     }
-    let plain = folded(&plain);
-    if plain.contains('\\') || plain.trim().is_empty() {
+    let letters = folded(&letters);
+    if letters.contains('\\') || letters.trim().is_empty() {
         return None;
     }
     let mut out = String::new();
-    for part in plain.trim().split_inclusive(|c| PLACES.contains(&c)) {
+    for part in letters.trim().split_inclusive(|c| PLACES.contains(&c)) {
         let place = part.chars().next_back().filter(|c| PLACES.contains(c));
         let words = part.trim_end_matches(|c| PLACES.contains(&c));
         out.push_str(&escape(words));
@@ -255,6 +268,7 @@ mod tests {
         assert_eq!(text(""), "");
         assert_eq!(shown("$<script>$"), "&lt;script&gt;");
         // What cannot be seen is written out, in formulas, too.
-        assert_eq!(shown("$a\u{202e}b\u{e000}$"), "<code>a\\u{202e}b\\u{e000}</code>");
+        assert_eq!(shown("$a\u{202e}b$"), "<code>a\\u{202e}b</code>");
+        assert_eq!(shown("$a_0\u{e000}$"), "<code>a_0\u{e000}</code>");
     }
 }

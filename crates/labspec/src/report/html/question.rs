@@ -51,7 +51,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
         verdict(*state, word),
         text(name)
     );
-    let _ = writeln!(out, "<p class=\"asked\">{}</p>", formula::text(&verify::plain(&question.q.value)));
+    let _ = writeln!(out, "<p class=\"asked\">{}</p>", formula::of_html(&question.q.value));
     match &question.kind {
         QuestionKind::Choice { options, .. } => {
             // From 0, as conditions and messages count.
@@ -60,8 +60,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
                 let keyed = question.right_option() == Some(i);
                 let (class, key) =
                     if keyed { (" class=\"key\"", " <b class=\"badge\">key</b>") } else { ("", "") };
-                let _ =
-                    write!(out, "<li{class}><p>{}{key}</p>", formula::text(&verify::plain(&option.value)));
+                let _ = write!(out, "<li{class}><p>{}{key}</p>", formula::of_html(&option.value));
                 let written = spec.and_then(|v| v.options.get(i)).map(|t| t.value.as_str());
                 out.push_str(&weighed(written, asked.weight(Some(i))));
                 out.push_str("</li>\n");
@@ -92,7 +91,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
         let _ = writeln!(
             out,
             "<details><summary>Explanation</summary>\n<p class=\"explained\">{}</p></details>",
-            formula::text(&verify::plain(&explain.value))
+            formula::of_html(&explain.value)
         );
     }
     if let Some(claim) = claim {
