@@ -419,7 +419,7 @@ fn runs_have_their_settings_beside_them() {
             s["integrator"].as_str().unwrap(),
             s["solver"].as_str().unwrap(),
             s["iterations"],
-            "1.00000e-8",
+            "1e-8",
             s["cone"].as_str().unwrap()
         );
         assert!(row[3].starts_with(&told), "{} and not {told}", row[3]);

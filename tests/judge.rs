@@ -52,7 +52,8 @@ fn asked(folder: &Path) -> (Value, Value) {
             Some((sweep, at)) => format!("{sweep}.height[{at}"),
             None => format!("{run}.height"),
         };
-        ours[name.as_str()]["value"].clone()
+        // The measure of the only run has no other name.
+        ours.get(name.as_str()).unwrap_or(&ours["height"])["value"].clone()
     };
     let request = read_json(&folder.join("request.json"));
     let run = |r: &Value| {

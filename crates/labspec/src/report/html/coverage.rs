@@ -18,12 +18,12 @@ impl Coverage {
         // Cells of tables are quoted where they stand.
         claimed.extend(c.claims.iter().flat_map(|claim| &claim.judgement.quotes).map(|q| q.span.clone()));
         claimed.extend(answered(&c.lesson));
-        // A bound cannot be quoted.
-        let stated: Vec<Stated> = verify::stated(&c.lesson).into_iter().filter(|s| !s.bound).collect();
-        let all = stated.len();
         let meets = |s: &Stated| claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
-        let unclaimed: Vec<Stated> = stated.into_iter().filter(|s| !meets(s)).collect();
-        Coverage { claimed: all - unclaimed.len(), unclaimed }
+        let (met, others): (Vec<Stated>, Vec<Stated>) =
+            verify::stated(&c.lesson).into_iter().partition(meets);
+        // A bound cannot be quoted alone: nobody has forgotten it.
+        let unclaimed: Vec<Stated> = others.into_iter().filter(|s| !s.bound).collect();
+        Coverage { claimed: met.len(), unclaimed }
     }
 
     /// All of them.

@@ -58,7 +58,8 @@ fn scalar(value: &Scalar) -> String {
 /// Numerics of a run as it begins, in one line.
 pub(super) fn numerics(s: &Settings) -> String {
     let Settings { integrator, solver, cone, iterations, .. } = s;
-    let [timestep, tolerance] = [s.timestep, s.tolerance].map(|x| plain(&significant(x)));
+    let timestep = plain(&significant(s.timestep));
+    let tolerance = plain(&format!("{:e}", s.tolerance));
     let mut all = format!(
         "timestep {timestep} s, {integrator}, solver {solver} (at most {iterations} iterations, tolerance {tolerance}), {cone} cone"
     );
