@@ -19,8 +19,8 @@ use std::sync::OnceLock;
 
 /// Elements that a page may have.
 const ELEMENTS: &str = "a article b bdi body caption circle code dd desc details div dl dt figure footer g h1 h2 h3 h4 head \
-                        header html li line main meta ol p path polyline rect section span style summary svg table tbody td text \
-                        th thead title tr tspan ul";
+                        header html li line main meta ol p path polyline rect section span style sub summary sup svg table tbody td \
+                        text th thead title tr tspan ul";
 /// Attributes that it may have.
 const ATTRIBUTES: &str = "aria-hidden aria-label charset class content cx cy d dy fill font-family font-size font-weight height \
                           href http-equiv id lang name open points r role scope start stroke stroke-dasharray stroke-linecap \
@@ -126,7 +126,10 @@ fn every_question_stands_in_the_page_with_its_verdict() {
                 let article = articles.get(&name).unwrap_or_else(|| panic!("{file}: {name}"));
                 let expected = verdicts.get(name.as_str()).map_or("open", String::as_str);
                 assert!(seen(with_class(*article, "verdict")[0]).ends_with(expected), "{file}: {name}");
-                let normal = |html: &str| plain(html).split_whitespace().collect::<Vec<_>>().join(" ");
+                // Formulas of one letter are that letter.
+                let normal = |html: &str| {
+                    plain(html).replace('$', "").split_whitespace().collect::<Vec<_>>().join(" ")
+                };
                 assert_eq!(seen(with_class(*article, "asked")[0]), normal(&question.q.value));
                 let QuestionKind::Choice { options, .. } = &question.kind else { continue };
                 let shown: Vec<Node<'_, '_>> =
@@ -242,7 +245,8 @@ fn the_page_says_nothing_of_the_machine() {
 }
 
 /// What a lesson may hold that is meant to do something in a browser, a terminal or a reader's eye.
-const HOSTILE: [&str; 7] = [
+const HOSTILE: [&str; 8] = [
+    "$<script>alert(1)</script>_{<b onclick=alert(1)>}\\u202e$ $x^{<img src=x>}$ $\\\\frac{<i>}{2}$",
     "<script>alert(1)</script>",
     "\\\"><img src=x onerror=alert(1)>",
     "</style></title><svg onload=alert(1)>",
@@ -286,6 +290,145 @@ fn text_of_lessons_is_text() {
         let asked: Vec<String> = with_class(tree.root(), "asked").into_iter().map(seen).collect();
         assert_eq!(asked.len(), 3, "{report:#}");
     }
+}
+
+/// The numbers that the page lists as claimed by nothing are those that the rule tells.
+#[test]
+fn numbers_that_nothing_claims_are_those_of_the_rule() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("models")).unwrap();
+    let numbers: Vec<String> = (1..=10).map(|n| format!("{n} m")).collect();
+    let says: Vec<Value> =
+        (1..=10).map(|n| serde_json::json!([format!("{n} m"), format!("0.5 * {}", 2 * n)])).collect();
+    let quiz = serde_json::json!({"id": "long", "questions": [
+        {"kind": "numeric", "q": "How long is it?", "answer": 3, "tol": 0.1, "unit": "m",
+         "verify": {"value": "1.5 * 2", "says": says}}]});
+    let text =
+        format!("# Long\n\nIt is {}, below 20 m, and 11 m.\n\n```quiz\n{quiz}\n```\n", numbers.join(", "));
+    std::fs::write(folder.path().join("a.md"), text).unwrap();
+    let (page, report) = page_of(folder.path(), &["a.md"]);
+    let told: Vec<&str> =
+        report["findings"].as_array().unwrap().iter().filter_map(|f| f["message"].as_str()).collect();
+    assert_eq!(told, ["11 m is claimed nowhere, as nearly all of the other 10 numbers are"]);
+    let tree = parse(&page);
+    let listed: Vec<String> = with_class(tree.root(), "numbers")[0]
+        .descendants()
+        .filter(|n| n.has_tag_name("b"))
+        .map(seen)
+        .collect();
+    assert_eq!(listed, ["11 m"]);
+    // The answer counts as one more.
+    assert_eq!(
+        seen(with_class(tree.root(), "whole")[0]),
+        "Questions 1 of 1 have a check Numbers with units 11 of 12 are claimed"
+    );
+}
+
+/// Formulas of plain letters are read, and others stand as they are written; in questions, options and explanations.
+#[test]
+fn formulas_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("models")).unwrap();
+    let quiz = serde_json::json!({"id": "fall", "questions": [{
+        "kind": "mcq", "q": "It falls $0.442\\,\\mathrm{s}$ at $g$ = $9.81\\,\\mathrm{m/s^2}$. How <b>fast</b> is it?",
+        "options": ["$v = \\sqrt{2gd}$", "$v \\approx v_0 e^{-t/\\tau}$", "for $5 and $6"], "answer": 0,
+        "explain": "<p>$\\tfrac12 m v^2 = m g d$, so it is $4.3 \\times 10^{-3}$ km/s.</p>"}]});
+    std::fs::write(folder.path().join("a.md"), format!("# A fall\n\n```quiz\n{quiz}\n```\n")).unwrap();
+    let (page, _) = page_of(folder.path(), &["a.md"]);
+    harmless(&page);
+    let tree = parse(&page);
+    let one = |class: &str| with_class(tree.root(), class)[0];
+    assert_eq!(seen(one("asked")), "It falls 0.442 s at g = 9.81 m/s2. How fast is it?");
+    let options: Vec<Node<'_, '_>> = one("options").children().filter(Node::is_element).collect();
+    let texts: Vec<String> = options.iter().map(|o| seen(o.first_element_child().unwrap())).collect();
+    assert_eq!(texts, ["v = \\sqrt{2gd} key", "v ≈ v0 e-t/τ", "for $5 and $6"]);
+    assert_eq!(seen(one("explained")), "\\tfrac12 m v^2 = m g d, so it is 4.3×10-3 km/s.");
+    let all = |name: &str| -> Vec<String> {
+        tree.descendants().filter(|n| n.has_tag_name(name)).map(seen).collect()
+    };
+    assert_eq!(all("code"), ["v = \\sqrt{2gd}", "\\tfrac12 m v^2 = m g d"]);
+    assert_eq!(
+        (all("sup"), all("sub")),
+        (["2", "-t/τ", "-3"].map(String::from).into(), vec!["0".to_string()])
+    );
+}
+
+/// Beside each run stands what is done in it, and the settings with which it begins: those of the record.
+#[test]
+fn runs_have_their_settings_beside_them() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("models")).unwrap();
+    let model = "<mujoco><option cone='elliptic'/><worldbody><body name='ball' pos='0 0 1'><freejoint/>\
+        <geom name='ball' size='.1' mass='1'/></body></worldbody><keyframe><key name='high' qpos='0 0 3 1 0 0 0'/></keyframe></mujoco>";
+    std::fs::write(folder.path().join("models/ball.xml"), model).unwrap();
+    let lab = r#"{"model": "ball", "stopAt": 0.2,
+      "controls": [{"label": "h", "set": "model.opt.timestep", "min": 0.001, "max": 0.01, "step": 0.001, "value": 0.002},
+                   {"type": "button", "label": "Kick", "run": "data.qvel[2] = 1"}],
+      "controller": "data.qfrc_applied[0] = 0",
+      "verify": {"runs": {"plain": {}, "all": {"model": {"body ball pos": [0, 0, 2]}, "key": "high", "set": {"h": 0.004}, "press": [["Kick", 0.1]],
+          "setup": "model.opt.gravity[2] = -1.5", "controller": "", "until": 0.5, "stop": "data.qpos[2] < 0.1"},
+          "many": {"sweep": {"h": [0.001, 0.005]}, "steps": 10}},
+        "measure": {"z": "final(data.qpos[2])"}, "says": [["0.8 m", "plain.z"]]}}"#;
+    let steady = lab.replace(r#""many": {"sweep": {"h": [0.001, 0.005]}, "steps": 10}"#, r#""last": {}"#);
+    let steady = steady
+        .replace(r#""set": {"h": 0.004}, "#, "")
+        .replace(r#""setup": "model.opt.gravity[2] = -1.5", "#, "");
+    for (name, lab) in [("a.md", lab), ("b.md", steady.as_str())] {
+        std::fs::write(
+            folder.path().join(name),
+            format!("# A fall\n\nIt is at 0.8 m.\n\n```lab\n{lab}\n```\n"),
+        )
+        .unwrap();
+    }
+    let record = folder.path().join("record.json");
+    let (page, _) = page_of(folder.path(), &["a.md", "--record", record.to_str().unwrap()]);
+    harmless(&page);
+    let rows = |page: &str| -> (String, Vec<Vec<String>>) {
+        let tree = parse(page);
+        let of = |t: &Node<'_, '_>| t.descendants().find(|n| n.has_tag_name("caption")).map(seen);
+        let runs = tree.descendants().filter(|n| n.has_tag_name("table"));
+        let table = runs.into_iter().find(|t| of(t).is_some_and(|c| c.starts_with("Runs"))).unwrap();
+        let lines = table.descendants().filter(|n| n.has_tag_name("tr")).skip(1);
+        let cells = lines.map(|row| row.children().filter(Node::is_element).map(seen).collect());
+        (of(&table).unwrap(), cells.collect())
+    };
+    let (caption, all) = rows(&page);
+    assert_eq!(caption, "Runs");
+    let done: Vec<[&str; 2]> = all.iter().map(|row| [row[0].as_str(), row[2].as_str()]).collect();
+    assert_eq!(
+        done,
+        [
+            ["plain", "as the lab stands"],
+            [
+                "all",
+                "body ball pos = 0 0 2; keyframe \"high\"; h = 0.004; setup model.opt.gravity[2] = -1.5; no controller; Kick pressed at 0.1 s; until 0.5 s; stops at data.qpos[2] < 0.1"
+            ],
+            ["many[0]", "h = 0.001; 10 steps"],
+            ["many[1]", "h = 0.005; 10 steps"],
+        ]
+    );
+    // The record says the same of each.
+    let record: Value = serde_json::from_str(&std::fs::read_to_string(record).unwrap()).unwrap();
+    let recorded = record["lessons"][0]["claims"][0]["runs"].as_array().unwrap();
+    assert_eq!(recorded.len(), all.len());
+    for (row, run) in all.iter().zip(recorded) {
+        let s = &run["settings"];
+        let told = format!(
+            "timestep {} s, {}, solver {} (at most {} iterations, tolerance {}), {} cone",
+            s["timestep"],
+            s["integrator"].as_str().unwrap(),
+            s["solver"].as_str().unwrap(),
+            s["iterations"],
+            "1e-8",
+            s["cone"].as_str().unwrap()
+        );
+        assert!(row[3].starts_with(&told), "{} and not {told}", row[3]);
+        assert_eq!(row[3].ends_with(", gravity 0 0 -1.5"), row[0] == "all", "{}", row[3]);
+    }
+    // What all runs have is said once.
+    let (caption, all) = rows(&page_of(folder.path(), &["b.md"]).0);
+    assert!(caption.starts_with("Runs all with timestep 0.002 s, Euler, solver Newton"), "{caption}");
+    assert!(all.iter().all(|row| row.len() == 3), "{all:?}");
 }
 
 /// A page is never written over a lesson.

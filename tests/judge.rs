@@ -45,18 +45,20 @@ fn asked(folder: &Path) -> (Value, Value) {
     let done = run_in(folder, &["verify", "fall.md", "--judge-request", "request.json", "--format", "json"]);
     assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{}", done.stdout);
     let report: Value = serde_json::from_str(&done.stdout).unwrap();
-    let ours = &report["lessons"][0]["claims"][0]["measures"];
-    let value = |run: &str| {
+    let value = |claim: &Value, run: &str| {
+        let claims = report["lessons"][0]["claims"].as_array().unwrap();
+        let ours = &claims.iter().find(|c| c["name"] == *claim).unwrap()["measures"];
         let name = match run.split_once('[') {
             Some((sweep, at)) => format!("{sweep}.height[{at}"),
             None => format!("{run}.height"),
         };
-        ours[name.as_str()]["value"].clone()
+        // The measure of the only run has no other name.
+        ours.get(name.as_str()).unwrap_or(&ours["height"])["value"].clone()
     };
     let request = read_json(&folder.join("request.json"));
     let run = |r: &Value| {
         json!({"file": r["file"], "claim": r["claim"], "run": r["run"], "hash": r["hash"],
-            "values": {"height": value(r["run"].as_str().unwrap()), "never": "NaN"}})
+            "values": {"height": value(&r["claim"], r["run"].as_str().unwrap()), "never": "NaN"}})
     };
     let runs: Vec<Value> = request["runs"].as_array().unwrap().iter().map(run).collect();
     (request, json!({"recording": "judge", "version": 1, "engine": "MuJoCo 3.14.0", "runs": runs}))
@@ -84,6 +86,11 @@ fn every_measure_of_our_course_is_what_mujoco_gives() {
     assert_eq!(judge["engine"], "MuJoCo 3.14.0");
     assert_eq!((&judge["differing"], &judge["unjudged"]), (&json!([]), &json!([])));
     assert_eq!((&judge["compared"], &judge["turned"]), (&json!(count), &json!(0)));
+    // Closed forms are ours alone, and the report counts them.
+    let forms = report["ledger"].as_array().unwrap().iter();
+    let forms = forms.filter(|claim| claim["subject"] == "closedForm").count();
+    assert!(forms > 0);
+    assert_eq!(judge["notJudged"], json!({"searches": 0, "ranges": 0, "closedForms": forms}));
     assert!(judge["verdicts"].as_u64() >= Some(373), "{}", judge["verdicts"]);
     assert_eq!(done.code, 0);
 }
@@ -114,6 +121,32 @@ fn a_judge_that_agrees_changes_nothing() {
     assert_eq!((&report["judge"]["compared"], &report["judge"]["turned"]), (&json!(8), &json!(0)));
     assert!(
         told.contains("judge.json: agrees with MuJoCo 3.14.0: 8 of 8 measures, all 2 verdicts\n"),
+        "{told}"
+    );
+}
+
+/// What rests on other runs than those that a judge makes is counted, and "all" is then said of the rest alone.
+#[test]
+fn what_is_not_judged_is_counted() {
+    let folder = folder();
+    let own = json!({"runs": {"plain": {}}, "measure": {"height": "final(data.qpos[2])"},
+        "find": {"limit": {"largest": "gravity", "from": 5, "to": 15, "run": "plain", "while": "height > 0.5", "tol": 0.01}},
+        "says": [["11.03 m/s^2", "limit"]],
+        "exact": {"height": "1 - 0.5 * 10 * data.time * data.time"}});
+    let text = lesson()
+        .replace("at 0.55 m.", "at 0.55 m. Above 0.5 m it is up to 11.03 m/s^2.")
+        .replace("\"says\":", "\"over\":{\"gravity\":[9,10]},\"says\":")
+        .replace("\"stopAt\":", &format!("\"verify\":{own},\"stopAt\":"));
+    std::fs::write(folder.path().join("fall.md"), text).unwrap();
+    let (request, recording) = asked(folder.path());
+    assert_eq!(request["runs"].as_array().unwrap().len(), 5);
+    let (code, report, told) = judged(folder.path(), &recording);
+    assert_eq!((code, &report["judge"]["unjudged"]), (0, &json!([])), "{told}");
+    assert_eq!(report["judge"]["notJudged"], json!({"searches": 1, "ranges": 1, "closedForms": 1}));
+    assert!(
+        told.contains(
+            "9 of 9 measures, all 3 judged verdicts; not judged: 1 search, 1 range, 1 closed form\n"
+        ),
         "{told}"
     );
 }

@@ -150,12 +150,7 @@ fn numbers_of_a_real_lesson_are_traced() {
             missed.push((line, quote, here.map(|(.., from)| from.as_str()).collect::<Vec<_>>()));
         }
     }
-    // Asked are 90 of 100.
-    assert!(missed.len() * 10 <= LESSON.len(), "{missed:#?}");
-    assert!(
-        missed.iter().all(|(.., from)| from.iter().all(|f| *f == "chance" || *f == "unknown")),
-        "{missed:#?}"
-    );
+    assert!(missed.is_empty(), "{missed:#?}");
     // What is told beside these is right, too.
     for (line, quote, from) in &all {
         let set = ["set: ", "chance", "unknown"].iter().any(|w| from.starts_with(w));
@@ -183,6 +178,68 @@ fn explanations_of_a_real_quiz_are_traced() {
     ] {
         let found = all.iter().find(|(_, q, _)| q == quote).map_or("", |(.., from)| from.as_str());
         assert!(found.contains(run) && found.contains(measure), "{quote} is {found}");
+    }
+}
+
+/// The question's own gripper holds a cube of 1.2 kg; its explanation speaks of the one that the course has shown before, which is that
+/// of the model's file, and of the lab.
+#[test]
+fn what_a_setup_changes_is_put_back() {
+    let found = |case: &Case, quote: &str| {
+        traced(case).into_iter().find(|(_, q, _)| q == quote).map_or(String::new(), |(.., from)| from)
+    };
+    let Some(quiz) = Case::open("corpus/quizzes/5.3_01.json") else { return };
+    assert_eq!(
+        found(&quiz, "15.44 N"),
+        "#5.3-check.5 after \"Grasp and lift\" is pressed, with the model as its file has it: -final(data.actuator_force[3])"
+    );
+    // Its other numbers are those of the lab as it stands.
+    for (quote, measure) in [
+        ("30 N", "as it stands: max(data.actuator_force[3])"),
+        ("1.2 kg", "as it stands: model.body('cube').mass[0]"),
+    ] {
+        let from = found(&quiz, quote);
+        assert!(from.ends_with(measure), "{quote} is {from}");
+    }
+
+    // Beside the lab of the course it is a readout of that.
+    let lab = Case::open("corpus/labs/5.3_01_simlab.json").unwrap();
+    let text = format!("# A grasp\n\n```lab simlab\n{}\n```\n\n```quiz\n{}\n```\n", lab.text, quiz.text);
+    let both = Case { name: "5.3.md".into(), text, ..quiz };
+    assert_eq!(
+        found(&both, "15.44 N"),
+        "#1 after \"Grasp and lift\" is pressed: final(-data.actuator_force[3])"
+    );
+}
+
+/// A setting that the sentence names is that of its number.
+#[test]
+fn a_sentence_that_names_a_setting_speaks_of_it() {
+    let Some(case) = Case::open("lesson-0.1/lesson-0.1.md") else { return };
+    let all = traced(&case);
+    let (.., from) = all.iter().find(|(line, quote, _)| (*line, quote.as_str()) == (88, "29 mm")).unwrap();
+    assert_eq!(from, "#1 as it stands: 1000 * model.geom('heavy_geom').size[0] - min(data.qpos[2])");
+}
+
+/// The answer of a numeric question is claimed by its `value`, and by nothing else.
+#[test]
+fn an_answer_that_is_computed_is_claimed() {
+    let folder = workspace().join("specs/models");
+    let models = ModelFolder::open(&folder).unwrap();
+    let quiz = |verify: &str| {
+        format!(
+            r#"{{"id": "fall", "questions": [{{"kind": "numeric", "q": "How fast is it after 0.3 s?", "answer": 2.943, "tol": 0.01, "unit": "m/s"{verify}}}]}}"#
+        )
+    };
+    for (verify, origin) in [
+        (r#", "verify": {"value": "9.81 * 0.3"}"#, "claimed"),
+        (r#", "verify": {"says": [["0.3 s", "0.1 * 3"]]}"#, "unknown"),
+        ("", "unknown"),
+    ] {
+        let case = Case { name: "a.json".into(), text: quiz(verify), models: models.clone() };
+        let all = traced(&case);
+        let answer: Vec<&str> = all.iter().filter(|n| n.1 == "2.943").map(|n| n.2.as_str()).collect();
+        assert_eq!(answer, [origin], "{verify}");
     }
 }
 
@@ -219,8 +276,17 @@ fn what_is_claimed_is_told_as_claimed() {
     };
     let all = traced(&case);
     let claimed = all.iter().filter(|(.., from)| from == "claimed").count();
-    assert!(claimed > 5 && claimed < all.len(), "{claimed} of {}", all.len());
+    assert!(claimed > 5, "{claimed} of {}", all.len());
     for (line, quote, from) in all.iter().filter(|(_, quote, _)| quoted(quote)) {
         assert_eq!(from, "claimed", "line {line}: {quote}");
     }
+    // Where it quotes nothing, its answers alone are claimed.
+    let silent = Case { text: case.text.replace("\"says\": [", "\"says\": [], \"was\": ["), ..case };
+    let all = traced(&silent);
+    let claimed: Vec<&str> = all.iter().filter(|n| n.2 == "claimed").map(|n| n.1.as_str()).collect();
+    let lesson = silent.lesson(&silent.text);
+    let answers = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered()).filter(|(_, question)| {
+        question.numeric().is_some() && question.verify.as_ref().is_some_and(|v| v.value.is_some())
+    });
+    assert!(claimed.len() == answers.count() && claimed.len() < all.len(), "{claimed:?}");
 }

@@ -57,6 +57,14 @@ impl<'a> Owner<'a> {
         };
         Some((lesson.whole(verify), own, question))
     }
+
+    /// The bytes that it is about, where that is not all of the lesson.
+    pub(super) fn block(&self) -> Option<&'a Range<usize>> {
+        match self {
+            Owner::Remark(remark) => Some(&remark.over),
+            _ => None,
+        }
+    }
 }
 
 /// Everybody who claims something, by name: labs, then questions, then comments.
@@ -280,7 +288,7 @@ impl Court<'_> {
     fn judge_remark(&mut self, name: String, remark: &Remark, findings: &mut Vec<Finding>) {
         let shown = self.shown.within(&remark.over, &remark.verify);
         let judgement = self.judge(&remark.verify, None, None, &shown, findings);
-        self.list.push(Claim { name, span: remark.span.clone(), judgement });
+        self.list.push(Claim { name, span: remark.verify.span.clone(), judgement });
     }
 
     fn judge(

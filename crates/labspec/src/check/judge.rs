@@ -5,7 +5,7 @@ use crate::bind::parts::Mark;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Taken, Witness};
+use crate::verify::judge::{self, Judged, Left, Taken, Witness};
 use crate::verify::{ShownText, Stage};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -41,6 +41,8 @@ pub struct Hearing {
     pub requests: Vec<Request>,
     /// What it makes of every claim, by the name of its owner.
     pub claims: Vec<(String, Judged)>,
+    /// Claims that no judge is asked about, of all owners.
+    pub left: Left,
     /// Runs that are recorded of another text.
     pub stale: usize,
     /// Runs of which nothing is recorded.
@@ -61,6 +63,9 @@ pub fn hear(
     let mut hearing = Hearing::default();
     for (name, owner) in claims::owners(lesson) {
         let Some((verify, own, question)) = owner.claim(lesson) else { continue };
+        let narrow = owner.block().map(|block| shown.within(block, verify));
+        let shown = narrow.as_ref().unwrap_or(&shown);
+        hearing.left = hearing.left.and(Left::of(verify));
         let Some(bound) = claims::bound(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), Value::to_string);
@@ -71,7 +76,7 @@ pub fn hear(
         if let Some(recording) = recording {
             let runs = requests.iter().map(|r| taken(lesson, recording, r, &mut hearing)).collect();
             let witness = Witness { engine: &recording.engine, runs };
-            let judged = judge::judge(&bound, verify, question, &shown, &witness, findings);
+            let judged = judge::judge(&bound, verify, question, shown, &witness, findings);
             hearing.claims.extend(judged.map(|judged| (name.clone(), judged)));
         }
         hearing.requests.extend(requests);

@@ -176,7 +176,7 @@ fn work(
     let plan = Plan {
         judge: Judge { ask: a.judge_request.is_some(), recording: recording.as_ref() },
         paths: &a.paths,
-        basis: records.write.is_some() || before.is_some(),
+        basis: records.write.is_some() || before.is_some() || records.html.is_some(),
         curves: records.html.is_some(),
         stdin: stdin.as_ref(),
         policy: &a.policy,
@@ -244,6 +244,7 @@ fn report(
         let material = Material {
             lessons: &course.checked,
             curves: &course.curves,
+            bases: &course.bases,
             findings: &course.findings,
             allowed: &course.aside.allowed,
             ledger: &course.ledger,

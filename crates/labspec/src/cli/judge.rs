@@ -9,7 +9,7 @@ use crate::check::{Hearing, Recording, file_name};
 use crate::printable::printable_lines;
 use crate::report::{printable_path, set_number};
 use crate::source::read_text;
-use crate::verify::judge::{Judged, Taken, shown_as};
+use crate::verify::judge::{Judged, Left, Taken, shown_as};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -113,6 +113,8 @@ fn taken(run: &Value) -> Result<Taken, String> {
 struct Sum<'c> {
     /// File, owner, and what became of it.
     claims: Vec<(String, &'c str, &'c Judged)>,
+    /// What no judge is asked about.
+    left: Left,
     stale: usize,
     missing: usize,
 }
@@ -126,6 +128,7 @@ impl<'c> Sum<'c> {
         };
         Sum {
             claims: all().flat_map(of).collect(),
+            left: course.hearings.iter().fold(Left::default(), |sum, h| sum.and(h.left)),
             stale: course.hearings.iter().map(|h| h.stale).sum(),
             missing: course.hearings.iter().map(|h| h.missing).sum(),
         }
@@ -155,16 +158,22 @@ pub(super) fn told(file: &Path, engine: &str, course: &Course) -> String {
     } else {
         "differs from"
     };
+    // Where something is left out, "all" is said of what was judged.
+    let (left, judged) = match sum.left.told() {
+        Some(left) => (format!("; not judged: {left}"), "judged "),
+        None => (String::new(), ""),
+    };
     let claimed = match (claims, turned) {
         (0, _) => "no verdict".to_string(),
-        (1, 0) => "the one verdict".to_string(),
-        (n, 0) => format!("all {n} verdicts"),
-        (n, _) => format!("{} of {n} verdicts", n - turned),
+        (1, 0) => format!("the one {judged}verdict"),
+        (n, 0) => format!("all {n} {judged}verdicts"),
+        (n, _) => format!("{} of {n} {judged}verdicts", n - turned),
     };
     let _ = write!(text, "{}: {verb} {engine}", printable_path(file));
     if compared > 0 {
         let _ = write!(text, ": {} of {compared} measures, {claimed}", compared - differing);
     }
+    text.push_str(&left);
     text.push('\n');
     for (file, owner, judged) in &sum.claims {
         for (name, ours, theirs) in &judged.differing {
@@ -209,7 +218,9 @@ pub(super) fn machine(engine: &str, course: &Course) -> Value {
     });
     json!({
         "engine": engine, "compared": sum.count(|j| j.compared), "verdicts": sum.count(|j| j.claims),
-        "turned": sum.count(|j| j.turned), "staleRuns": sum.stale, "missingRuns": sum.missing,
+        "turned": sum.count(|j| j.turned),
+        "notJudged": {"searches": sum.left.searches, "ranges": sum.left.ranges, "closedForms": sum.left.forms},
+        "staleRuns": sum.stale, "missingRuns": sum.missing,
         "differing": differing.collect::<Vec<_>>(), "unjudged": unjudged.collect::<Vec<_>>(),
     })
 }

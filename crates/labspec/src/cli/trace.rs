@@ -70,21 +70,19 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                 let value = significant(hit.value);
                 let chance =
                     if hit.chance > 0.0 { format!(", chance {}", share(hit.chance)) } else { String::new() };
-                let measure = printable(&hit.measure).into_owned();
                 let _ = writeln!(
                     text,
-                    " = {}{measure} = {value}  ({}{chance})",
-                    hit.factor,
+                    " = {} = {value}  ({}{chance})",
+                    printable(&hit.told()),
                     printable(&place(found, hit))
                 );
                 0
             }
             Origin::Unsteady(hit) => {
-                let measure = printable(&hit.measure).into_owned();
                 let _ = writeln!(
                     text,
-                    " is not reproducible: {}{measure} = {}  ({}), and other digits where the start is moved by 1e-14",
-                    hit.factor,
+                    " is not reproducible: {} = {}  ({}), and other digits where the start is moved by 1e-14",
+                    printable(&hit.told()),
                     significant(hit.value),
                     printable(&place(found, hit))
                 );
@@ -95,13 +93,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                 1
             }
             Origin::Chance(hit) => {
-                let _ = writeln!(
-                    text,
-                    " may be chance ({}): {}{}",
-                    share(hit.chance),
-                    hit.factor,
-                    printable(&hit.measure)
-                );
+                let _ = writeln!(text, " may be chance ({}): {}", share(hit.chance), printable(&hit.told()));
                 2
             }
             Origin::Claimed => {

@@ -11,7 +11,7 @@ use crate::spec::Lab;
 use crate::verify::Stated;
 use labspec_bind::element_owner;
 use labspec_core::{Demand, Model};
-use labspec_core::{geom, joint};
+use labspec_core::{geom, joint, trntype};
 use labspec_expr::Compiler;
 use labspec_expr::dimension::{Dimension, Measure};
 use std::collections::BTreeSet;
@@ -41,6 +41,9 @@ const JOINTS: usize = 6;
 const CONSTANTS: usize = 12;
 /// Steps of the run in which contacts are looked for, at most.
 const STEPS: usize = 20_000;
+
+/// The first part of a tendon is a joint.
+const WRAPS_JOINT: i32 = 1;
 
 /// Words of a moment in which two geoms meet.
 const MEETING: &str = "contact touch touches touchdown impact lands landing hits first";
@@ -203,13 +206,35 @@ fn forces(m: &Model) -> Vec<Shown> {
     }
     let actuators = m.names.actuator.iter().enumerate().filter(|(_, name)| simple(name));
     for (a, name) in actuators.take(JOINTS) {
-        let of_joint = usize::try_from(m.actuator_trnid.get(2 * a).copied().unwrap_or(-1));
-        let Some(kind) = of_joint.ok().and_then(|j| m.jnt_type.get(j)) else { continue };
-        let dimension = if *kind == joint::HINGE { torque } else { newton };
+        let Some(rotates) = rotates(m, a) else { continue };
+        let dimension = if rotates { torque } else { newton };
         let words = format!("{name} force torque servo motor limit");
         all.push(Shown { text: format!("data.actuator_force[{a}]"), dimension, words, more: 1.2 });
     }
     all
+}
+
+/// Whether an actuator turns a hinge, so that its force is a torque; `None` where that is nothing simple.
+fn rotates(m: &Model, actuator: usize) -> Option<bool> {
+    let index = |list: &[i32], i: usize| list.get(i).and_then(|x| usize::try_from(*x).ok());
+    let moved = index(&m.actuator_trnid, 2 * actuator)?;
+    let kind = match *m.actuator_trntype.get(actuator)? {
+        trntype::JOINT | trntype::JOINTINPARENT => *m.jnt_type.get(moved)?,
+        // A tendon is a sum of joints, or a way along sites: a force then.
+        trntype::TENDON => {
+            let first = index(&m.tendon_adr, moved)?;
+            if m.wrap_type.get(first) != Some(&WRAPS_JOINT) {
+                return Some(false);
+            }
+            *m.jnt_type.get(index(&m.wrap_objid, first)?)?
+        }
+        _ => return None,
+    };
+    match kind {
+        joint::HINGE => Some(true),
+        joint::SLIDE => Some(false),
+        _ => None,
+    }
 }
 
 /// A name that needs no care in a text.

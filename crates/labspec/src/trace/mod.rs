@@ -3,7 +3,9 @@
 //! | stage | module |
 //! |---|---|
 //! | the numbers that a reader sees | `verify::stated` |
+//! | what the lesson claims already | `verify::claimed`, `answered` |
 //! | runs that the text names: settings of controls, presses, timesteps | `trials` |
+//! | the same with what the lab's setup changed of the model put back | `restored` |
 //! | what could be measured in each: readouts, traces, contacts, constants of the model | `candidates` |
 //! | formulas that stand before the number itself | `formula` |
 //! | which of all that is simplest, and whether chance explains it | `rank` |
@@ -12,12 +14,15 @@
 //! A number is traced when a simple measure of a run that the text speaks of has the digits that are printed, and when so few
 //! things were tried before it that chance does not explain it.
 
+mod answered;
 mod candidates;
 mod formula;
 mod propose;
 mod rank;
+mod restored;
 mod trials;
 
+pub(crate) use answered::answered;
 pub(crate) use candidates::Candidate;
 pub(crate) use propose::Block;
 pub use propose::{blocks, laid_out};
@@ -77,7 +82,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         let Some((model, programs, _)) = check::bind(lab, models, &mut Vec::new()) else { continue };
         let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
         let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
-        let trials = trials(lab, &numbers);
+        let trials = restored::with(trials(lab, &numbers), lab, &model, &programs);
         let candidates = candidates::candidates(lab, &model, &programs, &numbers);
         let made =
             |t: &Trial, numerics| trials::values(t, lab, &model, &programs, &candidates, &stage, numerics);
@@ -85,7 +90,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         labs.push(Tried { address, lab, owner, model, programs, trials, candidates, values });
     }
     let bindings = formula::bindings(&numbers);
-    let claimed = claimed(lesson);
+    let claimed: Vec<Range<usize>> = claimed(lesson).into_iter().chain(answered(lesson)).collect();
     let found = |s: &Stated| match interrupt::requested() {
         _ if claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end) => Origin::Claimed,
         true => Origin::Unknown,

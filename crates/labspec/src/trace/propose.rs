@@ -185,8 +185,8 @@ fn written(trial: &Trial) -> Value {
     if !trial.press.is_empty() {
         run.insert("press".into(), trial.press.iter().map(|label| json!([label, 0])).collect());
     }
-    if let Some(h) = trial.timestep {
-        run.insert("setup".into(), json!(format!("model.opt.timestep = {h}")));
+    if let Some(statements) = trial.setup() {
+        run.insert("setup".into(), json!(statements));
     }
     if let Some(until) = trial.until {
         run.insert("until".into(), json!(until));

@@ -38,6 +38,20 @@ pub struct Hit {
     pub chance: f64,
 }
 
+impl Hit {
+    /// What gives the number of the text: `1000 * (a - b)`.
+    pub fn told(&self) -> String {
+        let Hit { factor, measure, .. } = self;
+        let mut deep = 0;
+        let sum = measure.char_indices().any(|(i, c)| {
+            deep += i32::from(c == '(') - i32::from(c == ')');
+            deep == 0
+                && measure.get(i..).is_some_and(|rest| rest.starts_with(" - ") || rest.starts_with(" + "))
+        });
+        if sum && !factor.is_empty() { format!("{factor}({measure})") } else { format!("{factor}{measure}") }
+    }
+}
+
 /// What is less likely than this is no chance.
 const CHANCE: f64 = 0.05;
 /// Numbers of one kind lie anywhere in three decades.
@@ -47,6 +61,8 @@ const OTHER_SIDE: f64 = 0.3;
 /// What a run costs whose setting the text does not name beside the number, and what one that it names does.
 const FAR: f64 = 1.5;
 const IN_PARAGRAPH: f64 = 0.7;
+/// What a run costs in which the lab's setup is partly undone.
+const RESTORED: f64 = 1.0;
 /// A time that is named within so many bytes.
 const NEAR: usize = 2500;
 const NEARBY: f64 = 0.4;
@@ -84,7 +100,7 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[Tried<'_>], binding
     for (l, tried_lab) in labs.iter().enumerate() {
         let far = nearest.get(l).copied().unwrap_or(0.0);
         for (t, (trial, values)) in tried_lab.trials.iter().zip(&tried_lab.values).enumerate() {
-            let run = around.cost(trial);
+            let run = around.cost(trial, &tried_lab.trials);
             let own = trial.named.is_some_and(|(x, _)| close(x, truth));
             for (c, &value) in tried_lab.candidates.iter().zip(values) {
                 if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
@@ -161,9 +177,15 @@ pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
         let again = known.iter().find(|(i, o)| {
             matches!(o, Origin::From(_)) && numbers.get(*i).is_some_and(|n| n.quote == s.quote)
         });
+        // What explains it there explains it here best, too: fewer digits are enough.
+        let same = |from: &Origin| match (from, &*origin) {
+            (Origin::From(a), Origin::Chance(b)) => (a.place, &a.measure) == (b.place, &b.measure),
+            _ => false,
+        };
+        let again = again.filter(|(_, from)| digits >= KNOWN || same(from));
         let marked = format!("at(data.time >= {} - ", si(s));
         let read_then = |o: &Origin| matches!(o, Origin::From(hit) if hit.measure.contains(&marked));
-        if let Some((_, from)) = again.filter(|_| digits >= KNOWN) {
+        if let Some((_, from)) = again {
             *origin = from.clone();
         } else if s.unit.ends_with('s') && known.iter().any(|(_, o)| read_then(o)) {
             *origin = Origin::Setting("the time at which other numbers are read".into());
@@ -264,11 +286,22 @@ impl<'n> Around<'n> {
     }
 
     /// How far-fetched a run is here.
-    fn cost(&self, trial: &Trial) -> f64 {
+    fn cost(&self, trial: &Trial, all: &[Trial]) -> f64 {
+        let restored = if trial.restored.is_some() { RESTORED } else { 0.0 };
+        restored + self.cost_of_setting(trial, all)
+    }
+
+    fn cost_of_setting(&self, trial: &Trial, all: &[Trial]) -> f64 {
         if let Some((x, unit)) = trial.named {
             let is = |n: &&&Stated| n.dimension.agrees(&unit) && close(si(n), x);
+            // "29 mm at h = 2 ms" is no number of a run at 10 ms.
+            let others = || all.iter().filter(|t| t.sets_what(trial)).filter_map(|t| Some(t.named?.0));
+            let another = |n: &&Stated| {
+                n.dimension.agrees(&unit) && others().chain(trial.own).any(|other| close(si(n), other))
+            };
             return match () {
                 () if self.beside.iter().any(|n| is(&n)) => 0.0,
+                () if self.beside.iter().any(another) => 2.0 * FAR,
                 () if self.paragraph.iter().any(|n| is(&n)) => IN_PARAGRAPH,
                 () if self.near.iter().any(|n| is(&n)) => FAR,
                 () => 2.0 * FAR,

@@ -25,17 +25,21 @@ pub(crate) struct Trial {
     pub(crate) press: Vec<String>,
     /// The timestep, where no control sets it, s.
     pub(crate) timestep: Option<f64>,
+    /// Statements that put back what the lab's setup has changed of the model.
+    pub(crate) restored: Option<String>,
     /// Its length, s, where it is not the lab's own.
     pub(crate) until: Option<f64>,
     /// What is set, in SI units, to be found in the text.
     pub(crate) named: Option<(f64, Dimension)>,
+    /// What the lab has there itself, in SI units.
+    pub(crate) own: Option<f64>,
     /// The words of an option or a button, to be found in the text.
     pub(crate) label: String,
 }
 
 /// Most values of one control, and most runs of one lab.
 const VALUES: usize = 8;
-const MOST: usize = 40;
+pub(super) const MOST: usize = 40;
 /// The longest timestep that anybody means, s.
 pub(super) const LONGEST: f64 = 0.05;
 /// The length of a run is that of the longest plot, up to this, s.
@@ -50,8 +54,10 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
         set: Vec::new(),
         press: Vec::new(),
         timestep: None,
+        restored: None,
         until: (lab.stop_at.is_none() && length > RUN_LENGTH).then_some(length),
         named: None,
+        own: None,
         label: String::new(),
     };
     let mut all = vec![base.clone()];
@@ -95,6 +101,7 @@ fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec
                         words: format!("with \"{label}\" at {x}"),
                         set: vec![(label.to_string(), scalar)],
                         named: Some((x / unit.factor, unit.times(1.0 / unit.factor))),
+                        own: Some(start.value / unit.factor),
                         ..base.clone()
                     });
                 }
@@ -136,6 +143,19 @@ fn round(x: f64) -> f64 {
 }
 
 impl Trial {
+    /// Whether both give a value to the same thing.
+    pub(super) fn sets_what(&self, other: &Trial) -> bool {
+        let labels = |t: &Trial| t.set.iter().map(|(label, _)| label.clone()).collect::<Vec<_>>();
+        self.timestep.is_some() == other.timestep.is_some() && labels(self) == labels(other)
+    }
+
+    /// The statements after those of the lab.
+    pub(super) fn setup(&self) -> Option<String> {
+        let timestep = self.timestep.map(|h| format!("model.opt.timestep = {h}"));
+        let all: Vec<String> = self.restored.iter().cloned().chain(timestep).collect();
+        (!all.is_empty()).then(|| all.join("; "))
+    }
+
     /// The run as a `verify` object has it.
     pub(super) fn run(&self, name: &str) -> Run {
         let number = |value: f64| Number { value, span: 0..0 };
@@ -147,7 +167,7 @@ impl Trial {
             controller: None,
             set: self.set.iter().map(|(label, value)| (text(label), value.clone())).collect(),
             press: self.press.iter().map(|label| (text(label), number(0.0))).collect(),
-            setup: self.timestep.map(|h| text(&format!("model.opt.timestep = {h}"))),
+            setup: self.setup().map(|statements| text(&statements)),
             until: self.until.map(number),
             steps: None,
             stop: None,

@@ -38,6 +38,7 @@ pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
 pub use curves::Curves;
 pub use exact::ClosedForm;
+pub(crate) use quote::folded;
 pub use quote::{
     Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, plain, quoted,
     stated,
@@ -296,7 +297,7 @@ pub(crate) fn significant(x: f64) -> String {
     if !(-4..=6).contains(&exponent) {
         return format!("{x:.5e}");
     }
-    let text = format!("{x:.*}", (5 - exponent).max(0) as usize);
+    let text = labspec_expr::to_fixed(x, (5 - exponent).max(0) as usize);
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_string() } else { text }
 }
 

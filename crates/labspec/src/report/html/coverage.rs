@@ -1,9 +1,8 @@
 //! How much of what a lesson says is claimed: its numbers with units, and its questions.
 
 use crate::check::Checked;
-use crate::spec::{Lesson, Quiz};
+use crate::trace::answered;
 use crate::verify::{self, Stated};
-use std::ops::Range;
 
 /// The numbers with units of a lesson.
 pub(super) struct Coverage {
@@ -18,25 +17,17 @@ impl Coverage {
         let mut claimed = verify::claimed(&c.lesson);
         // Cells of tables are quoted where they stand.
         claimed.extend(c.claims.iter().flat_map(|claim| &claim.judgement.quotes).map(|q| q.span.clone()));
-        claimed.extend(answers(&c.lesson));
-        let stated = verify::stated(&c.lesson);
-        let all = stated.len();
+        claimed.extend(answered(&c.lesson));
         let meets = |s: &Stated| claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
-        let unclaimed: Vec<Stated> = stated.into_iter().filter(|s| !meets(s)).collect();
-        Coverage { claimed: all - unclaimed.len(), unclaimed }
+        let (met, others): (Vec<Stated>, Vec<Stated>) =
+            verify::stated(&c.lesson).into_iter().partition(meets);
+        // A bound cannot be quoted alone: nobody has forgotten it.
+        let unclaimed: Vec<Stated> = others.into_iter().filter(|s| !s.bound).collect();
+        Coverage { claimed: met.len(), unclaimed }
     }
 
     /// All of them.
     pub(super) fn all(&self) -> usize {
         self.claimed + self.unclaimed.len()
     }
-}
-
-/// The answers of questions whose `verify` object says how to check them.
-fn answers(lesson: &Lesson) -> impl Iterator<Item = Range<usize>> {
-    let questions = lesson.quizzes.iter().flat_map(Quiz::numbered).map(|(_, q)| q);
-    questions.filter(|q| q.verify.as_ref().is_some_and(|v| v.value.is_some())).filter_map(|q| match &q.kind {
-        crate::spec::QuestionKind::Numeric { answer, .. } => answer.as_ref().map(|a| a.span.clone()),
-        _ => None,
-    })
 }

@@ -2,6 +2,7 @@
 
 use super::lesson::Context;
 use super::plots::plots;
+use super::settings;
 use super::text::{code, many, plain, text};
 use super::verdict::verdict;
 use crate::check::Claim;
@@ -16,6 +17,7 @@ const PLACES: usize = 8;
 /// The pictures of a claim, and its tables, folded up where there is nothing to doubt.
 pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
     let mut out = String::new();
+    let spec = spec.map(|verify| context.lesson.whole(verify));
     if let Some(drawn) = spec.and_then(|verify| context.curves.iter().find(|d| d.span == verify.span)) {
         out.push_str(&plots(drawn));
     }
@@ -32,7 +34,8 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'
     }
     let open = if claim.is_doubtful() { " open=\"open\"" } else { "" };
     let _ = writeln!(out, "<details{open}><summary>{}</summary>", told.join(", "));
-    for table in [quotes(claim, context), forms(claim, spec, context), measures(claim), runs(claim, context)]
+    for table in
+        [quotes(claim, context), forms(claim, spec, context), measures(claim), runs(claim, spec, context)]
     {
         out.push_str(&table);
     }
@@ -121,9 +124,14 @@ fn measures(claim: &Claim) -> String {
     table("Measures", &["measure", "value", "at half the timestep, where it differs"], &rows)
 }
 
-fn runs(claim: &Claim, context: &Context<'_>) -> String {
+fn runs(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
     let judgement = &claim.judgement;
-    let row = |r: &crate::verify::RunReport| {
+    let begun = context.runs(&claim.name).filter(|begun| begun.len() == judgement.runs.len()).unwrap_or(&[]);
+    let numerics: Vec<String> =
+        begun.iter().map(|(_, s)| s.as_ref().map_or(String::new(), settings::numerics)).collect();
+    // What all of them have is said once.
+    let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
+    let row = |(i, r): (usize, &crate::verify::RunReport)| {
         let own = match (&judgement.unmade, &r.broke, r.expected) {
             (Some(_), ..) => (State::Unchecked, "not made"),
             (None, Some(_), true) => (State::True(Evidence::Simulated), "breaks"),
@@ -133,8 +141,21 @@ fn runs(claim: &Claim, context: &Context<'_>) -> String {
         };
         let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(own);
         let how = judgement.unmade.as_deref().or(r.broke.as_deref()).unwrap_or("");
-        vec![code(&r.name), verdict(state, word), text(&context.names.told(how))]
+        let made = spec.and_then(|v| v.runs.iter().find(|run| run.name.span() == r.span));
+        let own = numerics.get(i).filter(|_| same.is_none()).cloned().unwrap_or_default();
+        vec![
+            code(&r.name),
+            verdict(state, word),
+            settings::done(made, &r.name),
+            own,
+            text(&context.names.told(how)),
+        ]
     };
-    let rows: Vec<Vec<String>> = judgement.runs.iter().map(row).collect();
-    table("Runs", &["run", "", "what broke"], &rows)
+    let rows: Vec<Vec<String>> = judgement.runs.iter().enumerate().map(row).collect();
+    let title = match same.filter(|all| !all.is_empty()) {
+        Some(all) if rows.len() == 1 => format!("Runs <span class=\"soft settings\">with {all}</span>"),
+        Some(all) => format!("Runs <span class=\"soft settings\">all with {all}</span>"),
+        None => "Runs".to_string(),
+    };
+    table(&title, &["run", "", "what is done", "settings", "what broke"], &rows)
 }

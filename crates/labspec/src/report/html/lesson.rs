@@ -5,7 +5,7 @@ use super::evidence::evidence;
 use super::question::{self, Asked};
 use super::text::{Names, code, many, plain, text};
 use super::verdict::{severity, verdict};
-use crate::check::{Allowed, Checked, Claim, Drawn};
+use crate::check::{Allowed, Basis, Checked, Claim, Drawn, Settings};
 use crate::finding::Finding;
 use crate::ledger::{Entry, Ledger, State, Subject};
 use crate::source::SourceFile;
@@ -24,12 +24,19 @@ pub(super) struct Context<'a> {
     pub(super) names: &'a Names,
     pub(super) curves: &'a [Drawn],
     pub(super) shown: ShownText,
+    basis: Option<&'a Basis>,
     entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,
 }
 
 impl<'a> Context<'a> {
     pub(super) fn line(&self, at: usize) -> usize {
         self.lesson.file.position(at).line
+    }
+
+    /// The runs of a claim, with the settings of each as it begins.
+    pub(super) fn runs(&self, claim: &str) -> Option<&'a [(String, Option<Settings>)]> {
+        let known = self.basis?.claims.iter().find(|known| known.name == claim)?;
+        Some(&known.runs)
     }
 
     fn entry(&self, subject: Subject, span: &Range<usize>, what: &str) -> Option<&'a Entry> {
@@ -79,7 +86,14 @@ impl<'a> Part<'a> {
             entries.entry((e.subject, e.span.start, e.span.end)).or_default().push(e);
         }
         let curves = page.curves.get(number - 1).map_or(&[][..], Vec::as_slice);
-        let context = Context { lesson, names, curves, shown: ShownText::of(lesson), entries };
+        let context = Context {
+            lesson,
+            names,
+            curves,
+            shown: ShownText::of(lesson),
+            basis: page.bases.get(number - 1),
+            entries,
+        };
         let anchor = format!("lesson-{number}");
         let questions = asked(checked, &context, &anchor);
         Part {

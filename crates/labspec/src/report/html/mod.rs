@@ -1,6 +1,6 @@
 //! A course as one page of HTML: every claim with what it rests on, to be read without a server, a network or a script.
 //!
-//! The page is HTML that is also XML, so that a test can hold its nesting. Text from lessons enters it through `text` alone, and
+//! The page is HTML that is also XML, so that a test can hold its nesting. Text from lessons enters it through `text` and `formula` alone, and
 //! pictures are drawn by `labspec_plot`, which escapes what it is given. The policy in its head forbids everything but its style.
 //!
 //! | piece | module |
@@ -9,18 +9,22 @@
 //! | a lesson with its findings and labs | `lesson` |
 //! | a question with its options | `question` |
 //! | runs, measures, quoted numbers, closed forms | `evidence` |
+//! | how a run is made, and with which settings | `settings` |
 //! | pictures of the runs | `plots` |
+//! | texts of lessons, and formulas in them | `text`, `formula` |
 
 mod coverage;
 mod evidence;
+mod formula;
 mod lesson;
 mod overview;
 mod plots;
 mod question;
+mod settings;
 mod text;
 mod verdict;
 
-use crate::check::{Allowed, Checked, Drawn};
+use crate::check::{Allowed, Basis, Checked, Drawn};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
 use crate::source::SourceFile;
@@ -34,6 +38,8 @@ pub struct Material<'a> {
     pub lessons: &'a [Checked],
     /// What the labs of each of them show in the runs of its claims.
     pub curves: &'a [Vec<Drawn>],
+    /// What the check of each of them rests on.
+    pub bases: &'a [Basis],
     /// Everything that is told, of lessons and of models.
     pub findings: &'a [Finding],
     /// What the lessons allow.

@@ -1,6 +1,7 @@
 //! A question: what is asked, what is keyed, and how each option fared.
 
 use super::evidence::evidence;
+use super::formula;
 use super::lesson::Context;
 use super::text::{code, plain, text};
 use super::verdict::{condition, verdict};
@@ -50,7 +51,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
         verdict(*state, word),
         text(name)
     );
-    let _ = writeln!(out, "<p class=\"asked\">{}</p>", text(&verify::plain(&question.q.value)));
+    let _ = writeln!(out, "<p class=\"asked\">{}</p>", formula::of_html(&question.q.value));
     match &question.kind {
         QuestionKind::Choice { options, .. } => {
             // From 0, as conditions and messages count.
@@ -59,7 +60,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
                 let keyed = question.right_option() == Some(i);
                 let (class, key) =
                     if keyed { (" class=\"key\"", " <b class=\"badge\">key</b>") } else { ("", "") };
-                let _ = write!(out, "<li{class}><p>{}{key}</p>", text(&verify::plain(&option.value)));
+                let _ = write!(out, "<li{class}><p>{}{key}</p>", formula::of_html(&option.value));
                 let written = spec.and_then(|v| v.options.get(i)).map(|t| t.value.as_str());
                 out.push_str(&weighed(written, asked.weight(Some(i))));
                 out.push_str("</li>\n");
@@ -85,6 +86,13 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
     }
     if !remark.is_empty() {
         let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.told(remark)));
+    }
+    if let Some(explain) = &question.explain {
+        let _ = writeln!(
+            out,
+            "<details><summary>Explanation</summary>\n<p class=\"explained\">{}</p></details>",
+            formula::of_html(&explain.value)
+        );
     }
     if let Some(claim) = claim {
         out.push_str(&evidence(claim, spec, context));

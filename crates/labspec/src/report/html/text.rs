@@ -27,18 +27,18 @@ pub(super) fn code(text: &str) -> String {
 }
 
 /// What is shown of a text.
-fn cut(text: &str) -> &str {
+pub(super) fn cut(text: &str) -> &str {
     let end = text.char_indices().nth(LONG).map_or(text.len(), |(at, _)| at);
     text.get(..end).unwrap_or("")
 }
 
-fn rest(text: &str) -> String {
+pub(super) fn rest(text: &str) -> String {
     let left = text.get(cut(text).len()..).map_or(0, |rest| rest.chars().count());
     if left == 0 { String::new() } else { format!(" … ({left} more characters)") }
 }
 
 /// What means something to a browser is written so that it means itself; what cannot be seen is written out.
-fn escape(text: &str) -> String {
+pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 16);
     for c in printable(text).chars() {
         match c {

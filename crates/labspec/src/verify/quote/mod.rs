@@ -37,6 +37,11 @@ pub fn plain(html: &str) -> String {
     html::strip(html).0
 }
 
+/// A formula as a reader sees it. What has no plain letters stays as it is written, with its backslash.
+pub(crate) fn folded(tex: &str) -> String {
+    fold::fold(tex, false).0
+}
+
 /// The value of the same expression in another run: with half the timestep, or from a start that is a hair away.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Other {

@@ -1,5 +1,6 @@
 //! A number as a text prints it: its value, its precision, and other numbers printed like it.
 
+use labspec_expr::to_fixed;
 use std::fmt;
 
 /// A number as it is printed.
@@ -66,7 +67,7 @@ impl Quoted {
             return crate::verify::significant(x);
         }
         if self.exponent == 0 {
-            return group(&without_minus_zero(format!("{x:.*}", self.decimals)), style.group);
+            return group(&without_minus_zero(to_fixed(x, self.decimals)), style.group);
         }
         let mantissa = self.value.abs() / ten(self.exponent);
         let mut exponent = self.exponent;
@@ -75,7 +76,7 @@ impl Quoted {
             let printed = format!("{x:.*e}", self.decimals);
             exponent = printed.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(exponent);
         }
-        let digits = without_minus_zero(format!("{:.*}", self.decimals, x / ten(exponent)));
+        let digits = without_minus_zero(to_fixed(x / ten(exponent), self.decimals));
         if style.times { format!("{digits}×10^{exponent}") } else { format!("{digits}e{exponent}") }
     }
 
@@ -144,6 +145,14 @@ mod tests {
         assert!(q.is(0.4424) && q.is(0.4415) && !q.is(0.4426) && !q.is(f64::NAN));
         assert_eq!(q.print(0.46), "0.460");
         assert_eq!(q.print(-0.0001), "0.000");
+        // A tie is printed as a readout prints it: away from zero, and not to the even digit.
+        for (x, decimals, text) in
+            [(248.5, 0, "249"), (-2.5, 0, "-3"), (0.125, 2, "0.13"), (1.005, 2, "1.00")]
+        {
+            assert_eq!(plain(1.0, decimals, 0).print(x), text);
+            assert_eq!(plain(1.0, decimals, 0).print(x), to_fixed(x, decimals));
+        }
+        assert_eq!(plain(2e-3, 0, -3).print(2.5), "3e0");
         assert_eq!(plain(3e-7, 1, -7).print(4.44e-7), "4.4e-7");
         assert_eq!(plain(3e-7, 1, -7).print(0.0444), "4.4e-2");
         assert_eq!(plain(3e-7, 1, -7).print(9.97e-7), "1.0e-6");

@@ -1,0 +1,274 @@
+//! Formulas in texts of lessons: read as a page of the course shows them, where plain letters can say it; else as they are written.
+//!
+//! `$v_0 = 4.3\,\mathrm{m/s}$` is v₀ = 4.3 m/s. Fractions, roots, sums and matrices are drawn by a program that this page must not
+//! run: their source stands in the page, marked as code.
+
+use super::text::{cut, escape, rest};
+use crate::printable::printable;
+use crate::verify::{folded, plain};
+
+/// How deep a script may stand in another one.
+const DEEP: usize = 3;
+/// What parts the blocks of a text.
+const APART: char = '\u{1}';
+/// Letters in whose place a script stands while the rest is read: they mean nothing.
+const PLACES: std::ops::RangeInclusive<char> = '\u{e000}'..='\u{e0ff}';
+
+/// Commands for one letter that reading numbers has no need of.
+const LETTERS: [(&str, char); 40] = [
+    ("alpha", 'α'),
+    ("beta", 'β'),
+    ("gamma", 'γ'),
+    ("delta", 'δ'),
+    ("epsilon", 'ε'),
+    ("varepsilon", 'ε'),
+    ("zeta", 'ζ'),
+    ("eta", 'η'),
+    ("theta", 'θ'),
+    ("vartheta", 'ϑ'),
+    ("iota", 'ι'),
+    ("kappa", 'κ'),
+    ("lambda", 'λ'),
+    ("nu", 'ν'),
+    ("xi", 'ξ'),
+    ("rho", 'ρ'),
+    ("sigma", 'σ'),
+    ("tau", 'τ'),
+    ("upsilon", 'υ'),
+    ("phi", 'φ'),
+    ("varphi", 'φ'),
+    ("chi", 'χ'),
+    ("psi", 'ψ'),
+    ("omega", 'ω'),
+    ("Gamma", 'Γ'),
+    ("Delta", 'Δ'),
+    ("Theta", 'Θ'),
+    ("Lambda", 'Λ'),
+    ("Xi", 'Ξ'),
+    ("Pi", 'Π'),
+    ("Sigma", 'Σ'),
+    ("Phi", 'Φ'),
+    ("Psi", 'Ψ'),
+    ("infty", '∞'),
+    ("propto", '∝'),
+    ("neq", '≠'),
+    ("ll", '≪'),
+    ("gg", '≫'),
+    ("ast", '*'),
+    ("star", '*'),
+];
+
+/// Commands for a function that is written as it is called.
+const FUNCTIONS: [&str; 9] = ["sin", "cos", "tan", "exp", "ln", "log", "min", "max", "arctan"];
+
+/// Commands for a sign between two sides.
+const RELATIONS: [&str; 12] =
+    ["approx", "simeq", "cong", "sim", "to", "rightarrow", "le", "leq", "ge", "geq", "lt", "gt"];
+
+/// What a reader sees of a piece of HTML, with its formulas, to stand between tags.
+pub(super) fn of_html(html: &str) -> String {
+    // Paragraphs follow each other in one line.
+    text(&plain(html).replace(APART, " "))
+}
+
+/// A text with its formulas.
+fn text(text: &str) -> String {
+    let shown: Vec<&str> = cut(text).split_whitespace().collect();
+    let shown = shown.join(" ");
+    if shown.is_empty() {
+        return rest(text);
+    }
+    let mut out = String::from("<bdi>");
+    let mut left = shown.as_str();
+    while let Some((before, tex, after)) = formula(left) {
+        out.push_str(&escape(before));
+        out.push_str(&read(tex, 0).unwrap_or_else(|| format!("<code>{}</code>", escape(tex.trim()))));
+        left = after;
+    }
+    out.push_str(&escape(left));
+    out.push_str(&rest(text));
+    out.push_str("</bdi>");
+    out
+}
+
+/// The first formula of a text: what stands before it, the formula, what stands behind it.
+fn formula(text: &str) -> Option<(&str, &str, &str)> {
+    let mut from = 0;
+    while let Some(at) = text.get(from..)?.find(['$', '\\']).map(|i| from + i) {
+        let rest = text.get(at..)?;
+        let marks = [("$$", "$$"), ("\\(", "\\)"), ("\\[", "\\]"), ("$", "$")];
+        let found = marks.into_iter().find(|(open, _)| rest.starts_with(open)).and_then(|(open, close)| {
+            let (inside, after) = split(rest.get(open.len()..)?, close)?;
+            Some((text.get(..at)?, inside, after))
+        });
+        if found.is_some() {
+            return found;
+        }
+        // `\$` is a dollar.
+        from = at + if rest.starts_with("\\$") { 2 } else { 1 };
+    }
+    None
+}
+
+/// A formula up to its end, and what stands behind that. A price is none: `$5 and $6`.
+fn split<'t>(text: &'t str, close: &str) -> Option<(&'t str, &'t str)> {
+    let ends = |at: &usize| !text.get(..*at).is_some_and(|inside| inside.ends_with('\\'));
+    let end = text.match_indices(close).map(|(at, _)| at).find(ends)?;
+    let (inside, after) = (text.get(..end)?, text.get(end + close.len()..)?);
+    let price = close == "$"
+        && (inside.starts_with(' ')
+            || inside.ends_with(' ')
+            || after.starts_with(|c: char| c.is_ascii_digit()));
+    (!inside.trim().is_empty() && !price).then_some((inside, after))
+}
+
+/// A formula in plain letters; `None` where they cannot say it.
+fn read(tex: &str, deep: usize) -> Option<String> {
+    let unseen = printable(tex) != tex || tex.contains(|c| PLACES.contains(&c));
+    if deep > DEEP || unseen {
+        return None;
+    }
+    let mut letters = String::new();
+    let mut scripts = Vec::new();
+    let mut left = tex;
+    while let Some(c) = left.chars().next() {
+        match c {
+            '^' | '_' => {
+                let (inner, after) = argument(left.get(1..)?)?;
+                let tag = if c == '^' { "sup" } else { "sub" };
+                let place = PLACES.clone().nth(scripts.len())?;
+                scripts.push(format!("<{tag}>{}</{tag}>", read(inner, deep + 1)?));
+                letters.push(place);
+                left = after;
+            }
+            '\\' => {
+                let length = left.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
+                let name = left.get(1..1 + length)?;
+                let after = left.get(1 + length..)?;
+                if let Some((_, letter)) = LETTERS.iter().find(|(known, _)| *known == name) {
+                    letters.push(*letter);
+                    let next = after.trim_start_matches(' ');
+                    left = if next.starts_with(char::is_alphanumeric) && letter.is_alphabetic() {
+                        next
+                    } else {
+                        after
+                    };
+                } else if FUNCTIONS.contains(&name) {
+                    let apart =
+                        after.trim_start_matches(' ').starts_with(|c: char| c.is_alphanumeric() || c == '\\');
+                    letters.push_str(name);
+                    letters.push_str(if apart { " " } else { "" });
+                    left = after.trim_start_matches(' ');
+                } else {
+                    // What stands behind one sign belongs to it: `\,`, `\%`.
+                    let sign = after.chars().next().filter(|_| length == 0).map_or(0, char::len_utf8);
+                    letters.push_str(left.get(..1 + length + sign)?);
+                    // A space behind a relation is shown; behind other names it ends the name.
+                    let apart = RELATIONS.contains(&name) && after.starts_with(' ');
+                    letters.push_str(if apart { "{}" } else { "" });
+                    left = after.get(sign..)?;
+                }
+            }
+            // Columns of a matrix, and remarks.
+            '&' | '%' => return None,
+            c => {
+                letters.push(c);
+                left = left.get(c.len_utf8()..)?;
+            }
+        }
+    }
+    let letters = folded(&letters);
+    if letters.contains('\\') || letters.trim().is_empty() {
+        return None;
+    }
+    let mut out = String::new();
+    for part in letters.trim().split_inclusive(|c| PLACES.contains(&c)) {
+        let place = part.chars().next_back().filter(|c| PLACES.contains(c));
+        let words = part.trim_end_matches(|c| PLACES.contains(&c));
+        out.push_str(&escape(words));
+        let script = place.and_then(|c| scripts.get((c as usize).checked_sub(*PLACES.start() as usize)?));
+        out.extend(script.map(String::as_str));
+    }
+    Some(out)
+}
+
+/// What stands raised or lowered: a group, a command or a letter; and what stands behind it.
+fn argument(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim_start_matches(' ');
+    let first = text.chars().next()?;
+    let end = match first {
+        '{' => {
+            let mut deep = 0;
+            let close = text.char_indices().find(|(_, c)| {
+                deep += i32::from(*c == '{') - i32::from(*c == '}');
+                deep == 0
+            })?;
+            return Some((text.get(1..close.0)?, text.get(close.0 + 1..)?));
+        }
+        // A command with an argument of its own is more than a letter.
+        '\\' => 1 + text.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count(),
+        c => c.len_utf8(),
+    };
+    let rest = text.get(end..)?;
+    (first != '\\' || !rest.starts_with('{')).then_some((text.get(..end)?, rest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::text;
+
+    fn shown(t: &str) -> String {
+        let all = text(t);
+        all.trim_start_matches("<bdi>").trim_end_matches("</bdi>").to_string()
+    }
+
+    #[test]
+    fn formulas_of_plain_letters_are_read() {
+        for (tex, read) in [
+            (r"after $0.442\,\mathrm{s}$ it", "after 0.442 s it"),
+            (r"\(h = 2\) ms, $$v \le 4.3$$", "h = 2 ms, v ≤ 4.3"),
+            (r"$9.81\ \mathrm{m/s^2}$", "9.81 m/s<sup>2</sup>"),
+            (r"$2.4 \times 10^{-4}$", "2.4×10<sup>-4</sup>"),
+            (r"$z_{k+1} = v_0 e^{-t/\tau}$", "z<sub>k+1</sub> = v<sub>0</sub> e<sup>-t/τ</sup>"),
+            (r"$\omega \approx 1/\tau$", "ω ≈ 1/τ"),
+            (r"$\sin\theta \neq \sin(x) \cdot 50\%$", "sin θ ≠ sin(x)·50%"),
+            (r"$m^\star = 2\mu N / g$", "m<sup>*</sup> = 2μN / g"),
+            (r"$a < b$", "a &lt; b"),
+            (r"$v_{\mathrm{max}}$ and $x_{i_1}$", "v<sub>max</sub> and x<sub>i<sub>1</sub></sub>"),
+        ] {
+            assert_eq!(shown(tex), read, "{tex}");
+        }
+    }
+
+    #[test]
+    fn what_letters_cannot_say_stands_as_it_is_written() {
+        for tex in [
+            r"\tfrac12 g t^2",
+            r"\frac{a}{b}",
+            r"\sqrt{2d/g}",
+            r"\sum_{i=1}^{n} i",
+            r"\begin{matrix} a & b \\ c & d \end{matrix}",
+            r"\dot x",
+            r"x^\mathrm{a}",
+            r"x^{\frac{1}{2}}",
+            r"a & b",
+            r"x^",
+            r"x_{a",
+        ] {
+            let escaped = tex.replace('&', "&amp;");
+            assert_eq!(shown(&format!("is ${tex}$ m")), format!("is <code>{escaped}</code> m"));
+        }
+    }
+
+    #[test]
+    fn a_dollar_is_no_formula() {
+        for t in ["$5 and $6", "a $ b", "$", "$$", r"\$5$", r"a \ b", "$ x $", "costs $5"] {
+            assert_eq!(shown(t), t);
+        }
+        assert_eq!(text(""), "");
+        assert_eq!(shown("$<script>$"), "&lt;script&gt;");
+        // What cannot be seen is written out, in formulas, too.
+        assert_eq!(shown("$a\u{202e}b$"), "<code>a\\u{202e}b</code>");
+        assert_eq!(shown("$a_0\u{e000}$"), "<code>a_0\u{e000}</code>");
+    }
+}

@@ -1,0 +1,46 @@
+//! What no judge looks at, counted: so that "all verdicts" is not read as if everything had been judged.
+
+use crate::spec::Verify;
+
+/// Claims of which a judge says nothing: they rest on other runs than those that it is asked to make.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Left {
+    /// Values that are searched for: our own stay in their place.
+    pub searches: usize,
+    /// Answers that hold over a range: they are judged in their own runs, and nowhere else in it.
+    pub ranges: usize,
+    /// Closed forms of traces.
+    pub forms: usize,
+}
+
+impl Left {
+    /// Those of a `verify` object.
+    pub(crate) fn of(verify: &Verify) -> Left {
+        let ranges = usize::from(!verify.over.is_empty());
+        Left { searches: verify.find.len(), ranges, forms: verify.exact.len() }
+    }
+
+    /// Both together.
+    pub(crate) fn and(self, other: Left) -> Left {
+        Left {
+            searches: self.searches + other.searches,
+            ranges: self.ranges + other.ranges,
+            forms: self.forms + other.forms,
+        }
+    }
+
+    /// `2 searches, 1 range, 5 closed forms`; nothing where nothing is left.
+    pub(crate) fn told(self) -> Option<String> {
+        let kinds = [
+            (self.searches, "search", "searches"),
+            (self.ranges, "range", "ranges"),
+            (self.forms, "closed form", "closed forms"),
+        ];
+        let told: Vec<String> = kinds
+            .into_iter()
+            .filter(|(n, ..)| *n > 0)
+            .map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many }))
+            .collect();
+        (!told.is_empty()).then(|| told.join(", "))
+    }
+}

@@ -1,0 +1,101 @@
+//! The numbers of a judge beside ours: put in place of them, and compared.
+
+use super::task::own_texts;
+use super::{Judged, Witness};
+use crate::spec::Verify;
+use crate::verify::outcome::Outcome;
+use crate::verify::{BoundVerify, NUDGED, TIGHT};
+
+/// A number that differs by less than this part of itself, and by less than a thousandth of that at zero, is the same.
+const SAME: f64 = 1e-6;
+/// So many times what a moved start or a converged solver change a number is no other engine.
+const NUMERICS: f64 = 2.0;
+
+/// Our outcome with the judge's numbers in place of ours, where it has them.
+pub(super) fn replaced(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    nominal: &Outcome,
+    witness: &Witness<'_>,
+    judged: &mut Judged,
+) -> Outcome {
+    let mut theirs = nominal.clone();
+    let unknown = || Err("nothing is recorded of its run".to_string());
+    for (i, run) in theirs.runs.iter_mut().enumerate() {
+        let title = run.title();
+        let taken = match witness.runs.get(i).cloned().unwrap_or_else(unknown) {
+            Ok(taken) => taken,
+            Err(why) => {
+                let names = run.measures.iter().map(|(m, _)| (format!("{title}.{m}"), why.clone()));
+                judged.unjudged.extend(names);
+                continue;
+            }
+        };
+        for (name, x) in &mut run.measures {
+            match taken.values.get(name) {
+                Some(value) => *x = *value,
+                None => {
+                    let why = taken.refused.get(name).map_or("nothing is recorded of it", String::as_str);
+                    judged.unjudged.push((format!("{title}.{name}"), why.to_string()));
+                }
+            }
+        }
+        // What only we notice, energy from nothing, stays noticed; a bad number that only one of both has does not.
+        let only_ours = run.warnings > 0 && taken.warnings == 0;
+        run.broke = taken.broke.clone().or(run.broke.take().filter(|_| !only_ours));
+        run.warnings = taken.warnings;
+    }
+    for text in own_texts(bound, verify) {
+        let taken = witness.runs.first().and_then(|run| run.as_ref().ok());
+        match taken.and_then(|t| t.values.get(&text.value)) {
+            Some(x) => theirs.elsewhere.push((text.value.clone(), *x)),
+            None => {
+                let why = taken.and_then(|t| t.refused.get(&text.value));
+                let why = why.map_or("nothing is recorded of it", String::as_str);
+                judged.unjudged.push((text.value.clone(), why.to_string()));
+            }
+        }
+    }
+    theirs
+}
+
+/// Compares the numbers of both.
+pub(super) fn compare(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    nominal: &Outcome,
+    theirs: &Outcome,
+    judged: &mut Judged,
+) {
+    let mut other: Option<Vec<Vec<f64>>> = None;
+    let numbers = |outcome: &Outcome| -> Vec<(String, f64)> {
+        let own = own_texts(bound, verify).into_iter().map(|text| {
+            let found = bound.find(outcome, text, &mut Vec::new());
+            (text.value.clone(), found.map_or(f64::NAN, |f| f.value.to_number()))
+        });
+        let titled = outcome.runs.iter().flat_map(|run| {
+            let title = run.title();
+            run.measures.iter().map(move |(m, x)| (format!("{title}.{m}"), *x))
+        });
+        titled.chain(own).collect()
+    };
+    for (i, ((name, a), (_, b))) in numbers(nominal).into_iter().zip(numbers(theirs)).enumerate() {
+        if judged.unjudged.iter().any(|(known, _)| *known == name) {
+            continue;
+        }
+        judged.compared += 1;
+        let apart = (a - b).abs();
+        let same = a == b || a.is_nan() && b.is_nan() || apart <= SAME * a.abs().max(b.abs()) + 1e-3 * SAME;
+        if same {
+            continue;
+        }
+        let others = other.get_or_insert_with(|| {
+            let made = [NUDGED, TIGHT].map(|n| bound.outcome(n, &mut Vec::new()));
+            made.iter().flatten().map(|o| numbers(o).into_iter().map(|(_, x)| x).collect()).collect()
+        });
+        let moved = others.iter().filter_map(|list| list.get(i)).map(|x| (x - a).abs()).fold(0.0, f64::max);
+        if apart.is_nan() || apart > NUMERICS * moved {
+            judged.differing.push((name, a, b));
+        }
+    }
+}
