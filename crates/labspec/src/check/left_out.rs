@@ -1,38 +1,45 @@
-//! Numbers that are not claimed, in a lesson that claims nearly all of them: forgotten, or changed after they were claimed.
+//! Numbers that are not claimed: most of them, in a lesson that has not been gone through, or a few in one that claims the others.
 
 use crate::finding::Finding;
 use crate::rules::NUMBERS_UNCLAIMED;
 use crate::spec::Lesson;
-use crate::verify::{Stated, claimed, stated};
+use crate::verify::{Stated, counted};
 
 /// With fewer claims nobody can say that the author means to claim everything.
 const LEAST: usize = 10;
 /// Of so many numbers one may be left out.
 const SHARE: usize = 10;
+/// Fewer are not told: one or two are what the text begins with.
+const FEWEST: usize = 3;
 
-/// Tells each number on its own; nothing where many are left out, as one finding says so for all of them.
+/// Tells each number on its own where nearly all are claimed, and else the first one, with how many there are.
 pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    if lesson.findings.iter().any(|f| f.code == NUMBERS_UNCLAIMED.code) {
+    if lesson.labs.is_empty() {
         return;
     }
-    let places = claimed(lesson);
-    if places.len() < LEAST {
+    let counted = counted(lesson);
+    // The answer of a question is another matter: it has its `value`.
+    let numbers = |list: Vec<Stated>| list.into_iter().filter(|s| !s.answer).collect::<Vec<_>>();
+    let (claimed, left) = (numbers(counted.claimed).len(), numbers(counted.left));
+    let all = claimed + left.len();
+    if claimed >= LEAST && left.len() * SHARE <= all {
+        for s in left {
+            let others = all - 1;
+            let message =
+                format!("{} is claimed nowhere, as nearly all of the other {others} numbers are", s.quote);
+            findings.push(
+                Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message)
+                    .help("quote it under `says`, or write what was claimed here before"),
+            );
+        }
         return;
     }
-    let is_claimed = |s: &Stated| places.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
-    // A bound cannot be quoted, and the answer of a question has its `value`.
-    let numbers: Vec<Stated> = stated(lesson).into_iter().filter(|s| !s.answer && !s.bound).collect();
-    let left: Vec<&Stated> = numbers.iter().filter(|s| !is_claimed(s)).collect();
-    if left.len() * SHARE > numbers.len() {
-        return;
-    }
-    for s in left {
-        let others = numbers.len() - 1;
+    if let Some(first) = left.first().filter(|_| left.len() >= FEWEST) {
         let message =
-            format!("{} is claimed nowhere, as nearly all of the other {others} numbers are", s.quote);
+            format!("{claimed} of {all} numbers with units are claimed; this is the first that is not");
         findings.push(
-            Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message)
-                .help("quote it under `says`, or write what was claimed here before"),
+            Finding::new(NUMBERS_UNCLAIMED, first.span.clone(), message)
+                .help("quote those that come from a run under `says` of a `verify`: `labspec trace` looks for their origin"),
         );
     }
 }

@@ -3,15 +3,14 @@
 
 use super::trials::{second, si};
 use super::words;
-use crate::bind::{ModelNames, Programs, Scope};
-use crate::bind::{dimensions, of_label};
+use crate::bind::{ModelNames, Programs, Scope, dimensions, of_label};
 use crate::check;
 use crate::run::{self, Play, Session};
 use crate::spec::Lab;
 use crate::verify::Stated;
 use labspec_bind::element_owner;
 use labspec_core::{Demand, Model};
-use labspec_core::{geom, joint, trntype};
+use labspec_core::{geom, joint, trntype, wraptype};
 use labspec_expr::Compiler;
 use labspec_expr::dimension::{Dimension, Measure};
 use std::collections::BTreeSet;
@@ -41,9 +40,6 @@ const JOINTS: usize = 6;
 const CONSTANTS: usize = 12;
 /// Steps of the run in which contacts are looked for, at most.
 const STEPS: usize = 20_000;
-
-/// The first part of a tendon is a joint.
-const WRAPS_JOINT: i32 = 1;
 
 /// Words of a moment in which two geoms meet.
 const MEETING: &str = "contact touch touches touchdown impact lands landing hits first";
@@ -223,7 +219,7 @@ fn rotates(m: &Model, actuator: usize) -> Option<bool> {
         // A tendon is a sum of joints, or a way along sites: a force then.
         trntype::TENDON => {
             let first = index(&m.tendon_adr, moved)?;
-            if m.wrap_type.get(first) != Some(&WRAPS_JOINT) {
+            if m.wrap_type.get(first) != Some(&wraptype::JOINT) {
                 return Some(false);
             }
             *m.jnt_type.get(index(&m.wrap_objid, first)?)?

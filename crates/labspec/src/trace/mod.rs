@@ -3,7 +3,7 @@
 //! | stage | module |
 //! |---|---|
 //! | the numbers that a reader sees | `verify::stated` |
-//! | what the lesson claims already | `verify::claimed`, `answered` |
+//! | what the lesson claims already | `verify::claimed`, `verify::answered` |
 //! | runs that the text names: settings of controls, presses, timesteps | `trials` |
 //! | the same with what the lab's setup changed of the model put back | `restored` |
 //! | what could be measured in each: readouts, traces, contacts, constants of the model | `candidates` |
@@ -14,7 +14,6 @@
 //! A number is traced when a simple measure of a run that the text speaks of has the digits that are printed, and when so few
 //! things were tried before it that chance does not explain it.
 
-mod answered;
 mod candidates;
 mod formula;
 mod propose;
@@ -22,7 +21,6 @@ mod rank;
 mod restored;
 mod trials;
 
-pub(crate) use answered::answered;
 pub(crate) use candidates::Candidate;
 pub(crate) use propose::Block;
 pub use propose::{blocks, laid_out};
@@ -36,7 +34,7 @@ use crate::interrupt;
 use crate::run::Numerics;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
-use crate::verify::{NUDGED, NUDGED_BACK, Stage, Stated, claimed, stated};
+use crate::verify::{NUDGED, NUDGED_BACK, Stage, Stated, answered, claimed, stated};
 use labspec_core::Model;
 use std::collections::BTreeMap;
 use std::ops::Range;

@@ -2,8 +2,7 @@
 
 use super::candidates::Candidate;
 use super::text;
-use crate::bind::given_by;
-use crate::bind::{Programs, scalar};
+use crate::bind::{Programs, given_by, scalar};
 use crate::json::{Number, Scalar};
 use crate::run::{Numerics, settings};
 use crate::spec::format::RUN_LENGTH;

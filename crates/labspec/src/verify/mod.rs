@@ -40,8 +40,8 @@ pub use curves::Curves;
 pub use exact::ClosedForm;
 pub(crate) use quote::folded;
 pub use quote::{
-    Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, claimed, plain, quoted,
-    stated,
+    Counted, Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, answered,
+    claimed, counted, plain, quoted, stated,
 };
 pub use reads::labels;
 pub use says::Quote;

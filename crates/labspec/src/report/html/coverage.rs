@@ -1,7 +1,6 @@
 //! How much of what a lesson says is claimed: its numbers with units, and its questions.
 
 use crate::check::Checked;
-use crate::trace::answered;
 use crate::verify::{self, Stated};
 
 /// The numbers with units of a lesson.
@@ -14,16 +13,8 @@ pub(super) struct Coverage {
 
 impl Coverage {
     pub(super) fn of(c: &Checked) -> Coverage {
-        let mut claimed = verify::claimed(&c.lesson);
-        // Cells of tables are quoted where they stand.
-        claimed.extend(c.claims.iter().flat_map(|claim| &claim.judgement.quotes).map(|q| q.span.clone()));
-        claimed.extend(answered(&c.lesson));
-        let meets = |s: &Stated| claimed.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
-        let (met, others): (Vec<Stated>, Vec<Stated>) =
-            verify::stated(&c.lesson).into_iter().partition(meets);
-        // A bound cannot be quoted alone: nobody has forgotten it.
-        let unclaimed: Vec<Stated> = others.into_iter().filter(|s| !s.bound).collect();
-        Coverage { claimed: met.len(), unclaimed }
+        let counted = verify::counted(&c.lesson);
+        Coverage { claimed: counted.claimed.len(), unclaimed: counted.left }
     }
 
     /// All of them.

@@ -19,7 +19,7 @@ pub use number::{Form, Quoted, Style};
 pub(super) use read::parts;
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
-pub use stated::{Stated, claimed, stated};
+pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use stated::{unit_of_head, unit_of_quote};
 pub(super) use words::{Condition, check_words};
 

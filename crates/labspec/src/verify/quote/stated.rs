@@ -96,6 +96,35 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     all
 }
 
+/// The numbers of a lesson, by whether it claims them.
+#[derive(Clone, Debug, Default)]
+pub struct Counted {
+    /// Those that a claim is about.
+    pub claimed: Vec<Stated>,
+    /// The others, in the order of the text. Bounds are left aside: they cannot be quoted.
+    pub left: Vec<Stated>,
+}
+
+/// Which numbers of a lesson are claimed.
+pub fn counted(lesson: &Lesson) -> Counted {
+    let mut places = claimed(lesson);
+    places.extend(answered(lesson));
+    let meets = |s: &Stated| places.iter().any(|at| at.start < s.span.end && s.span.start < at.end);
+    let (claimed, mut left): (Vec<Stated>, Vec<Stated>) = stated(lesson).into_iter().partition(meets);
+    left.retain(|s| !s.bound);
+    Counted { claimed, left }
+}
+
+/// Where the answers of numeric questions stand that a `value` computes.
+pub fn answered(lesson: &Lesson) -> impl Iterator<Item = Range<usize>> {
+    let questions = lesson.quizzes.iter().flat_map(Quiz::numbered).map(|(_, question)| question);
+    let claimed = questions.filter(|q| q.verify.as_ref().is_some_and(|verify| verify.value.is_some()));
+    claimed.filter_map(|q| match &q.kind {
+        QuestionKind::Numeric { answer, .. } => answer.as_ref().map(|answer| answer.span.clone()),
+        _ => None,
+    })
+}
+
 fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let paragraph: Arc<str> = Arc::from(text.value.as_str());
     let (folded, map) = fold::fold(&text.value, false);
