@@ -68,6 +68,12 @@ pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
     if dofs.is_empty() { 0..0 } else { row(m, dofs.start).start..row(m, dofs.end - 1).end }
 }
 
+/// Whether the rows of the degrees of freedom `dofs` hold their diagonal alone, as those of simple bodies do.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn is_diagonal(m: &Model, dofs: &Range<usize>) -> bool {
+    rows_of(m, dofs.clone()).len() == dofs.len()
+}
+
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
@@ -88,6 +94,17 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
         return triangle::factor_rows(n, ld, diag_inv);
     }
     let mut bad = None;
+    if is_diagonal(m, &dofs) {
+        let rows = ld[rows_of(m, dofs.clone())].iter_mut().zip(&mut diag_inv[dofs.clone()]);
+        for (k, (x, inv)) in dofs.zip(rows).rev() {
+            if *x < MINVAL {
+                *x = MINVAL;
+                bad = Some(k);
+            }
+            *inv = 1.0 / *x;
+        }
+        return bad;
+    }
     let mut end = dofs.end;
     while end > dofs.start {
         if let Some(n) = triangle::size_before(m, end) {
@@ -248,8 +265,7 @@ fn subtract_four(target: &mut [f64], rows: [&[f64]; 4], f: [f64; 4]) {
 /// x ← M⁻¹ x for the degrees of freedom `dofs` (ascending, whole trees).
 #[inline(never)]
 pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
-    if m.nC == m.nv {
-        // A diagonal matrix.
+    if is_diagonal(m, &dofs) {
         for (x, inv) in x[dofs.clone()].iter_mut().zip(&diag_inv[dofs]) {
             *x *= inv;
         }
@@ -303,9 +319,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
 /// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).
 #[inline]
 pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usize>) {
-    if m.nC == m.nv {
-        // A diagonal matrix.
-        combine(&mut out[dofs.clone()], [&mass[dofs.clone()], &v[dofs]], |_, [mass, v]| mass * v);
+    if is_diagonal(m, &dofs) {
+        let diagonal = &mass[rows_of(m, dofs.clone())];
+        combine(&mut out[dofs.clone()], [diagonal, &v[dofs]], |_, [mass, v]| mass * v);
         return;
     }
     for i in dofs {
@@ -365,6 +381,9 @@ pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &m
 pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     if m.nC == m.nv {
         return sum([&mass[dofs]], |[x]| x);
+    }
+    if is_diagonal(m, &dofs) {
+        return mass[rows_of(m, dofs)].iter().sum();
     }
     dofs.map(|k| mass[diagonal(m, k)]).sum()
 }
