@@ -271,16 +271,10 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         }
         return;
     }
-    // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
-    // consecutive.
     if let Some(n) = whole_chain(m) {
         triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
-    let row = |i: usize| {
-        let (start, n) = (m.M_rowadr[i] as usize, m.M_rownnz[i] as usize - 1);
-        (&ld[start..start + n], &m.M_colind[start..start + n], n > 3 && m.M_colind[start] as usize + n == i)
-    };
     let mut end = dofs.end;
     while end > dofs.start {
         if let Some(n) = triangle::size_before(m, end) {
@@ -289,9 +283,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
             continue;
         }
         end -= 1;
-        let (values, columns, serial) = row(end);
+        let (values, columns) = below(m, ld, end);
         let xi = x[end];
-        if serial {
+        if are_serial(columns, end) {
             subtract(&mut x[end - values.len()..end], values, xi);
         } else {
             for (l, &j) in values.iter().zip(columns) {
@@ -303,9 +297,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         if triangle::size_before(m, i + 1).is_some() {
             continue; // done above
         }
-        let (values, columns, serial) = row(i);
+        let (values, columns) = below(m, ld, i);
         let mut s = x[i] * diag_inv[i];
-        if serial {
+        if are_serial(columns, i) {
             s -= dot_slice(values, &x[i - values.len()..i]);
         } else {
             for (l, &j) in values.iter().zip(columns) {
@@ -314,6 +308,20 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         }
         x[i] = s;
     }
+}
+
+/// The part of row `i` below the diagonal, and its columns.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn below<'a>(m: &'a Model, ld: &'a [f64], i: usize) -> (&'a [f64], &'a [i32]) {
+    let start = m.M_rowadr[i] as usize;
+    let end = start + m.M_rownnz[i] as usize - 1;
+    (&ld[start..end], &m.M_colind[start..end])
+}
+
+/// Whether the columns of a row that is not short are consecutive, as those of a serial chain are.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn are_serial(columns: &[i32], i: usize) -> bool {
+    columns.len() > 3 && columns[0] as usize + columns.len() == i
 }
 
 /// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).
@@ -348,6 +356,13 @@ pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
 /// The dense block of a free joint, given its first degree of freedom, in a matrix with the pattern of M.
 pub(crate) fn free_block(m: &Model, mass: &[f64], first: usize) -> [Spatial; 6] {
     let mut out = [[0.0; 6]; 6];
+    let dofs = first..first + 6;
+    if is_diagonal(m, &dofs) {
+        for (i, x) in mass[rows_of(m, dofs)].iter().take(6).enumerate() {
+            out[i][i] = *x;
+        }
+        return out;
+    }
     for r in 0..6 {
         let row = m.M_rowadr[first + r] as usize..diagonal(m, first + r) + 1;
         for (&k, &x) in m.M_colind[row.clone()].iter().zip(&mass[row]) {

@@ -58,7 +58,8 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    if !(d.plan.has(Fact::Motors) && motors(m, d)) {
+    let done = d.plan.has(Fact::Motors) && motors(m, d) || d.plan.has(Fact::Servos) && servos(m, d, w);
+    if !done {
         any(m, d, w);
     }
 }
@@ -122,6 +123,37 @@ fn motors(m: &Model, d: &mut Fields) -> bool {
         d.qfrc_actuator[k as usize] += moment * *force;
     }
     gravity_compensation(m, d);
+    true
+}
+
+/// The same for motors and servos of slides, hinges and tendons, each with one control.
+#[inline(never)]
+fn servos(m: &Model, d: &mut Fields, w: &mut Scratch) -> bool {
+    let off = disable::ACTUATION | disable::CLAMPCTRL;
+    if m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+        return false;
+    }
+    let controls = d.ctrl.iter().zip(rows::<2>(&m.actuator_ctrlrange)).zip(&m.actuator_ctrllimited);
+    let moving = d.actuator_length.iter().zip(&d.actuator_velocity);
+    let biases = rows::<10>(&m.actuator_biasprm).iter().zip(&m.actuator_biastype).zip(moving);
+    let gains = rows::<10>(&m.actuator_gainprm).iter().zip(&mut d.actuator_force);
+    for ((((u, range), &limited), ((b, &kind), (length, velocity))), (gain, force)) in
+        controls.zip(biases).zip(gains)
+    {
+        let u = if limited { clip(*u, *range) } else { *u };
+        let bias = if kind == biastype::NONE { 0.0 } else { b[0] + b[1] * length + b[2] * velocity };
+        *force = gain[0] * u + bias;
+    }
+    limit::tendons(m, d, w);
+    let limits = d.plan.has(Fact::ForceLimits);
+    if limits {
+        limit::forces(m, d);
+    }
+    transmission::apply_forces(m, d);
+    gravity_compensation(m, d);
+    if limits {
+        limit::joints(m, d);
+    }
     true
 }
 
