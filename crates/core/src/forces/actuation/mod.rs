@@ -58,8 +58,7 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let done = d.plan.has(Fact::Motors) && motors(m, d) || d.plan.has(Fact::Servos) && servos(m, d, w);
-    if !done {
+    if !(d.plan.has(Fact::Motors) && motors(m, d)) {
         any(m, d, w);
     }
 }
@@ -67,11 +66,30 @@ pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
 /// The same for actuators of any kind.
 #[inline(never)]
 fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    d.actuator_force.fill(0.0);
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
+        d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
         return;
     }
+    if !(d.plan.has(Fact::Servos) && servos(m, d)) {
+        by_their_laws(m, d);
+    }
+    limit::tendons(m, d, w);
+    limit::forces(m, d);
+    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
+        if acts(m, d, i) {
+            d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
+        }
+    }
+    transmission::apply_forces(m, d);
+    gravity_compensation(m, d);
+    limit::joints(m, d);
+}
+
+/// The force of each actuator by its own law, before limits.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn by_their_laws(m: &Model, d: &mut Fields) {
+    d.actuator_force.fill(0.0);
     let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
     if m.na > 0 {
@@ -92,16 +110,6 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
     }
     d.acting = ctrl;
-    limit::tendons(m, d, w);
-    limit::forces(m, d);
-    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
-        if acts(m, d, i) {
-            d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
-        }
-    }
-    transmission::apply_forces(m, d);
-    gravity_compensation(m, d);
-    limit::joints(m, d);
 }
 
 /// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
@@ -126,11 +134,11 @@ fn motors(m: &Model, d: &mut Fields) -> bool {
     true
 }
 
-/// The same for motors and servos of slides, hinges and tendons, each with one control.
-#[inline(never)]
-fn servos(m: &Model, d: &mut Fields, w: &mut Scratch) -> bool {
-    let off = disable::ACTUATION | disable::CLAMPCTRL;
-    if m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+/// The forces of motors and servos of slides, hinges and tendons, each with one control, before limits. False, and nothing is
+/// done, where a control is no number.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn servos(m: &Model, d: &mut Fields) -> bool {
+    if m.opt.disabled(disable::CLAMPCTRL) || d.ctrl.iter().any(|&u| bad(u)) {
         return false;
     }
     let controls = d.ctrl.iter().zip(rows::<2>(&m.actuator_ctrlrange)).zip(&m.actuator_ctrllimited);
@@ -143,16 +151,6 @@ fn servos(m: &Model, d: &mut Fields, w: &mut Scratch) -> bool {
         let u = if limited { clip(*u, *range) } else { *u };
         let bias = if kind == biastype::NONE { 0.0 } else { b[0] + b[1] * length + b[2] * velocity };
         *force = gain[0] * u + bias;
-    }
-    limit::tendons(m, d, w);
-    let limits = d.plan.has(Fact::ForceLimits);
-    if limits {
-        limit::forces(m, d);
-    }
-    transmission::apply_forces(m, d);
-    gravity_compensation(m, d);
-    if limits {
-        limit::joints(m, d);
     }
     true
 }
