@@ -86,10 +86,17 @@ pub(super) enum Curvature<const R: usize> {
     Full([[f64; R]; R]),
 }
 
-/// Where x is, for an elliptic cone.
+/// Where x is: what the cost is like there.
 enum Zone<const R: usize> {
+    /// None: a cone that is open.
     Open,
+    /// Quadratic in all rows.
     Stick,
+    /// In the rows that are below zero.
+    Push,
+    /// Linear: dry friction at its largest force, to the side of this sign.
+    Slip(f64),
+    /// That of a cone that slides.
     Slide(Slide<R>),
 }
 
@@ -117,35 +124,29 @@ impl<const R: usize> Shape<'_, R> {
     /// Cost and force at x.
     #[inline]
     pub(super) fn value(&self, x: &[f64; R]) -> (f64, [f64; R]) {
-        match self.cost {
-            Cost::Quadratic => self.quadratic(x),
-            Cost::Push => self.quadratic(&x.map(pushed)),
-            Cost::DryFriction => match self.slips(x[0]) {
-                Some(side) => {
-                    let mut force = [0.0; R];
-                    force[0] = -side * self.loss;
-                    (self.loss * (side * x[0] - 0.5 * self.loss / self.stiff[0]), force)
-                }
-                None => self.quadratic(x),
-            },
-            Cost::Cone => match self.zone(x) {
-                Zone::Open => (0.0, [0.0; R]),
-                Zone::Stick => self.quadratic(x),
-                Zone::Slide(s) => {
-                    let depth = s.depth();
-                    let normal = -s.stiff * depth * s.mu;
-                    let mut force: [f64; R] = std::array::from_fn(|j| -normal / s.t * s.u[j] * s.scale[j]);
-                    force[0] = normal;
-                    (0.5 * s.stiff * depth * depth, force)
-                }
-            },
-        }
+        self.value_in(&self.zone(x), x)
     }
 
-    /// Which way dry friction slips: the sign of x where the force is at its largest.
+    /// The same in a zone that is known: so below.
     #[inline]
-    fn slips(&self, x: f64) -> Option<f64> {
-        (x.abs() >= self.loss / self.stiff[0]).then_some(if x < 0.0 { -1.0 } else { 1.0 })
+    fn value_in(&self, zone: &Zone<R>, x: &[f64; R]) -> (f64, [f64; R]) {
+        let mut force = [0.0; R];
+        match zone {
+            Zone::Open => (0.0, force),
+            Zone::Stick => self.quadratic(x),
+            Zone::Push => self.quadratic(&x.map(pushed)),
+            Zone::Slip(side) => {
+                force[0] = -side * self.loss;
+                (self.loss * (side * x[0] - 0.5 * self.loss / self.stiff[0]), force)
+            }
+            Zone::Slide(s) => {
+                let depth = s.depth();
+                let normal = -s.stiff * depth * s.mu;
+                force = std::array::from_fn(|j| -normal / s.t * s.u[j] * s.scale[j]);
+                force[0] = normal;
+                (0.5 * s.stiff * depth * depth, force)
+            }
+        }
     }
 
     fn quadratic(&self, x: &[f64; R]) -> (f64, [f64; R]) {
@@ -157,9 +158,22 @@ impl<const R: usize> Shape<'_, R> {
         (-0.5 * cost, force)
     }
 
-    /// The zone of a cone; a block without a contact is as good as open.
     #[inline]
     fn zone(&self, x: &[f64; R]) -> Zone<R> {
+        match self.cost {
+            Cost::Quadratic => Zone::Stick,
+            Cost::Push => Zone::Push,
+            Cost::DryFriction if x[0].abs() >= self.loss / self.stiff[0] => {
+                Zone::Slip(if x[0] < 0.0 { -1.0 } else { 1.0 })
+            }
+            Cost::DryFriction => Zone::Stick,
+            Cost::Cone => self.zone_of_cone(x),
+        }
+    }
+
+    /// The zone of a cone; a block without a contact is as good as open.
+    #[inline]
+    fn zone_of_cone(&self, x: &[f64; R]) -> Zone<R> {
         // A cone has a normal and two, three or five directions of friction: for other numbers of rows there is no code.
         let Some(c) = self.contact.filter(|_| (3..=6).contains(&R)) else { return Zone::Open };
         let mu = c.mu;
@@ -183,24 +197,17 @@ impl<const R: usize> Shape<'_, R> {
     /// Second derivative at x.
     #[inline]
     pub(super) fn curvature(&self, x: &[f64; R]) -> Curvature<R> {
-        match self.cost {
-            Cost::Quadratic => Curvature::Diagonal(*self.stiff),
-            Cost::Push => {
-                if x.iter().all(|&x| x >= 0.0) {
-                    Curvature::Flat
-                } else {
-                    Curvature::Diagonal(std::array::from_fn(|r| push_curvature(x[r], self.stiff[r])))
-                }
-            }
-            Cost::DryFriction => match self.slips(x[0]) {
-                Some(_) => Curvature::Flat,
-                None => Curvature::Diagonal(*self.stiff),
-            },
-            Cost::Cone => match self.zone(x) {
-                Zone::Open => Curvature::Flat,
-                Zone::Stick => Curvature::Diagonal(*self.stiff),
-                Zone::Slide(s) => Curvature::Full(s.curvature()),
-            },
+        self.curvature_in(&self.zone(x), x)
+    }
+
+    #[inline]
+    fn curvature_in(&self, zone: &Zone<R>, x: &[f64; R]) -> Curvature<R> {
+        match zone {
+            Zone::Open | Zone::Slip(_) => Curvature::Flat,
+            Zone::Stick => Curvature::Diagonal(*self.stiff),
+            Zone::Push if x.iter().all(|&x| x >= 0.0) => Curvature::Flat,
+            Zone::Push => Curvature::Diagonal(std::array::from_fn(|r| push_curvature(x[r], self.stiff[r]))),
+            Zone::Slide(s) => Curvature::Full(s.curvature()),
         }
     }
 
@@ -209,49 +216,50 @@ impl<const R: usize> Shape<'_, R> {
     #[inline]
     pub(super) fn along(&self, x: &[f64; R], v: &[f64; R], alpha: f64) -> [f64; 3] {
         let now: [f64; R] = std::array::from_fn(|r| x[r] + alpha * v[r]);
-        let (before, (after, force)) = (|| self.value(x).0, self.value(&now));
+        let (before, after) = (self.zone(x), self.zone(&now));
+        let (cost, force) = self.value_in(&after, &now);
         let mut slope = 0.0;
         for r in 0..R {
             slope -= force[r] * v[r];
         }
-        let step = |r: usize| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + now[r]);
-        let change = match self.cost {
-            Cost::Quadratic => (0..R).map(step).sum(),
-            Cost::Push => (0..R).map(|r| push_along(x[r], v[r], alpha, self.stiff[r])[0]).sum(),
-            Cost::DryFriction => match (self.slips(x[0]), self.slips(now[0])) {
-                (None, None) => step(0),
-                (Some(a), Some(b)) if a == b => a * self.loss * alpha * v[0],
-                _ => after - before(),
-            },
-            Cost::Cone => match (self.zone(x), self.zone(&now)) {
-                (Zone::Open, Zone::Open) => 0.0,
-                (Zone::Stick, Zone::Stick) => (0..R).map(step).sum(),
-                (Zone::Slide(a), Zone::Slide(b)) => {
-                    let squares: f64 = (1..R).map(|j| a.scale[j] * alpha * v[j] * (a.u[j] + b.u[j])).sum();
-                    let change = a.mu * alpha * v[0] - a.mu * squares / (a.t + b.t);
-                    0.5 * a.stiff * change * (a.depth() + b.depth())
-                }
-                _ => after - before(),
-            },
+        let change = match (&before, &after) {
+            (Zone::Open, Zone::Open) => 0.0,
+            (Zone::Stick, Zone::Stick) => {
+                (0..R).map(|r| 0.5 * self.stiff[r] * alpha * v[r] * (x[r] + now[r])).sum()
+            }
+            (Zone::Push, Zone::Push) => (0..R).map(|r| push_along(x[r], v[r], alpha, self.stiff[r])[0]).sum(),
+            (Zone::Slip(a), Zone::Slip(b)) if a == b => a * self.loss * alpha * v[0],
+            (Zone::Slide(a), Zone::Slide(b)) => {
+                let squares: f64 = (1..R).map(|j| a.scale[j] * alpha * v[j] * (a.u[j] + b.u[j])).sum();
+                let change = a.mu * alpha * v[0] - a.mu * squares / (a.t + b.t);
+                0.5 * a.stiff * change * (a.depth() + b.depth())
+            }
+            _ => cost - self.value_in(&before, x).0,
         };
-        [change, slope, self.curvature(&now).along(v)]
+        [change, slope, self.curvature_in(&after, &now).along(v)]
+    }
+
+    /// Whether the cost is one quadratic from x to x + v.
+    #[inline]
+    pub(super) fn stays(&self, x: &[f64; R], v: &[f64; R]) -> bool {
+        let now: [f64; R] = std::array::from_fn(|r| x[r] + v[r]);
+        match (self.zone(x), self.zone(&now)) {
+            (Zone::Open, Zone::Open) | (Zone::Stick, Zone::Stick) => true,
+            (Zone::Push, Zone::Push) => (0..R).all(|r| (x[r] < 0.0) == (now[r] < 0.0)),
+            (Zone::Slip(a), Zone::Slip(b)) => a == b,
+            _ => false,
+        }
     }
 
     /// `efc_state` at x, of each row.
     pub(super) fn state(&self, x: &[f64; R]) -> [i32; R] {
-        match self.cost {
-            Cost::Quadratic => [state::QUADRATIC; R],
-            Cost::Push => x.map(|x| if x < 0.0 { state::QUADRATIC } else { state::SATISFIED }),
-            Cost::DryFriction => match self.slips(x[0]) {
-                Some(side) if side < 0.0 => [state::LINEARNEG; R],
-                Some(_) => [state::LINEARPOS; R],
-                None => [state::QUADRATIC; R],
-            },
-            Cost::Cone => match self.zone(x) {
-                Zone::Open => [state::SATISFIED; R],
-                Zone::Stick => [state::QUADRATIC; R],
-                Zone::Slide(_) => [state::CONE; R],
-            },
+        match self.zone(x) {
+            Zone::Open => [state::SATISFIED; R],
+            Zone::Stick => [state::QUADRATIC; R],
+            Zone::Push => x.map(|x| if x < 0.0 { state::QUADRATIC } else { state::SATISFIED }),
+            Zone::Slip(side) if side < 0.0 => [state::LINEARNEG; R],
+            Zone::Slip(_) => [state::LINEARPOS; R],
+            Zone::Slide(_) => [state::CONE; R],
         }
     }
 }

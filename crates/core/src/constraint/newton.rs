@@ -35,7 +35,7 @@ impl Problem<'_> {
             let small = before.is_some() || scale * gradient < tol;
             let decrement = p.decrement();
             let done = small && scale * decrement < tol;
-            (!done).then_some(Direction::Newton(-2.0 * decrement))
+            (!done).then_some(Direction::Newton { slope: -2.0 * decrement, first: before.is_none() })
         });
     }
 

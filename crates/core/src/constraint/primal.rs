@@ -15,8 +15,9 @@ use std::ops::Range;
 /// What is known of the cost along a direction where it begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Direction {
-    /// Its slope; the direction is Newton's, so that the curvature is minus that.
-    Newton(f64),
+    /// Its slope; the direction is Newton's, so that the curvature is minus that. The first one leads to the minimum itself
+    /// unless a constraint changes its zone on the way; later ones may be so short that they are all rounding.
+    Newton { slope: f64, first: bool },
     /// Nothing.
     Other,
 }
@@ -194,21 +195,25 @@ impl<'a> Problem<'a> {
         let mut evaluations = 0;
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
+        for dofs in dofs.clone() {
+            mass::mul(m, &d.M, &s.search, &mut s.mv, dofs);
+        }
+        for b in blocks.clone() {
+            self.jac.mul_block(&self.jac.blocks[b], &s.search, &mut s.jv);
+        }
+        let first = matches!(direction, Direction::Newton { first: true, .. });
+        if first && blocks.clone().all(|b| stays(d, s, &self.jac.blocks[b])) {
+            return 1.0;
+        }
         let (mut length, mut linear, mut quadratic) = (0.0, 0.0, 0.0);
-        for dofs in dofs {
-            mass::mul(m, &d.M, &s.search, &mut s.mv, dofs.clone());
-            for k in dofs {
-                length += s.search[k] * s.search[k];
-                linear += s.search[k] * (s.ma[k] - d.qfrc_smooth[k]);
-                quadratic += 0.5 * s.search[k] * s.mv[k];
-            }
+        for k in dofs.flatten() {
+            length += s.search[k] * s.search[k];
+            linear += s.search[k] * (s.ma[k] - d.qfrc_smooth[k]);
+            quadratic += 0.5 * s.search[k] * s.mv[k];
         }
         let length = length.sqrt();
         if length < MINVAL {
             return 0.0;
-        }
-        for b in blocks.clone() {
-            self.jac.mul_block(&self.jac.blocks[b], &s.search, &mut s.jv);
         }
         let gtol = m.opt.tolerance * m.opt.ls_tolerance * length / scale;
         let most = most.min(m.opt.ls_iterations.max(0) as u64) as usize;
@@ -231,7 +236,7 @@ impl<'a> Problem<'a> {
             p
         };
         let start = match direction {
-            Direction::Newton(slope) => Point { alpha: 0.0, cost: 0.0, slope, curvature: -slope },
+            Direction::Newton { slope, .. } => Point { alpha: 0.0, cost: 0.0, slope, curvature: -slope },
             Direction::Other => eval(0.0),
         };
         let best = minimize(gtol, most, start, eval);
@@ -264,6 +269,24 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
     let contact = if b.cost == Cost::Cone { d.contact.get(d.efc_id[row] as usize) } else { None };
     let stiff = d.efc_D[b.rows()].first_chunk::<R>()?;
     Some(Shape { cost: b.cost, stiff, loss: d.efc_frictionloss[row], contact })
+}
+
+/// Whether the cost of a block is one quadratic all along the search direction.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn stays(d: &Fields, s: &Iterate, b: &Block) -> bool {
+    if b.cost == Cost::Push {
+        return b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0));
+    }
+    by_rows!(b.nrow, R => stays_other::<R>(d, s, b))
+}
+
+/// The same for a constraint that does not push.
+#[inline(never)]
+fn stays_other<const R: usize>(d: &Fields, s: &Iterate, b: &Block) -> bool {
+    match (shape::<R>(d, b), s.jar[b.rows()].first_chunk(), s.jv[b.rows()].first_chunk()) {
+        (Some(shape), Some(x), Some(v)) => shape.stays(x, v),
+        _ => false,
+    }
 }
 
 /// Adds the rows of a block that push to a point of the line.

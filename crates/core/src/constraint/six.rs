@@ -6,7 +6,7 @@ use crate::dynamics::mass;
 use crate::math::{FREE_DOFS as N, MINVAL, dot};
 use crate::model::Model;
 
-/// The lower triangle of H = M + Jᵀ C J.
+/// H = M + Jᵀ C J, of which the lower triangle is looked at.
 pub(super) struct Six {
     /// The first degree of freedom.
     start: usize,
@@ -17,14 +17,7 @@ impl Six {
     /// M of the degrees of freedom from `start` on.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn new(m: &Model, inertia: &[f64], start: usize) -> Six {
-        let mut values = [[0.0; N]; N];
-        for (i, to) in values.iter_mut().enumerate() {
-            let row = mass::row(m, start + i);
-            for (&j, &x) in m.M_colind[row.clone()].iter().zip(&inertia[row]) {
-                to[j as usize - start] = x;
-            }
-        }
-        Six { start, values }
+        Six { start, values: mass::free_block(m, inertia, start) }
     }
 
     /// H⁻¹ g by H = L Lᵀ.

@@ -128,7 +128,9 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch) {
 #[inline(never)]
 fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) -> bool {
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
-    mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, 0..m.nv);
+    for tree in 0..m.ntree {
+        mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, m.tree_dofs(tree));
+    }
     let mut reached = std::mem::take(&mut s.reached);
     reached.clear();
     for island in 0..d.nisland {

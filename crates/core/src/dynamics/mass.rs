@@ -68,6 +68,12 @@ pub(crate) fn rows_of(m: &Model, dofs: Range<usize>) -> Range<usize> {
     if dofs.is_empty() { 0..0 } else { row(m, dofs.start).start..row(m, dofs.end - 1).end }
 }
 
+/// Whether the rows of the degrees of freedom `dofs` hold their diagonal alone, as those of simple bodies do.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn is_diagonal(m: &Model, dofs: &Range<usize>) -> bool {
+    rows_of(m, dofs.clone()).len() == dofs.len()
+}
+
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
@@ -88,6 +94,17 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
         return triangle::factor_rows(n, ld, diag_inv);
     }
     let mut bad = None;
+    if is_diagonal(m, &dofs) {
+        let rows = ld[rows_of(m, dofs.clone())].iter_mut().zip(&mut diag_inv[dofs.clone()]);
+        for (k, (x, inv)) in dofs.zip(rows).rev() {
+            if *x < MINVAL {
+                *x = MINVAL;
+                bad = Some(k);
+            }
+            *inv = 1.0 / *x;
+        }
+        return bad;
+    }
     let mut end = dofs.end;
     while end > dofs.start {
         if let Some(n) = triangle::size_before(m, end) {
@@ -248,23 +265,16 @@ fn subtract_four(target: &mut [f64], rows: [&[f64]; 4], f: [f64; 4]) {
 /// x ← M⁻¹ x for the degrees of freedom `dofs` (ascending, whole trees).
 #[inline(never)]
 pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs: Range<usize>) {
-    if m.nC == m.nv {
-        // A diagonal matrix.
+    if is_diagonal(m, &dofs) {
         for (x, inv) in x[dofs.clone()].iter_mut().zip(&diag_inv[dofs]) {
             *x *= inv;
         }
         return;
     }
-    // The part of a row below the diagonal, and where its columns begin: those of a serial chain are
-    // consecutive.
     if let Some(n) = whole_chain(m) {
         triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
-    let row = |i: usize| {
-        let (start, n) = (m.M_rowadr[i] as usize, m.M_rownnz[i] as usize - 1);
-        (&ld[start..start + n], &m.M_colind[start..start + n], n > 3 && m.M_colind[start] as usize + n == i)
-    };
     let mut end = dofs.end;
     while end > dofs.start {
         if let Some(n) = triangle::size_before(m, end) {
@@ -273,9 +283,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
             continue;
         }
         end -= 1;
-        let (values, columns, serial) = row(end);
+        let (values, columns) = below(m, ld, end);
         let xi = x[end];
-        if serial {
+        if are_serial(columns, end) {
             subtract(&mut x[end - values.len()..end], values, xi);
         } else {
             for (l, &j) in values.iter().zip(columns) {
@@ -287,9 +297,9 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         if triangle::size_before(m, i + 1).is_some() {
             continue; // done above
         }
-        let (values, columns, serial) = row(i);
+        let (values, columns) = below(m, ld, i);
         let mut s = x[i] * diag_inv[i];
-        if serial {
+        if are_serial(columns, i) {
             s -= dot_slice(values, &x[i - values.len()..i]);
         } else {
             for (l, &j) in values.iter().zip(columns) {
@@ -300,12 +310,26 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     }
 }
 
+/// The part of row `i` below the diagonal, and its columns.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn below<'a>(m: &'a Model, ld: &'a [f64], i: usize) -> (&'a [f64], &'a [i32]) {
+    let start = m.M_rowadr[i] as usize;
+    let end = start + m.M_rownnz[i] as usize - 1;
+    (&ld[start..end], &m.M_colind[start..end])
+}
+
+/// Whether the columns of a row that is not short are consecutive, as those of a serial chain are.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn are_serial(columns: &[i32], i: usize) -> bool {
+    columns.len() > 3 && columns[0] as usize + columns.len() == i
+}
+
 /// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).
 #[inline]
 pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Range<usize>) {
-    if m.nC == m.nv {
-        // A diagonal matrix.
-        combine(&mut out[dofs.clone()], [&mass[dofs.clone()], &v[dofs]], |_, [mass, v]| mass * v);
+    if is_diagonal(m, &dofs) {
+        let diagonal = &mass[rows_of(m, dofs.clone())];
+        combine(&mut out[dofs.clone()], [diagonal, &v[dofs]], |_, [mass, v]| mass * v);
         return;
     }
     for i in dofs {
@@ -332,6 +356,13 @@ pub(crate) fn diagonal(m: &Model, i: usize) -> usize {
 /// The dense block of a free joint, given its first degree of freedom, in a matrix with the pattern of M.
 pub(crate) fn free_block(m: &Model, mass: &[f64], first: usize) -> [Spatial; 6] {
     let mut out = [[0.0; 6]; 6];
+    let dofs = first..first + 6;
+    if is_diagonal(m, &dofs) {
+        for (i, x) in mass[rows_of(m, dofs)].iter().take(6).enumerate() {
+            out[i][i] = *x;
+        }
+        return out;
+    }
     for r in 0..6 {
         let row = m.M_rowadr[first + r] as usize..diagonal(m, first + r) + 1;
         for (&k, &x) in m.M_colind[row.clone()].iter().zip(&mass[row]) {
@@ -365,6 +396,9 @@ pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &m
 pub(crate) fn trace(m: &Model, mass: &[f64], dofs: Range<usize>) -> f64 {
     if m.nC == m.nv {
         return sum([&mass[dofs]], |[x]| x);
+    }
+    if is_diagonal(m, &dofs) {
+        return mass[rows_of(m, dofs)].iter().sum();
     }
     dofs.map(|k| mass[diagonal(m, k)]).sum()
 }

@@ -48,6 +48,9 @@ pub(crate) enum Fact {
     ActuatorDampers,
     /// All actuators are motors of slides and hinges: each makes a force in proportion to its control.
     Motors,
+    /// All actuators are motors or servos of slides, hinges and tendons: their forces follow from a control, a length and a
+    /// velocity.
+    Servos,
     /// Forces of actuators are limited, one by one or by joint.
     ForceLimits,
     /// The solver says more than forces: `efc_b` and `efc_state`.
@@ -98,7 +101,15 @@ impl Default for Plan {
             every_sensor: true,
             passes: [[0; 3]; 2],
         };
-        for known in [Fact::MassForRows, Fact::DampersStay, Fact::Motors, Fact::Unforced, Fact::Ballistic] {
+        let known = [
+            Fact::MassForRows,
+            Fact::DampersStay,
+            Fact::Motors,
+            Fact::Servos,
+            Fact::Unforced,
+            Fact::Ballistic,
+        ];
+        for known in known {
             plan.state(known, false);
         }
         plan

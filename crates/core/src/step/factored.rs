@@ -1,8 +1,7 @@
 //! A matrix with the pattern of M and its factorization, kept from one step to the next.
 
 use crate::dynamics::mass;
-use crate::forces::derivative;
-use crate::math::same_bits;
+use crate::forces::derivative::{self, sparse};
 use crate::model::Model;
 
 /// The matrix of the fast implicit integrator, and its factorization, which stays as long as the matrix does, tree by tree: that of
@@ -17,8 +16,9 @@ pub(crate) struct Factored {
 }
 
 impl Factored {
-    /// Factorizes the rows of the trees that are not free bodies. Returns the first degree of freedom whose D is not positive.
-    pub(crate) fn make(&mut self, m: &Model, matrix: &[f64]) -> Option<usize> {
+    /// Factorizes M - h D, where `whole` is D, of the trees that are not free bodies. Returns the first degree of freedom whose
+    /// pivot is not positive.
+    pub(crate) fn make(&mut self, m: &Model, mass: &[f64], whole: &[f64], h: f64) -> Option<usize> {
         if self.known.len() != m.ntree || self.ld.len() != m.nC {
             (self.of, self.ld) = (vec![0.0; m.nC], vec![0.0; m.nC]);
             (self.known, self.diag_inv) = (vec![false; m.ntree], vec![0.0; m.nv]);
@@ -26,16 +26,32 @@ impl Factored {
         let mut bad = None;
         for tree in (0..m.ntree).filter(|&t| !derivative::is_free_rigid(m, t)) {
             let dofs = m.tree_dofs(tree);
-            let rows = mass::rows_of(m, dofs.clone());
-            if self.known[tree] && same_bits(&self.of[rows.clone()], &matrix[rows.clone()]) {
+            let changed = dofs.clone().fold(false, |changed, i| {
+                let row = mass::row(m, i);
+                let lower = sparse::lower(m, i, row.len());
+                changed | difference(&mut self.of[row.clone()], &mass[row], &whole[lower], h)
+            });
+            if self.known[tree] && !changed {
                 continue;
             }
-            self.of[rows.clone()].copy_from_slice(&matrix[rows]);
-            let failed = mass::factor_copy(m, matrix, &mut self.ld, &mut self.diag_inv, dofs);
+            let failed = mass::factor_copy(m, &self.of, &mut self.ld, &mut self.diag_inv, dofs);
             // One that warns is factorized again at the next step, and warns again.
             self.known[tree] = failed.is_none();
             bad = bad.or(failed);
         }
         bad
     }
+}
+
+/// out ← a - h b; whether some bit of it is another one.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn difference(out: &mut [f64], a: &[f64], b: &[f64], h: f64) -> bool {
+    let (n, mut changed) = (out.len(), false);
+    let (a, b) = (&a[..n], &b[..n]);
+    for k in 0..n {
+        let now = a[k] - h * b[k];
+        changed |= now.to_bits() != out[k].to_bits();
+        out[k] = now;
+    }
+    changed
 }

@@ -362,7 +362,7 @@ const MOVING_MASS: &str = "the mass matrix depends on the configuration";
 const CONSTANT_MASS: &str =
     "every moving body is a single free or sliding one: its mass matrix is diagonal and constant";
 const NO_SPATIAL_BODIES: &str =
-    "every tree is one simple body, a short chain or slides alone, whose equations need no composite bodies";
+    "every tree is one rigid body, a short chain or slides alone, whose equations need no composite bodies";
 const NO_CONSTRAINTS: &str = "no contact and no limit is possible";
 /// Transmissions between sites.
 const AT_SITES: [i32; 3] = [trntype::SITE, trntype::SLIDERCRANK, trntype::SO3];

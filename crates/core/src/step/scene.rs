@@ -85,7 +85,7 @@ type Test = fn(&Scene) -> bool;
 
 /// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
 /// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(Fact, Test); 20] = [
+pub(super) const FACTS: [(Fact, Test); 21] = [
     (Fact::General, |s| s.general),
     (Fact::Composite, |s| s.large || s.reads_field("crb")),
     (Fact::Recursion, |s| s.large),
@@ -99,7 +99,8 @@ pub(super) const FACTS: [(Fact, Test); 20] = [
     (Fact::Springs, |s| s.some(&JOINT_FORCES[2..]) || s.tendon_springs),
     (Fact::Dampers, |s| s.damped() != Some(false) || s.tendon_dampers),
     (Fact::ActuatorDampers, |s| s.damped().is_none() || s.m.jnt_actuatorid.iter().any(|&i| i != -1)),
-    (Fact::Motors, |s| s.motors()),
+    (Fact::Motors, |s| s.actuators_are(Scene::is_motor)),
+    (Fact::Servos, |s| s.actuators_are(Scene::is_servo)),
     (Fact::ForceLimits, |s| {
         s.m.actuator_forcelimited.contains(&true)
             || s.m.jnt_actfrclimited.contains(&true)
@@ -290,19 +291,31 @@ impl<'a> Scene<'a> {
 
     /// Whether an actuator acts on a slide or a hinge, with a force in proportion to its input.
     pub(super) fn is_motor(&self, i: usize) -> bool {
-        let m = self.m;
-        let joint = usize::try_from(m.actuator_trnid[2 * i]).ok().filter(|&j| j < m.njnt);
-        matches!(m.actuator_trntype[i], trntype::JOINT | trntype::JOINTINPARENT)
-            && joint.is_some_and(|j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE))
-            && m.actuator_gaintype[i] == gaintype::FIXED
-            && m.actuator_biastype[i] == biastype::NONE
+        self.is_servo(i)
+            && self.m.actuator_trntype[i] != trntype::TENDON
+            && self.m.actuator_biastype[i] == biastype::NONE
     }
 
-    /// Whether all actuators are motors, each with one control and none of them ever switched off.
-    pub(super) fn motors(&self) -> bool {
+    /// Whether an actuator acts on a slide, a hinge or a tendon, with a force that is linear in its input, its length and its
+    /// velocity.
+    pub(super) fn is_servo(&self, i: usize) -> bool {
+        let m = self.m;
+        let joint = usize::try_from(m.actuator_trnid[2 * i]).ok().filter(|&j| j < m.njnt);
+        let on = match m.actuator_trntype[i] {
+            trntype::JOINT | trntype::JOINTINPARENT => {
+                joint.is_some_and(|j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE))
+            }
+            kind => kind == trntype::TENDON,
+        };
+        on && m.actuator_gaintype[i] == gaintype::FIXED
+            && matches!(m.actuator_biastype[i], biastype::NONE | biastype::AFFINE)
+    }
+
+    /// Whether all actuators are of a kind, each with one control and none of them ever switched off.
+    pub(super) fn actuators_are(&self, of_kind: fn(&Scene<'a>, usize) -> bool) -> bool {
         let m = self.m;
         let plain = |i: usize| {
-            self.is_motor(i)
+            of_kind(self, i)
                 && m.actuator_dyntype[i] == dyntype::NONE
                 && m.actuator_ctrlnum[i] == 1
                 && !actuation::switched_off(m, i)

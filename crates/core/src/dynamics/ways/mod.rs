@@ -49,12 +49,14 @@ macro_rules! table {
 mod articulated;
 mod chain;
 mod general;
+mod rigid;
 mod serial;
 mod simple;
 mod sliding;
 
 table! {
     simple
+    rigid
     chain
     serial
     sliding

@@ -1,8 +1,8 @@
 //! Trees of slides alone, however they branch: carriages, gantries, the fingers of a gripper.
 //!
 //! Nothing turns, so that all that a slide moves is one mass: M_ij = m_i (a_i · a_j) for an ancestor j of i, where m_i is what slide i
-//! moves and a are the axes, and the bias force is weight alone, -m_i (a_i · g). M changes when its masses do; while it does not,
-//! its factorization stays.
+//! moves and a are the axes, and the bias force is weight alone, -m_i (a_i · g). M changes when its masses do, or when something
+//! turns what carries the tree; while it does not, it stays, and so does its factorization.
 
 use super::{Damped, Factors, Forces, NOTHING, Own, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
@@ -37,19 +37,25 @@ fn covers(m: &Model, tree: usize) -> bool {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Trees {
     slides: Vec<Slide>,
-    /// The mass of what each body carries, itself included.
+    /// Whether the rows of M that slides keep are those of their masses.
+    known: bool,
+    /// The mass of each body, and of what it carries, itself included.
+    masses: Vec<f64>,
     carried: Vec<f64>,
     factored: Vec<Factored>,
 }
 
 /// A slide.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 struct Slide {
     dof: usize,
     joint: usize,
     body: usize,
     mass: f64,
     armature: f64,
+    /// Its axis, and its row of M.
+    axis: Vec3,
+    row: Vec<f64>,
 }
 
 /// A tree, and what its factorization was made of.
@@ -67,7 +73,8 @@ impl Trees {
     pub(super) fn new(m: &Model, own: &Own) -> Trees {
         let slide = |dof: usize| {
             let joint = m.dof_jntid[dof] as usize;
-            Slide { dof, joint, body: m.jnt_bodyid[joint] as usize, ..Slide::default() }
+            let row = vec![0.0; rows_of_mass::row(m, dof).len()];
+            Slide { dof, joint, body: m.jnt_bodyid[joint] as usize, row, ..Slide::default() }
         };
         let slides = own.forces.iter().flat_map(|&tree| m.tree_dofs(tree)).map(slide).collect();
         let tree = |&tree: &usize| {
@@ -75,7 +82,7 @@ impl Trees {
             Factored { rows: rows_of_mass::rows_of(m, dofs.clone()), dofs, ..Factored::default() }
         };
         let factored = own.factors.iter().map(tree).collect();
-        let mut trees = Trees { slides, carried: Vec::new(), factored };
+        let mut trees = Trees { slides, factored, ..Trees::default() };
         trees.load(m);
         trees
     }
@@ -85,30 +92,44 @@ impl Trees {
         if self.slides.is_empty() {
             return;
         }
-        self.carried.clear();
-        self.carried.extend_from_slice(&m.body_mass);
-        for b in (1..m.nbody).rev() {
-            self.carried[m.body_parentid[b] as usize] += self.carried[b];
+        if !same_bits(&self.masses, &m.body_mass) {
+            self.masses.clone_from(&m.body_mass);
+            self.carried.clone_from(&m.body_mass);
+            for b in (1..m.nbody).rev() {
+                self.carried[m.body_parentid[b] as usize] += self.carried[b];
+            }
         }
         for slide in &mut self.slides {
-            (slide.mass, slide.armature) = (self.carried[slide.body], rows_of_mass::armature(m, slide.dof));
+            let (mass, armature) = (self.carried[slide.body], rows_of_mass::armature(m, slide.dof));
+            self.known &= (slide.mass, slide.armature) == (mass, armature);
+            (slide.mass, slide.armature) = (mass, armature);
         }
+    }
+
+    /// Makes the rows of M again where masses or axes are others.
+    fn update(&mut self, m: &Model, axes: &[Vec3]) {
+        if self.known && self.slides.iter().all(|slide| same_bits(&slide.axis, &axes[slide.joint])) {
+            return;
+        }
+        for slide in &mut self.slides {
+            slide.axis = axes[slide.joint];
+            let along = scale(slide.axis, slide.mass);
+            let columns = m.M_colind[rows_of_mass::row(m, slide.dof)].iter();
+            slide.row.clear();
+            slide.row.extend(columns.map(|&k| dot(along, axes[m.dof_jntid[k as usize] as usize])));
+            if let Some(diagonal) = slide.row.last_mut() {
+                *diagonal += slide.armature;
+            }
+        }
+        self.known = true;
     }
 }
 
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let axes = rows::<3>(&d.xaxis);
-    for slide in &w.ways.sliding.slides {
-        let row = rows_of_mass::row(m, slide.dof);
-        let along = scale(axes[slide.joint], slide.mass);
-        let columns = m.M_colind[row.clone()].iter();
-        let row = &mut d.M[row];
-        for (x, &k) in row.iter_mut().zip(columns) {
-            *x = dot(along, axes[m.dof_jntid[k as usize] as usize]);
-        }
-        if let Some(diagonal) = row.last_mut() {
-            *diagonal += slide.armature;
-        }
+    let trees = &mut w.ways.sliding;
+    trees.update(m, rows::<3>(&d.xaxis));
+    for slide in &trees.slides {
+        d.M[rows_of_mass::row(m, slide.dof)].copy_from_slice(&slide.row);
     }
 }
 

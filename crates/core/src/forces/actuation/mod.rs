@@ -66,11 +66,30 @@ pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
 /// The same for actuators of any kind.
 #[inline(never)]
 fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    d.actuator_force.fill(0.0);
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
+        d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
         return;
     }
+    if !(d.plan.has(Fact::Servos) && servos(m, d)) {
+        by_their_laws(m, d);
+    }
+    limit::tendons(m, d, w);
+    limit::forces(m, d);
+    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
+        if acts(m, d, i) {
+            d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
+        }
+    }
+    transmission::apply_forces(m, d);
+    gravity_compensation(m, d);
+    limit::joints(m, d);
+}
+
+/// The force of each actuator by its own law, before limits.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn by_their_laws(m: &Model, d: &mut Fields) {
+    d.actuator_force.fill(0.0);
     let mut ctrl = std::mem::take(&mut d.acting);
     control::effective(m, d, &mut ctrl);
     if m.na > 0 {
@@ -91,16 +110,6 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
     }
     d.acting = ctrl;
-    limit::tendons(m, d, w);
-    limit::forces(m, d);
-    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == biastype::DCMOTOR) {
-        if acts(m, d, i) {
-            d.actuator_force[m.actuator_outadr[i] as usize] += motor::mechanical(m, d, i);
-        }
-    }
-    transmission::apply_forces(m, d);
-    gravity_compensation(m, d);
-    limit::joints(m, d);
 }
 
 /// The same for motors of slides and hinges alone, each with one control and one degree of freedom: what most labs have.
@@ -122,6 +131,27 @@ fn motors(m: &Model, d: &mut Fields) -> bool {
         d.qfrc_actuator[k as usize] += moment * *force;
     }
     gravity_compensation(m, d);
+    true
+}
+
+/// The forces of motors and servos of slides, hinges and tendons, each with one control, before limits. False, and nothing is
+/// done, where a control is no number.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn servos(m: &Model, d: &mut Fields) -> bool {
+    if m.opt.disabled(disable::CLAMPCTRL) || d.ctrl.iter().any(|&u| bad(u)) {
+        return false;
+    }
+    let controls = d.ctrl.iter().zip(rows::<2>(&m.actuator_ctrlrange)).zip(&m.actuator_ctrllimited);
+    let moving = d.actuator_length.iter().zip(&d.actuator_velocity);
+    let biases = rows::<10>(&m.actuator_biasprm).iter().zip(&m.actuator_biastype).zip(moving);
+    let gains = rows::<10>(&m.actuator_gainprm).iter().zip(&mut d.actuator_force);
+    for ((((u, range), &limited), ((b, &kind), (length, velocity))), (gain, force)) in
+        controls.zip(biases).zip(gains)
+    {
+        let u = if limited { clip(*u, *range) } else { *u };
+        let bias = if kind == biastype::NONE { 0.0 } else { b[0] + b[1] * length + b[2] * velocity };
+        *force = gain[0] * u + bias;
+    }
     true
 }
 

@@ -15,6 +15,7 @@ use crate::forces::passive::spring;
 use crate::forces::tendon;
 use crate::kinds::{disable, joint};
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// What is computed anew in every step; its arrays are made when they are first needed.
@@ -24,6 +25,8 @@ pub(crate) struct Work {
     pub(crate) whole: Vec<f64>,
     /// The motion of a frame for a unit velocity of each degree of freedom that moves it.
     columns: Vec<Spatial>,
+    /// How fast the force of the damper of each degree of freedom falls with its velocity.
+    slopes: Vec<f64>,
     bias: bias::Work,
 }
 
@@ -42,6 +45,7 @@ impl Work {
     fn resize(&mut self, m: &Model) {
         self.whole.resize(m.nD, 0.0);
         self.columns.resize(m.nv, [0.0; 6]);
+        self.slopes.resize(m.nv, 0.0);
         self.bias.resize(m);
     }
 }
@@ -52,7 +56,7 @@ pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.whole.fill(0.0);
     actuator_slope::add_velocity(m, d, &mut w.whole);
     if !m.opt.disabled(disable::DAMPER) {
-        dampers(m, d, &mut w.whole);
+        dampers(m, d, w);
     }
     if fluid::acts(m) {
         add_fluid(m, d, w, medium);
@@ -107,9 +111,9 @@ pub(crate) fn medium(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
 /// M - h D for a free joint, given its first degree of freedom, with a matrix in the place of M.
 pub(crate) fn free_block(m: &Model, mass: &[f64], w: &Work, h: f64, first: usize) -> [Spatial; 6] {
     let mut out = mass::free_block(m, mass, first);
-    for (r, row) in out.iter_mut().enumerate() {
-        let start = m.D_rowadr[first + r] as usize;
-        for (x, y) in row.iter_mut().zip(&w.whole[start..start + 6]) {
+    let rows = w.whole.get(m.D_rowadr[first] as usize..).and_then(|rows| rows.first_chunk::<36>());
+    if let Some(rows) = rows {
+        for (x, y) in out.as_flattened_mut().iter_mut().zip(rows) {
             *x -= h * y;
         }
     }
@@ -129,9 +133,12 @@ pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
 }
 
 /// Dampers of joints and tendons.
-fn dampers(m: &Model, d: &Fields, out: &mut [f64]) {
-    for i in 0..m.nv {
-        out[sparse::diagonal(m, i)] -= spring::joint_damping(m, d, i);
+fn dampers(m: &Model, d: &Fields, w: &mut Work) {
+    let Work { whole: out, slopes, .. } = w;
+    let actuators = d.plan.has(Fact::ActuatorDampers);
+    spring::of_dampers(m, actuators, &d.qvel, slopes, |law, v| law.slope(v.abs()));
+    for (i, slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
+        out[sparse::diagonal(m, i)] -= slope;
     }
     for t in 0..m.ntendon {
         let law = spring::tendon_damper(m, t);

@@ -53,13 +53,18 @@ pub(crate) fn mass_minus(m: &Model, mass: &[f64], h: f64, out: &mut [f64]) {
     }
 }
 
+/// Where the last `n` entries of row `i` up to its diagonal are: as many as its row of M has.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn lower(m: &Model, i: usize, n: usize) -> std::ops::Range<usize> {
+    let end = diagonal(m, i) + 1;
+    end - n..end
+}
+
 /// out ← out - h lower(whole), in the pattern of M.
 pub(crate) fn subtract_lower(m: &Model, whole: &[f64], h: f64, out: &mut [f64]) {
     for i in 0..m.nv {
         let (first, n) = (m.M_rowadr[i] as usize, m.M_rownnz[i] as usize);
-        // As many entries before the diagonal as the row of M has.
-        let end = diagonal(m, i) + 1;
-        for (x, y) in out[first..first + n].iter_mut().zip(&whole[end - n..end]) {
+        for (x, y) in out[first..first + n].iter_mut().zip(&whole[lower(m, i, n)]) {
             *x -= h * y;
         }
     }
@@ -70,6 +75,9 @@ pub(crate) fn add_outer(m: &Model, dofs: &[i32], values: &[f64], s: f64, out: &m
     for (k, (&i, x)) in dofs.iter().zip(values).enumerate() {
         let i = i as usize;
         out[diagonal(m, i)] += s * x * x;
+        if k == 0 {
+            continue;
+        }
         let up = ancestors(m, i);
         let mut a = 0;
         for (&j, y) in dofs[..k].iter().zip(values) {

@@ -27,12 +27,10 @@ pub(super) fn implicit(m: &Model, data: &mut Data) {
 /// solved with all of D, six by six.
 pub(super) fn implicitfast(m: &Model, data: &mut Data) {
     let Data { fields: d, work } = data;
-    let (w, matrix, factored) = (&mut work.derivative, &mut work.dynamics.ld, &mut work.factored);
+    let (w, factored) = (&mut work.derivative, &mut work.factored);
     let h = m.opt.timestep;
     derivative::forces(m, d, w, Medium::Symmetric);
-    matrix.copy_from_slice(&d.M);
-    sparse::subtract_lower(m, &w.whole, h, matrix);
-    if let Some(dof) = factored.make(m, matrix) {
+    if let Some(dof) = factored.make(m, &d.M, &w.whole, h) {
         d.warn(Warning::Inertia, dof);
     }
     let acceleration = &mut work.damping.qacc;

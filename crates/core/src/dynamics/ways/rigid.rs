@@ -1,0 +1,175 @@
+//! Rigid bodies: trees in which one body moves, on a ball or a free joint, wherever its mass is.
+//!
+//! All that is fixed to the body moves with it as one. About the anchor, in the axes of the body, its inertia I, the moment of its
+//! mass h = m r and its mass m are constant. Where R are the axes of the body, ω is its turning in them and g gravity,
+//!
+//! > turning: M = I, bias = ω × I ω - h × Rᵀg
+//!
+//! and a free body, whose anchor has a velocity v, moves as well:
+//!
+//! > kinetic energy ½ m v² + v · R(ω × h) + ½ ω · I ω, bias along v = R(ω × (ω × h)) - m g
+
+use super::{Forces, NOTHING, Own, Row};
+use crate::dynamics::{Scratch, mass as rows_of_mass};
+use crate::kinds::joint;
+use crate::math::*;
+use crate::model::{Fields, Model};
+
+pub(super) const ROW: Row = Row {
+    name: "rigid",
+    covers,
+    copies: &COPIES,
+    load: |m, w| w.ways.rigid.bodies.iter_mut().for_each(|body| body.load(m)),
+    forces: Some(Forces {
+        mass,
+        bias,
+        looks_at_places: |_, _| true,
+        constant: |_, _| false,
+        turns_alone: false,
+    }),
+    ..NOTHING
+};
+
+/// What the inertia of a body follows from.
+const COPIES: [&str; 10] = [
+    "body_pos",
+    "body_quat",
+    "body_ipos",
+    "body_iquat",
+    "body_mass",
+    "body_inertia",
+    "jnt_pos",
+    "dof_armature",
+    "actuator_armature",
+    "actuator_gear",
+];
+
+/// Whether a tree is one of them: a ball with its three degrees of freedom, or a free joint with its six.
+fn covers(m: &Model, tree: usize) -> bool {
+    let dofs = m.tree_dofs(tree);
+    let kind = m.jnt_type[m.dof_jntid[dofs.start] as usize];
+    m.dof_simplenum[dofs.start] == 0 && matches!((kind, dofs.len()), (joint::BALL, 3) | (joint::FREE, 6))
+}
+
+/// The bodies.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Trees {
+    bodies: Vec<Body>,
+}
+
+/// The body that moves, with what is fixed to it.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Body {
+    tree: usize,
+    body: usize,
+    joint: usize,
+    /// Whether its anchor moves.
+    free: bool,
+    /// Its first degree of freedom, that of its turning, and where its rows of M begin.
+    first: usize,
+    turn: usize,
+    rows: usize,
+    /// Its inertia about the anchor: xx yy zz xy xz yz, h, m.
+    inertia: [f64; 10],
+    /// What the joint adds to the diagonal of M, moving and turning.
+    moving: Vec3,
+    turning: Vec3,
+}
+
+impl Trees {
+    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+        let body = |&tree: &usize| {
+            let dofs = m.tree_dofs(tree);
+            let joint = m.dof_jntid[dofs.start] as usize;
+            let mut body = Body {
+                tree,
+                body: m.jnt_bodyid[joint] as usize,
+                joint,
+                free: m.jnt_type[joint] == joint::FREE,
+                first: dofs.start,
+                turn: dofs.end - 3,
+                rows: m.M_rowadr[dofs.start] as usize,
+                ..Body::default()
+            };
+            body.load(m);
+            body
+        };
+        Trees { bodies: own.forces.iter().map(body).collect() }
+    }
+}
+
+impl Body {
+    /// Takes its inertia and armature from the model.
+    fn load(&mut self, m: &Model) {
+        let first = m.tree_bodyadr[self.tree] as usize;
+        let bodies = first..first + m.tree_bodynum[self.tree] as usize;
+        self.inertia = bodies.fold([0.0; 10], |sum, b| add(sum, self.inertia_of(m, b)));
+        let armature = |first: usize| [0, 1, 2].map(|i| rows_of_mass::armature(m, first + i));
+        (self.moving, self.turning) = (armature(self.first), armature(self.turn));
+    }
+
+    /// That of a body that is fixed to it, or of its own.
+    fn inertia_of(&self, m: &Model, mut b: usize) -> [f64; 10] {
+        let (mass, moments) = (m.body_mass[b], rows::<3>(&m.body_inertia)[b]);
+        let (mut at, mut axes) = (rows::<3>(&m.body_ipos)[b], quat_to_mat(rows::<4>(&m.body_iquat)[b]));
+        while b != self.body {
+            let frame = quat_to_mat(quat_normalize(rows::<4>(&m.body_quat)[b]));
+            at = add(mat_mul_vec(&frame, at), rows::<3>(&m.body_pos)[b]);
+            axes = mat_mul(&frame, &axes);
+            b = m.body_parentid[b] as usize;
+        }
+        inertia_about(moments, &axes, sub(at, self.anchor(m)), mass)
+    }
+
+    /// Where the body turns, in its frame: a free one turns about its origin.
+    fn anchor(&self, m: &Model) -> Vec3 {
+        if self.free { [0.0; 3] } else { rows::<3>(&m.jnt_pos)[self.joint] }
+    }
+}
+
+fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
+    for body in &w.ways.rigid.bodies {
+        let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
+        let ([a, b, c], [u, v, w]) = (body.turning, body.moving);
+        let out = &mut d.M[body.rows..];
+        if !body.free {
+            fill(out, [xx + a, xy, yy + b, xz, yz, zz + c]);
+            continue;
+        }
+        // R(ω × h) for a unit turning about each axis.
+        let axes = &rows::<9>(&d.xmat)[body.body];
+        let [x, y, z] = [[0.0, -hz, hy], [hz, 0.0, -hx], [-hy, hx, 0.0]].map(|push| mat_mul_vec(axes, push));
+        #[rustfmt::skip]
+        fill(out, [
+            mass + u,
+            0.0, mass + v,
+            0.0, 0.0, mass + w,
+            x[0], x[1], x[2], xx + a,
+            y[0], y[1], y[2], xy, yy + b,
+            z[0], z[1], z[2], xz, yz, zz + c,
+        ]);
+    }
+}
+
+/// Writes rows that follow each other.
+fn fill<const N: usize>(rows: &mut [f64], values: [f64; N]) {
+    if let Some(rows) = rows.first_chunk_mut() {
+        *rows = values;
+    }
+}
+
+fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+    for body in &w.ways.rigid.bodies {
+        let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
+        let (h, axes) = ([hx, hy, hz], &rows::<9>(&d.xmat)[body.body]);
+        let Some(&turn) = d.qvel[body.turn..].first_chunk() else { continue };
+        let [x, y, z] = turn;
+        let momentum = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
+        let torque = sub(cross(turn, momentum), cross(h, mat_t_mul_vec(axes, gravity)));
+        fill(&mut d.qfrc_bias[body.turn..], torque);
+        if body.free {
+            let outward = mat_mul_vec(axes, cross(turn, cross(turn, h)));
+            fill(&mut d.qfrc_bias[body.first..], add_scaled(outward, gravity, -mass));
+        }
+    }
+}
