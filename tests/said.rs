@@ -90,6 +90,9 @@ fn words_are_a_condition() {
     assert!(states == [UNCLEAR] && codes.contains(&"compares-nan"), "{codes:?}");
     let (states, codes) = quotes("It is slow.", says("slow", "true"));
     assert_eq!((states, codes), (vec![UNCLEAR], vec!["constant-claim"]));
+    // A number is not checked by a condition.
+    let (states, codes) = quotes("It lands after 0.440 s.", says("after 0.440 s", slower));
+    assert_eq!((states, codes), (vec![UNCLEAR], vec!["quote-unclear"]));
     // With a number in one quote.
     let mixed = json!({"says": [["1.083 s, far slower", ["moon.lands", slower]]]});
     assert_eq!(quotes("It lands after 1.083 s, far slower.", mixed).0, [RIGHT, RIGHT]);
@@ -121,6 +124,10 @@ fn a_table_may_have_words() {
     assert_eq!(states(&table("is in the air"), &loose).0, [RIGHT, UNCLEAR]);
     let (found, codes) = states(&table("hovers"), &claim);
     assert_eq!((found, codes), (vec![RIGHT, UNCLEAR], vec!["quote-unclear"]));
+    let mut counted = claim.clone();
+    counted["table"][0]["is"] = json!({"lands 1 time": "fall.low.map(z => z < 0.05)"});
+    let text = table("is in the air").replace("| lands |", "| lands 1 time |");
+    assert_eq!(states(&text, &counted).0, [UNCLEAR, UNCLEAR]);
     let only = json!({"lands": "fall.low.map(z => z < 0.05)"});
     let mut alone = claim.clone();
     alone["table"][0]["is"] = only;

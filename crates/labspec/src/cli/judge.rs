@@ -159,7 +159,7 @@ pub(super) fn told(file: &Path, engine: &str, course: &Course) -> String {
         "differs from"
     };
     // Where something is left out, "all" is said of what was judged.
-    let (left, judged) = match sum.left.told() {
+    let (left, judged) = match left(sum.left) {
         Some(left) => (format!("; not judged: {left}"), "judged "),
         None => (String::new(), ""),
     };
@@ -223,4 +223,17 @@ pub(super) fn machine(engine: &str, course: &Course) -> Value {
         "staleRuns": sum.stale, "missingRuns": sum.missing,
         "differing": differing.collect::<Vec<_>>(), "unjudged": unjudged.collect::<Vec<_>>(),
     })
+}
+
+/// `2 searches, 1 range, 5 closed forms`; nothing where nothing is left.
+fn left(left: Left) -> Option<String> {
+    let kinds = [
+        (left.searches, "search", "searches"),
+        (left.ranges, "range", "ranges"),
+        (left.forms, "closed form", "closed forms"),
+    ];
+    let told = kinds.into_iter().filter(|(n, ..)| *n > 0);
+    let told: Vec<String> =
+        told.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many })).collect();
+    (!told.is_empty()).then(|| told.join(", "))
 }

@@ -84,6 +84,15 @@ fn cell(
         );
         return Quote::unclear(text, &message);
     };
+    if !quote::parts(text.as_str()).is_empty() {
+        let message = format!("\"{}\" holds a number, which no condition checks", text.value);
+        findings.push(
+            Finding::error(rules::QUOTE_UNCLEAR, text.span(), message.clone())
+                .why("whatever the number says, the cell would be called right")
+                .help("quote it under `says`: an expression for its number, and a condition for its words"),
+        );
+        return Quote::unclear(text, &message);
+    }
     let expr = part(expr, member);
     let given = match Given::of(court, &expr, findings) {
         Ok(given) => given,

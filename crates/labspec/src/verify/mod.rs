@@ -38,10 +38,9 @@ pub use answer::{Answer, UNDECIDED, Verdict, Weight};
 pub use bound::BoundVerify;
 pub use curves::Curves;
 pub use exact::ClosedForm;
-pub(crate) use quote::folded;
 pub use quote::{
     Counted, Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, answered,
-    claimed, counted, plain, quoted, stated,
+    claimed, counted, folded, plain, quoted, stated,
 };
 pub use reads::labels;
 pub use says::Quote;

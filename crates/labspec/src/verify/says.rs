@@ -101,8 +101,9 @@ fn line(
         }
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
+    // Of one expression the number is the one that the quote states; words beside numbers leave none of these unchecked.
     let parts = match said.exprs.as_slice() {
-        [_] => vec![said.quote.value.clone(); numbers],
+        [_] if numbers == 1 => vec![said.quote.value.clone()],
         _ => quote::parts(said.quote.as_str()),
     };
     if parts.len() != numbers {

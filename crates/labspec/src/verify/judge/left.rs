@@ -28,19 +28,4 @@ impl Left {
             forms: self.forms + other.forms,
         }
     }
-
-    /// `2 searches, 1 range, 5 closed forms`; nothing where nothing is left.
-    pub(crate) fn told(self) -> Option<String> {
-        let kinds = [
-            (self.searches, "search", "searches"),
-            (self.ranges, "range", "ranges"),
-            (self.forms, "closed form", "closed forms"),
-        ];
-        let told: Vec<String> = kinds
-            .into_iter()
-            .filter(|(n, ..)| *n > 0)
-            .map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many }))
-            .collect();
-        (!told.is_empty()).then(|| told.join(", "))
-    }
 }

@@ -38,7 +38,7 @@ pub fn plain(html: &str) -> String {
 }
 
 /// A formula as a reader sees it. What has no plain letters stays as it is written, with its backslash.
-pub(crate) fn folded(tex: &str) -> String {
+pub fn folded(tex: &str) -> String {
     fold::fold(tex, false).0
 }
 
