@@ -38,8 +38,12 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         let Some(question) = claim.question else {
             for text in verify.options.first().into_iter().chain(&verify.value).chain(verify.wrong.first()) {
                 findings.push(
-                    Finding::new(VERIFY_ANSWER, text.span(), "there is no question here whose answer this could be")
-                        .help("move it to the question, or say it as [quote, expression] under `says`"),
+                    Finding::new(
+                        VERIFY_ANSWER,
+                        text.span(),
+                        "there is no question here whose answer this could be",
+                    )
+                    .help("move it to the question, or say it as [quote, expression] under `says`"),
                 );
             }
             continue;
