@@ -12,17 +12,14 @@ const SHARE: usize = 10;
 /// Fewer are not told: one or two are what the text begins with.
 const FEWEST: usize = 3;
 
-/// Tells each number on its own where nearly all are claimed, and else the first one, with how many there are.
+/// Tells each number on its own where nearly all are claimed, and else the first one of the text, with how many there are.
 pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
-    if lesson.labs.is_empty() {
-        return;
-    }
     let counted = counted(lesson);
     // The answer of a question is another matter: it has its `value`.
     let numbers = |list: Vec<Stated>| list.into_iter().filter(|s| !s.answer).collect::<Vec<_>>();
-    let (claimed, left) = (numbers(counted.claimed).len(), numbers(counted.left));
-    let all = claimed + left.len();
-    if claimed >= LEAST && left.len() * SHARE <= all {
+    let [claimed, left] = [counted.claimed, counted.left].map(numbers);
+    let all = claimed.len() + left.len();
+    if claimed.len() >= LEAST && left.len() * SHARE <= all {
         for s in left {
             let others = all - 1;
             let message =
@@ -34,12 +31,23 @@ pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         }
         return;
     }
-    if let Some(first) = left.first().filter(|_| left.len() >= FEWEST) {
-        let message =
-            format!("{claimed} of {all} numbers with units are claimed; this is the first that is not");
+    // What a question offers is wrong but for one option, and no claim can be about that.
+    let in_text = |list: Vec<Stated>| list.into_iter().filter(|s| is_text(lesson, s)).collect::<Vec<_>>();
+    let [claimed, left] = [claimed, left].map(in_text);
+    if let Some(first) = left.first().filter(|_| left.len() >= FEWEST && !lesson.labs.is_empty()) {
+        let (some, all) = (claimed.len(), claimed.len() + left.len());
+        let message = format!(
+            "{some} of {all} numbers with units in the text are claimed; this is the first that is not"
+        );
         findings.push(
             Finding::new(NUMBERS_UNCLAIMED, first.span.clone(), message)
-                .help("quote those that come from a run under `says` of a `verify`: `labspec trace` looks for their origin"),
+                .help("quote those that come from a run under `says` of a `verify`; `labspec trace` looks for their origin"),
         );
     }
+}
+
+/// Whether a number stands in no lab and in no quiz.
+fn is_text(lesson: &Lesson, s: &Stated) -> bool {
+    let blocks = lesson.labs.iter().map(|lab| &lab.span).chain(lesson.quizzes.iter().map(|quiz| &quiz.span));
+    !blocks.into_iter().any(|block| block.start <= s.span.start && s.span.end <= block.end)
 }
