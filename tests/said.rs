@@ -282,3 +282,29 @@ fn what_a_slider_shows_is_said() {
     );
     assert_eq!(codes(&other), ["quote-not-found"]);
 }
+
+/// Claims that would take for ever, or all memory, are told and not followed.
+#[test]
+fn too_much_is_told() {
+    let began = std::time::Instant::now();
+    // Twenty thousand objects that each use one of a megabyte.
+    let long = "1 + ".repeat(250_000) + "1";
+    let mut text = lab(json!({"measure": {"long": long}, "says": [["1 m", "long"]]}));
+    let users: String = (0..1500)
+        .map(|_| "<!-- labspec verify {\"use\": \"#1\", \"says\": [[\"1 m\", \"long\"]]} -->\n\n1 m\n\n")
+        .collect();
+    text.push_str(&users);
+    let checked = check_text("fall.md", &text);
+    assert!(codes(&checked).contains(&"unknown-lab"), "{:?}", &codes(&checked)[..9]);
+    // More words than are looked for, in a long text.
+    let words: Vec<Value> =
+        (0..5000).map(|i| json!([format!("word {}", "x".repeat(1 + i % 300)), "1 < 2 * height"])).collect();
+    let text = format!(
+        "{}\n{}",
+        "so many words ".repeat(100_000),
+        lab(json!({"measure": {"height": "final(data.qpos[2])"}, "says": words}))
+    );
+    let checked = check_text("fall.md", &text);
+    assert!(checked.claims[0].judgement.quotes.iter().all(|q| q.state == UNCLEAR));
+    assert!(began.elapsed().as_secs() < 60, "{:?}", began.elapsed());
+}

@@ -175,7 +175,7 @@ fn named_scene<'r>(
     let message = match lesson.other(&text.span()).map(|other| &other.lab) {
         Some(Ok(_)) => format!("{name} cannot run: its model or its code has mistakes"),
         Some(Err(why)) => format!("{name} is not there: {why}"),
-        None => format!("{name} is not there: only this lesson was given"),
+        None => format!("{name} is not there: only this lesson was given, or it names too many others"),
     };
     findings.push(
         Finding::error(rules::UNKNOWN_LAB, text.span(), message)

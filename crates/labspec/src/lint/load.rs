@@ -3,7 +3,7 @@
 use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{BadText, MAX_FILE, SourceFile, read_text};
+use crate::source::{BadText, SourceFile, read_text};
 use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -61,7 +61,9 @@ pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, Str
 }
 
 /// Most labs of other lessons that one lesson may name.
-const MOST_OTHERS: usize = 100;
+const MOST_OTHERS: usize = 32;
+/// Bytes of a lesson whose labs another one names, at most.
+const MOST_OF_OTHER: u64 = 4 << 20;
 
 /// The labs of other lessons that this one names.
 fn read_others(lesson: &Lesson, path: &Path) -> Vec<Other> {
@@ -89,7 +91,7 @@ fn read_other_file(own: &Path, other: &Path) -> Result<String, String> {
     if !is_lesson(other) {
         return Err("a lab stands in a lesson (.md) or in a JSON file".into());
     }
-    let text = read_text(other, MAX_FILE, "a lesson")?;
+    let text = read_text(other, MOST_OF_OTHER, "a lesson")?;
     let same = |a: &Path, b: &Path| ModelFolder::find_near(a) == ModelFolder::find_near(b);
     if !same(own, other) {
         return Err("that lesson has another folder of models".into());

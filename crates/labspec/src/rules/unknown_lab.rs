@@ -29,6 +29,10 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         let message = match lesson.verify_at(address) {
             None => format!("nothing at {} has a `verify`", read::named(text.as_str())),
             Some(used) if used.span == claim.verify.span => "this `verify` uses itself".to_string(),
+            // Nothing of it could be read.
+            Some(_) if std::ptr::eq(lesson.whole(claim.verify), claim.verify) => {
+                "more is used in this lesson than is read".to_string()
+            }
             Some(_) => continue,
         };
         findings.push(

@@ -4,6 +4,7 @@
 use super::problem::Problem;
 use super::{Lesson, Verify, verify};
 use crate::json;
+use crate::markdown::{self, MAX_BLOCKS};
 use crate::source::SourceMap;
 use std::ops::Range;
 
@@ -94,6 +95,10 @@ fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> 
 pub(super) fn read(lesson: &mut Lesson) -> Vec<Remark> {
     let mut all = Vec::new();
     for Comment { span, inside, over } in lesson.comments("verify") {
+        if all.len() >= MAX_BLOCKS {
+            lesson.problems.push(Problem::Fence(markdown::Problem::TooManyBlocks(span.start)));
+            break;
+        }
         let parsed = json::parse(lesson.file.slice(inside.clone()), &SourceMap::verbatim(inside.clone()));
         if parsed.broken {
             lesson.broken.push(span.clone());

@@ -3,15 +3,21 @@
 use super::verify::VerifyLab;
 use super::{LabAddress, Lesson, Verify};
 use crate::source::Text;
+use std::collections::BTreeSet;
 
 /// Longest chain of objects that use each other.
 const LONGEST: usize = 8;
+/// Most bytes of objects that are used, each counted as often as it is.
+const MOST: usize = 8 << 20;
 
 impl Lesson {
     /// A `verify` object with all that it uses of others.
     pub fn whole<'a>(&'a self, verify: &'a Verify) -> &'a Verify {
         match verify.uses {
-            Some(_) => self.wholes.iter().find(|w| w.span == verify.span).unwrap_or(verify),
+            Some(_) => {
+                let at = self.wholes.binary_search_by_key(&verify.span.start, |w| w.span.start);
+                at.ok().and_then(|at| self.wholes.get(at)).unwrap_or(verify)
+            }
             None => verify,
         }
     }
@@ -28,31 +34,36 @@ impl Lesson {
     }
 }
 
-/// Every object that uses others, with what it uses.
+/// Every object that uses others, with what it uses; as many as may be.
 pub(super) fn wholes(lesson: &Lesson) -> Vec<Verify> {
-    lesson.verifies().filter(|v| v.uses.is_some()).map(|v| whole(lesson, v, LONGEST)).collect()
+    let mut left = MOST;
+    let users = lesson.verifies().filter(|v| v.uses.is_some());
+    let mut all: Vec<Verify> = users.map_while(|v| whole(lesson, v, LONGEST, &mut left)).collect();
+    all.sort_by_key(|verify| verify.span.start);
+    all
 }
 
-/// What an object names itself comes before what it uses.
-fn whole(lesson: &Lesson, verify: &Verify, depth: usize) -> Verify {
+/// What an object names itself comes before what it uses. `None` when there is too much of it.
+fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Option<Verify> {
+    *left = left.checked_sub(verify.span.len())?;
     let mut all = verify.clone();
-    let Some((text, address)) = &verify.uses else { return all };
+    let Some((text, address)) = &verify.uses else { return Some(all) };
     let Some(used) = lesson.verify_at(address).filter(|used| used.span != verify.span && depth > 0) else {
-        return all;
+        return Some(all);
     };
-    let used = whole(lesson, used, depth - 1);
+    let used = whole(lesson, used, depth - 1, left)?;
     let own = lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()));
     all.lab = all.lab.or(used.lab).or(own);
     add(&mut all.runs, used.runs, |run| &run.name);
     add(&mut all.measure, used.measure, |(name, _)| name);
     add(&mut all.find, used.find, |find| &find.name);
-    all
+    Some(all)
 }
 
 /// Puts what is used before what is there, but for what is there by its name.
-fn add<T: Clone>(own: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
-    let there = |one: &T| own.iter().any(|o| name(o).value == name(one).value);
-    let mut all: Vec<T> = used.into_iter().filter(|one| !there(one)).collect();
+fn add<T>(own: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
+    let there: BTreeSet<String> = own.iter().map(|one| name(one).value.clone()).collect();
+    let mut all: Vec<T> = used.into_iter().filter(|one| !there.contains(&name(one).value)).collect();
     all.append(own);
     *own = all;
 }

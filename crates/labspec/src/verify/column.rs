@@ -9,8 +9,24 @@ use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Stands};
 use labspec_expr::dimension::Dimension;
 
+/// The work of looking at a cell.
+const LOOK: u64 = 1000;
+/// Most words that the cells of a column may hold.
+const MOST_WORDS: usize = 20;
+
 /// Holds a column, or one cell of it, to what was measured.
 pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Finding>) -> Vec<Quote> {
+    let stage = court.bound.stage();
+    stage.spend(LOOK * court.shown.cells() as u64);
+    if stage.left() == 0 {
+        let message = "the work of a check was spent before this column";
+        findings.push(
+            Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), message)
+                .why("nothing was compared")
+                .help("make the runs shorter, or claim fewer columns in one lesson"),
+        );
+        return vec![Quote::unclear(&claim.column, message)];
+    }
     let cells = match quote::cells(claim, court.shown) {
         Ok(cells) => cells,
         Err([message, help]) => {
@@ -84,6 +100,15 @@ fn cell(
         );
         return Quote::unclear(text, &message);
     };
+    if words.len() > MOST_WORDS {
+        let message = format!("a column has {} words, and at most {MOST_WORDS} are read", words.len());
+        findings.push(
+            Finding::error(rules::QUOTE_UNCLEAR, text.span(), message.clone())
+                .why("nothing was compared")
+                .help("claim its cells one by one, with `row`"),
+        );
+        return Quote::unclear(text, &message);
+    }
     if !quote::parts(text.as_str()).is_empty() {
         let message = format!("\"{}\" holds a number, which no condition checks", text.value);
         findings.push(

@@ -20,6 +20,9 @@ pub struct ShownText {
     tables: Vec<Table>,
 }
 
+/// Most quotes of words alone that are looked for: each is a walk through the text.
+const MAX_WORDS: usize = 200;
+
 /// Most quotes that are looked for where nobody sees them: each is a walk through the file.
 const MAX_HIDDEN: usize = 16;
 
@@ -49,7 +52,7 @@ impl ShownText {
         if numbers.is_empty() {
             return shown;
         }
-        let wordy: Vec<&str> = numbers.keys().copied().filter(|quote| !has_number(quote)).collect();
+        let wordy: Vec<&str> = numbers.keys().copied().filter(|q| !has_number(q)).take(MAX_WORDS).collect();
         let (text, map) = join(pieces(lesson), !wordy.is_empty());
         let plain = |origin: &str| {
             let rest = origin.trim_matches([' ', '\n', '\r', '\t']);
@@ -95,6 +98,11 @@ impl ShownText {
     /// The tables that have these columns.
     pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
         self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
+    }
+
+    /// How many cells the tables have together.
+    pub(in crate::verify) fn cells(&self) -> usize {
+        self.tables.iter().map(|table| table.head.len() * (1 + table.rows.len())).sum()
     }
 
     /// The headings of all tables.
