@@ -14,18 +14,18 @@ const bytes = (a) => Buffer.from(a.buffer, a.byteOffset, a.byteLength);
 
 // Starts the server; gives the function that sends a message and waits for its answer. Models find their files in `folder`.
 function connect(python, folder) {
-  const probe = spawnSync(python, ['-c', 'import mujoco'], { encoding: 'utf8' });
-  if (probe.status !== 0) throw new Error(`${python} has no MuJoCo: ${probe.error?.message ?? probe.stderr.trim().split('\n').pop()}`);
+  if (folder) fs.accessSync(folder);
+  const script = fileURLToPath(new URL('server.py', import.meta.url)), probe = spawnSync(python, [script], { encoding: 'utf8' });
+  if (probe.status !== 0) throw new Error(`${python} does not serve: ${probe.error?.message ?? probe.stderr.trim().split('\n').pop()}`);
   const dir = fs.mkdtempSync(path.join(os.tmpdir(), 'judge-')), [asked, answers] = ['asked', 'answers'].map((name) => path.join(dir, name));
   const made = spawnSync('mkfifo', [asked, answers]);
   if (made.status !== 0) throw new Error('mkfifo does not make pipes here');
-  const script = fileURLToPath(new URL('server.py', import.meta.url));
   spawn(python, [script, asked, answers], { cwd: folder ?? dir, stdio: ['ignore', 'ignore', 'inherit'] }).unref();
   // Each of these waits for the other end.
   const [out, back] = [fs.openSync(asked, 'w'), fs.openSync(answers, 'r')];
   process.on('exit', () => fs.rmSync(dir, { recursive: true, force: true }));
 
-  const send = (data) => { for (let at = 0; at < data.length;) at += fs.writeSync(out, data, at); };
+  const send = (data) => { try { for (let at = 0; at < data.length;) at += fs.writeSync(out, data, at); } catch { throw new Error('the library gave up'); } };
   const take = (size) => {
     const data = Buffer.alloc(size);
     for (let at = 0; at < size;) { const n = fs.readSync(back, data, at, size - at); if (!n) throw new Error('the library gave up'); at += n; }
@@ -82,7 +82,7 @@ export function pythonLibrary(python, folder) {
       const get = kind === 'array' ? () => field(id, at) : kind === 'number' ? () => field(id, at)[0]
         : kind.part ? () => thing(id, `${at}.`, kind.part) : () => list(id, `${at}.`, kind.list);
       const set = kind === 'number' ? (x) => { field(id, at)[0] = x; } : () => { throw new TypeError(`${name} is a read-only property`); };
-      Object.defineProperty(of, name, { get, set, enumerable: true });
+      Object.defineProperty(of, name.replace(/_$/, ''), { get, set, enumerable: true }); // Python calls a part of `vis` `global_`
     }
     return of;
   };
@@ -118,7 +118,7 @@ export function pythonLibrary(python, folder) {
   const call = (name, args) => {
     const buffers = [], buffer = (a) => ({ buffer: buffers.push(a) - 1 });
     const sent = args.map((a) => (a instanceof Owned ? { object: a.handle } : a instanceof DoubleBuffer ? buffer(a.all)
-      : Array.isArray(a) || ArrayBuffer.isView(a) ? buffer(Float64Array.from(a)) : a));
+      : Array.isArray(a) || ArrayBuffer.isView(a) ? buffer(Float64Array.from(a)) : typeof a === 'number' && !Number.isFinite(a) ? { number: String(a) } : a));
     return ask({ do: 'call', name, args: sent, buffers: buffers.map((b) => b.length) }, buffers).result;
   };
   const hello = ask({ do: 'hello' });

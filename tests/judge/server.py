@@ -53,27 +53,24 @@ def write(number, path, data):
         setattr(thing, name, type(value)(np.frombuffer(data, np.float64)[0]))
 
 
-def load(xml):
-    return mujoco.MjModel.from_xml_string(xml)
-
-
-def make(model):
-    return mujoco.MjData(objects[model])
-
-
 def call(name, args, buffers):
-    """A function of the library. Its matrices have a row of as many numbers as the model has degrees of freedom."""
-    function, nv = getattr(mujoco, name), next((o.nv for o in map(at, args) if isinstance(o, mujoco.MjModel)), 0)
+    """A function of the library. Where it wants matrices, a row has a number for each degree of freedom."""
+    function, given = getattr(mujoco, name), [argument(a, buffers) for a in args]
     try:
-        return function(*(buffers[a['buffer']] if isinstance(a, dict) and 'buffer' in a else at(a) for a in args))
+        return function(*given)
     except TypeError:
+        nv = next((a.nv for a in given if isinstance(a, mujoco.MjModel)), 0)
         if not nv or not buffers or any(b.size % nv for b in buffers):
             raise
-        return function(*(buffers[a['buffer']].reshape(-1, nv) if isinstance(a, dict) and 'buffer' in a else at(a) for a in args))
+        return function(*(a.reshape(-1, nv) if isinstance(a, np.ndarray) else a for a in given))
 
 
-def at(argument):
-    return objects[argument['object']] if isinstance(argument, dict) and 'object' in argument else argument
+def argument(told, buffers):
+    """Numbers, texts and nothing stand for themselves."""
+    if not isinstance(told, dict):
+        return told
+    kind, which = next(iter(told.items()))
+    return objects[which] if kind == 'object' else buffers[which] if kind == 'buffer' else float(which)
 
 
 def answer(message, body):
@@ -86,7 +83,7 @@ def answer(message, body):
         write(number, path, known)
     do, head, parts = message['do'], {}, []
     if do in ('load', 'make'):
-        made = load(message['xml']) if do == 'load' else make(message['model'])
+        made = mujoco.MjModel.from_xml_string(message['xml']) if do == 'load' else mujoco.MjData(objects[message['model']])
         objects[message['as']], head['fields'] = made, message['fields'] and describe(made)
     elif do == 'read':
         watched[message['object'], message['path']] = None
@@ -139,5 +136,6 @@ def main(asked, answers):
         answers.flush()
 
 
-with open(sys.argv[1], 'rb') as asked, open(sys.argv[2], 'wb') as answers:
-    main(asked, answers)
+if len(sys.argv) == 3:  # without pipes there is nobody to serve, but all that it takes is here
+    with open(sys.argv[1], 'rb') as asked, open(sys.argv[2], 'wb') as answers:
+        main(asked, answers)
