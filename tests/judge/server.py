@@ -44,13 +44,14 @@ def read(number, path):
     return np.ascontiguousarray(value) if isinstance(value, np.ndarray) else np.array([value], np.float64)
 
 
-def write(number, path, data):
-    thing, name = parent(number, path)
+def write(owner, path, data):
+    thing, name = parent(owner, path)
     value = getattr(thing, name)
     if isinstance(value, np.ndarray):
         value[...] = np.frombuffer(data, value.dtype).reshape(value.shape)
     else:
-        setattr(thing, name, type(value)(np.frombuffer(data, np.float64)[0]))
+        number = np.frombuffer(data, np.float64)[0]
+        setattr(thing, name, type(value)(number if isinstance(value, float) or np.isfinite(number) else 0))  # an integer as in JavaScript
 
 
 def call(name, args, buffers):
@@ -129,9 +130,9 @@ def main(asked, answers):
                 reply, data = {'enums': enums(), 'functions': [n for n in dir(mujoco) if n.startswith(('mj_', 'mju_'))], 'changed': []}, b''
             else:
                 reply, data = answer(message, body)
+            text = json.dumps(reply).encode()
         except Exception as e:
-            reply, data = {'error': str(e) or type(e).__name__, 'changed': []}, b''
-        text = json.dumps(reply).encode()
+            text, data = json.dumps({'error': str(e) or type(e).__name__}).encode(), b''
         answers.write(struct.pack('<II', len(text), len(data)) + text + data)
         answers.flush()
 
