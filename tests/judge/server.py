@@ -132,7 +132,8 @@ def main(asked, answers):
                 reply, data = answer(message, body)
             text = json.dumps(reply).encode()
         except Exception as e:
-            text, data = json.dumps({'error': str(e) or type(e).__name__}).encode(), b''
+            why = str(e).split('\nInvoked with')[0].strip()  # what follows has addresses
+            text, data = json.dumps({'error': why or type(e).__name__}).encode(), b''
         answers.write(struct.pack('<II', len(text), len(data)) + text + data)
         answers.flush()
 
