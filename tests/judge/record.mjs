@@ -7,24 +7,27 @@
 //   node record.mjs request.json --mujoco NODE_MODULES [--models DIR] > judge.json
 //   labspec check LESSONS --judge judge.json
 //
+// With `--python PYTHON` in the place of --mujoco it is the library of that interpreter (pip install mujoco), whatever its version.
 // What cannot be taken (a function that is not known here, a model that does not load) is recorded with its reason, and counted on
 // standard error. --models is the folder of the files that models name: meshes, height fields, attached models.
 import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { measure } from './measures.mjs';
+import { pythonLibrary } from './python.mjs';
 import { scene } from './scene.mjs';
 
-const args = process.argv.slice(2), file = args.shift(), opt = { mujoco: '.', models: null };
+const args = process.argv.slice(2), file = args.shift(), opt = { mujoco: '.', python: null, models: null };
 while (args.length) { const key = args.shift().replace(/^--/, ''); opt[key] = args.shift(); }
-if (!file) { process.stderr.write('node record.mjs REQUEST --mujoco NODE_MODULES [--models DIR]\n'); process.exit(2); }
+if (!file) { process.stderr.write('node record.mjs REQUEST (--mujoco NODE_MODULES | --python PYTHON) [--models DIR]\n'); process.exit(2); }
 const request = JSON.parse(fs.readFileSync(file, 'utf8'));
 if (request.request !== 'judge' || request.version !== 1) { process.stderr.write(`${file} is no request of --judge-request\n`); process.exit(2); }
-const entry = pathToFileURL(path.resolve(opt.mujoco, '@mujoco/mujoco/mujoco.js')).href;
-const mj = await (await import(entry)).default({ print: () => {}, printErr: () => {} });
+const javascript = async () => (await import(pathToFileURL(path.resolve(opt.mujoco, '@mujoco/mujoco/mujoco.js')).href)).default({ print: () => {}, printErr: () => {} });
+let mj;
+try { mj = opt.python ? pythonLibrary(opt.python, opt.models) : await javascript(); } catch (e) { process.stderr.write(`${e.message}\n`); process.exit(2); }
 
 // Files that models name lie where the library looks for them.
-(function mount(from, to) {
+if (!opt.python) (function mount(from, to) {
   if (!from) return;
   for (const e of fs.readdirSync(from, { withFileTypes: true })) {
     const [a, b] = [path.join(from, e.name), `${to}/${e.name}`];
@@ -61,7 +64,7 @@ function attempt(f, m) {
   try { return f(); } catch (e) { if (m) { m.refused = e.message; return { x: NaN }; } return { refused: e.message }; }
 }
 
-const done = new Map(), runs = [];
+const engine = `MuJoCo ${mj.mj_versionString()}`, done = new Map(), runs = [];
 let taken = 0, not = 0;
 for (const { file, claim, run, hash, task, refused } of request.runs) {
   if (!task) { process.stderr.write(`${file}, ${claim}, ${run}: ${refused}\n`); not += 1; continue; }
@@ -82,6 +85,5 @@ for (const { file, claim, run, hash, task, refused } of request.runs) {
   if (made.broke) one.broke = made.broke;
   runs.push(one);
 }
-const engine = `MuJoCo ${mj.mj_versionString()}`;
 process.stderr.write(`${engine}: ${runs.length} runs, ${taken} measures taken, ${not} not\n`);
 process.stdout.write(`{"recording": "judge", "version": 1, "engine": ${JSON.stringify(engine)}, "runs": [\n${runs.map((r) => ` ${JSON.stringify(r)}`).join(',\n')}\n]}\n`);
