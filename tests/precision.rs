@@ -8,7 +8,7 @@ use crate::support::workspace;
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
-use labspec::precision::{Fate, INTEGRATORS, Kind, Options, Report, Setting, compare};
+use labspec::precision::{Fate, INTEGRATORS, Kind, Options, Report, Row, Setting, compare};
 use labspec::run::{self, Cell, RunOptions, Table};
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
@@ -173,8 +173,20 @@ fn advice_holds_in_an_independent_run() {
     for (path, lab) in all {
         let name = path.file_stem().unwrap().to_str().unwrap().to_string();
         let report = lab.compare(&Options { until: Some(1.0), ..Options::default() });
-        let Some(advice) = report.advice.iter().find(|a| a.kind == Kind::Right) else { continue };
-        held += usize::from(advice_holds(&name, &lab, &report, &report.rows[advice.row].setting));
+        if !report.advice.iter().any(|a| a.kind == Kind::Right) {
+            continue;
+        }
+        // What is advised is the cheapest by the clock, which on a loaded machine may be any of those that are right; here it is the
+        // cheapest in the engine's own count of work, which is the same on every machine.
+        let shorter = |r: &Row, than: &Row| {
+            r.setting.integrator.id == than.setting.integrator.id
+                && r.setting.timestep <= than.setting.timestep
+        };
+        let right = |r: &Row| r.fate == Fate::Good && r.score <= 1.0;
+        let shared = report.rows.iter().filter(|r| r.setting.integrator.shared);
+        let good = shared.filter(|r| report.rows.iter().filter(|s| shorter(s, r)).all(right));
+        let cheapest = good.min_by(|a, b| a.cost.work.total_cmp(&b.cost.work)).unwrap();
+        held += usize::from(advice_holds(&name, &lab, &report, &cheapest.setting));
     }
     println!("held {held}");
     assert!(held >= 20, "{held}");

@@ -3,9 +3,9 @@
 
 use super::html;
 use super::shown::Piece;
-use crate::markdown::{Block, BlockKind};
+use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
-use crate::spec::Lesson;
+use crate::spec::{Lesson, Problem};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
 use std::ops::Range;
 
@@ -24,6 +24,11 @@ const OPTIONS: Options = Options::ENABLE_TABLES
 /// The pieces of shown prose, in order.
 pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
+        return Vec::new();
+    }
+    // More than the parser has room for, which is told.
+    let too_much = |p: &Problem| matches!(p, Problem::Fence(markdown::Problem::TooMuchMarkup));
+    if lesson.problems.iter().any(too_much) {
         return Vec::new();
     }
     let text = lesson.file.text();
