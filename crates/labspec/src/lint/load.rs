@@ -74,7 +74,10 @@ fn read_others(lesson: &Lesson, path: &Path) -> Vec<Other> {
     let read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
         let there = path.parent().unwrap_or(Path::new("")).join(file);
         let shown = there.display().to_string();
-        let (text, lab) = match read_other_file(path, &there) {
+        // A lesson of somebody else may name any file of this machine.
+        let inside = Path::new(file).is_relative();
+        let found = if inside { read_other_file(path, &there) } else { Err(NOT_FROM_HERE.into()) };
+        let (text, lab) = match found {
             Ok(text) => {
                 let lab = read_other(SourceFile::new(file.as_str(), text.as_str()), address, span.clone());
                 (text, lab)
@@ -86,17 +89,17 @@ fn read_others(lesson: &Lesson, path: &Path) -> Vec<Other> {
     named.take(MOST_OTHERS).map(read).collect()
 }
 
+const NOT_FROM_HERE: &str = "a lesson is named by its path from this one";
+
 /// The text of another lesson, whose labs find the same models.
 fn read_other_file(own: &Path, other: &Path) -> Result<String, String> {
     if !is_lesson(other) {
         return Err("a lab stands in a lesson (.md) or in a JSON file".into());
     }
-    let text = read_text(other, MOST_OF_OTHER, "a lesson")?;
-    let same = |a: &Path, b: &Path| ModelFolder::find_near(a) == ModelFolder::find_near(b);
-    if !same(own, other) {
+    if ModelFolder::find_near(own) != ModelFolder::find_near(other) {
         return Err("that lesson has another folder of models".into());
     }
-    Ok(text)
+    read_text(other, MOST_OF_OTHER, "a lesson")
 }
 
 fn is_lesson(path: &Path) -> bool {
