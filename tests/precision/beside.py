@@ -5,7 +5,7 @@
 
 LAB.json holds its model in `xml`; its `setup` and traces are read as Python, which for assignments, indexes and arithmetic means
 the same. REPORT.json is what `labspec precision LAB.json --format json` printed: the times to sample at and the timesteps come
-from it. Needs mujoco==3.14.0 and numpy. Times are the medians of five repeats of at most 4 ms, one setting after the other.
+from it; a run with longer steps is sampled after each. Needs mujoco==3.14.0 and numpy. Times are the medians of five repeats of at most 4 ms, one setting after the other.
 """
 import json, math, statistics, sys, time
 
@@ -42,9 +42,9 @@ def values(model, data):
 
 def run(integrator, timestep):
     model, data = start(integrator, timestep)
-    every = round(interval / timestep)
+    every = max(1, round(interval / timestep))
     columns = [values(model, data)]
-    for _ in range(count):
+    for _ in range(round(report["length"] / (every * timestep))):
         mujoco.mj_step(model, data, every)
         columns.append(values(model, data))
     return np.array(columns).T.tolist()
@@ -52,7 +52,7 @@ def run(integrator, timestep):
 
 def repeat(integrator, timestep):
     model, data = start(integrator, timestep)
-    steps, made, began = count * round(interval / timestep), 0, time.perf_counter()
+    steps, made, began = round(report["length"] / timestep), 0, time.perf_counter()
     while made < steps and (made == 0 or time.perf_counter() - began < LONG_ENOUGH):
         chunk = min(CHUNK, steps - made)
         mujoco.mj_step(model, data, chunk)

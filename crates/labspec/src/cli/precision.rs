@@ -211,8 +211,9 @@ fn human(report: &Report) -> String {
         Some(how) => {
             let _ = writeln!(
                 text,
-                "Over {} s. Where there is no closed form the reference is {how}.",
-                significant(report.length)
+                "Over {} s, {}. Where there is no closed form the reference is {how}.",
+                significant(report.length),
+                compared_at(report)
             );
             table(report, &mut text);
         }
@@ -246,6 +247,16 @@ fn human(report: &Report) -> String {
         text.push_str("stopped by Ctrl-C: the runs above are those that were finished\n");
     }
     text
+}
+
+/// When runs are compared.
+fn compared_at(report: &Report) -> String {
+    let apart = report.length / report.samples as f64;
+    let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
+    match shortest < 0.9 * apart {
+        true => format!("after each step, but at most every {} ms", milliseconds(apart)),
+        false => "after each step".to_string(),
+    }
 }
 
 fn setting(row: &Row) -> String {

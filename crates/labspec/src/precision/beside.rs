@@ -21,7 +21,7 @@ struct Recorded {
     integrator: String,
     timestep: f64,
     cost: f64,
-    /// Of each trace, at each time; NaN where it was no number.
+    /// Of each trace, at each time that its steps meet; NaN where it was no number.
     values: Vec<Vec<f64>>,
 }
 
@@ -49,7 +49,8 @@ pub struct Beside {
 
 impl Recording {
     /// Reads a recording: `{"engine", "traces": [labels], "times": [s], "rows": [{"integrator", "timestep",
-    /// "microsecondsPerSecond", "values": [[number of each time] of each trace]}]}`.
+    /// "microsecondsPerSecond", "values": [[number of each time] of each trace]}]}`. Of a run whose timestep is longer than the times are
+    /// apart, the values at those times that its steps meet.
     ///
     /// # Errors
     /// What is missing or of another kind, in words.
@@ -65,10 +66,15 @@ impl Recording {
         let run = |row: &Value| {
             let of_trace = |v: &Value| v.as_array().into_iter().flatten().map(|x| number(Some(x))).collect();
             let values: Vec<Vec<f64>> = list(row, "values")?.iter().map(of_trace).collect();
-            if values.len() != traces.len() || values.iter().any(|v| v.len() != times.len()) {
-                return Err("a run does not have a value of each trace at each time".to_string());
-            }
             let timestep = number(row.get("timestep"));
+            // A run with longer steps meets fewer of the times.
+            let apart = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
+            let met = times.len().saturating_sub(1) / apart as usize + 1;
+            if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
+                return Err(
+                    "a run does not have a value of each trace at each time that it meets".to_string()
+                );
+            }
             let integrator =
                 row.get("integrator").map_or(Err("a run has no integrator".to_string()), words)?;
             Ok(Recorded { integrator, timestep, cost: number(row.get("microsecondsPerSecond")), values })
@@ -106,7 +112,10 @@ impl Recording {
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
             // A closed form is that of the truth's own states: time.
-            let seen = Run { values, exact: truth.run.exact.clone(), ..Run::default() };
+            let apart = case.rhythm(run.timestep).stride;
+            let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
+            let exact = truth.run.exact.iter().map(met).collect();
+            let seen = Run { values, exact, ..Run::default() };
             BesideRow {
                 integrator: run.integrator.clone(),
                 timestep: run.timestep,

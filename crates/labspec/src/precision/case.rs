@@ -67,8 +67,19 @@ pub(super) struct Case<'a> {
     /// Buttons and the times of their presses, s.
     pub(super) presses: Vec<(usize, f64)>,
     pub(super) demand: Demand,
-    /// Time between samples, s: every timestep meets them. And their number, the start not counted.
+    /// Time between samples of the truth, s, and their number, the start not counted.
     pub(super) interval: f64,
+    pub(super) count: usize,
+}
+
+/// The samples of a run: after every step, or after so many as the truth is known at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rhythm {
+    /// Steps from one sample to the next.
+    pub(super) steps: usize,
+    /// Samples of the truth from one to the next.
+    pub(super) stride: usize,
+    /// Their number, the start not counted.
     pub(super) count: usize,
 }
 
@@ -78,7 +89,7 @@ const LOOKS: usize = 100;
 /// What a run showed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Run {
-    /// Values of each target at the samples, and of its closed form (NaN without one).
+    /// Values of each target at the run's samples, and of its closed form (NaN without one).
     pub(super) values: Vec<Vec<f64>>,
     pub(super) exact: Vec<Vec<f64>>,
     /// When bodies first touch, then when each target first passes through zero, s; NaN where they do not.
@@ -236,6 +247,14 @@ impl<'a> Case<'a> {
         Ok(session)
     }
 
+    /// When a run with some timestep is looked at: after each of its own steps, as a page shows them, where the truth is known
+    /// as often.
+    pub(super) fn rhythm(&self, timestep: f64) -> Rhythm {
+        let whole = |x: f64| x.round().max(1.0) as usize;
+        let stride = whole(timestep / self.interval);
+        Rhythm { steps: whole(self.interval / timestep), stride, count: self.count / stride }
+    }
+
     /// A run under a setting; every coordinate of its start moved by `nudge`. What a page shows after a step is partly of the
     /// state before it: forces, energies, contacts. In a `fresh` run all is of the state at hand, as in the truth;
     /// it is not watched for growth of energy, as every look begins that watch anew.
@@ -244,23 +263,23 @@ impl<'a> Case<'a> {
         if nudge != 0.0 {
             session.perturb(run::Numerics { nudge, ..run::Numerics::NOMINAL }, true);
         }
-        let per_sample = (self.interval / setting.timestep).round().max(1.0) as usize;
-        let steps = self.count * per_sample;
+        let rhythm = self.rhythm(setting.timestep);
+        let steps = rhythm.count * rhythm.steps;
         let n = self.targets.len();
         let mut seen = Run {
-            values: vec![Vec::with_capacity(self.count + 1); n],
-            exact: vec![Vec::with_capacity(self.count + 1); n],
+            values: vec![Vec::with_capacity(rhythm.count + 1); n],
+            exact: vec![Vec::with_capacity(rhythm.count + 1); n],
             ..Run::default()
         };
         let mut look = Look::new(&session.world.model);
         let mut passing = vec![Passing::default(); n + 1];
-        let every = self.count.div_ceil(LOOKS).max(1);
+        let every = rhythm.count.div_ceil(LOOKS).max(1);
         let before = session.spent();
         let mut sampling = 0;
         let played = Play { steps, every: 1, presses: &self.presses, watched: !fresh };
         let made = run::play(&mut session, &played, |session, made| {
             let began = session.spent();
-            let sampled = made % per_sample == 0;
+            let sampled = made % rhythm.steps == 0;
             let time = session.world.data.time();
             let mut late = if made > 0 { setting.timestep } else { 0.0 };
             if fresh && made > 0 {
@@ -282,7 +301,7 @@ impl<'a> Case<'a> {
                 seen.penetration = seen.penetration.max(deepest);
             }
             passing[0].touch(time - late, deepest);
-            if sampled && (made / per_sample).is_multiple_of(every) {
+            if sampled && (made / rhythm.steps).is_multiple_of(every) {
                 look.take(session, &mut seen);
             }
             sampling += session.spent() - began;
@@ -292,7 +311,10 @@ impl<'a> Case<'a> {
         seen.work = (session.spent() - before - sampling) as f64 / simulated.max(setting.timestep);
         seen.events = passing.iter().map(|p| p.at).collect();
         // Where a run ended before its time, nothing is known.
-        seen.values.iter_mut().chain(&mut seen.exact).for_each(|list| list.resize(self.count + 1, f64::NAN));
+        seen.values
+            .iter_mut()
+            .chain(&mut seen.exact)
+            .for_each(|list| list.resize(rhythm.count + 1, f64::NAN));
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
         seen.told = Breakdown::all(&session).into_iter().map(|b| b.what).collect();
         seen.fate = match session.ended() {

@@ -50,8 +50,8 @@ pub(super) fn measure(case: &Case<'_>, settings: &[Option<Setting>]) -> Vec<[f64
 fn repeat(case: &Case<'_>, setting: &Setting) -> Option<f64> {
     let mut session = case.start(Some(setting)).ok()?;
     let mut pending = case.presses.as_slice();
-    let per_sample = (case.interval / setting.timestep).round().max(1.0) as usize;
-    let steps = case.count * per_sample;
+    let rhythm = case.rhythm(setting.timestep);
+    let steps = rhythm.count * rhythm.steps;
     let (clock, mut made) = (Instant::now(), 0);
     while made < steps && (made == 0 || clock.elapsed() < LONG_ENOUGH) {
         let chunk = CHUNK.min(steps - made);

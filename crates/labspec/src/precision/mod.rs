@@ -31,8 +31,8 @@ use labspec_expr::Value;
 
 /// Timesteps, as multiples of the lab's own; each divides the first.
 const STEPS: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
-/// Samples that are compared, at most.
-const MOST_SAMPLES: usize = 4000;
+/// Samples at which the truth is known, at most.
+const MOST_SAMPLES: usize = 40_000;
 /// A scene keeps energy or momentum where the reference changes it by less than this part of its size.
 const KEPT: f64 = 1e-7;
 /// How far apart nearby starts are, and the part of its range by which a number has left the other.
@@ -115,7 +115,8 @@ pub struct Report {
     pub reference: Option<String>,
     /// Length of the runs, s.
     pub length: f64,
-    /// Number of samples, without that of the start.
+    /// Number of samples of the reference, without that of the start. A run is compared at those that its steps meet: after each of
+    /// its steps, unless these are shorter.
     pub samples: usize,
     /// The runs: by integrator, from large to small timesteps; then the solver's.
     pub rows: Vec<Row>,
@@ -177,16 +178,13 @@ pub fn compare(
         (session.world.model.opt.timestep, Integrator::of(&session.world.model))
     };
     let length = options.until.or(lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
-    // Samples at multiples of the coarsest step, which every run meets exactly; a short run begins with shorter ones.
+    // Of a length that every step divides; a short run begins with shorter ones.
     run::count_steps(lab, Some(length), None, own)?;
     let longest = STEPS.into_iter().find(|s| length >= 8.0 * own * s || *s == 1.0).unwrap_or(1.0);
     let ladder: Vec<f64> = STEPS.into_iter().filter(|s| *s <= longest).map(|s| s * own).collect();
     let coarse = own * longest;
     let count = run::count_steps(lab, Some(length), None, coarse)?.max(1);
-    let stride = count.div_ceil(MOST_SAMPLES);
-    (case.interval, case.count) = (coarse * stride as f64, count.div_ceil(stride));
-    let finest = own * STEPS[5];
-    if case.count as f64 * (case.interval / finest) > run::MAX_STEPS as f64 {
+    if count as f64 * (longest / STEPS[5]) > run::MAX_STEPS as f64 {
         return Err(RunError("the runs would take too many steps; shorten them with --until".into()));
     }
     // Where all timesteps meet: a press between would come at another time in each run.
@@ -196,9 +194,16 @@ pub fn compare(
     run::presses_within(programs, &case.presses, count, coarse)?;
 
     tell("the reference");
-    let reference = reference::reference(&case, own, coarse)?;
+    let mut truth = None;
+    for samples in samplings(count, longest, own) {
+        (case.interval, case.count) = samples;
+        truth = reference::reference(&case, own)?;
+        if truth.is_some() || interrupt::requested() {
+            break;
+        }
+    }
     let settings = settings(options, own_integrator, own, &ladder);
-    let Some(truth) = reference else { return without_reference(case, &settings, own, own_integrator) };
+    let Some(truth) = truth else { return without_reference(case, &settings, own, own_integrator) };
     // What a student sees decides how large a plot is.
     let mine = case.run(&Setting { integrator: own_integrator, timestep: own, solver: None }, 0.0, false)?;
     let targets = judge::compared(&case, &truth, &mine);
@@ -268,6 +273,21 @@ pub fn compare(
     report.front = advice::front(&report.rows);
     report.advice = advice::advise(&report);
     Ok(report)
+}
+
+/// Times between samples of the truth, s, and their numbers. First as short as the shortest step, so that each run is compared after
+/// every step of its own; longer ones follow, for labs that last too long for that or whose truth takes too much work.
+fn samplings(count: usize, longest: f64, own: f64) -> impl Iterator<Item = (f64, usize)> {
+    let number = move |step: f64| count * (longest / step) as usize;
+    let few = move |step: &f64| number(*step) <= MOST_SAMPLES || *step == longest;
+    let mut steps: Vec<f64> = STEPS.into_iter().rev().filter(|s| *s <= longest).filter(few).collect();
+    // The truth takes no longer steps than the lab.
+    let useful = steps.iter().filter(|s| **s <= 1.0).count().max(1);
+    steps.truncate(useful);
+    steps.into_iter().map(move |step| {
+        let stride = number(step).div_ceil(MOST_SAMPLES).max(1);
+        (own * step * stride as f64, number(step).div_ceil(stride))
+    })
 }
 
 fn is_own(setting: &Setting, own: f64, integrator: Integrator) -> bool {
@@ -427,5 +447,6 @@ fn nearby(case: &Case<'_>, targets: &[Compared], own: f64) -> Result<Nearby, Run
         a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
     };
     let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
-    Ok(Nearby { apart: NUDGE, until: first.map(|i| i as f64 * case.interval) })
+    let apart = case.rhythm(setting.timestep).stride as f64 * case.interval;
+    Ok(Nearby { apart: NUDGE, until: first.map(|i| i as f64 * apart) })
 }

@@ -33,13 +33,13 @@ fn method(id: i32) -> Integrator {
     INTEGRATORS.into_iter().find(|i| i.id == id).unwrap_or(INTEGRATORS[0])
 }
 
-/// The reference, for runs with timesteps up to `longest`; `None` when no method comes through the lab, or none within the work
+/// The reference; `None` when no method comes through the lab, or none within the work
 /// that a run may do.
 ///
 /// # Errors
 /// A control that cannot be set so.
-pub(super) fn reference(case: &Case<'_>, own: f64, longest: f64) -> Result<Option<Reference>, RunError> {
-    if case.controlled() { extrapolated(case, own) } else { direct(case, own, longest) }
+pub(super) fn reference(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+    if case.controlled() { extrapolated(case, own) } else { direct(case, own) }
 }
 
 fn run(case: &Case<'_>, id: i32, timestep: f64) -> Result<Option<Run>, RunError> {
@@ -52,17 +52,17 @@ fn too_long(case: &Case<'_>, timestep: f64) -> bool {
 }
 
 /// Steps of the second family that are tried, each a quarter of the one before.
-const TRIES: usize = 6;
+const TRIES: usize = 5;
 
-fn direct(case: &Case<'_>, own: f64, longest: f64) -> Result<Option<Reference>, RunError> {
+fn direct(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let mut first = None;
-    for (id, timestep) in [(integrator::ADAPTIVE, longest), (integrator::GAUSS, own / 16.0)] {
+    for (id, timestep) in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, own / 16.0)] {
         if first.is_none() && !too_long(case, timestep) {
             first = run(case, id, timestep)?.map(|run| (id, timestep, run));
         }
     }
     let mut best: Option<Reference> = None;
-    let mut step = own;
+    let mut step = own.min(case.interval);
     for _ in 0..TRIES {
         if too_long(case, step) {
             break;
@@ -107,7 +107,7 @@ fn direct(case: &Case<'_>, own: f64, longest: f64) -> Result<Option<Reference>, 
 /// With a controller: two steps of each family, extrapolated.
 fn extrapolated(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let mut best: Option<Reference> = None;
-    let mut step = own / 2.0;
+    let mut step = (own / 2.0).min(case.interval);
     for _ in 0..4 {
         if too_long(case, step / 4.0) {
             break;
