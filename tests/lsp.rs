@@ -306,6 +306,21 @@ fn completions_know_the_language_the_model_and_the_format() {
             assert!(new.contains(wanted) && new.ends_with("}\n```\n"), "{new}");
         }
     }
+    // In a claim in a comment, too.
+    for (inside, wanted, not) in [
+        ("{\"lab\": \"#1\", \"mea|\"}", "measure", "model"),
+        ("{\"lab\": \"#1\", \"measure\": {\"top\": \"max(data.|)\"}}", "qpos", "geom_size"),
+        ("{\"lab\": \"#1\", \"measure\": {\"top\": \"1\"}, \"says\": [[\"2\", \"|\"]]}", "top", "qpos"),
+    ] {
+        let lesson =
+            format!("{}\n<!-- labspec verify {inside} -->\nIt falls for 2 s.\n", lab("\"dock\": true"));
+        let (text, byte) = marked(&lesson);
+        editor.did_open("c.md", &text);
+        let all = editor.at("completion", "c.md", &text, byte);
+        let labels: Vec<&str> =
+            all.as_array().unwrap().iter().map(|i| i["label"].as_str().unwrap()).collect();
+        assert!(labels.contains(&wanted) && !labels.contains(&not), "{inside}: {labels:?}");
+    }
     // In prose, nothing.
     editor.did_open("c.md", "# Title\n\nSome data.qpos\n");
     assert_eq!(editor.at("completion", "c.md", "# Title\n\nSome data.qpos\n", 15), json!([]));
@@ -357,6 +372,35 @@ fn a_name_leads_to_the_model_and_back() {
     // The name of a model leads to its file.
     let byte = CLEAN.find("\"ball_drop\"").unwrap() + 3;
     assert_eq!(editor.at("definition", "clean.md", CLEAN, byte)["uri"], uri.as_str());
+    assert_eq!(editor.end(), 0);
+}
+
+/// Claims in comments are renamed and looked at like all others, and those that name another lesson's lab.
+#[test]
+fn claims_in_comments_are_code() {
+    let folder = folder();
+    let mut editor = Editor::open(folder.path());
+    let claim = |lab: &str, name: &str| {
+        format!(
+            "<!-- labspec verify {{\"lab\": \"{lab}\", \"runs\": {{\"fall\": {{}}}}, \"measure\": {{\"top\": \"max(data.body('{name}').xpos[2])\"}}, \"says\": [[\"high\", \"top > 0.2\"]]}} -->\nIt is high.\n"
+        )
+    };
+    let text =
+        format!("{}\n{}\n{}", lab("\"dock\": true"), claim("#1", "heavy"), claim("clean.md#1", "heavy"));
+    std::fs::write(folder.path().join("said.md"), &text).unwrap();
+    assert_eq!(codes(&editor.did_open("said.md", &text)), [""; 0]);
+    let byte = text.find("heavy').xpos").unwrap() + 2;
+    let shown = editor.at("hover", "said.md", &text, byte);
+    assert!(shown["contents"]["value"].as_str().unwrap_or("").contains("heavy"), "{shown}");
+    let answer = editor.try_at("rename", "said.md", &text, byte, json!({"newName": "iron"})).unwrap();
+    let edits = &answer["changes"][editor.uri("said.md").as_str()];
+    let new = edited(&text, edits);
+    assert_eq!(new.matches("'iron'").count(), 2, "{new}");
+    // A name that is not there is told in both.
+    let wrong = text.replace("'heavy'", "'haevy'");
+    editor.did_open("said.md", &wrong);
+    let found = editor.did_open("said.md", &wrong);
+    assert_eq!(codes(&found), ["unknown-object"; 2], "{found}");
     assert_eq!(editor.end(), 0);
 }
 

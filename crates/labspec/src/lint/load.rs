@@ -32,6 +32,13 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
     lesson
 }
 
+/// The same of a lesson that lies at this path, with the labs of other lessons that it names.
+pub(crate) fn load_lesson_at(file: SourceFile, path: &Path, models: &ModelFolder) -> Lesson {
+    let mut lesson = load_lesson(file, models);
+    lesson.others = read_others(&lesson, path);
+    lesson
+}
+
 /// Takes the fixes of findings away that lie in a block whose JSON is broken. They were made for JSON: between
 /// quotes that are none they would break more. The fixes of the JSON itself stay.
 pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {

@@ -15,6 +15,7 @@ mod markup;
 pub(crate) mod model;
 mod models;
 
+pub(crate) use load::load_lesson_at;
 pub use load::{
     MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_file, not_utf8, snapshot_path, withhold_fixes,
 };

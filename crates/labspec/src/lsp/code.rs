@@ -34,22 +34,26 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece<'_>> {
             claim(lesson, verify, question.sim(), &mut all);
         }
     }
+    for remark in &lesson.remarks {
+        claim(lesson, &remark.verify, None, &mut all);
+    }
     all
 }
 
 fn claim<'l>(lesson: &'l Lesson, verify: &'l Verify, own: Option<&'l Lab>, all: &mut Vec<Piece<'l>>) {
-    let base = verify.lab.as_ref().map_or(own, |named| lesson.named(named));
+    let whole = lesson.whole(verify);
+    let base = whole.lab.as_ref().map_or(own, |named| lesson.named(named));
     let scope = |form| if form == Form::Statements { Scope::Lab } else { Scope::Measure };
     let mut add = |texts: Vec<(Form, &'l Text)>, lab: Option<&'l Lab>| {
         let Some(lab) = lab else { return };
-        let piece = |(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(verify) };
+        let piece = |(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(whole) };
         all.extend(texts.into_iter().map(piece));
     };
     let lab_of = |run: &'l Run| run.lab.as_ref().map_or(base, |named| lesson.named(named));
     for run in &verify.runs {
         add(run.code().collect(), lab_of(run));
     }
-    add(verify.expressions().collect(), base.or_else(|| verify.runs.iter().find_map(lab_of)));
+    add(verify.expressions().collect(), base.or_else(|| whole.runs.iter().find_map(lab_of)));
 }
 
 /// The text of code at a byte of the lesson, and the byte of the text.

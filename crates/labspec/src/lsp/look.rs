@@ -8,8 +8,8 @@ use super::documents::Document;
 use crate::bind::scene::{Models, compile_file};
 use crate::check::{self, Depth, Found};
 use crate::finding::Finding;
-use crate::lint::{lesson_folder, load_lesson, root_of};
-use crate::spec::{FileKind, Lab, LabAddress, LabEntry, Lesson, Quiz, Verify, VerifyLab};
+use crate::lint::{lesson_folder, load_lesson_at, root_of};
+use crate::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ pub(super) fn look(document: &mut Document, around: &Around) {
     document.stale = false;
     match document.kind {
         FileKind::Lesson | FileKind::Json => {
-            let lesson = load_lesson(document.file.clone(), around.models.folder());
+            let lesson = read(document, around);
             // JSON that is neither labs nor quizzes belongs to somebody else.
             let other =
                 document.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty();
@@ -42,10 +42,13 @@ pub(super) fn lesson(document: &mut Document, around: &Around) -> Option<Arc<Les
     if !matches!(document.kind, FileKind::Lesson | FileKind::Json) {
         return None;
     }
-    let read = || Arc::new(load_lesson(document.file.clone(), around.models.folder()));
-    let lesson = document.lesson.clone().unwrap_or_else(read);
+    let lesson = document.lesson.clone().unwrap_or_else(|| Arc::new(read(document, around)));
     document.lesson = Some(lesson.clone());
     Some(lesson)
+}
+
+fn read(document: &Document, around: &Around) -> Lesson {
+    load_lesson_at(document.file.clone(), &document.path, around.models.folder())
 }
 
 /// The findings of a lesson whose blocks are bound as far as they are new.
@@ -67,37 +70,46 @@ fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &
     check::join(lesson.clone(), found, Depth::STATIC).findings
 }
 
-/// The labs and quizzes of a lesson, as bytes.
+/// The labs, quizzes and claims in comments of a lesson, as bytes.
 fn units(lesson: &Lesson) -> Vec<Range<usize>> {
     let labs = lesson.labs.iter().map(|entry| entry.span.clone());
-    labs.chain(lesson.quizzes.iter().map(|quiz| quiz.span.clone())).collect()
+    let quizzes = lesson.quizzes.iter().map(|quiz| quiz.span.clone());
+    labs.chain(quizzes).chain(lesson.remarks.iter().map(|remark| remark.span.clone())).collect()
 }
 
-/// What the findings of a block rest on: its text, and those of the labs that it names.
+/// What the findings of a block rest on: its text, that which it is about, and that of the labs and claims that it names.
 fn key(lesson: &Lesson, unit: &Range<usize>) -> String {
+    let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
     let mut key = lesson.file.slice(unit.clone()).to_string();
-    for address in named_by(lesson, unit) {
+    let used = claims(lesson, unit).flat_map(|claim| lesson.used_by(claim)).map(|used| used.span.clone());
+    for span in over.chain(used) {
         key.push('\0');
-        key.push_str(&address.to_string());
-        key.push_str(lesson.lab(&address).map_or("", |lab| lesson.file.slice(lab.span.clone())));
+        key.push_str(lesson.file.slice(span));
+    }
+    for named in named_by(lesson, unit) {
+        key.push('\0');
+        match named {
+            VerifyLab::Reference(text, _) => {
+                key.push_str(&text.value);
+                key.push_str(lesson.named(named).map_or("", |lab| lesson.file.slice(lab.span.clone())));
+            }
+            VerifyLab::Elsewhere(text, ..) => {
+                key.push_str(lesson.other(&text.span()).map_or("", |other| &other.text));
+            }
+            VerifyLab::Inline(_) | VerifyLab::Broken => {}
+        }
     }
     key
 }
 
-/// The labs that the `verify` objects of a block name.
-fn named_by(lesson: &Lesson, unit: &Range<usize>) -> Vec<LabAddress> {
-    let of_labs = lesson
-        .all_labs()
-        .into_iter()
-        .filter(|lab| within(&lab.span, unit))
-        .filter_map(|lab| lab.verify.as_ref());
-    let quizzes = lesson.quizzes.iter().filter(|quiz| within(&quiz.span, unit));
-    let of_questions = quizzes.flat_map(Quiz::numbered).filter_map(|(_, question)| question.verify.as_ref());
-    let named = |lab: &VerifyLab| match lab {
-        VerifyLab::Reference(_, address) => Some(address.clone()),
-        _ => None,
-    };
-    of_labs.chain(of_questions).flat_map(Verify::labs).filter_map(named).collect()
+/// The `verify` objects of a block.
+fn claims<'l>(lesson: &'l Lesson, unit: &Range<usize>) -> impl Iterator<Item = &'l Verify> {
+    lesson.verifies().filter(|claim| within(&claim.span, unit))
+}
+
+/// The labs that they name, and those that these use.
+fn named_by<'l>(lesson: &'l Lesson, unit: &Range<usize>) -> impl Iterator<Item = &'l VerifyLab> {
+    claims(lesson, unit).flat_map(|claim| lesson.whole(claim).labs())
 }
 
 fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
@@ -106,8 +118,13 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
 
 /// Binds one block, as if there were no others but those that it names. Places count from its beginning.
 fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
-    let named = named_by(lesson, unit);
-    let wanted: Vec<&Lab> = named.iter().filter_map(|address| lesson.lab(address)).collect();
+    let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
+    let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
+    let elsewhere = |other: &&Other| {
+        let here =
+            |named: &&VerifyLab| matches!(named, VerifyLab::Elsewhere(text, ..) if text.span() == other.span);
+        named.iter().any(|named| here(named))
+    };
     let needed = |span: &Range<usize>| within(span, unit) || wanted.iter().any(|lab| within(&lab.span, span));
     let entry = |entry: &LabEntry| LabEntry {
         lab: entry.lab.clone().filter(|_| needed(&entry.span)),
@@ -119,9 +136,9 @@ fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding
         quizzes: lesson.quizzes.iter().filter(|quiz| needed(&quiz.span)).cloned().collect(),
         widgets: Vec::new(),
         broken: Vec::new(),
-        remarks: Vec::new(),
+        remarks: lesson.remarks.iter().filter(|remark| within(&remark.span, unit)).cloned().collect(),
         wholes: lesson.wholes.clone(),
-        others: Vec::new(),
+        others: lesson.others.iter().filter(elsewhere).cloned().collect(),
         scan: Default::default(),
         problems: Vec::new(),
         findings: Vec::new(),
@@ -161,36 +178,60 @@ mod tests {
     use std::path::Path;
 
     /// What a lesson says without anything kept: what [`look`] must find, too.
-    fn plainly(file: SourceFile, models: &Models) -> Vec<Finding> {
-        check::check(load_lesson(file, models.folder()), models, Depth::STATIC).findings
+    fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
+        check::check(load_lesson_at(file, path, models.folder()), models, Depth::STATIC).findings
     }
+
+    /// Claims that name others: one in a comment, one of another lesson's lab, one that uses the runs of another.
+    const NAMING: &str = r##"# Naming
+
+```lab simlab
+{"model": "pendulum", "readouts": [{"label": "a", "expr": "data.qpos[0]"}],
+ "verify": {"runs": {"swing": {"until": 1}}, "measure": {"far": "max(abs(data.qpos[0]))"}, "says": [["far", "far > 0"]]}}
+```
+
+<!-- labspec verify {"use": "#1", "measure": {"low": "min(data.qpos[0])"}, "says": [["low", "low < far"]]} -->
+The pendulum swings low.
+
+<!-- labspec verify {"lab": "02-bounce-and-swing.md#1", "measure": {"late": "max(data.qpos[0])"}, "says": [["late", "late < 9"]]} -->
+It comes late.
+"##;
 
     /// Changes in the texts of real lessons: what is kept of the blocks never changes what is found.
     #[test]
     fn what_is_kept_changes_nothing() {
-        let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs");
+        let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();
         let folder = ModelFolder::open(&specs.join("models")).unwrap();
         let around = Around { models: Arc::new(Models::new(folder)), started: Vec::new() };
         let (mut changes, mut with_findings) = (0, 0);
-        for name in ["01-what-a-step-computes.md", "02-bounce-and-swing.md"] {
+        let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
+        let lessons =
+            ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
+        for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
             let path = specs.join("lessons").join(name);
-            let text = std::fs::read_to_string(&path).unwrap();
             let mut document = Document::new("file:///a.md", path.clone(), &text, 1);
+            let typed =
+                [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")];
             for (at, what) in
-                [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")]
+                typed.into_iter().chain([("far", "fra"), ("low", "lwo"), ("#1", "#2"), ("late", "lat")])
             {
-                for (place, _) in text.match_indices(at).step_by(7) {
+                for (place, _) in text.match_indices(at).step_by(apart) {
                     let mut changed = text.clone();
                     changed.replace_range(place..place + at.len(), what);
                     document.change(&[serde_json::json!({"text": changed})], 2);
                     look(&mut document, &around);
-                    let plain = plainly(document.file.clone(), &around.models);
+                    let plain = plainly(document.file.clone(), &path, &around.models);
                     assert_eq!(document.findings, plain, "{what} at {place} of {name}");
                     changes += 1;
                     with_findings += usize::from(!plain.is_empty());
                 }
             }
+            if name == "naming.md" {
+                document.change(&[serde_json::json!({"text": text})], 3);
+                look(&mut document, &around);
+                assert_eq!(document.findings, []);
+            }
         }
-        assert!(changes > 30 && with_findings > 30, "{changes} {with_findings}");
+        assert!(changes > 60 && with_findings > 60, "{changes} {with_findings}");
     }
 }

@@ -7,7 +7,7 @@ use super::elements::{Mention, mentions};
 use super::places;
 use crate::bind::ModelNames;
 use crate::bind::scene::Models;
-use crate::lint::{ModelFolder, load_lesson};
+use crate::lint::{ModelFolder, load_lesson_at};
 use crate::source::{SourceFile, Text};
 use crate::spec::{FileKind, Lab, Lesson, Scene};
 use labspec_expr::{Schema, names_in, texts_in};
@@ -153,7 +153,7 @@ pub(super) fn places_of(name: &Name, ground: &Ground<'_>) -> Places {
             continue;
         }
         let around = arounds.of((ground.models_of)(&path));
-        let lesson = load_lesson(file, around.models.folder());
+        let lesson = load_lesson_at(file, &path, around.models.folder());
         in_lesson(name, &lesson, &path, &around.models, &mut found);
     }
     found

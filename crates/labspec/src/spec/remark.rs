@@ -4,13 +4,14 @@
 use super::problem::Problem;
 use super::{Lesson, Verify, verify};
 use crate::json;
-use crate::markdown::{self, MAX_BLOCKS};
+use crate::markdown::{self, MAX_BLOCKS, Scan};
 use crate::source::SourceMap;
 use std::ops::Range;
 
 const OPENS: &str = "<!--";
 const CLOSES: &str = "-->";
 const OURS: &str = "labspec";
+const CLAIM: &str = "verify";
 
 /// A comment.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,27 +39,10 @@ impl Lesson {
     /// The comments of ours that begin with this word. Each is about the block that follows: a fence whole, or the text up to the
     /// next empty line.
     pub(super) fn comments(&self, word: &str) -> Vec<Comment> {
-        let text = self.file.text();
-        let mut all = Vec::new();
         let mut paragraph = 0..0;
-        for html in &self.scan.html {
-            let mut from = html.start;
-            while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
-                let Some(end) = text.get(start..html.end).and_then(|t| t.find(CLOSES)).map(|at| start + at)
-                else {
-                    break;
-                };
-                from = end + CLOSES.len();
-                if let Some(inside) = behind(text, start + OPENS.len()..end, word) {
-                    all.push(Comment {
-                        span: start..from,
-                        inside,
-                        over: self.following(from, &mut paragraph),
-                    });
-                }
-            }
-        }
-        all
+        let all = ours(self.file.text(), &self.scan, word).into_iter();
+        all.map(|(span, inside)| Comment { over: self.following(span.end, &mut paragraph), span, inside })
+            .collect()
     }
 
     /// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
@@ -82,6 +66,29 @@ impl Lesson {
     }
 }
 
+/// The bytes of every comment of ours that begins with this word, and of what stands behind it.
+fn ours(text: &str, scan: &Scan, word: &str) -> Vec<(Range<usize>, Range<usize>)> {
+    let mut all = Vec::new();
+    for html in &scan.html {
+        let mut from = html.start;
+        while let Some(start) = text.get(from..html.end).and_then(|t| t.find(OPENS)).map(|at| from + at) {
+            let Some(end) = text.get(start..html.end).and_then(|t| t.find(CLOSES)).map(|at| start + at)
+            else {
+                break;
+            };
+            from = end + CLOSES.len();
+            all.extend(behind(text, start + OPENS.len()..end, word).map(|inside| (start..from, inside)));
+        }
+    }
+    all
+}
+
+/// The bytes of the claim that a byte of a text stands in, where that is one in a comment.
+pub(super) fn claim_at(text: &str, scan: &Scan, byte: usize) -> Option<Range<usize>> {
+    let mut all = ours(text, scan, CLAIM).into_iter().map(|(_, inside)| inside);
+    all.find(|inside| (inside.start..=inside.end).contains(&byte))
+}
+
 /// What stands behind our name and the word in a comment.
 fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> {
     let mut rest = text.get(inside.clone())?;
@@ -94,7 +101,7 @@ fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> 
 /// The claims that stand in comments.
 pub(super) fn read(lesson: &mut Lesson) -> Vec<Remark> {
     let mut all = Vec::new();
-    for Comment { span, inside, over } in lesson.comments("verify") {
+    for Comment { span, inside, over } in lesson.comments(CLAIM) {
         if all.len() >= MAX_BLOCKS {
             lesson.problems.push(Problem::Fence(markdown::Problem::TooManyBlocks(span.start)));
             break;

@@ -22,6 +22,12 @@ impl Lesson {
         }
     }
 
+    /// The objects that one uses, one after the other.
+    pub(crate) fn used_by<'a>(&'a self, verify: &'a Verify) -> impl Iterator<Item = &'a Verify> {
+        let next = |of: &&'a Verify| self.verify_at(&of.uses.as_ref()?.1);
+        std::iter::successors(next(&verify), next).take(LONGEST)
+    }
+
     /// The `verify` object of a lab, or of the question at this place.
     pub fn verify_at(&self, address: &LabAddress) -> Option<&Verify> {
         match address {

@@ -46,6 +46,16 @@ pub enum Asked<'a> {
 /// `names` says which names there are: `&|asked| models.names(asked)` with [`crate::bind::scene::Models`], or
 /// `&|_| Vec::new()` where nobody knows.
 pub fn completions(text: &str, offset: usize, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<Completion> {
+    completions_of(None, text, offset, names)
+}
+
+/// The same in the JSON of an object that is known to be of some kind.
+pub(super) fn completions_of(
+    whole: Option<&'static Object>,
+    text: &str,
+    offset: usize,
+    names: &dyn Fn(Asked<'_>) -> Vec<String>,
+) -> Vec<Completion> {
     let mut offset = offset.min(text.len());
     while !text.is_char_boundary(offset) {
         offset -= 1;
@@ -53,7 +63,7 @@ pub fn completions(text: &str, offset: usize, names: &dyn Fn(Asked<'_>) -> Vec<S
     let found = scan(text, offset);
     let Some(spot) = &found.spot else { return Vec::new() };
     let Some(scope) = found.scopes.get(spot.scope) else { return Vec::new() };
-    let holder = holder(&found, spot.scope);
+    let holder = holder(whole, &found, spot.scope);
     let colon = text.get(spot.written.end..).is_some_and(|t| t.trim_start().starts_with(':'));
     let all = match &spot.value {
         None => keys(&holder, scope, spot, colon),
@@ -86,7 +96,7 @@ enum Holder {
     Unknown,
 }
 
-fn holder(found: &Scan, index: usize) -> Holder {
+fn holder(whole: Option<&'static Object>, found: &Scan, index: usize) -> Holder {
     // From the outermost to this one.
     let mut road = vec![index];
     while let Some((parent, _)) = road.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
@@ -97,7 +107,7 @@ fn holder(found: &Scan, index: usize) -> Holder {
         let outer_list = depth == 1 && matches!(at, Holder::Unknown);
         at = match &scope.parent {
             None if scope.list => Holder::Unknown,
-            None => root(scope),
+            None => whole.map_or_else(|| root(scope), |object| Holder::Keys(allowed(&[object], scope))),
             Some((_, Step::Item(_))) if outer_list && !scope.list => root(scope),
             Some((_, step)) => match inside(&at, step) {
                 Some(of) => of_type(of, scope),

@@ -1,12 +1,14 @@
 //! What can be written at a place of a lesson: that of the JSON which stands there.
 
-use super::{Asked, Completion, completions};
+use super::complete::completions_of;
+use super::{Asked, Completion, VERIFY, completions};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::SourceFile;
-use crate::spec::{FileKind, kind_of};
+use crate::spec::{FileKind, kind_of, remark};
+use std::ops::Range;
 use std::path::Path;
 
-/// What can be written at a byte offset of a lesson (Markdown) or of a JSON file; nothing outside of labs and quizzes. Places
+/// What can be written at a byte offset of a lesson (Markdown) or of a JSON file; nothing outside of labs, quizzes and claims. Places
 /// are bytes of the file; `names` says which names there are, as for [`completions`].
 pub fn completions_in(
     file: &SourceFile,
@@ -21,7 +23,13 @@ pub fn completions_in(
         matches!(block.kind, BlockKind::Lab(_) | BlockKind::Quiz) && (span.start..=span.end).contains(&offset)
     };
     let scan = markdown::scan(file);
-    let Some(Block { body, .. }) = scan.blocks.iter().find(holds) else { return Vec::new() };
+    let Some(Block { body, .. }) = scan.blocks.iter().find(holds) else {
+        let Some(claim) = remark::claim_at(file.text(), &scan, offset) else { return Vec::new() };
+        let inside = file.slice(claim.clone());
+        let found = completions_of(Some(&VERIFY), inside, offset - claim.start, names).into_iter();
+        let place = |at: Range<usize>| claim.start + at.start..claim.start + at.end;
+        return found.map(|c| Completion { replace: place(c.replace.clone()), ..c }).collect();
+    };
     // The text of a block is the file's, without what stands before its lines: bytes keep their order.
     let mut here = 0..body.value.len();
     while here.start < here.end {
