@@ -122,6 +122,24 @@ fn what_is_kept_is_never_trusted_beyond_its_bytes() {
         }
         assert_eq!(same(), before);
     }
+    // A lab of another lesson.
+    let other = folder.path().join("labs.md");
+    let lab = |height: f64| {
+        let lab = format!("{{\"model\": \"free_fall\", \"setup\": \"data.qpos[2] = {height}\"}}");
+        std::fs::write(&other, format!("# Labs\n\n```lab simlab\n{lab}\n```\n")).unwrap();
+    };
+    let claim = r##"{"lab": "labs.md#1", "runs": {"fall": {"until": 0.1}}, "measure": {"top": "max(data.qpos[2])"}, "says": [["3 m", "top"]]}"##;
+    let said = format!("<!-- labspec verify {claim} -->\nIt begins at 3 m.\n");
+    std::fs::write(folder.path().join("said.md"), said).unwrap();
+    let quoted = || {
+        let cached = shown(folder.path(), Some(kept.path()), &["check", "said.md"]);
+        assert_eq!(cached, shown(folder.path(), None, &["check", "said.md"]));
+        cached.1
+    };
+    for (height, code) in [(3.0, 0), (2.0, 1), (3.0, 0)] {
+        lab(height);
+        assert_eq!([quoted(), quoted()], [Some(code); 2], "{height}");
+    }
     // Entries that changed places.
     let names: Vec<_> = files().collect();
     let texts: Vec<_> = names.iter().map(|p| std::fs::read(p).unwrap()).collect();

@@ -18,7 +18,13 @@ pub(super) fn clean(label: &str) -> String {
 fn tame(c: char) -> char {
     match c {
         '\t' | '\n' | '\r' | '\u{2028}' | '\u{2029}' => ' ',
-        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{fffe}' | '\u{ffff}' => '\u{fffd}',
+        '\u{61c}'
+        | '\u{200e}'
+        | '\u{200f}'
+        | '\u{202a}'..='\u{202e}'
+        | '\u{2066}'..='\u{2069}'
+        | '\u{fffe}'
+        | '\u{ffff}' => '\u{fffd}',
         c if c.is_control() => '\u{fffd}',
         c => c,
     }
@@ -86,7 +92,9 @@ mod tests {
             escape(&clean("<b a='1' b=\"2\">&\u{0}\n</b>")),
             "&lt;b a=&#39;1&#39; b=&quot;2&quot;&gt;&amp;\u{fffd} &lt;/b&gt;"
         );
-        assert_eq!(clean("a\u{202e}b"), "a\u{fffd}b");
+        for turns in ['\u{61c}', '\u{200e}', '\u{200f}', '\u{202a}', '\u{202e}', '\u{2066}', '\u{2069}'] {
+            assert_eq!(clean(&format!("a{turns}b")), "a\u{fffd}b");
+        }
         assert_eq!(clean(&"x".repeat(1_000_000)).chars().count(), LONGEST + 1);
     }
 

@@ -450,3 +450,27 @@ fn nearby(case: &Case<'_>, targets: &[Compared], own: f64) -> Result<Nearby, Run
     let apart = case.rhythm(setting.timestep).stride as f64 * case.interval;
     Ok(Nearby { apart: NUDGE, until: first.map(|i| i as f64 * apart) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// All steps of a comparison meet all samples of its truth, or all of its samples.
+        #[test]
+        fn steps_meet_the_samples(count in 1usize..3_000_000, longest in prop::sample::select(&STEPS[..3]), own in 1e-5..0.1f64) {
+            let mut before = 0.0;
+            for (interval, number) in samplings(count, longest, own) {
+                prop_assert!(interval > before && (1..=MOST_SAMPLES).contains(&number));
+                prop_assert!(interval * number as f64 >= 0.999_999 * own * longest * count as f64);
+                for step in STEPS.into_iter().filter(|s| *s <= longest) {
+                    let ratio = (own * step / interval).max(interval / (own * step));
+                    prop_assert!((ratio - ratio.round()).abs() < 1e-9, "{interval} {step}");
+                }
+                before = interval;
+            }
+            prop_assert!(before > 0.0);
+        }
+    }
+}
