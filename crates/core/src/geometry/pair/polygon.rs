@@ -81,11 +81,7 @@ pub(super) fn contacts(a: &Shape, b: &Shape, settings: &Settings, room: &mut Roo
 /// What two shapes that overlap along a direction share, when it is more than a point.
 fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
     let (of_a, of_b) = (Feature::of(a, direction), Feature::of(b, scale(direction, -1.0)));
-    let pairs = of_a.faces.all().iter().flat_map(|fa| of_b.faces.all().iter().map(move |fb| (fa, fb)));
-    let facing = pairs.filter(|(fa, fb)| dot(fa.normal, fb.normal) < -FACING);
-    // Of several the two nearest to the direction: along the others the shapes are deeper in each other.
-    let straight = |(fa, fb): &(&Face, &Face)| dot(sub(fa.normal, fb.normal), direction);
-    if let Some((fa, fb)) = facing.max_by(|p, q| straight(p).total_cmp(&straight(q))) {
+    if let Some((fa, fb)) = facing(a, b, direction, &of_a, &of_b) {
         return Some(Patch {
             face: corners(a, fa.index),
             normal: fa.normal,
@@ -113,6 +109,28 @@ fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
         direction: face.normal,
         on_first: true,
     })
+}
+
+/// The two faces that look at each other. Of several those across which the shapes are least deep in each other; of equally deep ones
+/// those nearest to the direction.
+fn facing(a: &Shape, b: &Shape, direction: Vec3, of_a: &Feature, of_b: &Feature) -> Option<(Face, Face)> {
+    let pairs = of_a.faces.all().iter().flat_map(|fa| of_b.faces.all().iter().map(move |fb| (fa, fb)));
+    let mut pairs = pairs.filter(|(fa, fb)| dot(fa.normal, fb.normal) < -FACING);
+    let (&fa, &fb) = pairs.next()?;
+    let (mut of_a, mut of_b) = (Convex::new(a), Convex::new(b));
+    // Contacts push along the second face's normal.
+    let mut rank = |fa: Face, fb: Face| {
+        let (ahead, back) = (scale(fb.normal, -1.0), fb.normal);
+        let depth = dot(ahead, sub(of_a.support(ahead), of_b.support(back)));
+        [depth, dot(sub(fb.normal, fa.normal), direction)]
+    };
+    let mut best = ((fa, fb), None);
+    for (&fa, &fb) in pairs {
+        let least = best.1.unwrap_or_else(|| rank(best.0.0, best.0.1));
+        let next = rank(fa, fb);
+        best = if next < least { ((fa, fb), Some(next)) } else { (best.0, Some(least)) };
+    }
+    Some(best.0)
 }
 
 /// The edge of one feature that lies flattest on a face of another. The end of a cylinder takes faces only.
