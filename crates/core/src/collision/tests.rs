@@ -192,3 +192,28 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
         assert!((c.frame[2].abs() - 1.0).abs() < 1e-12 && c.dist < 0.0, "{c:?}");
     }
 }
+
+/// A roof with its ridge down, off the middle of a box. The side that looks away from most of the box is steeper than the other, and
+/// across it the two are less deep in each other: the contact is with that.
+#[test]
+fn of_several_faces_those_of_least_depth_meet() {
+    let (h, slopes) = (0.1, [3.0_f64, 2.0].map(|degrees| degrees.to_radians().tan()));
+    let (back, front, side) = (-h / slopes[0], h / slopes[1], h / 20.0_f64.to_radians().tan());
+    let mut vertices = String::from("0 0 0");
+    for (x, y) in [(back, side), (back, -side), (front, side), (front, -side)] {
+        vertices += &format!(" {x} {y} {h}");
+    }
+    let m = compile(&format!(
+        "<mujoco><asset><mesh name='roof' vertex='{vertices}'/></asset><worldbody>
+         <geom type='box' size='1 1 .1' pos='-.9 0 -.1'/>
+         <body pos='0 0 -.01'><freejoint/><geom type='mesh' mesh='roof'/></body></worldbody></mujoco>"
+    ))
+    .unwrap();
+    let found = contacts(&m, false);
+    // From the box up to the roof, across the steeper side.
+    let (sin, cos) = 3.0_f64.to_radians().sin_cos();
+    assert!(!found.is_empty());
+    for c in found {
+        assert!(norm(sub([c.frame[0], c.frame[1], c.frame[2]], [sin, 0.0, cos])) < 1e-9, "{:?}", c.frame);
+    }
+}
