@@ -7,7 +7,7 @@ mod lies;
 mod places;
 mod wording;
 
-use crate::support::workspace;
+use crate::support::{for_each, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, Checked, Depth};
 use labspec::finding::Severity;
@@ -16,7 +16,6 @@ use labspec::source::SourceFile;
 use labspec::spec::QuestionKind;
 use labspec::trace::{Origin, trace};
 use labspec::verify::{QuoteState, Verdict};
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// A lesson of the course.
@@ -64,22 +63,6 @@ pub(super) fn counts(f: &labspec::finding::Finding) -> bool {
 
 /// What `specs/labspec.toml` denies.
 const DENIED: [&str; 1] = ["numbers-unclaimed"];
-
-/// Does something for each of so many, on all processors; the results stand in order.
-pub(super) fn for_each<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let threads = std::thread::available_parallelism().map_or(2, usize::from);
-    let mut all: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let run = || {
-            let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|i| *i < count);
-            std::iter::from_fn(take).map(|i| (i, work(i))).collect::<Vec<_>>()
-        };
-        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
-        handles.into_iter().flat_map(|h| h.join().unwrap()).collect()
-    });
-    all.sort_by_key(|(i, _)| *i);
-    all.into_iter().map(|(_, t)| t).collect()
-}
 
 #[test]
 fn the_settings_of_the_course_are_those_that_are_tested() {

@@ -14,7 +14,7 @@ mod quizzes;
 mod reasons;
 
 use crate::needs::needs;
-use crate::support::workspace;
+use crate::support::{for_each, workspace};
 use claims::{Case, Needs};
 use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
@@ -25,7 +25,6 @@ use material::{Piece, What};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A kind of mistake: what it is called, what it is, and how it is made: a copy for every place.
 pub(crate) struct Kind {
@@ -121,22 +120,6 @@ fn counted(name: &'static str, text: String, models: &Models, depth: Depth) -> B
         }
     }
     count
-}
-
-/// Does something for each of so many, on all processors; the results stand in order.
-fn for_each<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let next = AtomicUsize::new(0);
-    let threads = std::thread::available_parallelism().map_or(2, usize::from);
-    let mut all: Vec<(usize, T)> = std::thread::scope(|scope| {
-        let run = || {
-            let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|i| *i < count);
-            std::iter::from_fn(take).map(|i| (i, work(i))).collect::<Vec<_>>()
-        };
-        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
-        handles.into_iter().flat_map(|h| h.join().unwrap()).collect()
-    });
-    all.sort_by_key(|(i, _)| *i);
-    all.into_iter().map(|(_, t)| t).collect()
 }
 
 #[test]

@@ -15,6 +15,7 @@ use labspec_core::Model;
 use labspec_core::xml::{self, Finding, Folder};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The workspace, two folders above the crate that the tests belong to.
 pub(crate) fn workspace() -> PathBuf {
@@ -98,4 +99,20 @@ pub(crate) fn check_text(name: &str, text: &str) -> Checked {
 /// The codes of everything that was found.
 pub(crate) fn codes(checked: &Checked) -> Vec<&'static str> {
     checked.findings.iter().map(|f| f.code).collect()
+}
+
+/// Does something for each of so many, on all processors; the results stand in order.
+pub(crate) fn for_each<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let threads = std::thread::available_parallelism().map_or(2, usize::from);
+    let mut all: Vec<(usize, T)> = std::thread::scope(|scope| {
+        let run = || {
+            let take = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|i| *i < count);
+            std::iter::from_fn(take).map(|i| (i, work(i))).collect::<Vec<_>>()
+        };
+        let handles: Vec<_> = (0..threads).map(|_| scope.spawn(run)).collect();
+        handles.into_iter().flat_map(|h| h.join().unwrap()).collect()
+    });
+    all.sort_by_key(|(i, _)| *i);
+    all.into_iter().map(|(_, t)| t).collect()
 }

@@ -92,11 +92,7 @@ fn direct(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
                 compare(finer, &second, step, how)
             }
         };
-        let agreed = agrees(&now);
-        if best.as_ref().is_none_or(|b| worst(&now) < worst(b)) {
-            best = Some(now);
-        }
-        if agreed {
+        if better(&mut best, now) {
             break;
         }
         step /= 4.0;
@@ -127,16 +123,21 @@ fn extrapolated(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError
             super::milliseconds(fine)
         );
         let now = compare(toward(&d, &c), &toward(&b, &a), coarse, how);
-        let agreed = agrees(&now);
-        if best.as_ref().is_none_or(|b| worst(&now) < worst(b)) {
-            best = Some(now);
-        }
-        if agreed {
+        if better(&mut best, now) {
             break;
         }
         step /= 4.0;
     }
     Ok(best)
+}
+
+/// Keeps the better of two; whether the new one agrees with itself as far as can be asked for.
+fn better(best: &mut Option<Reference>, now: Reference) -> bool {
+    let agreed = agrees(&now);
+    if best.as_ref().is_none_or(|b| worst(&now) < worst(b)) {
+        *best = Some(now);
+    }
+    agreed
 }
 
 /// What two runs come to with a step of nothing, where the error is in proportion to the step.

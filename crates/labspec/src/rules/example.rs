@@ -12,6 +12,19 @@ pub const MODEL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size
     <actuator><motor name='motor' joint='hinge'/></actuator>\
     <keyframe><key name='home' qpos='0 0 1 1 0 0 0 0'/></keyframe></mujoco>";
 
+/// A lab of a ball that falls, and what is stored of what it shows.
+pub(super) const FALL: &[u8] = br#"{"xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>", "stopAt": 0.2, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}]}"#;
+pub(super) const STORED: &[u8] = br##"labspec snapshot 1
+
+lab "#1" "A fall"
+run as it stands
+  0.2 s, timestep 0.002 s, Euler, Newton, pyramidal
+  time                   0  0.02  0.04  0.06  0.08   0.1  0.12  0.14  0.16  0.18   0.2
+  "readout/height (m)"   1     1     1  0.98  0.97  0.95  0.93   0.9   0.9   0.8   0.8
+
+end of 1 labs
+"##;
+
 /// An example as files, by their names; the first is the one to check. A name that ends with `/` is a folder.
 pub fn files(example: &Example) -> Vec<(String, Vec<u8>)> {
     let lab = match example {

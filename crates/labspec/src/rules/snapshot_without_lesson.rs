@@ -1,3 +1,4 @@
+use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// A snapshot is there, and its lesson is not.
@@ -7,10 +8,9 @@ pub const SNAPSHOT_WITHOUT_LESSON: &Rule = &Rule {
     layer: Layer::Source,
     summary: "a snapshot is there, and its lesson is not",
     why: "A lesson that was renamed or moved is no longer held against what is stored of it, and nobody is told",
-    bad: Example::Files(&[
-        (
-            "gone.json.snap",
-            r##"⟦⟧labspec snapshot 1
+    bad: Example::Files(&[(
+        "gone.json.snap",
+        r##"⟦⟧labspec snapshot 1
 
 lab "#1" "A fall"
 run as it stands
@@ -19,25 +19,8 @@ run as it stands
   "readout/height (m)"   1     1     1  0.98  0.97  0.95  0.93   0.9   0.9   0.8   0.8
 
 end of 1 labs
-"##.as_bytes(),
-        ),
-    ]),
-    good: Example::Files(&[
-        (
-            "fall.json",
-            br##"{"xml": "<mujoco><worldbody><body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>", "stopAt": 0.2, "readouts": [{"label": "height (m)", "expr": "data.qpos[2]", "digits": 3}]}"##,
-        ),
-        ("fall.json.snap", STORED),
-    ]),
+"##
+        .as_bytes(),
+    )]),
+    good: Example::Files(&[("fall.json", FALL), ("fall.json.snap", STORED)]),
 };
-
-const STORED: &[u8] = br##"labspec snapshot 1
-
-lab "#1" "A fall"
-run as it stands
-  0.2 s, timestep 0.002 s, Euler, Newton, pyramidal
-  time                   0  0.02  0.04  0.06  0.08   0.1  0.12  0.14  0.16  0.18   0.2
-  "readout/height (m)"   1     1     1  0.98  0.97  0.95  0.93   0.9   0.9   0.8   0.8
-
-end of 1 labs
-"##;

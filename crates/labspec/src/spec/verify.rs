@@ -184,6 +184,25 @@ pub struct Said {
 }
 
 impl Verify {
+    /// One that only measures.
+    pub(crate) fn measuring(span: Range<usize>, runs: Vec<Run>, measure: Vec<(Text, Text)>) -> Verify {
+        Verify {
+            span,
+            lab: None,
+            uses: None,
+            runs,
+            measure,
+            find: Vec::new(),
+            options: Vec::new(),
+            over: Vec::new(),
+            value: None,
+            wrong: Vec::new(),
+            says: Vec::new(),
+            table: Vec::new(),
+            exact: Vec::new(),
+        }
+    }
+
     /// Whether it says how the answer of its question is checked.
     pub fn claims_answer(&self) -> bool {
         !self.options.is_empty() || self.value.is_some()

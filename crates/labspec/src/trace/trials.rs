@@ -188,21 +188,8 @@ pub(super) fn values(
 ) -> Vec<f64> {
     let none = || vec![f64::NAN; candidates.len()];
     let name = |i: usize| text(&format!("m{i}"));
-    let verify = Verify {
-        span: 0..0,
-        lab: None,
-        uses: None,
-        runs: vec![trial.run("run")],
-        measure: candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect(),
-        find: Vec::new(),
-        options: Vec::new(),
-        over: Vec::new(),
-        value: None,
-        wrong: Vec::new(),
-        says: Vec::new(),
-        table: Vec::new(),
-        exact: Vec::new(),
-    };
+    let measure = candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect();
+    let verify = Verify::measuring(0..0, vec![trial.run("run")], measure);
     let scene = Scene::of(lab, model, programs);
     let bound = BoundVerify::new(&verify, None, &[vec![scene]], stage, &mut Vec::new());
     let found = bound.and_then(|bound| verify::measured(&bound, numerics));

@@ -147,21 +147,8 @@ fn holds(
     let patch =
         path.iter().map(|path| (Patch { path: path.clone(), value: x.to_string() }, find.what.span()));
     let scene = stage.changed(case.scene, &patch.collect::<Vec<_>>(), None, None, findings)?;
-    let verify = Verify {
-        span: find.name.span(),
-        lab: None,
-        uses: None,
-        runs: case.run.cloned().into_iter().collect(),
-        measure: case.measure.to_vec(),
-        find: Vec::new(),
-        options: Vec::new(),
-        over: Vec::new(),
-        value: None,
-        wrong: Vec::new(),
-        says: Vec::new(),
-        table: Vec::new(),
-        exact: Vec::new(),
-    };
+    let runs = case.run.cloned().into_iter().collect();
+    let verify = Verify::measuring(find.name.span(), runs, case.measure.to_vec());
     let scenes = [vec![scene.clone()]];
     let mut bound = BoundVerify::new(&verify, Some(&scene), &scenes, stage, findings)?;
     if case.scene.lab.control(&find.what.value).is_some() {
