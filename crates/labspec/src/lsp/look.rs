@@ -123,7 +123,7 @@ fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding
     let elsewhere = |other: &&Other| {
         let here =
             |named: &&VerifyLab| matches!(named, VerifyLab::Elsewhere(text, ..) if text.span() == other.span);
-        named.iter().any(|named| here(named))
+        named.iter().any(here)
     };
     let needed = |span: &Range<usize>| within(span, unit) || wanted.iter().any(|lab| within(&lab.span, span));
     let entry = |entry: &LabEntry| LabEntry {
