@@ -78,6 +78,10 @@ pub(crate) fn combine<const N: usize>(
     f: impl Fn(f64, [f64; N]) -> f64,
 ) {
     match out.len() {
+        n if cfg!(feature = "small") => {
+            let inputs = inputs.map(|x| &x[..n]);
+            (0..n).for_each(|k| out[k] = f(out[k], inputs.map(|x| x[k])));
+        }
         n @ 0..=2 => {
             let inputs = inputs.map(|x| &x[..n]);
             each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
@@ -106,6 +110,12 @@ fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl F
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
     match inputs[0].len() {
+        n if cfg!(feature = "small") => {
+            let inputs = inputs.map(|x| &x[..n]);
+            let mut sums = [0.0; 4];
+            (0..n).for_each(|k| sums[k % 4] += f(inputs.map(|x| x[k])));
+            (sums[0] + sums[2]) + (sums[1] + sums[3])
+        }
         FREE_DOFS => sum_fours(inputs.map(|x| &x[..FREE_DOFS]), f),
         n => sum_fours(inputs.map(|x| &x[..n]), f),
     }

@@ -144,8 +144,9 @@ pub(super) fn build(
     let pattern = layout::pattern(&layout, &simple, report)?;
     let whole = layout::whole_pattern(&layout, report)?;
 
-    let mut m = Model { opt: options, ..Model::default() };
+    let mut m = Model::default();
     m.names.model = settings::model_name(&tree);
+    m.opt = options;
     let parts = fill::Parts {
         bodies: &bodies,
         inertias: &inertias,

@@ -187,7 +187,7 @@ fn set(list: &mut [Element], at: usize, attribute: &str, value: &str) {
 
 fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
     let mut kinds: Vec<&str> = kinds.collect();
-    kinds.sort_unstable();
+    sort(&mut kinds);
     kinds.dedup();
     Refusal {
         message: format!("the model has no element `{kind}`"),
