@@ -52,7 +52,7 @@ impl Dual {
         let n = b.nrow as usize;
         let trees = jac.trees(m, b);
         let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| m.tree_dofs(t)));
-        let terms = || jac.columns(b).iter().zip(jac.values(b).chunks_exact(n));
+        let terms = || jac.terms(b);
         self.start.push(self.gram.len() as u32);
         for r in 0..n {
             for t in trees.clone() {
