@@ -331,6 +331,15 @@ impl Hessian {
 }
 
 impl Gram for Hessian {
+    fn place(&self, dof: u32) -> usize {
+        self.local[dof as usize] as usize
+    }
+
+    fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64> {
+        let (from, row) = row_of(&self.blocks, self.values.as_flattened_mut(), row);
+        row.get_mut(column.wrapping_sub(from))
+    }
+
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram<const R: usize>(
         &mut self,
