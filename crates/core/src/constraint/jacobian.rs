@@ -87,7 +87,9 @@ pub(super) fn add_entries(h: &mut dyn Gram, columns: &[u32], v: &[f64], weigh: &
         let row = h.place(ci);
         for (&cj, vj) in columns.iter().zip(v.chunks_exact(n)) {
             let column = h.place(cj);
-            if column <= row && let Some(entry) = h.entry(row, column) {
+            if column <= row
+                && let Some(entry) = h.entry(row, column)
+            {
                 *entry += dot_in_order(weighed, vj);
             }
         }

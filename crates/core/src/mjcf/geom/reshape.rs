@@ -4,7 +4,7 @@
 //!
 //! What is kept and in which order follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::arrays::{filled, listed};
 use std::collections::BTreeSet;
 
 use crate::kinds::joint;
@@ -134,7 +134,7 @@ fn references(tree: &Tree) -> Names {
             (Some(kind), Value::Text(name)) => Some((kind, name.clone())),
             _ => None,
         });
-        names.collect::<Vec<_>>()
+        listed(names)
     };
     filled(tree.nodes.iter().flat_map(of))
 }
