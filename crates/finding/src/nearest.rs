@@ -40,7 +40,7 @@ fn cost(written: &str, candidate: &str) -> Option<usize> {
         return Some(1);
     }
     let parts = |s: &str| {
-        s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_lowercase).collect::<Vec<_>>()
+        s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_ascii_lowercase).collect::<Vec<_>>()
     };
     let (a, mut b) = (parts(written), parts(candidate));
     b.sort_unstable();
@@ -51,11 +51,11 @@ fn cost(written: &str, candidate: &str) -> Option<usize> {
     }
     // Letters of another case are hardly a difference.
     let same_case = 10 * distance(written, candidate);
-    let edits = same_case.min(1 + 10 * distance(&written.to_lowercase(), &candidate.to_lowercase()));
+    let edits = same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()));
     // `mass` for `body_mass`: the fewer parts are missing, the better.
     let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
     let edits = if holds { edits.min(8 + b.len()) } else { edits };
-    let (written, candidate) = (written.to_lowercase(), candidate.to_lowercase());
+    let (written, candidate) = (written.to_ascii_lowercase(), candidate.to_ascii_lowercase());
     let begins = written.len().min(candidate.len()) >= 3
         && (written.starts_with(&candidate) || candidate.starts_with(&written));
     Some(if begins { edits.min(10) } else { edits })
