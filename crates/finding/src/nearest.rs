@@ -51,7 +51,8 @@ fn cost(written: &str, candidate: &str) -> Option<usize> {
     }
     // Letters of another case are hardly a difference.
     let same_case = 10 * distance(written, candidate);
-    let edits = same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()));
+    let edits =
+        same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()));
     // `mass` for `body_mass`: the fewer parts are missing, the better.
     let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
     let edits = if holds { edits.min(8 + b.len()) } else { edits };

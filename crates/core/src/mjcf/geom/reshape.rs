@@ -38,12 +38,17 @@ pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tre
 /// The frame of a free body without children moves into its centre of mass, along its principal axes: then its mass
 /// matrix is diagonal.
 fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Part]) {
-    let parents: BTreeSet<usize> = filled(bodies.iter().skip(1).map(|b| b.parent));
-    for (i, (body, inertia)) in bodies.iter_mut().zip(inertias).enumerate() {
+    let mut carries = vec![false; bodies.len()];
+    for body in bodies.iter().skip(1) {
+        if let Some(carries) = carries.get_mut(body.parent) {
+            *carries = true;
+        }
+    }
+    for ((body, inertia), carries) in bodies.iter_mut().zip(inertias).zip(carries) {
         let by_rule = parts.get(body.part).is_some_and(|p| p.compiler.alignfree);
         let asked = |align: i32| if align == 2 { by_rule } else { align == 1 };
         let free = body.joints.iter().any(|j| j.kind == joint::FREE && asked(j.align));
-        if !free || parents.contains(&i) {
+        if !free || carries {
             continue;
         }
         let to = Pose { pos: inertia.pos, quat: inertia.quat };
