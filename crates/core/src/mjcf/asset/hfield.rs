@@ -1,7 +1,6 @@
 //! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
 
 use super::mesh::{Bytes, Problem};
-use crate::mjcf::arrays::listed;
 use crate::mjcf::text::diagnostic::shown;
 
 /// Most samples of a field.
@@ -168,7 +167,7 @@ fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
     let step = frame.color_type.samples();
     let rows = pixels.chunks_exact(frame.line_size.max(1)).take(nrow).rev();
     let red = rows.flat_map(|row| row.chunks_exact(step.max(1)).take(ncol).filter_map(|p| p.first()));
-    let data: Vec<f64> = listed(red.map(|&x| f64::from(x)));
+    let data: Vec<f64> = red.map(|&x| f64::from(x)).collect();
     if data.len() != nrow * ncol {
         return Err(bad("it is cut off".into()));
     }
