@@ -15,8 +15,38 @@
 use labspec_core::{self as core, Data, Error, Model, disable};
 use std::path::PathBuf;
 
+/// A scene with rows of every kind, with these options: contacts with one, three, four and six directions, equalities, limits and
+/// dry friction.
+macro_rules! every_row {
+    ($options:literal) => {
+        concat!(
+            $options,
+            "<worldbody><geom type='plane' size='2 2 1'/>
+             <body pos='0 0 .09' euler='5 0 0'><freejoint/><geom type='box' size='.2 .15 .1' condim='1'/></body>
+             <body pos='1 0 .09'><freejoint/><geom type='box' size='.1 .1 .1' euler='9 5 0'/><geom size='.1' pos='0 0 .19'/></body>
+             <body name='a' pos='0 1 .1'><freejoint/><geom type='capsule' size='.1 .2' euler='0 85 0' condim='4'/></body>
+             <body name='b' pos='.6 1 .1'><freejoint/><geom size='.1' condim='6' friction='.5 .01 .02'/></body>
+             <body name='c' pos='-1 0 1'><joint name='j' axis='0 1 0' range='-20 20' frictionloss='.1'/><geom size='.1' pos='.5 0 0'/>
+              <body pos='.5 0 0'><joint name='k' axis='0 1 0'/><geom size='.1' pos='.5 0 0'/></body></body>
+             <body name='d' pos='-1 1 1'><freejoint/><geom size='.1'/></body>
+             <body name='e' pos='-1 1 1.3'><freejoint/><geom size='.1'/></body></worldbody>
+             <tendon><fixed name='t' frictionloss='.2' range='-.1 .3'><joint joint='j' coef='1'/><joint joint='k' coef='.5'/></fixed></tendon>
+             <equality><weld body1='a' body2='b'/><connect body1='d' body2='e' anchor='0 0 .15'/><joint joint1='j' joint2='k'/></equality>"
+        )
+    };
+}
+
 /// Models that both builds step: name and text. Geoms that would have to be searched for stay on the plane, or are kept apart for good.
-const SHARED: [(&str, &str); 6] = [
+const SHARED: [(&str, &str); 12] = [
+    ("pyramids by Newton's method", every_row!("<option solver='Newton'/>")),
+    ("cones by Newton's method", every_row!("<option solver='Newton' cone='elliptic' impratio='3'/>")),
+    ("cones by conjugate gradients", every_row!("<option solver='CG' cone='elliptic'/>")),
+    ("pyramids by projected sweeps", every_row!("<option solver='PGS' noslip_iterations='4'/>")),
+    ("cones by projected sweeps", every_row!("<option solver='PGS' cone='elliptic' noslip_iterations='4'/>")),
+    (
+        "rows at the end of the step",
+        every_row!("<option integrator='discrete' cone='elliptic'><flag diagexact='enable'/></option>"),
+    ),
     (
         "pile",
         "<worldbody><geom type='plane' size='2 2 1'/>

@@ -20,38 +20,46 @@ pub fn ranked<'a>(written: &str, candidates: impl IntoIterator<Item = &'a str>) 
     let allowed = written.chars().count().div_ceil(3).min(3);
     // A single letter is one edit away from every other one: only its own capital was meant.
     let most = if written.chars().nth(1).is_none() { 1 } else { 10 * allowed + 1 };
-    let scored = candidates.into_iter().filter(|c| c.len() <= LONGEST && *c != written).filter_map(|c| {
-        let cost = cost(written, c);
-        (cost <= most).then_some((cost, c))
-    });
-    scored.min_by_key(|(cost, _)| *cost)
+    let mut best: Option<(usize, &str)> = None;
+    for c in candidates {
+        let nearer = |cost: &usize| *cost <= most && best.is_none_or(|(least, _)| *cost < least);
+        if let Some(cost) = cost(written, c).filter(nearer) {
+            best = Some((cost, c));
+        }
+    }
+    best
 }
 
-/// How far the candidate is from what was written, in tenths of an edit.
-fn cost(written: &str, candidate: &str) -> usize {
+/// How far the candidate is from what was written, in tenths of an edit; `None` when it is that, or too long.
+#[inline(never)]
+fn cost(written: &str, candidate: &str) -> Option<usize> {
+    if candidate.len() > LONGEST || candidate == written {
+        return None;
+    }
     if written.eq_ignore_ascii_case(candidate) {
-        return 1;
+        return Some(1);
     }
     let parts = |s: &str| {
-        s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_lowercase).collect::<Vec<_>>()
+        s.split(['_', '/', '.']).filter(|p| !p.is_empty()).map(str::to_ascii_lowercase).collect::<Vec<_>>()
     };
     let (a, mut b) = (parts(written), parts(candidate));
     b.sort_unstable();
     let mut sorted = a.clone();
     sorted.sort_unstable();
     if sorted == b {
-        return 5; // the same parts in another order
+        return Some(5); // the same parts in another order
     }
     // Letters of another case are hardly a difference.
     let same_case = 10 * distance(written, candidate);
-    let edits = same_case.min(1 + 10 * distance(&written.to_lowercase(), &candidate.to_lowercase()));
+    let edits =
+        same_case.min(1 + 10 * distance(&written.to_ascii_lowercase(), &candidate.to_ascii_lowercase()));
     // `mass` for `body_mass`: the fewer parts are missing, the better.
     let holds = !a.is_empty() && written.len() >= 3 && a.iter().all(|p| b.contains(p));
     let edits = if holds { edits.min(8 + b.len()) } else { edits };
-    let (written, candidate) = (written.to_lowercase(), candidate.to_lowercase());
+    let (written, candidate) = (written.to_ascii_lowercase(), candidate.to_ascii_lowercase());
     let begins = written.len().min(candidate.len()) >= 3
         && (written.starts_with(&candidate) || candidate.starts_with(&written));
-    if begins { edits.min(10) } else { edits }
+    Some(if begins { edits.min(10) } else { edits })
 }
 
 /// Optimal string alignment distance: insertions, deletions, replacements and swaps of neighbours.

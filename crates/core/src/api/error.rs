@@ -112,7 +112,7 @@ impl fmt::Display for Error {
                 "the data belong to another model: make data for this one with `Data::new(&model)`",
             ),
             Error::NoName { kind, name, nearest } => {
-                let kind = format!("{kind:?}").to_lowercase();
+                let kind = format!("{kind:?}").to_ascii_lowercase();
                 write!(f, "the model has no {kind} named `{name}`")?;
                 nearest.as_ref().map_or(Ok(()), |n| write!(f, "; did you mean `{n}`?"))
             }

@@ -169,19 +169,29 @@ fn cone<const R: usize>(
 /// all of it isotropic: R μ1² / (impratio μj²).
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn friction<const R: usize>(m: &Model, c: &mut Contact, elliptic: bool, normal: f64) -> [f64; R] {
+    let mut r = [0.0; R];
+    frictions(m, c, elliptic, normal, &mut r);
+    r
+}
+
+/// The same for any number of rows.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn frictions(m: &Model, c: &mut Contact, elliptic: bool, normal: f64, r: &mut [f64]) {
     let impratio = m.opt.impratio.max(MINVAL);
     let mu1 = c.friction[0];
     if !elliptic {
         c.mu = mu1 * (1.0 / impratio).sqrt();
-        return [(2.0 * c.mu * c.mu * normal).max(MINVAL); R];
+        return r.fill((2.0 * c.mu * c.mu * normal).max(MINVAL));
     }
     let first = normal / impratio;
     c.mu = mu1 * (first / normal).sqrt();
-    std::array::from_fn(|r| match r {
-        0 => normal,
-        1 => first,
-        r => first * mu1 * mu1 / (c.friction[r - 1] * c.friction[r - 1]),
-    })
+    for (i, r) in r.iter_mut().enumerate() {
+        *r = match i {
+            0 => normal,
+            1 => first,
+            i => first * mu1 * mu1 / (c.friction[i - 1] * c.friction[i - 1]),
+        };
+    }
 }
 
 /// Adds the motion of surfaces that move by themselves to `efc_vel`: along the tangents, and spinning about the normal.

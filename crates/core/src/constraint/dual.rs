@@ -10,7 +10,6 @@ use super::gram::Item;
 use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
 use crate::dynamics::mass;
-use crate::math::dot;
 
 impl Problem<'_> {
     /// What a sweep over the forces of the island costs.
@@ -39,27 +38,28 @@ impl Problem<'_> {
     /// b + A f of N rows: how far the acceleration misses the reference.
     #[inline]
     pub(super) fn missed<const N: usize>(&self, b: &Block, item: Item) -> [f64; N] {
-        let n = b.nrow as usize;
-        let first = item.first as usize;
-        let row = b.row as usize + first;
         let mut out = [0.0; N];
-        let jac = self.jac;
-        for (&k, v) in jac.columns(b).iter().zip(jac.values(b).chunks_exact(n)) {
+        self.add_missed(b, item, &mut out);
+        out
+    }
+
+    /// The same as a sum.
+    fn add_missed(&self, b: &Block, item: Item, out: &mut [f64]) {
+        let first = item.first as usize;
+        for (&k, v) in self.jac.terms(b) {
             let a = self.s.dual.acceleration[k as usize];
             for (sum, v) in out.iter_mut().zip(&v[first..]) {
                 *sum += v * a;
             }
         }
-        for (sum, b) in out.iter_mut().zip(&self.d.efc_b[row..]) {
+        for (sum, b) in out.iter_mut().zip(&self.d.efc_b[b.row as usize + first..]) {
             *sum += b;
         }
-        out
     }
 
     /// Replaces the forces of N rows.
     #[inline]
     pub(super) fn replace<const N: usize>(&mut self, b: &Block, item: Item, force: [f64; N]) {
-        let n = b.nrow as usize;
         let first = item.first as usize;
         let row = b.row as usize + first;
         let Some(old) = self.d.efc_force[row..].first_chunk_mut::<N>() else { return };
@@ -67,12 +67,7 @@ impl Problem<'_> {
         *old = force;
         let w = &mut self.s.dual;
         let wide = &w.inverse.blocks[item.block as usize];
-        let terms = w.inverse.columns(wide).iter().zip(w.inverse.values(wide).chunks_exact(n));
-        for (&k, v) in terms {
-            if let Some(v) = v[first..].first_chunk::<N>() {
-                w.acceleration[k as usize] += dot(*v, change);
-            }
-        }
+        w.inverse.add_rows_transposed(wide, first, &change, &mut w.acceleration);
     }
 
     /// ½ fᵀ (A + R) f + bᵀ f of the island.

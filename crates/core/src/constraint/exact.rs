@@ -2,7 +2,7 @@
 
 use super::Scratch;
 use super::contact_rows;
-use super::jacobian::by_rows;
+use super::jacobian::MOST_ROWS;
 use super::kind;
 use super::rows::{regularization, soften};
 use crate::dynamics::mass;
@@ -15,33 +15,31 @@ pub(super) fn regularize(m: &Model, d: &mut Fields, w: &mut Scratch) {
         if d.meter.over() {
             break;
         }
-        let b = w.jac.blocks[i];
-        by_rows!(b.nrow, R => block::<R>(m, d, w, i));
+        block(m, d, w, i);
     }
 }
 
-fn block<const R: usize>(m: &Model, d: &mut Fields, w: &mut Scratch, i: usize) {
+fn block(m: &Model, d: &mut Fields, w: &mut Scratch, i: usize) {
     let b = w.jac.blocks[i];
     let row = b.row as usize;
     let (jac, x) = (&w.jac, &mut w.column);
     x.resize(m.nv, 0.0);
-    let mut diag = [0.0; R];
-    for (r, diag) in diag.iter_mut().enumerate() {
+    let mut rows = [0.0; MOST_ROWS];
+    let rows = &mut rows[..b.nrow as usize];
+    let imp = d.efc_KBIP[4 * row + 2];
+    for (r, soft) in rows.iter_mut().enumerate() {
         x.fill(0.0);
-        let terms = || jac.columns(&b).iter().zip(jac.values(&b).chunks_exact(R));
-        for (&k, v) in terms() {
+        for (&k, v) in jac.terms(&b) {
             x[k as usize] = v[r];
         }
         mass::solve(m, &d.qLD, &d.qLDiagInv, x, 0..m.nv);
-        *diag = terms().map(|(&k, v)| v[r] * x[k as usize]).sum();
+        *soft = regularization(imp, jac.terms(&b).map(|(&k, v)| v[r] * x[k as usize]).sum());
     }
-    let imp = d.efc_KBIP[4 * row + 2];
-    let mut r = diag.map(|a| regularization(imp, a));
     let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
     if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
         && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
     {
-        r = contact_rows::friction(m, c, elliptic, r[0]);
+        contact_rows::frictions(m, c, elliptic, rows[0], rows);
     }
-    soften(d, row, imp, &r);
+    soften(d, row, imp, rows);
 }

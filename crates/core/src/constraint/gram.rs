@@ -1,6 +1,6 @@
 //! What the dual methods keep: M⁻¹ Jᵀ, and the blocks of A = J M⁻¹ Jᵀ on its diagonal.
 
-use super::jacobian::{Block, Jacobian, by_rows};
+use super::jacobian::{Block, Jacobian};
 use crate::dynamics::mass;
 use crate::model::{Fields, Model};
 
@@ -44,16 +44,17 @@ impl Dual {
             v.resize(d.nefc, 0.0);
         }
         for b in &jac.blocks {
-            by_rows!(b.nrow, R => self.block::<R>(m, d, jac, b));
+            self.block(m, d, jac, b);
         }
     }
 
-    fn block<const R: usize>(&mut self, m: &Model, d: &Fields, jac: &Jacobian, b: &Block) {
+    fn block(&mut self, m: &Model, d: &Fields, jac: &Jacobian, b: &Block) {
+        let n = b.nrow as usize;
         let trees = jac.trees(m, b);
         let values = self.inverse.push_zeros(b, trees.clone().flat_map(|t| m.tree_dofs(t)));
-        let terms = || jac.columns(b).iter().zip(jac.values(b).as_chunks::<R>().0);
+        let terms = || jac.terms(b);
         self.start.push(self.gram.len() as u32);
-        for r in 0..R {
+        for r in 0..n {
             for t in trees.clone() {
                 self.x[m.tree_dofs(t)].fill(0.0);
             }
@@ -64,16 +65,16 @@ impl Dual {
                 mass::solve(m, &d.qLD, &d.qLDiagInv, &mut self.x, m.tree_dofs(t));
             }
             let dofs = trees.clone().flat_map(|t| m.tree_dofs(t));
-            for (value, k) in values.as_chunks_mut::<R>().0.iter_mut().zip(dofs) {
+            for (value, k) in values.chunks_exact_mut(n).zip(dofs) {
                 value[r] = self.x[k];
             }
-            let mut row = [0.0; R];
+            let row = self.gram.len();
+            self.gram.resize(row + n, 0.0);
             for (&k, v) in terms() {
-                for (sum, v) in row.iter_mut().zip(v) {
+                for (sum, v) in self.gram[row..].iter_mut().zip(v) {
                     *sum += v * self.x[k as usize];
                 }
             }
-            self.gram.extend_from_slice(&row);
         }
     }
 

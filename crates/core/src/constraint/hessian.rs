@@ -331,6 +331,15 @@ impl Hessian {
 }
 
 impl Gram for Hessian {
+    fn place(&self, dof: u32) -> usize {
+        self.local[dof as usize] as usize
+    }
+
+    fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64> {
+        let (from, row) = row_of(&self.blocks, self.values.as_flattened_mut(), row);
+        row.get_mut(column.wrapping_sub(from))
+    }
+
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram<const R: usize>(
         &mut self,
@@ -441,11 +450,15 @@ impl Order {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
+    use crate::constraint::jacobian::{Gram, add_entries};
+    use crate::constraint::six::Six;
+    use crate::math::dot;
     use crate::mjcf;
     use crate::model::Model;
     use crate::step::forward::forward;
     use crate::step::step;
     use crate::step::workspace::Data;
+    use std::array::from_fn;
     use std::fmt::Write;
 
     /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.
@@ -487,6 +500,47 @@ mod tests {
 
     fn row(i: usize) -> (usize, [f64; 3], [f64; 3]) {
         (i, [0.1995 * i as f64, 0.0, 0.0995], SMALL_BOX)
+    }
+
+    /// What a small module adds entry by entry has the bits of what is added by fours, in both matrices.
+    #[test]
+    fn products_are_the_same_entry_by_entry() {
+        let (_, d) = kept(&boxes((0..3).map(row)));
+        let (jac, mut fours) = (&d.work.constraint.jac, d.work.constraint.solver.hessian.clone());
+        fours.clear();
+        let mut entries = fours.clone();
+        let none = vec![0.0; d.M.len()];
+        let free = mjcf::compile(
+            "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>",
+        );
+        let six = || Six::new(free.as_ref().unwrap(), &none, 0);
+        let (mut six_fours, mut six_entries) = (six(), six());
+        // Not the same from left and from right.
+        let w: [[f64; 4]; 4] = from_fn(|i| from_fn(|j| 0.1 + (5 * i + j) as f64 / 7.0));
+        let weigh = |v: &[f64; 4]| w.map(|w| dot(w, *v));
+        let mut wide = 0;
+        for b in &jac.blocks {
+            let (columns, v) = (jac.columns(b), jac.values(b));
+            let by_slice = |v: &[f64], to: &mut [f64]| to.copy_from_slice(&weigh(v.first_chunk().unwrap()));
+            fours.add_gram(columns, v.as_chunks().0, &weigh);
+            add_entries(&mut entries, columns, v, &by_slice);
+            if columns.iter().all(|&c| c < 6) {
+                six_fours.add_gram(columns, v.as_chunks().0, &weigh);
+                add_entries(&mut six_entries, columns, v, &by_slice);
+            }
+            wide += usize::from(columns.len() == 12);
+        }
+        assert!(jac.blocks.len() > wide && wide > 0);
+        let mut same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
+            let mut filled = 0;
+            for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
+                let [a, b] = [a.entry(i, j).copied(), b.entry(i, j).copied()];
+                assert_eq!(a.map(f64::to_bits), b.map(f64::to_bits), "{i} {j}");
+                filled += usize::from(a.is_some_and(|a| a != 0.0));
+            }
+            filled
+        };
+        assert!(same(&mut fours, &mut entries, 18) > 100 && same(&mut six_fours, &mut six_entries, 6) > 15);
     }
 
     #[test]

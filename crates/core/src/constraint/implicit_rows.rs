@@ -8,7 +8,7 @@ use super::Scratch;
 use super::contact_rows;
 use super::cost::Cost;
 use super::equality_rows;
-use super::jacobian::{Jacobian, by_rows};
+use super::jacobian::{Block, Jacobian, MOST_ROWS};
 use super::kind;
 use super::rows::{resize, soften};
 use crate::dynamics::mass;
@@ -19,9 +19,8 @@ use crate::model::{Fields, Model};
 /// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
 /// place of M.
 pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f64]) {
-    for i in 0..w.jac.blocks.len() {
-        let b = w.jac.blocks[i];
-        by_rows!(b.nrow, R => soften_block::<R>(m, d, &w.jac, metric, i));
+    for b in &w.jac.blocks {
+        soften_block(m, d, &w.jac, metric, b);
     }
     let h = m.opt.timestep;
     for (r, [k, b, imp, _]) in rows::<4>(&d.efc_KBIP).iter().enumerate() {
@@ -45,18 +44,16 @@ fn growth(h: f64, [k, b, imp, _]: &[f64; 4]) -> f64 {
 }
 
 /// R/s of the rows of a block, for the inertia that they meet now.
-fn soften_block<const R: usize>(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], i: usize) {
-    let b = jac.blocks[i];
-    let row = b.row as usize;
-    let Some(&old) = d.efc_R[row..].first_chunk::<R>() else { return };
+fn soften_block(m: &Model, d: &mut Fields, jac: &Jacobian, metric: &[f64], b: &Block) {
+    let (row, n) = (b.row as usize, b.nrow as usize);
     // Σ J²/M' over Σ J²/M, with diagonals alone.
-    let (mut now, mut before) = ([0.0; R], [0.0; R]);
-    for (&k, v) in jac.columns(&b).iter().zip(jac.values(&b).as_chunks::<R>().0) {
+    let (mut now, mut before) = ([0.0; MOST_ROWS], [0.0; MOST_ROWS]);
+    for (&k, v) in jac.terms(b) {
         let k = k as usize;
         let inertia = d.M[mass::diagonal(m, k)];
-        for r in 0..R {
-            now[r] += v[r] * v[r] / metric[k];
-            before[r] += v[r] * v[r] / inertia;
+        for (r, v) in v.iter().enumerate() {
+            now[r] += v * v / metric[k];
+            before[r] += v * v / inertia;
         }
     }
     let kbip = &rows::<4>(&d.efc_KBIP)[row..];
@@ -64,17 +61,20 @@ fn soften_block<const R: usize>(m: &Model, d: &mut Fields, jac: &Jacobian, metri
         let lighter = if before[r] > 0.0 { now[r] / before[r] } else { 1.0 };
         lighter / growth(m.opt.timestep, &kbip[r])
     };
-    let mut new: [f64; R] = std::array::from_fn(|r| (old[r] * softer(r)).max(MINVAL));
-    let (first, imp) = (softer(0), kbip[0][2]);
+    let old = &d.efc_R[row..row + n];
+    let mut new = [0.0; MOST_ROWS];
+    let new = &mut new[..n];
+    new.iter_mut().zip(old).enumerate().for_each(|(r, (new, old))| *new = (old * softer(r)).max(MINVAL));
+    let (old, first, imp) = (old[0], softer(0), kbip[0][2]);
     let elliptic = d.efc_type[row] == kind::CONTACT_ELLIPTIC;
     if (elliptic || d.efc_type[row] == kind::CONTACT_PYRAMIDAL)
         && let Some(c) = d.contact.get_mut(d.efc_id[row] as usize)
     {
         // Friction is as soft as its normal makes it; an edge's R is 2 μ² times that of the normal.
-        let normal = if elliptic { old[0] } else { old[0] / (2.0 * c.mu * c.mu) };
-        new = contact_rows::friction(m, c, elliptic, (normal * first).max(MINVAL));
+        let normal = if elliptic { old } else { old / (2.0 * c.mu * c.mu) };
+        contact_rows::frictions(m, c, elliptic, (normal * first).max(MINVAL), new);
     }
-    soften(d, row, imp, &new);
+    soften(d, row, imp, new);
 }
 
 /// Appends a row that costs ½ `stiff` x² for x = J a: a part of the metric that M's pattern has no room for.

@@ -4,9 +4,12 @@
 //! frictional contact fill vector registers.
 
 use super::cost::Cost;
-use crate::math::{FREE_DOFS, dot};
+use crate::math::{FREE_DOFS, SMALL, dot, dot_in_order};
 use crate::model::{Fields, Model};
 use std::ops::Range;
+
+/// Rows of the largest block.
+pub(super) const MOST_ROWS: usize = 10;
 
 /// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
 /// point, 4 and 6 for pyramids and cones with friction, 6 for a frame, 10 for the pyramid with all friction.
@@ -30,7 +33,7 @@ macro_rules! by_rows {
                 $run
             }
             _ => {
-                const $rows: usize = 10;
+                const $rows: usize = $crate::constraint::jacobian::MOST_ROWS;
                 $run
             }
         }
@@ -61,13 +64,36 @@ pub(super) use by_cone_rows;
 
 /// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
 pub(super) trait Gram {
+    /// The row of a degree of freedom, and the entry of the lower triangle in a row and a column.
+    fn place(&self, dof: u32) -> usize;
+    fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64>;
     /// H ← H + Jᵀ W J for the R rows of a block, given by its columns, ascending, where `weigh` gives W v.
     fn add_gram<const R: usize>(
         &mut self,
         columns: &[u32],
         v: &[[f64; R]],
         weigh: &dyn Fn(&[f64; R]) -> [f64; R],
-    );
+    ) where
+        Self: Sized;
+}
+
+/// [`Gram::add_gram`], entry by entry, for any number of rows of which `weigh` gives W v.
+pub(super) fn add_entries(h: &mut dyn Gram, columns: &[u32], v: &[f64], weigh: &dyn Fn(&[f64], &mut [f64])) {
+    let n = (v.len() / columns.len().max(1)).max(1);
+    let mut weighed = [0.0; MOST_ROWS];
+    let weighed = &mut weighed[..n];
+    for (&ci, vi) in columns.iter().zip(v.chunks_exact(n)) {
+        weigh(vi, weighed);
+        let row = h.place(ci);
+        for (&cj, vj) in columns.iter().zip(v.chunks_exact(n)) {
+            let column = h.place(cj);
+            if column <= row
+                && let Some(entry) = h.entry(row, column)
+            {
+                *entry += dot_in_order(weighed, vj);
+            }
+        }
+    }
 }
 
 /// The rows of one constraint.
@@ -104,14 +130,11 @@ fn contiguous(columns: &[u32]) -> Option<Range<usize>> {
     (range.len() == columns.len()).then_some(range)
 }
 
-/// Columns and what belongs to them, the last first.
+/// Items, the last first.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn reversed<T>(columns: &[u32], values: impl Iterator<Item = T>, to: &mut [u32], values_to: &mut [T]) {
-    for (to, &k) in to.iter_mut().rev().zip(columns) {
-        *to = k;
-    }
-    for (to, value) in values_to.iter_mut().rev().zip(values) {
-        *to = value;
+fn reversed<T>(items: impl Iterator<Item = T>, to: &mut [T]) {
+    for (to, item) in to.iter_mut().rev().zip(items) {
+        *to = item;
     }
 }
 
@@ -146,9 +169,19 @@ impl Jacobian {
         descending: &[u32],
         values: impl Iterator<Item = [f64; R]>,
     ) {
+        let rows = self.open_rows(cost, row, R, descending).as_chunks_mut::<R>().0;
+        match rows.len() {
+            FREE_DOFS if !SMALL => reversed(values, &mut rows[..FREE_DOFS]),
+            n => reversed(values, &mut rows[..n]),
+        }
+    }
+
+    /// Appends a block of `nrow` rows with columns in descending order; the room for its values.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn open_rows(&mut self, cost: Cost, row: usize, nrow: usize, descending: &[u32]) -> &mut [f64] {
         let n = descending.len();
         let (adr, col) = (self.used_values, self.used_columns);
-        (self.used_values, self.used_columns) = (adr + R * n, col + n);
+        (self.used_values, self.used_columns) = (adr + nrow * n, col + n);
         if self.values.len() < self.used_values {
             self.values.resize(self.used_values, 0.0);
         }
@@ -157,7 +190,7 @@ impl Jacobian {
         }
         self.blocks.push(Block {
             row: row as u32,
-            nrow: R as u32,
+            nrow: nrow as u32,
             cost,
             adr: adr as u32,
             col: col as u32,
@@ -168,12 +201,12 @@ impl Jacobian {
             },
         });
         let columns = &mut self.columns[col..col + n];
-        let rows = &mut self.values[adr..adr + R * n].as_chunks_mut::<R>().0[..n];
-        if n == FREE_DOFS {
-            reversed(descending, values, &mut columns[..FREE_DOFS], &mut rows[..FREE_DOFS]);
+        if n == FREE_DOFS && !SMALL {
+            reversed(descending.iter().copied(), &mut columns[..FREE_DOFS]);
         } else {
-            reversed(descending, values, columns, rows);
+            reversed(descending.iter().copied(), columns);
         }
+        &mut self.values[adr..adr + nrow * n]
     }
 
     /// The values of a block whose columns are six that follow each other.
@@ -353,7 +386,20 @@ impl Jacobian {
     /// out ← J x for the rows of a block.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn mul_block(&self, b: &Block, x: &[f64], out: &mut [f64]) {
-        by_rows!(b.nrow, R => self.mul_rows::<R>(b, x, out))
+        if SMALL {
+            let sums = &mut out[b.rows()];
+            sums.fill(0.0);
+            for (&k, v) in self.terms(b) {
+                sums.iter_mut().zip(v).for_each(|(sum, v)| *sum += v * x[k as usize]);
+            }
+        } else {
+            by_rows!(b.nrow, R => self.mul_rows::<R>(b, x, out))
+        }
+    }
+
+    /// The columns of a block, with a value for each row.
+    pub(super) fn terms(&self, b: &Block) -> impl Iterator<Item = (&u32, &[f64])> {
+        self.columns(b).iter().zip(self.values(b).chunks_exact(b.nrow as usize))
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
@@ -386,6 +432,9 @@ impl Jacobian {
     /// out ← out + Jᵀ f for the R rows of a block.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
+        if SMALL {
+            return self.add_rows_transposed(b, 0, f, out);
+        }
         if let Some(first) = b.six {
             let out = out[first as usize..].first_chunk_mut::<FREE_DOFS>();
             if let (Some(v), Some(out)) = (self.values_of_six::<R>(b), out) {
@@ -399,6 +448,15 @@ impl Jacobian {
         match contiguous(cols) {
             Some(range) => vals.iter().zip(&mut out[range]).for_each(|(v, out)| *out += dot(*v, *f)),
             None => vals.iter().zip(cols).for_each(|(v, &c)| out[c as usize] += dot(*v, *f)),
+        }
+    }
+}
+
+impl Jacobian {
+    /// out ← out + Jᵀ f for some rows of a block, from `first` on.
+    pub(super) fn add_rows_transposed(&self, b: &Block, first: usize, f: &[f64], out: &mut [f64]) {
+        for (&k, v) in self.terms(b) {
+            out[k as usize] += dot_in_order(&v[first..], f);
         }
     }
 }

@@ -5,11 +5,11 @@
 
 use super::cost::{Cost, Curvature, push_curvature};
 use super::iterate::Reached;
-use super::jacobian::{Block, Gram, Jacobian, by_rows};
+use super::jacobian::{Block, Gram, Jacobian, add_entries, by_rows};
 use super::primal::{Direction, Problem, shape};
 use super::six::Six;
 use crate::dynamics::mass;
-use crate::math::{FREE_DOFS, dot};
+use crate::math::{FREE_DOFS, SMALL, dot};
 use crate::model::Fields;
 use std::array::from_fn;
 use std::ops::Range;
@@ -122,7 +122,7 @@ fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, 
     };
     if x.iter().any(|&x| x < 0.0) {
         let w: [f64; R] = from_fn(|r| push_curvature(x[r], stiff[r]));
-        h.add_gram::<R>(jac.columns(b), jac.values(b).as_chunks().0, &|v| from_fn(|r| w[r] * v[r]));
+        add(h, jac, b, &|v: &[f64; R]| from_fn(|r| w[r] * v[r]));
     }
 }
 
@@ -130,10 +130,23 @@ fn add_push<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, 
 #[inline(never)]
 fn add_curvature<const R: usize>(d: &Fields, jac: &Jacobian, jar: &[f64], b: &Block, h: &mut impl Gram) {
     let (Some(shape), Some(x)) = (shape::<R>(d, b), jar[b.rows()].first_chunk::<R>()) else { return };
-    let (columns, v) = (jac.columns(b), jac.values(b).as_chunks().0);
     match shape.curvature(x) {
         Curvature::Flat => {}
-        Curvature::Diagonal(w) => h.add_gram::<R>(columns, v, &|v| from_fn(|r| w[r] * v[r])),
-        Curvature::Full(w) => h.add_gram::<R>(columns, v, &|v| w.map(|w| dot(w, *v))),
+        Curvature::Diagonal(w) => add(h, jac, b, &|v: &[f64; R]| from_fn(|r| w[r] * v[r])),
+        Curvature::Full(w) => add(h, jac, b, &|v: &[f64; R]| w.map(|w| dot(w, *v))),
     }
+}
+
+/// H ← H + Jᵀ W J over a block, where `weigh` gives W v.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn add<const R: usize>(h: &mut impl Gram, jac: &Jacobian, b: &Block, weigh: &dyn Fn(&[f64; R]) -> [f64; R]) {
+    let (columns, v) = (jac.columns(b), jac.values(b));
+    if SMALL {
+        return add_entries(h, columns, v, &|v, weighed| {
+            if let Some(v) = v.first_chunk() {
+                weighed.copy_from_slice(&weigh(v));
+            }
+        });
+    }
+    h.add_gram::<R>(columns, v.as_chunks().0, weigh);
 }

@@ -40,33 +40,33 @@ pub(super) struct Rows<const R: usize> {
 /// Appends the scalars of a constraint; its Jacobian is there already.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn push<const R: usize>(d: &mut Fields, s: &Rows<R>) {
-    let rows = d.nefc..d.nefc + R;
+    append(d, s.kind, s.id, s.loss, [&s.pos, &s.margin, &s.r], [&s.kbi, &s.others]);
+}
+
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn append(d: &mut Fields, kind: i32, id: usize, loss: f64, [pos, margin, r]: [&[f64]; 3], kbi: [&Kbi; 2]) {
+    let rows = d.nefc..d.nefc + r.len();
     d.nefc = rows.end;
-    put(&mut d.efc_type[rows.clone()], [s.kind; R]);
-    put(&mut d.efc_id[rows.clone()], [s.id as i32; R]);
-    put(&mut d.efc_pos[rows.clone()], s.pos);
-    put(&mut d.efc_margin[rows.clone()], s.margin);
-    put(&mut d.efc_frictionloss[rows.clone()], [s.loss; R]);
-    let kbip = |k: &Kbi| [k.k, k.b, k.imp, k.slope];
-    let each = std::array::from_fn(|r| if r == 0 { kbip(&s.kbi) } else { kbip(&s.others) });
-    put::<_, R>(&mut rows_mut::<4>(&mut d.efc_KBIP)[rows.clone()], each);
-    soften(d, rows.start, s.kbi.imp, &s.r);
+    d.efc_type[rows.clone()].fill(kind);
+    d.efc_id[rows.clone()].fill(id as i32);
+    d.efc_pos[rows.clone()].copy_from_slice(pos);
+    d.efc_margin[rows.clone()].copy_from_slice(margin);
+    d.efc_frictionloss[rows.clone()].fill(loss);
+    let [first, others] = kbi.map(|k| [k.k, k.b, k.imp, k.slope]);
+    let kbip = &mut rows_mut::<4>(&mut d.efc_KBIP)[rows.clone()];
+    kbip.fill(others);
+    kbip[0] = first;
+    soften(d, rows.start, kbi[0].imp, r);
 }
 
 /// `efc_R`, `efc_D`, and the diagonal of J M⁻¹ Jᵀ that they would follow from.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn soften<const R: usize>(d: &mut Fields, row: usize, imp: f64, r: &[f64; R]) {
-    let rows = row..row + R;
-    put(&mut d.efc_diagA[rows.clone()], r.map(|r| r * imp / (1.0 - imp)));
-    put(&mut d.efc_R[rows.clone()], *r);
-    put(&mut d.efc_D[rows], r.map(|r| 1.0 / r));
-}
-
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn put<T, const R: usize>(to: &mut [T], values: [T; R]) {
-    if let Some(to) = to.first_chunk_mut::<R>() {
-        *to = values;
-    }
+pub(super) fn soften(d: &mut Fields, row: usize, imp: f64, r: &[f64]) {
+    let rows = row..row + r.len();
+    let put = |to: &mut [f64], of: &dyn Fn(f64) -> f64| to.iter_mut().zip(r).for_each(|(to, r)| *to = of(*r));
+    put(&mut d.efc_diagA[rows.clone()], &|r| r * imp / (1.0 - imp));
+    put(&mut d.efc_R[rows.clone()], &|r| r);
+    put(&mut d.efc_D[rows], &|r| 1.0 / r);
 }
 
 /// R = (1 - d)/d A, so that the constraint acts with the fraction d of the force that would hold it rigid.

@@ -53,6 +53,14 @@ impl Six {
 }
 
 impl Gram for Six {
+    fn place(&self, dof: u32) -> usize {
+        dof as usize - self.start
+    }
+
+    fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64> {
+        self.values.get_mut(row)?.get_mut(column)
+    }
+
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn add_gram<const R: usize>(
         &mut self,

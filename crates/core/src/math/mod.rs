@@ -57,14 +57,18 @@ pub(crate) fn clamp(x: f64, low: f64, high: f64) -> f64 {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn each(n: usize, mut f: impl FnMut(usize)) {
     match n {
-        1 => f(0),
-        2 => {
+        1 if !SMALL => f(0),
+        2 if !SMALL => {
             f(0);
             f(1);
         }
         _ => (0..n).for_each(f),
     }
 }
+
+/// Whether the module shall be small (feature `small`): then what is there for speed alone is left to a plain loop, which adds
+/// in the same order.
+pub(crate) const SMALL: bool = cfg!(feature = "small");
 
 /// Degrees of freedom of a free body: loops over them are worth code of their own, without a loop.
 pub(crate) const FREE_DOFS: usize = 6;
@@ -78,7 +82,7 @@ pub(crate) fn combine<const N: usize>(
     f: impl Fn(f64, [f64; N]) -> f64,
 ) {
     match out.len() {
-        n @ 0..=2 => {
+        n if SMALL || n <= 2 => {
             let inputs = inputs.map(|x| &x[..n]);
             each(n, |k| out[k] = f(out[k], inputs.map(|x| x[k])));
         }
@@ -106,6 +110,11 @@ fn combine_fours<const N: usize>(out: &mut [f64], inputs: [&[f64]; N], f: impl F
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn sum<const N: usize>(inputs: [&[f64]; N], f: impl Fn([f64; N]) -> f64) -> f64 {
     match inputs[0].len() {
+        n if SMALL => {
+            let mut sums = [0.0; 4];
+            (0..n).for_each(|k| sums[k % 4] += f(inputs.map(|x| x[k])));
+            (sums[0] + sums[2]) + (sums[1] + sums[3])
+        }
         FREE_DOFS => sum_fours(inputs.map(|x| &x[..FREE_DOFS]), f),
         n => sum_fours(inputs.map(|x| &x[..n]), f),
     }
@@ -133,6 +142,7 @@ pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
     let n = from.len().min(to.len());
     let (from, to) = (&from[..n], &mut to[..n]);
     match n {
+        _ if SMALL => to.copy_from_slice(from),
         0..=2 => each(n, |k| to[k] = from[k]),
         FREE_DOFS => to[..FREE_DOFS].copy_from_slice(&from[..FREE_DOFS]),
         _ => to.copy_from_slice(from),
@@ -143,6 +153,7 @@ pub(crate) fn copy(from: &[f64], to: &mut [f64]) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn zero(x: &mut [f64]) {
     match x.len() {
+        _ if SMALL => x.fill(0.0),
         n @ 0..=2 => each(n, |k| x[k] = 0.0),
         FREE_DOFS => x[..FREE_DOFS].fill(0.0),
         _ => x.fill(0.0),
@@ -208,6 +219,12 @@ pub fn dot<T: Real, const N: usize>(a: [T; N], b: [T; N]) -> T {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub fn dot_ref(a: &Spatial, b: &Spatial) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+}
+
+/// a · b of two slices, in one sum.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn dot_in_order(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).reduce(|sum, x| sum + x).unwrap_or(0.0)
 }
 
 /// a · b of two slices of the same length, in two interleaved sums.

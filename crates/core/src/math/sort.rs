@@ -2,11 +2,12 @@
 //! (feature `small`), a heap does it in a few lines (Williams 1964). No two items are equal in the orders that are asked
 //! for, so both give the same.
 
+use super::SMALL;
 use std::cmp::Ordering;
 
 /// Sorts by an order in which no two items are equal.
 pub(crate) fn sort_by<T>(items: &mut [T], mut order: impl FnMut(&T, &T) -> Ordering) {
-    if cfg!(feature = "small") {
+    if SMALL {
         heap_sort(items, &mut |a, b| order(a, b).is_lt());
     } else {
         items.sort_unstable_by(order);
@@ -21,7 +22,7 @@ pub(crate) fn sort<T: Ord>(items: &mut [T]) {
 /// Sorts by a key; items with the same key stay in their order.
 #[cfg(any(test, feature = "mjcf"))]
 pub(crate) fn sort_by_key<T, K: Ord>(items: &mut Vec<T>, key: impl Fn(&T) -> K) {
-    if cfg!(feature = "small") {
+    if SMALL {
         let mut numbered: Vec<(usize, T)> = items.drain(..).enumerate().collect();
         sort_by(&mut numbered, |(i, a), (j, b)| key(a).cmp(&key(b)).then(i.cmp(j)));
         items.extend(numbered.into_iter().map(|(_, item)| item));

@@ -13,6 +13,7 @@ use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
+use crate::mjcf::words::Words;
 
 /// A class copies its parent, so their number is bounded.
 const MAX_CLASSES: usize = 2000;
@@ -20,7 +21,7 @@ const MAX_CLASSES: usize = 2000;
 /// The attributes that hold for an element: its own over those of its class.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Props {
-    values: BTreeMap<&'static str, (Value, Range<usize>)>,
+    values: Words<(Value, Range<usize>)>,
     /// The elements that these are the attributes of.
     #[cfg(test)]
     elements: Vec<&'static super::schema::Element>,
@@ -46,7 +47,7 @@ impl Props {
         let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
         for a in node.attributes.iter().filter(|a| !own(a)) {
             if ALTERNATIVES.contains(&a.attr.name) {
-                self.values.retain(|name, _| !ALTERNATIVES.contains(name));
+                self.values.remove(&ALTERNATIVES);
             }
             let below = self.values.get(a.attr.name).map(|(v, _)| v);
             let value = match (below, &a.value) {
@@ -169,7 +170,7 @@ const SHORT: usize = 20;
 struct Class {
     parent: usize,
     /// Shared with the classes that say nothing else.
-    entries: BTreeMap<&'static str, Rc<Props>>,
+    entries: Words<Rc<Props>>,
     /// The elements of the class itself, in the order of the text.
     nodes: Vec<usize>,
 }
@@ -192,19 +193,19 @@ impl Classes {
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
         let mut classes =
             Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0, room: Room::default() };
-        let mut of_node: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut of_node: Vec<Option<usize>> = vec![None; tree.nodes.len()];
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
-            let nested_in = node.parent.and_then(|p| of_node.get(&p)).copied();
+            let nested_in = node.parent.and_then(|p| *of_node.get(p)?);
             let attached = nested_in.is_none() && node.model > 0;
             let parent = match (nested_in, attached) {
                 (Some(class), _) => class,
                 (None, false) => classes.main,
                 (None, true) => node.text("class").and_then(|name| classes.find(name)).unwrap_or(0),
             };
-            let mut entries = classes.list.get(parent).map_or_else(BTreeMap::new, |c| c.entries.clone());
+            let mut entries = classes.list.get(parent).map_or_else(Words::default, |c| c.entries.clone());
             let mut nodes = Vec::new();
             for (at, entry) in tree.children(i).filter(|(_, e)| e.element.name != "default") {
-                let props = Rc::make_mut(entries.entry(entry.element.name).or_default());
+                let props = Rc::make_mut(entries.or_default(entry.element.name));
                 props.overlay_within(entry, &classes.room);
                 nodes.push(at);
             }
@@ -215,7 +216,7 @@ impl Classes {
                 break;
             }
             classes.list.push(Class { parent, entries, nodes });
-            of_node.insert(i, index);
+            of_node[i] = Some(index);
             match (nested_in, node.text("class")) {
                 (None, Some(name)) if attached => {
                     classes.names.insert(name.to_string(), index);

@@ -1,6 +1,6 @@
 //! Specifications to the arrays of [`Model`].
 
-use super::arrays::{flat, ints, padded};
+use super::arrays::{flat, ints, listed, padded};
 use super::layout::{Dof, Layout, Pattern, WholePattern};
 use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, PairSpec,
@@ -124,7 +124,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
     fill_scene::geoms(m, &geoms, scene);
     bodies_from_geoms(m);
     fill_scene::sites(m, &sites, scene);
-    let body_names: Vec<String> = list.iter().map(|b| b.name.clone()).collect();
+    let body_names: Vec<String> = listed(list.iter().map(|b| b.name.clone()));
     fill_scene::cameras(m, &members(list, |b| &b.cameras), &body_names);
     fill_scene::lights(m, &members(list, |b| &b.lights), &body_names, &scene.textures);
     fill_tendon::tendons(m, tendons);
@@ -161,7 +161,7 @@ pub(crate) fn model(m: &mut Model, parts: Parts) {
 
 /// The members of all bodies in id order, each with its body.
 fn members<T>(list: &[BodySpec], of: impl Fn(&BodySpec) -> &Vec<T>) -> Vec<(usize, &T)> {
-    list.iter().enumerate().flat_map(|(i, b)| of(b).iter().map(move |x| (i, x))).collect()
+    listed(list.iter().enumerate().flat_map(|(i, b)| of(b).iter().map(move |x| (i, x))))
 }
 
 /// First address and count of the members of each body: -1 where there are none.
@@ -233,15 +233,15 @@ fn joints_and_dofs(
     }
     m.jnt_type = ints(joints, |(_, j)| j.kind);
     m.jnt_bodyid = ints(joints, |&(b, _)| b as i32);
-    m.jnt_limited = joints.iter().map(|(_, j)| j.limited).collect();
+    m.jnt_limited = listed(joints.iter().map(|(_, j)| j.limited));
     m.jnt_solref = flat(joints, |(_, j)| j.solref);
     m.jnt_solimp = flat(joints, |(_, j)| j.solimp);
     m.jnt_pos = flat(joints, |(_, j)| j.pos);
     m.jnt_axis = flat(joints, |(_, j)| j.axis);
     m.jnt_group = ints(joints, |(_, j)| j.group);
-    m.jnt_actfrclimited = joints.iter().map(|(_, j)| j.actfrclimited).collect();
+    m.jnt_actfrclimited = listed(joints.iter().map(|(_, j)| j.actfrclimited));
     m.jnt_actfrcrange = flat(joints, |(_, j)| j.actfrcrange);
-    m.jnt_actgravcomp = joints.iter().map(|(_, j)| j.actgravcomp).collect();
+    m.jnt_actgravcomp = listed(joints.iter().map(|(_, j)| j.actgravcomp));
     m.jnt_stiffness = flat(joints, |(_, j)| [j.stiffness[0]]);
     m.jnt_stiffnesspoly = flat(joints, |(_, j)| [j.stiffness[1], j.stiffness[2]]);
     m.jnt_user = padded(joints.iter().map(|(_, j)| &j.user), m.nuser_jnt);
@@ -298,11 +298,11 @@ fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {
     m.sensor_objid = ints(sensors, |s| s.objects.objid);
     m.sensor_reftype = ints(sensors, |s| s.objects.reftype);
     m.sensor_refid = ints(sensors, |s| s.objects.refid);
-    m.sensor_intprm = sensors.iter().flat_map(|s| s.intprm).collect();
+    m.sensor_intprm = listed(sensors.iter().flat_map(|s| s.intprm));
     m.sensor_dim = ints(sensors, |s| s.dim);
     m.sensor_cutoff = flat(sensors, |s| [s.cutoff]);
     m.sensor_noise = flat(sensors, |s| [s.noise]);
-    m.sensor_history = sensors.iter().flat_map(|s| [s.timing.nsample, s.timing.interp]).collect();
+    m.sensor_history = listed(sensors.iter().flat_map(|s| [s.timing.nsample, s.timing.interp]));
     m.sensor_delay = flat(sensors, |s| [s.timing.delay]);
     m.sensor_interval = flat(sensors, |s| s.timing.interval);
     m.sensor_user = padded(sensors.iter().map(|s| &s.user), m.nuser_sensor);
@@ -310,11 +310,11 @@ fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {
 
 /// Keyframes: what is not given is taken from the reference configuration; quaternions are normalized.
 fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
-    let mocap: Vec<&BodySpec> = bodies.iter().filter(|b| b.mocap).collect();
+    let mocap: Vec<&BodySpec> = listed(bodies.iter().filter(|b| b.mocap));
     let (mpos0, mquat0) = (flat(mocap.iter().copied(), |b| b.pos), flat(mocap.iter().copied(), |b| b.quat));
     m.key_time = flat(keys, |k| [k.time]);
     let of = |given: fn(&KeySpec) -> &Option<Vec<f64>>, rest: &[f64]| -> Vec<f64> {
-        keys.iter().flat_map(|k| given(k).as_deref().unwrap_or(rest)).copied().collect()
+        listed(keys.iter().flat_map(|k| given(k).as_deref().unwrap_or(rest)).copied())
     };
     m.key_qpos = of(|k| &k.qpos, &m.qpos0);
     m.key_qvel = of(|k| &k.qvel, &vec![0.0; m.nv]);

@@ -17,7 +17,7 @@ pub(crate) struct Ids {
     geoms: Vec<i32>,
     /// Number of outputs of each actuator.
     outputs: Vec<i32>,
-    cameras: BTreeMap<String, i32>,
+    cameras: BTreeMap<String, usize>,
     /// Number of pixels of each camera.
     pixels: Vec<usize>,
     /// Those whose resolution has a zero, and those where it has a negative number.
@@ -55,7 +55,7 @@ impl Ids {
             }
         }
         for (i, camera) in bodies.iter().flat_map(|b| &b.cameras).enumerate() {
-            ids.cameras.insert(camera.name.clone(), i as i32);
+            ids.cameras.insert(camera.name.clone(), i);
             ids.pixels.push(camera.resolution.iter().map(|&n| n.max(0) as usize).product());
             if camera.resolution.contains(&0) {
                 ids.blind.push(i as i32);
@@ -86,7 +86,7 @@ impl Ids {
     pub(crate) fn find(&self, kind: &str, name: &str, names: &NameTable) -> Option<i32> {
         match kind {
             "body" if name == WORLD => Some(0),
-            "camera" => self.cameras.get(name).copied(),
+            "camera" => self.cameras.get(name).map(|&id| id as i32),
             _ => self.by_node.get(names.find(kind, name)?).copied().flatten(),
         }
     }

@@ -4,6 +4,7 @@
 use super::spec::{BodySpec, Inertia};
 use crate::kinds::joint;
 use crate::math::{Quat, Vec3};
+use crate::mjcf::arrays::listed;
 use crate::mjcf::body::inertia::shown;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
@@ -209,7 +210,7 @@ pub(crate) fn simple(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
         }
         if turned || body.joints.is_empty() { 1 } else { 2 }
     };
-    bodies.iter().zip(inertias).enumerate().map(simple).collect()
+    listed(bodies.iter().zip(inertias).enumerate().map(simple))
 }
 
 /// The pattern of the lower triangle of the mass matrix, row by row.

@@ -36,6 +36,7 @@ mod tests;
 mod text;
 mod traps;
 mod unsimulated;
+mod words;
 
 use std::io::Read;
 use std::path::Path;

@@ -8,11 +8,12 @@ use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, nearest, shown};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
+use crate::mjcf::words::Words;
 
 /// Named elements by kind and name.
 #[derive(Debug, Default)]
 pub(crate) struct NameTable<'t> {
-    nodes: BTreeMap<&'static str, BTreeMap<&'t str, usize>>,
+    nodes: Words<BTreeMap<&'t str, usize>>,
 }
 
 /// The world body's name, and its place in the table: it is no element.
@@ -23,14 +24,14 @@ impl<'t> NameTable<'t> {
     /// Collects all names and reports those that are taken twice.
     pub(crate) fn read(tree: &'t Tree, report: &mut Report) -> NameTable<'t> {
         let mut table = NameTable::default();
-        table.nodes.entry("body").or_default().insert(WORLD, WORLD_NODE);
+        table.nodes.or_default("body").insert(WORLD, WORLD_NODE);
         for (i, node) in tree.nodes.iter().enumerate() {
             for a in &node.attributes {
                 let (Kind::Name(kind), Value::Text(name)) = (a.attr.kind, &a.value) else { continue };
                 if name.is_empty() {
                     continue;
                 }
-                let taken = table.nodes.entry(kind).or_default().insert(name, i);
+                let taken = table.nodes.or_default(kind).insert(name, i);
                 if taken.is_some() {
                     report
                         .error(

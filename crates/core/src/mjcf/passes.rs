@@ -14,6 +14,7 @@ use super::text::files::Files;
 use super::text::patch::{Patch, Refusal};
 use super::text::{load, tree};
 use super::{context, expand, fill, ids, layout, names, settings};
+use crate::mjcf::arrays::listed;
 use crate::mjcf::rules;
 use crate::model::Model;
 
@@ -89,7 +90,7 @@ pub(super) fn build(
     assets.hulls(&bodies, &pairs, report);
     classes.check_room(report);
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
-    let actuator_users: Vec<_> = actuators.iter().map(fill_actuator::user).collect();
+    let actuator_users: Vec<_> = listed(actuators.iter().map(fill_actuator::user));
     let users = fill::Users {
         body: settings::user_width(&tree, "nuser_body", bodies.iter().map(|b| &b.user), report),
         joint: settings::user_width(
@@ -144,8 +145,9 @@ pub(super) fn build(
     let pattern = layout::pattern(&layout, &simple, report)?;
     let whole = layout::whole_pattern(&layout, report)?;
 
-    let mut m = Model { opt: options, ..Model::default() };
+    let mut m = Model::default();
     m.names.model = settings::model_name(&tree);
+    m.opt = options;
     let parts = fill::Parts {
         bodies: &bodies,
         inertias: &inertias,

@@ -11,10 +11,9 @@ use crate::model::plan::Plan;
 use crate::model::stage::Stage;
 use crate::model::stopwatch::Stopwatch;
 use crate::model::way::Ways;
-use crate::model::{Fields, Model, Warning, WarningStat, reflect};
+use crate::model::{Model, Warning, WarningStat, reflect};
 use crate::step::scene::Demand;
 use crate::step::workspace::Data;
-use crate::step::workspace::Work;
 use crate::{collision, sensor};
 
 impl Data {
@@ -34,13 +33,9 @@ impl Data {
 
     /// Data with the full pipeline and no collision pairs.
     pub(crate) fn unplanned(m: &Model) -> Data {
-        let fields = Fields {
-            plan: Plan::awake(),
-            meter: Meter::new(m),
-            acting: vec![0.0; m.nu],
-            ..Fields::default()
-        };
-        let mut d = Data { fields, work: Work::new(m, Ways::ALL) };
+        let mut d = Data::default();
+        (d.plan, d.meter, d.acting) = (Plan::awake(), Meter::new(m), vec![0.0; m.nu]);
+        d.work.make_room(m, Ways::ALL);
         reset_data(m, &mut d);
         d
     }

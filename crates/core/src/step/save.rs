@@ -77,20 +77,27 @@ pub(crate) fn save(m: &Model, d: &Data) -> Vec<u8> {
 /// model are not part of it: a run goes on with those that the model has now.
 pub(crate) fn restore(m: &Model, d: &mut Data, bytes: &[u8]) -> Result<(), RestoreError> {
     let (body, end) = bytes.split_last_chunk::<8>().ok_or(RestoreError::NotData)?;
-    let mut rest = check_header(m, body)?;
+    let rest = check_header(m, body)?;
     if fingerprint(body) != u64::from_le_bytes(*end) {
         return Err(RestoreError::Damaged);
     }
-    let mut new = Data::planned(m, d.plan().clone());
-    new.meter = d.meter;
-    read(m, &mut new, &mut rest).filter(|()| rest.is_empty()).ok_or(RestoreError::Damaged)?;
+    let mut new = saved(m, d, rest).ok_or(RestoreError::Damaged)?;
     if let Some(field) = wrong(m, &new) {
         return Err(RestoreError::Wrong(field));
     }
     reset::clear_left_out(m, &mut new);
-    restore_rows(m, &mut new);
+    if let Some(again) = saved(m, d, rest) {
+        restore_rows(m, &mut new, again);
+    }
     *d = new;
     Ok(())
+}
+
+/// The data that were saved, with the plan and the meter of others; `None` when these are not all the bytes of some.
+fn saved(m: &Model, like: &Data, mut bytes: &[u8]) -> Option<Data> {
+    let mut d = Data::planned(m, like.plan().clone());
+    d.meter = like.meter;
+    read(m, &mut d, &mut bytes).filter(|()| bytes.is_empty()).map(|()| d)
 }
 
 fn header(m: &Model) -> Vec<u8> {
@@ -274,9 +281,9 @@ fn owners(m: &Model, d: &Data, kind: i32) -> usize {
 }
 
 /// The Jacobian of the constraints is no field: it is computed again, for a step that is in its middle, and is empty where
-/// the state has moved on since.
-fn restore_rows(m: &Model, d: &mut Data) {
-    let mut again = d.clone();
+/// the state has moved on since. `again` are the same data once more.
+fn restore_rows(m: &Model, d: &mut Data, mut again: Data) {
+    reset::clear_left_out(m, &mut again);
     forward::position(m, &mut again);
     let same = again.efc_type == d.efc_type && again.efc_id == d.efc_id;
     d.work = again.work;

@@ -46,16 +46,14 @@ pub(crate) struct Work {
 }
 
 impl Work {
-    pub(super) fn new(m: &Model, ways: Ways) -> Work {
-        Work {
-            dynamics: dynamics::Scratch::new(m, ways),
-            forces: forces::Scratch::new(m),
-            constraint: constraint::Scratch::new(m),
-            sleep: sleep::Scratch::new(m),
-            damping: damping::Scratch::new(m),
-            rk: RungeKutta::new(m),
-            ..Work::default()
-        }
+    /// What depends on the sizes of the model.
+    pub(super) fn make_room(&mut self, m: &Model, ways: Ways) {
+        self.dynamics = dynamics::Scratch::new(m, ways);
+        self.forces = forces::Scratch::new(m);
+        self.constraint = constraint::Scratch::new(m);
+        self.sleep = sleep::Scratch::new(m);
+        self.damping = damping::Scratch::new(m);
+        self.rk = RungeKutta::new(m);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::check_actuator::{controls, outputs};
 use crate::forces::{history, transmission};
-use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::arrays::{flat, ints, listed, padded};
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
 use crate::mjcf::text::diagnostic::Report;
@@ -60,7 +60,7 @@ fn addresses(list: &[ActuatorSpec], size: impl Fn(&ActuatorSpec) -> usize, alway
 /// All fields of actuators.
 pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
     m.actuator_trntype = ints(list, |a| a.transmission.map_or(0, |t| t.kind));
-    m.actuator_trnid = list.iter().flat_map(|a| a.transmission.map_or([-1; 2], |t| t.id)).collect();
+    m.actuator_trnid = listed(list.iter().flat_map(|a| a.transmission.map_or([-1; 2], |t| t.id)));
     m.actuator_dyntype = ints(list, |a| a.dyntype);
     m.actuator_gaintype = ints(list, |a| a.gaintype);
     m.actuator_biastype = ints(list, |a| a.biastype);
@@ -72,28 +72,28 @@ pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
     m.actuator_actadr = addresses(list, activations, false);
     m.actuator_actnum = ints(list, |a| a.actdim);
     m.actuator_historyadr = addresses(list, |a| history::size(samples(a), controls(a).len()), false);
-    m.actuator_history = list.iter().flat_map(|a| [a.nsample, a.interp]).collect();
+    m.actuator_history = listed(list.iter().flat_map(|a| [a.nsample, a.interp]));
     m.actuator_delay = flat(list, |a| [a.delay]);
     m.actuator_cranklength = flat(list, |a| [a.cranklength]);
     m.actuator_dynprm = flat(list, |a| a.dynprm);
     m.actuator_gainprm = flat(list, |a| a.gainprm);
     m.actuator_biasprm = flat(list, |a| a.biasprm);
-    m.actuator_actlimited = list.iter().map(|a| a.act.flag == 1).collect();
+    m.actuator_actlimited = listed(list.iter().map(|a| a.act.flag == 1));
     m.actuator_actrange = flat(list, |a| a.act.range);
-    m.actuator_actearly = list.iter().map(|a| a.actearly).collect();
+    m.actuator_actearly = listed(list.iter().map(|a| a.actearly));
     m.actuator_damping = flat(list, |a| [a.damping[0]]);
     m.actuator_dampingpoly = flat(list, |a| [a.damping[1], a.damping[2]]);
     m.actuator_armature = flat(list, |a| [a.armature]);
     m.actuator_group = ints(list, |a| a.group);
-    m.actuator_forcelimited = list.iter().map(|a| a.force.flag == 1).collect();
+    m.actuator_forcelimited = listed(list.iter().map(|a| a.force.flag == 1));
     m.actuator_forcerange = flat(list, |a| a.force.range);
-    let ranges: Vec<RangeSpec> = list.iter().flat_map(controls).collect();
-    m.actuator_ctrllimited = ranges.iter().map(|r| r.flag == 1).collect();
+    let ranges: Vec<RangeSpec> = listed(list.iter().flat_map(controls));
+    m.actuator_ctrllimited = listed(ranges.iter().map(|r| r.flag == 1));
     m.actuator_ctrlrange = flat(&ranges, |r| r.range);
     let each_output = || list.iter().flat_map(|a| std::iter::repeat_n(a, outputs(a)));
     m.actuator_gear = flat(each_output(), |a| a.gear);
     m.actuator_lengthrange = flat(each_output(), |a| a.lengthrange);
-    let users: Vec<List> = list.iter().map(user).collect();
+    let users: Vec<List> = listed(list.iter().map(user));
     m.actuator_user = padded(users.iter(), m.nuser_actuator);
 }
 
@@ -111,7 +111,7 @@ pub(crate) fn pattern(m: &mut Model, list: &[ActuatorSpec], report: &mut Report)
 
 /// The ranges of lengths that actuators can reach, where they are needed and not given.
 pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Search, report: &mut Report) {
-    let wanted: Vec<usize> = (0..m.nactuator).filter(|&i| search.wants(m, i)).collect();
+    let wanted: Vec<usize> = listed((0..m.nactuator).filter(|&i| search.wants(m, i)));
     let pulled = wanted.iter().filter(|&&i| search.limits(m, i).is_none()).count();
     let Some(first) = wanted.first().and_then(|&i| list.get(i)) else { return };
     // Where limits act, the cost of a step grows with the cube of the number of degrees of freedom.

@@ -1,5 +1,6 @@
 //! Actuators: what their classes and elements say, and what they act on.
 
+use crate::mjcf::arrays::listed;
 use std::rc::Rc;
 
 use super::{check_actuator, shortcut};
@@ -141,7 +142,7 @@ fn transmission(
     report: &mut Report,
 ) -> Option<TransmissionSpec> {
     let owner = node.shown();
-    let given: Vec<_> = TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()).collect();
+    let given: Vec<_> = listed(TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()));
     if let [.., (first, ..), (last, ..)] = given.as_slice() {
         let message = format!("{owner} has both `{first}` and `{last}`: it acts on the latter alone");
         report

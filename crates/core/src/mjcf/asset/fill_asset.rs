@@ -5,7 +5,7 @@ use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
 use crate::geometry::{self, Sides};
 use crate::math::Vec3;
-use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::arrays::{flat, ints, listed};
 use crate::mjcf::scene::fill_scene::{Places, single as single_each};
 use crate::model::Model;
 
@@ -48,7 +48,7 @@ fn graph_len(mesh: &Mesh) -> usize {
 }
 
 pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
-    let list: Vec<&Mesh> = assets.meshes.iter().filter_map(|a| a.value.as_ref()).collect();
+    let list: Vec<&Mesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
     let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { list.iter().map(|x| of(x)).collect() };
     let numbers = |counts: &[usize]| (places(counts.iter().copied()), ints(counts, |&n| n as i32));
     (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));
@@ -64,11 +64,11 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     for (at, n) in m.mesh_graphadr.iter_mut().zip(graphs) {
         *at = if n == 0 { -1 } else { *at };
     }
-    m.mesh_vert = list.iter().flat_map(|x| single(&x.shape.vert)).collect();
-    m.mesh_normal = list.iter().flat_map(|x| single(&x.shape.normal)).collect();
-    m.mesh_texcoord = list.iter().flat_map(|x| x.shape.texcoord.as_flattened()).copied().collect();
-    m.mesh_face = list.iter().flat_map(|x| x.shape.face.as_flattened()).copied().collect();
-    m.mesh_facenormal = list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied().collect();
+    m.mesh_vert = listed(list.iter().flat_map(|x| single(&x.shape.vert)));
+    m.mesh_normal = listed(list.iter().flat_map(|x| single(&x.shape.normal)));
+    m.mesh_texcoord = listed(list.iter().flat_map(|x| x.shape.texcoord.as_flattened()).copied());
+    m.mesh_face = listed(list.iter().flat_map(|x| x.shape.face.as_flattened()).copied());
+    m.mesh_facenormal = listed(list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied());
     // A mesh without texture coordinates has room for them.
     m.mesh_facetexcoord = list
         .iter()
@@ -77,7 +77,7 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
             own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
         })
         .collect();
-    m.mesh_graph = list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()).collect();
+    m.mesh_graph = listed(list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()));
     m.mesh_sides = list
         .iter()
         .map(|x| {
@@ -89,23 +89,23 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_scale = flat(&list, |x| x.options.scale);
     m.mesh_pos = flat(&list, |x| x.pos);
     m.mesh_quat = flat(&list, |x| x.quat);
-    m.names.mesh = assets.meshes.iter().map(|a| a.name.clone()).collect();
+    m.names.mesh = listed(assets.meshes.iter().map(|a| a.name.clone()));
 }
 
 pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
-    let list: Vec<_> = assets.hfields.iter().filter_map(|a| a.value.as_ref()).collect();
+    let list: Vec<_> = listed(assets.hfields.iter().filter_map(|a| a.value.as_ref()));
     m.hfield_size = flat(&list, |x| x.size);
     m.hfield_nrow = ints(&list, |x| x.nrow as i32);
     m.hfield_ncol = ints(&list, |x| x.ncol as i32);
     m.hfield_adr = places(list.iter().map(|x| x.data.len()));
-    m.hfield_data = list.iter().flat_map(|x| &x.data).copied().collect();
-    m.names.hfield = assets.hfields.iter().map(|a| a.name.clone()).collect();
+    m.hfield_data = listed(list.iter().flat_map(|x| &x.data).copied());
+    m.names.hfield = listed(assets.hfields.iter().map(|a| a.name.clone()));
 }
 
 /// Bodies and materials are there: their names come first.
 pub(crate) fn skins(m: &mut Model, assets: &Assets) {
-    let list: Vec<&Skin> = assets.skins.iter().filter_map(|a| a.value.as_ref()).collect();
-    let bones: Vec<&Bone> = list.iter().flat_map(|s| &s.bones).collect();
+    let list: Vec<&Skin> = listed(assets.skins.iter().filter_map(|a| a.value.as_ref()));
+    let bones: Vec<&Bone> = listed(list.iter().flat_map(|s| &s.bones));
     let materials = Places::of(m.names.material.iter());
     let bodies = Places::of(m.names.body.iter());
     m.skin_matid = ints(&list, |s| materials.find(s.material.as_ref()));
@@ -122,16 +122,16 @@ pub(crate) fn skins(m: &mut Model, assets: &Assets) {
     m.skin_facenum = ints(&list, |s| s.face.len() as i32);
     m.skin_boneadr = places(list.iter().map(|s| s.bones.len()));
     m.skin_bonenum = ints(&list, |s| s.bones.len() as i32);
-    m.skin_vert = list.iter().flat_map(|s| single(&s.vert)).collect();
+    m.skin_vert = listed(list.iter().flat_map(|s| single(&s.vert)));
     m.skin_texcoord =
-        list.iter().flat_map(|s| s.texcoord.as_flattened()).map(|&x| f64::from(x as f32)).collect();
-    m.skin_face = list.iter().flat_map(|s| s.face.as_flattened()).copied().collect();
+        listed(list.iter().flat_map(|s| s.texcoord.as_flattened()).map(|&x| f64::from(x as f32)));
+    m.skin_face = listed(list.iter().flat_map(|s| s.face.as_flattened()).copied());
     m.skin_bonevertadr = places(bones.iter().map(|b| b.vertid.len()));
     m.skin_bonevertnum = ints(&bones, |b| b.vertid.len() as i32);
     m.skin_bonebindpos = flat(&bones, |b| single_each(b.bindpos));
     m.skin_bonebindquat = flat(&bones, |b| single_each(b.bindquat));
     m.skin_bonebodyid = ints(&bones, |b| bodies.find(Some(&b.body)));
-    m.skin_bonevertid = bones.iter().flat_map(|b| &b.vertid).copied().collect();
-    m.skin_bonevertweight = bones.iter().flat_map(|b| &b.vertweight).map(|&x| f64::from(x as f32)).collect();
-    m.names.skin = assets.skins.iter().map(|a| a.name.clone()).collect();
+    m.skin_bonevertid = listed(bones.iter().flat_map(|b| &b.vertid).copied());
+    m.skin_bonevertweight = listed(bones.iter().flat_map(|b| &b.vertweight).map(|&x| f64::from(x as f32)));
+    m.names.skin = listed(assets.skins.iter().map(|a| a.name.clone()));
 }

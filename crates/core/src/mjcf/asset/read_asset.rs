@@ -1,6 +1,6 @@
 //! `asset`: meshes, height fields and skins, from text, files and rules, numbered in the order of the text.
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::arrays::{filled, listed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
@@ -150,7 +150,7 @@ impl Assets {
 
     /// Makes the hulls of the meshes that can touch something.
     pub(crate) fn hulls(&mut self, bodies: &[BodySpec], pairs: &[PairSpec], report: &mut Report) {
-        let geoms: Vec<_> = bodies.iter().flat_map(|b| &b.geoms).collect();
+        let geoms: Vec<_> = listed(bodies.iter().flat_map(|b| &b.geoms));
         let touching = geoms.iter().filter(|g| g.contype != 0 || g.conaffinity != 0);
         let paired = pairs.iter().flat_map(|p| p.geoms).filter_map(|g| geoms.get(usize::try_from(g).ok()?));
         let of_geoms = touching.chain(paired).filter(|g| g.kind == geom::MESH).map(|g| g.data);
@@ -236,7 +236,7 @@ impl Reader<'_> {
 
     /// The data of a mesh, and whether it is a surface without inside. `None` when its file cannot be read.
     fn raw(&mut self, node: &Node, p: &Props) -> Option<Result<(Raw, bool), Problem>> {
-        let sources: Vec<&str> = ["builtin", "file", "vertex"].into_iter().filter(|a| p.has(a)).collect();
+        let sources: Vec<&str> = listed(["builtin", "file", "vertex"].into_iter().filter(|a| p.has(a)));
         if let [_, second, ..] = sources[..] {
             return Some(Err(Problem::new(
                 second,
@@ -344,7 +344,7 @@ impl Reader<'_> {
                 Problem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
             return self.wrong(problem, rules::VALUE, node, &p);
         }
-        let own: Vec<&Node> = tree.children(at).map(|(_, bone)| bone).collect();
+        let own: Vec<&Node> = listed(tree.children(at).map(|(_, bone)| bone));
         let made = if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
             let written = ["vertex", "texcoord", "face"].into_iter().find(|a| p.has(a));
@@ -359,7 +359,7 @@ impl Reader<'_> {
                 skin::decode(&path, &bytes, &p.span("file").unwrap_or(node.span.clone()))
             }
         } else {
-            let bones: Vec<Bone> = own.iter().filter_map(|bone| self.bone(bone)).collect();
+            let bones: Vec<Bone> = listed(own.iter().filter_map(|bone| self.bone(bone)));
             if bones.len() < own.len() {
                 return None;
             }

@@ -4,6 +4,7 @@ use crate::math::{
     IDENTITY, Mat3, Quat, Vec3, add_scaled, cross, dot, norm, normalize, quat_axis_angle, quat_mul,
     quat_normalize,
 };
+use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{ALTERNATIVES, is_form};
@@ -41,7 +42,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
 pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
     for node in &tree.nodes {
         let forms = node.attributes.iter().filter(|a| is_form(a.attr.name));
-        let names: Vec<_> = forms.map(|a| (a.attr.name, a.span.clone())).collect();
+        let names: Vec<_> = listed(forms.map(|a| (a.attr.name, a.span.clone())));
         // `composite` and `flexcomp` never reach here: what is refused is left out of the tree.
         let [(first, _), (second, span), ..] = names.as_slice() else { continue };
         let message = format!("{} has both `{first}` and `{second}`", node.shown());

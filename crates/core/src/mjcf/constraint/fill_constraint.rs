@@ -1,6 +1,6 @@
 //! Equality constraints, contact pairs and exclusions to the arrays of [`Model`].
 
-use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::arrays::{flat, ints, listed};
 use crate::mjcf::spec::{EqualitySpec, ExcludeSpec, PairSpec};
 use crate::model::Model;
 
@@ -10,7 +10,7 @@ pub(crate) fn equalities(m: &mut Model, list: &[EqualitySpec]) {
     m.eq_objtype = ints(list, |e| e.objtype);
     m.eq_obj1id = ints(list, |e| e.obj1);
     m.eq_obj2id = ints(list, |e| e.obj2);
-    m.eq_active0 = list.iter().map(|e| e.active).collect();
+    m.eq_active0 = listed(list.iter().map(|e| e.active));
     m.eq_solref = flat(list, |e| e.solref);
     m.eq_solimp = flat(list, |e| e.solimp);
     m.eq_data = flat(list, |e| e.data);
@@ -30,5 +30,5 @@ pub(crate) fn contacts(m: &mut Model, pairs: &[PairSpec], excludes: &[ExcludeSpe
     m.pair_adhesion = flat(pairs, |p| [p.adhesion]);
     m.pair_friction = flat(pairs, |p| p.friction);
     m.exclude_signature = ints(excludes, |e| e.signature);
-    m.exclude_bodies = excludes.iter().map(|e| e.bodies).collect();
+    m.exclude_bodies = listed(excludes.iter().map(|e| e.bodies));
 }

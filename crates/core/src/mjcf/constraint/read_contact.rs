@@ -1,6 +1,7 @@
 //! Explicit contact pairs, and bodies that do not touch.
 
 use crate::math::sort::sort_by_key;
+use crate::mjcf::arrays::listed;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
@@ -14,7 +15,7 @@ pub(crate) fn contacts(
     bodies: &[BodySpec],
 ) -> (Vec<PairSpec>, Vec<ExcludeSpec>) {
     let body_of: Vec<i32> =
-        bodies.iter().enumerate().flat_map(|(i, b)| b.geoms.iter().map(move |_| i as i32)).collect();
+        listed(bodies.iter().enumerate().flat_map(|(i, b)| b.geoms.iter().map(move |_| i as i32)));
     let (mut pairs, mut excludes) = (Vec::new(), Vec::new());
     let tree = cx.tree;
     for (_, node) in tree.sections("contact").flat_map(|(section, _)| tree.children(section)) {

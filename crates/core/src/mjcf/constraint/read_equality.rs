@@ -1,6 +1,7 @@
 //! Equality constraints: what they tie, and their data as far as the text gives it.
 
 use crate::kinds::{eqtype, joint};
+use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::ids::References;
@@ -14,7 +15,7 @@ use crate::model::Obj;
 pub(crate) fn equalities(cx: &mut Context, refs: References) -> Vec<EqualitySpec> {
     let tree = cx.tree;
     let nodes = tree.sections("equality").flat_map(|(section, _)| tree.children(section));
-    nodes.filter_map(|(_, node)| equality(cx, refs, node)).collect()
+    listed(nodes.filter_map(|(_, node)| equality(cx, refs, node)))
 }
 
 /// The objects of a constraint (kind, first, second) and its data.

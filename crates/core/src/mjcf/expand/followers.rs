@@ -1,6 +1,6 @@
 //! What goes with copies of a part: sensors, tendons and all else that refers to it.
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::arrays::{filled, listed};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::copy::own_name;
@@ -79,7 +79,7 @@ impl Uses {
     pub(super) fn followers(&self, nodes: &[Node], subtree: &Names, other_model: bool) -> Vec<Followers> {
         let mut bound: BTreeSet<(usize, usize)> = BTreeSet::new();
         let mut known = subtree.clone();
-        let mut new: Vec<(&'static str, String)> = subtree.iter().cloned().collect();
+        let mut new: Vec<(&'static str, String)> = listed(subtree.iter().cloned());
         while let Some(object) = new.pop() {
             for &(section, at) in self.of.get(&object).map_or(&[][..], Vec::as_slice) {
                 if !self.gone.contains(&at) && bound.insert((section, at)) {
@@ -91,7 +91,7 @@ impl Uses {
         let all: BTreeSet<(usize, usize)> = filled(bound.iter().chain(free).copied());
 
         let mut copied = subtree.clone();
-        let mut list: Vec<Followers> = SECTIONS.iter().map(|&section| Followers::none(section)).collect();
+        let mut list: Vec<Followers> = listed(SECTIONS.iter().map(|&section| Followers::none(section)));
         if let Some(first) = list.first_mut() {
             first.names.clone_from(subtree);
         }

@@ -10,7 +10,7 @@ mod copy;
 mod followers;
 pub(crate) mod references;
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::arrays::{filled, listed};
 use std::collections::BTreeMap;
 
 use super::MAX_ELEMENTS;
@@ -577,7 +577,7 @@ fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
 fn members(nodes: &[Node], section: &str) -> Vec<usize> {
     let sections = nodes.first().map_or(&[][..], |root| &root.children);
     let sections = sections.iter().filter_map(|&s| nodes.get(s)).filter(|s| s.element.name == section);
-    sections.flat_map(|s| s.children.iter().copied()).collect()
+    listed(sections.flat_map(|s| s.children.iter().copied()))
 }
 
 /// About how many bytes an element takes.

@@ -1,6 +1,6 @@
 //! Which objects an element refers to, and whether it is copied with them.
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::arrays::{filled, listed};
 use std::collections::BTreeSet;
 
 use crate::mjcf::names::WORLD;
@@ -65,7 +65,7 @@ pub(super) fn of(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
             }
             _ => None,
         });
-        refs.collect::<Vec<_>>()
+        listed(refs)
     };
     filled(std::iter::once(node).chain(children).flat_map(named))
 }

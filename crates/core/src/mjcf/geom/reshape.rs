@@ -4,7 +4,7 @@
 //!
 //! What is kept and in which order follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::arrays::{filled, listed};
 use std::collections::BTreeSet;
 
 use crate::kinds::joint;
@@ -38,12 +38,17 @@ pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tre
 /// The frame of a free body without children moves into its centre of mass, along its principal axes: then its mass
 /// matrix is diagonal.
 fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Part]) {
-    let parents: BTreeSet<usize> = filled(bodies.iter().skip(1).map(|b| b.parent));
-    for (i, (body, inertia)) in bodies.iter_mut().zip(inertias).enumerate() {
+    let mut carries = vec![false; bodies.len()];
+    for body in bodies.iter().skip(1) {
+        if let Some(carries) = carries.get_mut(body.parent) {
+            *carries = true;
+        }
+    }
+    for ((body, inertia), carries) in bodies.iter_mut().zip(inertias).zip(carries) {
         let by_rule = parts.get(body.part).is_some_and(|p| p.compiler.alignfree);
         let asked = |align: i32| if align == 2 { by_rule } else { align == 1 };
         let free = body.joints.iter().any(|j| j.kind == joint::FREE && asked(j.align));
-        if !free || parents.contains(&i) {
+        if !free || carries {
             continue;
         }
         let to = Pose { pos: inertia.pos, quat: inertia.quat };
@@ -134,7 +139,7 @@ fn references(tree: &Tree) -> Names {
             (Some(kind), Value::Text(name)) => Some((kind, name.clone())),
             _ => None,
         });
-        names.collect::<Vec<_>>()
+        listed(names)
     };
     filled(tree.nodes.iter().flat_map(of))
 }

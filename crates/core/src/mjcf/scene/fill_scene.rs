@@ -1,6 +1,6 @@
 //! Geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
 
-use crate::mjcf::arrays::{filled, flat, ints};
+use crate::mjcf::arrays::{filled, flat, ints, listed};
 use crate::mjcf::spec::{
     CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec,
 };
@@ -75,7 +75,7 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) 
     m.geom_surfacevel = flat(geoms, |(_, g)| g.surfacevel);
     m.geom_adhesion = flat(geoms, |(_, g)| [g.adhesion]);
     m.geom_fluid = flat(geoms, |(_, g)| g.fluid);
-    m.geom_user = geoms.iter().flat_map(|(_, g)| padded(&g.user, m.nuser_geom)).collect();
+    m.geom_user = listed(geoms.iter().flat_map(|(_, g)| padded(&g.user, m.nuser_geom)));
     m.geom_rgba = flat(geoms, |(_, g)| single(g.rgba));
 }
 
@@ -89,7 +89,7 @@ pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &Scene) 
     m.site_size = flat(sites, |(_, s)| s.size);
     m.site_pos = flat(sites, |(_, s)| s.pos);
     m.site_quat = flat(sites, |(_, s)| s.quat);
-    m.site_user = sites.iter().flat_map(|(_, s)| padded(&s.user, m.nuser_site)).collect();
+    m.site_user = listed(sites.iter().flat_map(|(_, s)| padded(&s.user, m.nuser_site)));
     m.site_rgba = flat(sites, |(_, s)| single(s.rgba));
 }
 
@@ -104,11 +104,11 @@ pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &
     m.cam_projection = ints(cameras, |(_, c)| c.projection);
     m.cam_fovy = flat(cameras, |(_, c)| [c.fovy]);
     m.cam_ipd = flat(cameras, |(_, c)| [c.ipd]);
-    m.cam_resolution = cameras.iter().flat_map(|(_, c)| c.resolution).collect();
+    m.cam_resolution = listed(cameras.iter().flat_map(|(_, c)| c.resolution));
     m.cam_output = ints(cameras, |(_, c)| c.output);
     m.cam_sensorsize = flat(cameras, |(_, c)| single(c.sensorsize));
     m.cam_intrinsic = flat(cameras, |(_, c)| single(c.intrinsic));
-    m.cam_user = cameras.iter().flat_map(|(_, c)| padded(&c.user, m.nuser_cam)).collect();
+    m.cam_user = listed(cameras.iter().flat_map(|(_, c)| padded(&c.user, m.nuser_cam)));
 }
 
 /// `bodies` and `textures` are the names of all bodies and textures.
@@ -119,8 +119,8 @@ pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[St
     m.light_targetbodyid = ints(lights, |(_, l)| places.find(l.target.as_ref()));
     m.light_type = ints(lights, |(_, l)| l.kind);
     m.light_texid = ints(lights, |(_, l)| textures.find(l.texture.as_ref()));
-    m.light_castshadow = lights.iter().map(|(_, l)| l.castshadow).collect();
-    m.light_active = lights.iter().map(|(_, l)| l.active).collect();
+    m.light_castshadow = listed(lights.iter().map(|(_, l)| l.castshadow));
+    m.light_active = listed(lights.iter().map(|(_, l)| l.active));
     m.light_pos = flat(lights, |(_, l)| l.pos);
     m.light_dir = flat(lights, |(_, l)| l.dir);
     let number = |i: usize| flat(lights, |(_, l)| single([l.numbers[i]]));
@@ -135,14 +135,14 @@ pub(crate) fn materials(m: &mut Model, scene: &Scene) {
     let list = &scene.materials;
     let places = Places::of(scene.textures.iter());
     let textures = list.iter().flat_map(|material| &material.textures);
-    m.mat_texid = textures.map(|name| places.find(name.as_ref())).collect();
-    m.mat_texuniform = list.iter().map(|x| x.texuniform).collect();
+    m.mat_texid = listed(textures.map(|name| places.find(name.as_ref())));
+    m.mat_texuniform = listed(list.iter().map(|x| x.texuniform));
     m.mat_texrepeat = flat(list, |x| single(x.texrepeat));
     let number = |i: usize| flat(list, |x| single([x.numbers[i]]));
     (m.mat_emission, m.mat_specular, m.mat_shininess) = (number(0), number(1), number(2));
     (m.mat_reflectance, m.mat_metallic, m.mat_roughness) = (number(3), number(4), number(5));
     m.mat_rgba = flat(list, |x| single(x.rgba));
-    m.names.material = list.iter().map(|x| x.name.clone()).collect();
+    m.names.material = listed(list.iter().map(|x| x.name.clone()));
     m.names.texture.clone_from(&scene.textures);
 }
 
@@ -156,14 +156,14 @@ pub(crate) fn custom(m: &mut Model, scene: &Scene) {
         lengths.map(&mut place).unzip()
     };
     (m.numeric_adr, m.numeric_size) = addresses(&mut scene.numerics.iter().map(|n| n.data.len()));
-    m.numeric_data = scene.numerics.iter().flat_map(|n| &n.data).copied().collect();
+    m.numeric_data = listed(scene.numerics.iter().flat_map(|n| &n.data).copied());
     (m.tuple_adr, m.tuple_size) = addresses(&mut scene.tuples.iter().map(|t| t.elements.len()));
     let elements = || scene.tuples.iter().flat_map(|t| &t.elements);
-    m.tuple_objtype = elements().map(|e| e.0).collect();
-    m.tuple_objid = elements().map(|e| e.1).collect();
-    m.tuple_objprm = elements().map(|e| e.2).collect();
-    m.names.numeric = scene.numerics.iter().map(|n| n.name.clone()).collect();
-    m.names.text = scene.texts.iter().map(|(name, _)| name.clone()).collect();
-    m.names.tuple = scene.tuples.iter().map(|t| t.name.clone()).collect();
-    m.texts = scene.texts.iter().map(|(_, text)| text.clone()).collect();
+    m.tuple_objtype = listed(elements().map(|e| e.0));
+    m.tuple_objid = listed(elements().map(|e| e.1));
+    m.tuple_objprm = listed(elements().map(|e| e.2));
+    m.names.numeric = listed(scene.numerics.iter().map(|n| n.name.clone()));
+    m.names.text = listed(scene.texts.iter().map(|(name, _)| name.clone()));
+    m.names.tuple = listed(scene.tuples.iter().map(|t| t.name.clone()));
+    m.texts = listed(scene.texts.iter().map(|(_, text)| text.clone()));
 }

@@ -1,5 +1,6 @@
 //! Keyframes: states to start from.
 
+use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::fill::Sizes;
 use crate::mjcf::rules;
@@ -19,7 +20,7 @@ pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) 
     if !report.take(given.len().max(min).saturating_mul(numbers), span, "all keyframes together") {
         return Vec::new();
     }
-    let mut list: Vec<KeySpec> = given.into_iter().map(|node| key(node, sizes, report)).collect();
+    let mut list: Vec<KeySpec> = listed(given.into_iter().map(|node| key(node, sizes, report)));
     while list.len() < min {
         list.push(KeySpec {
             name: String::new(),

@@ -2,6 +2,7 @@
 
 use crate::kinds::geom;
 use crate::math::normalize;
+use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::geom::read_geom::fromto;
@@ -238,13 +239,13 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
             rgba: p.reals("rgba", [1.0; 4]),
         }
     };
-    nodes.filter(|(_, node)| node.element.name == "material").map(|(at, node)| read(at, node)).collect()
+    listed(nodes.filter(|(_, node)| node.element.name == "material").map(|(at, node)| read(at, node)))
 }
 
 /// Names of all textures in the order of the text.
 pub(crate) fn textures(tree: &Tree) -> Vec<String> {
     let nodes = tree.sections("asset").flat_map(|(at, _)| tree.children(at));
-    nodes.filter(|(_, node)| node.element.name == "texture").map(|(_, node)| name(node)).collect()
+    listed(nodes.filter(|(_, node)| node.element.name == "texture").map(|(_, node)| name(node)))
 }
 
 /// All custom lists of numbers; what is not given is zero.

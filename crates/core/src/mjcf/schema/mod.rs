@@ -81,7 +81,7 @@ impl Kind {
             Kind::Reals(min, max) => count(min, max, "number"),
             Kind::Ints(min, max) => count(min, max, "integer"),
             Kind::Words(words) => {
-                let list: Vec<_> = words.iter().map(|w| w.text).collect();
+                let list: Vec<_> = listed(words.iter().map(|w| w.text));
                 format!("one of {}", list.join(", "))
             }
             Kind::Name(_) => "a name".into(),
@@ -174,6 +174,7 @@ macro_rules! attributes {
     };
     ($($rows:tt)*) => { $crate::mjcf::schema::attributes!(@ [] $($rows)*) };
 }
+use crate::mjcf::arrays::listed;
 use attributes;
 
 const REAL: Kind = Kind::Reals(1, 1);

@@ -3,6 +3,7 @@
 //! Kinds of sensors and what each can be attached to stand in [`crate::sensor`]'s table.
 
 use crate::kinds::joint;
+use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
@@ -145,7 +146,7 @@ impl Context<'_> {
 
     /// Reports that an attribute is missing.
     fn missing<T>(&mut self, attributes: &[&str]) -> Option<T> {
-        let list: Vec<String> = attributes.iter().map(|a| format!("`{a}`")).collect();
+        let list: Vec<String> = listed(attributes.iter().map(|a| format!("`{a}`")));
         let message = format!("{} has no {}", self.node.shown(), list.join(" or "));
         self.error_at("", rules::MISSING_ATTRIBUTE, message).why("it says what the sensor reads");
         None
@@ -378,7 +379,7 @@ impl Context<'_> {
     fn data_fields(&mut self, fields: &[(&'static str, usize)]) -> Option<i32> {
         let (mut mask, mut last) = (0, None);
         let text = self.node.text("data").unwrap_or("").to_string();
-        let all: Vec<&str> = fields.iter().map(|(name, _)| *name).collect();
+        let all: Vec<&str> = listed(fields.iter().map(|(name, _)| *name));
         let all = all.join(" ");
         for word in text.split_ascii_whitespace() {
             let Some(at) = fields.iter().position(|(name, _)| *name == word) else {

@@ -2,7 +2,7 @@
 
 use crate::forces::tendon;
 use crate::kinds::{trntype, wraptype};
-use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::arrays::{flat, ints, listed, padded};
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, TendonSpec};
 use crate::mjcf::text::diagnostic::Report;
@@ -25,7 +25,7 @@ pub(crate) fn demote_simple(
     actuators: &[ActuatorSpec],
 ) {
     let site_body: Vec<usize> =
-        bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)).collect();
+        listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
     let rotors: Vec<i32> = actuators
         .iter()
         .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
@@ -52,8 +52,8 @@ pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
     m.tendon_matid = vec![-1; list.len()];
     m.tendon_actuatorid = vec![-1; list.len()];
     m.tendon_group = ints(list, |t| t.group);
-    m.tendon_limited = list.iter().map(|t| t.limited).collect();
-    m.tendon_actfrclimited = list.iter().map(|t| t.actfrclimited).collect();
+    m.tendon_limited = listed(list.iter().map(|t| t.limited));
+    m.tendon_actfrclimited = listed(list.iter().map(|t| t.actfrclimited));
     m.tendon_width = flat(list, |t| [t.width]);
     m.tendon_solref_lim = flat(list, |t| t.solref_limit);
     m.tendon_solimp_lim = flat(list, |t| t.solimp_limit);

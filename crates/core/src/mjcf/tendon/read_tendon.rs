@@ -1,6 +1,7 @@
 //! Tendons: attributes and paths.
 
 use crate::kinds::{geom, wraptype};
+use crate::mjcf::arrays::listed;
 use crate::mjcf::body::limits;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
@@ -15,7 +16,7 @@ use crate::mjcf::text::tree::{Node, name};
 pub(crate) fn tendons(cx: &mut Context, refs: References) -> Vec<TendonSpec> {
     let tree = cx.tree;
     let nodes = tree.sections("tendon").flat_map(|(section, _)| tree.children(section));
-    nodes.map(|(i, node)| tendon(cx, refs, i, node)).collect()
+    listed(nodes.map(|(i, node)| tendon(cx, refs, i, node)))
 }
 
 fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSpec {
@@ -91,7 +92,7 @@ fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
 /// The objects of a path, with the place of each.
 fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSpec> {
     let tree = cx.tree;
-    let nodes: Vec<&Node> = tree.children(i).map(|(_, n)| n).collect();
+    let nodes: Vec<&Node> = listed(tree.children(i).map(|(_, n)| n));
     if nodes.is_empty() {
         let (what, one) = match node.element.name {
             "fixed" => ("joints", "<joint joint=\"…\" coef=\"1\"/>"),
@@ -103,7 +104,7 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
             .help(format!("write `{one}` inside it"));
         return Vec::new();
     }
-    let list: Vec<Option<WrapSpec>> = nodes.iter().map(|n| wrap(refs, n, cx.report)).collect();
+    let list: Vec<Option<WrapSpec>> = listed(nodes.iter().map(|n| wrap(refs, n, cx.report)));
     let list: Option<Vec<WrapSpec>> = list.into_iter().collect();
     // An object that could not be read is reported: the rules of the path would only repeat it.
     let list = list.unwrap_or_default();

@@ -5,6 +5,8 @@
 
 use super::diagnostic::nearest;
 use super::xml::{Attribute, Element};
+use crate::math::sort::sort;
+use crate::mjcf::arrays::listed;
 use crate::mjcf::schema::{self, INCLUDE, Kind, ROOT};
 
 /// Elements that stand at most once and may be left out of a text; the second one stands in the first.
@@ -47,7 +49,7 @@ struct Seen {
 /// Makes one change.
 pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Result<(), Refusal> {
     let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
-    let words: Vec<&str> = patch.path.split_whitespace().collect();
+    let words: Vec<&str> = listed(patch.path.split_whitespace());
     let (kind, name, attribute) = match words.as_slice() {
         [kind, attribute] => (*kind, None, *attribute),
         [kind, .., attribute] => {
@@ -63,7 +65,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
     };
     let seen = seen(list, root);
     let named = |s: &Seen| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
-    let of_kind: Vec<Seen> = seen.iter().copied().filter(|s| !s.default && s.schema.name == kind).collect();
+    let of_kind: Vec<Seen> = listed(seen.iter().copied().filter(|s| !s.default && s.schema.name == kind));
     let names = of_kind.iter().filter_map(named);
     let found = match name {
         Some(name) => of_kind.iter().find(|s| named(s) == Some(name)).copied(),
@@ -153,7 +155,7 @@ fn missing(list: &mut Vec<Element>, kind: &str, seen: &[Seen]) -> Option<Seen> {
 /// Where the mass of a body is written: in its `inertial`, or in its only geom.
 fn mass_of(list: &[Element], body: Seen, seen: &[Seen], name: &str) -> Result<Seen, Refusal> {
     let parts = |kind: &str| -> Vec<Seen> {
-        seen.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind).collect()
+        listed(seen.iter().copied().filter(|s| s.parent == body.at && s.schema.name == kind))
     };
     let (inertial, geoms) = (parts("inertial"), parts("geom"));
     match (inertial.as_slice(), geoms.as_slice()) {
@@ -162,7 +164,7 @@ fn mass_of(list: &[Element], body: Seen, seen: &[Seen], name: &str) -> Result<Se
         _ => {
             let names =
                 geoms.iter().filter_map(|s| list.get(s.at)?.attribute("name").map(|a| a.value.as_str()));
-            let names: Vec<&str> = names.collect();
+            let names: Vec<&str> = listed(names);
             Err(Refusal {
                 message: format!("the mass of the body `{name}` is that of its {} geoms", geoms.len()),
                 help: format!("change the mass of one of them: {}", names.join(", ")),
@@ -186,8 +188,8 @@ fn set(list: &mut [Element], at: usize, attribute: &str, value: &str) {
 }
 
 fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
-    let mut kinds: Vec<&str> = kinds.collect();
-    kinds.sort_unstable();
+    let mut kinds: Vec<&str> = listed(kinds);
+    sort(&mut kinds);
     kinds.dedup();
     Refusal {
         message: format!("the model has no element `{kind}`"),
@@ -197,7 +199,7 @@ fn no_kind<'k>(kind: &str, kinds: impl Iterator<Item = &'k str>) -> Refusal {
 
 /// The near name, or the names that there are.
 fn near<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> String {
-    let names: Vec<&str> = names.take(200).collect();
+    let names: Vec<&str> = listed(names.take(200));
     match nearest(word, names.iter().copied()) {
         Some(right) if !word.is_empty() => format!("did you mean `{right}`?"),
         _ if names.is_empty() => none.to_string(),

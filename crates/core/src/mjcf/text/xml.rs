@@ -3,6 +3,7 @@
 //! Elements stand in one list and hold their children by index, so that depth costs no stack and texts of several
 //! files can be put together.
 
+use crate::mjcf::arrays::listed;
 use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, ParsingOptions};
@@ -113,7 +114,7 @@ pub(crate) fn parse(
             parent.children.push(at);
         }
         list.push(element(prepared, base, &xml));
-        let below: Vec<_> = xml.children().filter(Node::is_element).map(|x| (x, Some(at))).collect();
+        let below: Vec<_> = listed(xml.children().filter(Node::is_element).map(|x| (x, Some(at))));
         stack.extend(below.into_iter().rev());
     }
     Some(root)

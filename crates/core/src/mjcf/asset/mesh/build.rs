@@ -6,6 +6,7 @@ use super::bulk::Mass;
 use super::normals;
 use crate::math::sort::sort;
 use crate::math::{IDENTITY, MINVAL, Quat, Vec3, mat_t_mul_vec, quat_normalize, quat_to_mat, sub};
+use crate::mjcf::arrays::listed;
 use crate::mjcf::asset::mesh::{Flat, Hull, Mesh, Problem, Raw, triangle};
 use crate::mjcf::body::inertia::principal_to;
 
@@ -152,7 +153,7 @@ fn check_sense(raw: &Raw) -> Result<(), Problem> {
     let corner = |v: i32| raw.vert.get(v as usize).copied().unwrap_or_default();
     let solid = |f: &&[i32; 3]| triangle(f.map(corner)).0 > libm::sqrt(MINVAL);
     let mut edges: Vec<(i32, i32)> =
-        raw.face.iter().filter(solid).flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        listed(raw.face.iter().filter(solid).flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
     sort(&mut edges);
     match edges.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),

@@ -1,6 +1,7 @@
 //! Meshes that are made by a rule: `builtin` with `params`. The order of vertices and triangles is MuJoCo 3.14.0's,
 //! measured on the library.
 
+use crate::mjcf::arrays::listed;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
@@ -215,7 +216,7 @@ fn cone(edges: usize, radius: f64) -> Raw {
             [r * libm::cos(angle), r * libm::sin(angle), z]
         })
     };
-    let mut vert: Vec<Vec3> = ring(1.0, -1.0).collect();
+    let mut vert: Vec<Vec3> = listed(ring(1.0, -1.0));
     if radius > 0.0 {
         vert.extend(ring(radius, 1.0));
     } else {
@@ -257,7 +258,7 @@ fn supersphere(res: usize, e: f64, n: f64) -> Raw {
     vert.push([0.0, 0.0, 1.0]);
     let top = vert.len() as i32 - 1;
     let at = |ring: usize, j: usize| (1 + ring * res + j % res) as i32;
-    let mut face: Vec<[i32; 3]> = (0..res).map(|j| [0, at(0, j + 1), at(0, j)]).collect();
+    let mut face: Vec<[i32; 3]> = listed((0..res).map(|j| [0, at(0, j + 1), at(0, j)]));
     for i in 0..res - 2 {
         for j in 0..res {
             face.push([at(i, j), at(i, j + 1), at(i + 1, j)]);

@@ -5,6 +5,7 @@
 //! left is rounding, and it becomes a normal.
 
 use crate::math::{MINVAL, Vec3, cross, dot, normalize, scale, sub};
+use crate::mjcf::arrays::listed;
 
 /// Cosine of the largest angle of a triangle that counts.
 const SHARP: f64 = 0.8;
@@ -15,7 +16,7 @@ pub(super) fn of_vertices(vert: &[Vec3], face: &[[i32; 3]], smooth: bool) -> Vec
     let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
     // Direction and twice the area of each triangle.
     let side = |[a, b, c]: [Vec3; 3]| normalize(cross(sub(b, a), sub(c, a)));
-    let sides: Vec<(Vec3, f64)> = face.iter().map(|f| side(f.map(corner))).collect();
+    let sides: Vec<(Vec3, f64)> = listed(face.iter().map(|f| side(f.map(corner))));
     let corners = || face.iter().zip(&sides).flat_map(|(f, &side)| f.map(|v| (v as usize, side)));
     let mut sums: Vec<Single> = vec![[0.0; 3]; vert.len()];
     for (v, (normal, area)) in corners() {
@@ -33,7 +34,7 @@ pub(super) fn of_vertices(vert: &[Vec3], face: &[[i32; 3]], smooth: bool) -> Vec
             *sum -= sharp;
         }
     }
-    sums.into_iter().map(|s| unit(s.map(f64::from))).collect()
+    listed(sums.into_iter().map(|s| unit(s.map(f64::from))))
 }
 
 fn add(sums: &mut [Single], v: usize, part: Vec3) {

@@ -324,16 +324,17 @@ impl Growing {
         }
         // From each corner of a side to the next.
         let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
-        let mut meet: BTreeMap<u32, u32> = BTreeMap::new();
+        // How many sides meet at each point.
+        let mut meet = vec![0_u32; self.points.len()];
         for (face, &own) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
             for k in 0..3 {
                 if side.get(face.beyond[k] as usize) != Some(&own) {
                     borders.insert((own, face.corner[k]), face.corner[(k + 1) % 3]);
-                    *meet.entry(face.corner[k]).or_default() += 1;
+                    meet[face.corner[k] as usize] += 1;
                 }
             }
         }
-        let is_corner = |v: u32| meet.get(&v).is_some_and(|&n| n > 2);
+        let is_corner = |v: u32| meet.get(v as usize).is_some_and(|&n| n > 2);
         let mut face = Vec::new();
         for own in 0..sides {
             let corners = || borders.range((own, 0)..=(own, NONE)).map(|(&(_, v), _)| v);
@@ -352,7 +353,7 @@ impl Growing {
             }
         }
         sort(&mut face);
-        let vertex = meet.into_iter().filter(|&(_, n)| n > 2).map(|(v, _)| v).collect();
+        let vertex = (0..meet.len() as u32).filter(|&v| is_corner(v)).collect();
         Hull { vertex, face }
     }
 }

@@ -2,6 +2,7 @@
 //! have ears*). Which ear comes first is MuJoCo 3.14.0's choice, measured on the library.
 
 use crate::math::{Vec3, cross, dot, sub};
+use crate::mjcf::arrays::listed;
 
 /// The triangles of a polygon, as places in it. A polygon that crosses itself may be covered only in part.
 pub(super) fn triangles(corners: &[Vec3]) -> Vec<[usize; 3]> {
@@ -30,11 +31,11 @@ fn flattened(corners: &[Vec3]) -> Vec<[f64; 2]> {
         Some(_) => [0, 2],
         None => [1, 2],
     };
-    corners.iter().map(|p| [p[i], p[j]]).collect()
+    listed(corners.iter().map(|p| [p[i], p[j]]))
 }
 
 fn ears(corners: &[[f64; 2]]) -> Vec<[usize; 3]> {
-    let mut rest: Vec<usize> = (0..corners.len()).collect();
+    let mut rest: Vec<usize> = listed(0..corners.len());
     let mut found = Vec::with_capacity(rest.len());
     let (mut at, mut misses) = (0, 0);
     while rest.len() > 3 && misses <= rest.len() {

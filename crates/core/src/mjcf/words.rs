@@ -1,0 +1,60 @@
+//! What belongs to words of the schema: these are few, so that a list does for a map.
+
+/// A value for some words.
+#[derive(Clone, Debug)]
+pub(super) struct Words<V>(Vec<(&'static str, V)>);
+
+impl<V> Default for Words<V> {
+    fn default() -> Words<V> {
+        Words(Vec::new())
+    }
+}
+
+impl<V> Words<V> {
+    /// The value of a word.
+    pub(super) fn get(&self, word: &str) -> Option<&V> {
+        self.0.iter().find(|(w, _)| *w == word).map(|(_, value)| value)
+    }
+
+    /// Gives a word a value, whether it has one or not.
+    pub(super) fn insert(&mut self, word: &'static str, value: V) {
+        match self.0.iter_mut().find(|(w, _)| *w == word) {
+            Some((_, old)) => *old = value,
+            None => self.0.push((word, value)),
+        }
+    }
+
+    /// The value of a word that has one from now on.
+    pub(super) fn or_default(&mut self, word: &'static str) -> &mut V
+    where
+        V: Default,
+    {
+        let place = self.0.iter().position(|(w, _)| *w == word).unwrap_or(self.0.len());
+        if place == self.0.len() {
+            self.0.push((word, V::default()));
+        }
+        &mut self.0[place].1
+    }
+
+    /// Takes words and their values away.
+    pub(super) fn remove(&mut self, words: &[&str]) {
+        self.0.retain(|(w, _)| !words.contains(w));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Words;
+
+    #[test]
+    fn every_word_has_one_value() {
+        let mut words = Words::default();
+        words.insert("pos", 1);
+        *words.or_default("quat") += 2;
+        *words.or_default("pos") += 3;
+        words.insert("quat", 7);
+        assert_eq!((words.get("pos"), words.get("quat"), words.get("axis")), (Some(&4), Some(&7), None));
+        words.remove(&["pos", "axis"]);
+        assert_eq!((words.get("pos"), words.get("quat")), (None, Some(&7)));
+    }
+}
