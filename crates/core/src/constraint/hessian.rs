@@ -9,6 +9,7 @@
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
 use crate::math::MINVAL;
+use crate::math::lanes::total;
 use crate::math::sort::sort;
 use crate::model::Model;
 use std::array::from_fn;
@@ -298,7 +299,7 @@ impl Hessian {
             let own = f64x4::new(own);
             for (k, x) in before[first..].iter_mut().enumerate() {
                 for (column, x) in columns.iter().zip(x) {
-                    *x -= (f64x4::new(column[k]) * own).reduce_add();
+                    *x -= total(f64x4::new(column[k]) * own);
                 }
             }
         }

@@ -6,7 +6,9 @@
 use super::cost::Cost;
 use crate::math::{FREE_DOFS, dot};
 use crate::model::{Fields, Model};
+use std::array::from_fn;
 use std::ops::Range;
+use wide::f64x4;
 
 /// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
 /// point, 4 and 6 for pyramids and cones with friction, 6 for a frame, 10 for the pyramid with all friction.
@@ -84,8 +86,31 @@ pub(super) struct Block {
     /// First column index, and their number.
     col: u32,
     ncol: u32,
-    /// The first of its degrees of freedom when they are six that follow each other, as those of a free body.
-    six: Option<u32>,
+    /// Where its degrees of freedom are those of one or two free bodies, six that follow each other of each: the first of each.
+    free: Free,
+}
+
+/// Degrees of freedom of two free bodies.
+const TWO_FREE: usize = 2 * FREE_DOFS;
+
+/// How many free bodies, and the first degree of freedom of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Free {
+    bodies: u32,
+    first: [u32; 2],
+}
+
+impl Free {
+    /// The free bodies whose degrees of freedom are these, which descend.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn of(descending: &[u32]) -> Free {
+        let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
+        match *descending {
+            [a, _, _, _, _, b] if six(a, b) => Free { bodies: 1, first: [b, b] },
+            [a, _, _, _, _, b, c, _, _, _, _, d] if six(a, b) && six(c, d) => Free { bodies: 2, first: [d, b] },
+            _ => Free::default(),
+        }
+    }
 }
 
 impl Block {
@@ -162,24 +187,23 @@ impl Jacobian {
             adr: adr as u32,
             col: col as u32,
             ncol: n as u32,
-            six: match descending {
-                &[last, .., first] if n == FREE_DOFS && last - first + 1 == FREE_DOFS as u32 => Some(first),
-                _ => None,
-            },
+            free: Free::of(descending),
         });
         let columns = &mut self.columns[col..col + n];
         let rows = &mut self.values[adr..adr + R * n].as_chunks_mut::<R>().0[..n];
-        if n == FREE_DOFS {
-            reversed(descending, values, &mut columns[..FREE_DOFS], &mut rows[..FREE_DOFS]);
-        } else {
-            reversed(descending, values, columns, rows);
+        match n {
+            FREE_DOFS => reversed(descending, values, &mut columns[..FREE_DOFS], &mut rows[..FREE_DOFS]),
+            TWO_FREE => reversed(descending, values, &mut columns[..TWO_FREE], &mut rows[..TWO_FREE]),
+            _ => reversed(descending, values, columns, rows),
         }
     }
 
-    /// The values of a block whose columns are six that follow each other.
+    /// The free bodies of a block: the first degree of freedom of each, and its values.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn values_of_six<const R: usize>(&self, b: &Block) -> Option<&[[f64; R]; FREE_DOFS]> {
-        self.values[b.adr as usize..].as_chunks::<R>().0.first_chunk::<FREE_DOFS>()
+    fn free_bodies<const R: usize>(&self, b: &Block) -> impl Iterator<Item = (usize, &[[f64; R]; FREE_DOFS])> {
+        let values = self.values[b.adr as usize..].as_chunks::<R>().0.as_chunks::<FREE_DOFS>().0;
+        let first = b.free.first.iter().take(b.free.bodies as usize);
+        first.map(|&first| first as usize).zip(values)
     }
 
     /// The degrees of freedom of a block, ascending.
@@ -284,7 +308,7 @@ impl Jacobian {
     /// Begins a block of one row.
     fn open(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
-        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, six: None });
+        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, free: Free::default() });
     }
 
     /// Adds a column to it.
@@ -364,11 +388,12 @@ impl Jacobian {
                 sum[r] += v[r] * x;
             }
         };
-        if let Some(first) = b.six {
-            let x = x[first as usize..].first_chunk::<FREE_DOFS>();
-            if let (Some(v), Some(x)) = (self.values_of_six::<R>(b), x) {
-                for c in 0..FREE_DOFS {
-                    accumulate(&v[c], x[c]);
+        if b.free.bodies > 0 {
+            for (first, v) in self.free_bodies::<R>(b) {
+                if let Some(x) = x[first..].first_chunk::<FREE_DOFS>() {
+                    for c in 0..FREE_DOFS {
+                        accumulate(&v[c], x[c]);
+                    }
                 }
             }
         } else {
@@ -386,11 +411,18 @@ impl Jacobian {
     /// out ← out + Jᵀ f for the R rows of a block.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn add_transposed<const R: usize>(&self, b: &Block, f: &[f64; R], out: &mut [f64]) {
-        if let Some(first) = b.six {
-            let out = out[first as usize..].first_chunk_mut::<FREE_DOFS>();
-            if let (Some(v), Some(out)) = (self.values_of_six::<R>(b), out) {
-                for c in 0..FREE_DOFS {
-                    out[c] += dot(v[c], *f);
+        if b.free.bodies > 0 {
+            for (first, v) in self.free_bodies::<R>(b) {
+                if let Some(out) = out[first..].first_chunk_mut::<FREE_DOFS>() {
+                    let (fours, rest) = out.as_chunks_mut::<4>();
+                    for (out, v) in fours.iter_mut().zip(v.as_chunks::<4>().0) {
+                        let products: [f64x4; R] = from_fn(|r| f64x4::new(v.map(|v| v[r])) * f[r]);
+                        let sum = products.into_iter().reduce(|sum, x| sum + x).unwrap_or_default();
+                        *out = (f64x4::new(*out) + sum).to_array();
+                    }
+                    for (out, v) in rest.iter_mut().zip(&v[4..]) {
+                        *out += dot(*v, *f);
+                    }
                 }
             }
             return;

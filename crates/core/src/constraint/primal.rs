@@ -116,12 +116,13 @@ impl<'a> Problem<'a> {
     /// and the norm of the gradient.
     pub(super) fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
+        let jac = self.jac;
         for b in self.blocks() {
-            let b = self.jac.blocks[b];
+            let b = &jac.blocks[b];
             cost += match (b.cost, b.nrow) {
-                (Cost::Push, 1) => self.push_block::<1>(&b),
-                (Cost::Push, 4) => self.push_block::<4>(&b),
-                _ => by_rows!(b.nrow, R => self.other_block::<R>(&b)),
+                (Cost::Push, 1) => self.push_block::<1>(b),
+                (Cost::Push, 4) => self.push_block::<4>(b),
+                _ => by_rows!(b.nrow, R => self.other_block::<R>(b)),
             };
         }
         let mut square = 0.0;
