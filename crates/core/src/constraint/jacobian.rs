@@ -6,7 +6,6 @@
 use super::cost::Cost;
 use crate::math::{FREE_DOFS, dot};
 use crate::model::{Fields, Model};
-use std::array::from_fn;
 use std::ops::Range;
 use wide::f64x4;
 
@@ -138,6 +137,16 @@ fn reversed<T>(columns: &[u32], values: impl Iterator<Item = T>, to: &mut [u32],
     for (to, value) in values_to.iter_mut().rev().zip(values) {
         *to = value;
     }
+}
+
+/// v f of four columns.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
+    let mut sum = f64x4::new(v.map(|v| v[0])) * f[0];
+    for r in 1..R {
+        sum += f64x4::new(v.map(|v| v[r])) * f[r];
+    }
+    sum
 }
 
 /// All blocks, in row order.
@@ -416,9 +425,7 @@ impl Jacobian {
                 if let Some(out) = out[first..].first_chunk_mut::<FREE_DOFS>() {
                     let (fours, rest) = out.as_chunks_mut::<4>();
                     for (out, v) in fours.iter_mut().zip(v.as_chunks::<4>().0) {
-                        let products: [f64x4; R] = from_fn(|r| f64x4::new(v.map(|v| v[r])) * f[r]);
-                        let sum = products.into_iter().reduce(|sum, x| sum + x).unwrap_or_default();
-                        *out = (f64x4::new(*out) + sum).to_array();
+                        *out = (f64x4::new(*out) + four_products(v, f)).to_array();
                     }
                     for (out, v) in rest.iter_mut().zip(&v[4..]) {
                         *out += dot(*v, *f);
@@ -427,10 +434,14 @@ impl Jacobian {
             }
             return;
         }
-        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
-        match contiguous(cols) {
-            Some(range) => vals.iter().zip(&mut out[range]).for_each(|(v, out)| *out += dot(*v, *f)),
-            None => vals.iter().zip(cols).for_each(|(v, &c)| out[c as usize] += dot(*v, *f)),
+        let (cols, vals) = (self.columns(b).as_chunks::<4>(), self.values(b).as_chunks::<R>().0.as_chunks::<4>());
+        for (cols, v) in cols.0.iter().zip(vals.0) {
+            for (&c, sum) in cols.iter().zip(four_products(v, f).to_array()) {
+                out[c as usize] += sum;
+            }
+        }
+        for (&c, v) in cols.1.iter().zip(vals.1) {
+            out[c as usize] += dot(*v, *f);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::search::{Point, minimize};
-use crate::dynamics::mass;
+use crate::dynamics::{Scratch as Trees, mass, ways};
 use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
@@ -27,6 +27,7 @@ pub(super) struct Problem<'a> {
     pub(super) m: &'a Model,
     pub(super) d: &'a mut Fields,
     pub(super) s: &'a mut Iterate,
+    pub(super) trees: &'a mut Trees,
     pub(super) jac: &'a Jacobian,
     pub(super) islands: &'a Islands,
     pub(super) island: usize,
@@ -170,6 +171,7 @@ impl<'a> Problem<'a> {
 
     /// ½ gᵀ M⁻¹ g; step ← M⁻¹ g.
     pub(super) fn decrement_by_mass(&mut self) -> f64 {
+        ways::complete(self.m, self.d, self.trees);
         for dofs in self.dofs() {
             self.s.step[dofs.clone()].copy_from_slice(&self.s.grad[dofs.clone()]);
             mass::solve(self.m, &self.d.qLD, &self.d.qLDiagInv, &mut self.s.step, dofs);
