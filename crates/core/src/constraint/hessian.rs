@@ -171,7 +171,9 @@ impl Hessian {
     /// All numbers zero, but for the identity of the rows that fill up.
     pub(super) fn clear(&mut self) {
         self.stood.clear();
-        self.values.fill([0.0; 4]);
+        for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
+            self.values[start..start + 4 * (i + 1 - first)].fill([0.0; 4]);
+        }
         for i in self.len..self.room() {
             self.values.as_flattened_mut()[self.places[i].wrapping_add(i)] = 1.0;
         }

@@ -106,7 +106,9 @@ impl Free {
         let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
         match *descending {
             [a, _, _, _, _, b] if six(a, b) => Free { bodies: 1, first: [b, b] },
-            [a, _, _, _, _, b, c, _, _, _, _, d] if six(a, b) && six(c, d) => Free { bodies: 2, first: [d, b] },
+            [a, _, _, _, _, b, c, _, _, _, _, d] if six(a, b) && six(c, d) => {
+                Free { bodies: 2, first: [d, b] }
+            }
             _ => Free::default(),
         }
     }
@@ -209,7 +211,10 @@ impl Jacobian {
 
     /// The free bodies of a block: the first degree of freedom of each, and its values.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn free_bodies<const R: usize>(&self, b: &Block) -> impl Iterator<Item = (usize, &[[f64; R]; FREE_DOFS])> {
+    fn free_bodies<const R: usize>(
+        &self,
+        b: &Block,
+    ) -> impl Iterator<Item = (usize, &[[f64; R]; FREE_DOFS])> {
         let values = self.values[b.adr as usize..].as_chunks::<R>().0.as_chunks::<FREE_DOFS>().0;
         let first = b.free.first.iter().take(b.free.bodies as usize);
         first.map(|&first| first as usize).zip(values)
@@ -434,7 +439,8 @@ impl Jacobian {
             }
             return;
         }
-        let (cols, vals) = (self.columns(b).as_chunks::<4>(), self.values(b).as_chunks::<R>().0.as_chunks::<4>());
+        let (cols, vals) =
+            (self.columns(b).as_chunks::<4>(), self.values(b).as_chunks::<R>().0.as_chunks::<4>());
         for (cols, v) in cols.0.iter().zip(vals.0) {
             for (&c, sum) in cols.iter().zip(four_products(v, f).to_array()) {
                 out[c as usize] += sum;

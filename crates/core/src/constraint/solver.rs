@@ -87,7 +87,14 @@ fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands
 }
 
 /// The forces that the dual method starts from: those at the last step's acceleration, unless none cost less.
-fn dual_start(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands: &Islands, jac: &Jacobian) {
+fn dual_start(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Iterate,
+    trees: &mut Trees,
+    islands: &Islands,
+    jac: &Jacobian,
+) {
     d.efc_force.fill(0.0);
     if m.opt.disabled(disable::WARMSTART) {
         return;
@@ -127,7 +134,14 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Tr
 /// The choice is made once for the whole system; what no constraint touches keeps the unconstrained
 /// acceleration.
 #[inline(never)]
-fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands: &Islands, jac: &Jacobian) -> bool {
+fn warm_start(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Iterate,
+    trees: &mut Trees,
+    islands: &Islands,
+    jac: &Jacobian,
+) -> bool {
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     for tree in 0..m.ntree {
         mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, m.tree_dofs(tree));

@@ -279,6 +279,11 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
     }
     let mut end = dofs.end;
     while end > dofs.start {
+        if m.M_rownnz[end - 1] == 1 {
+            end -= 1;
+            x[end] *= diag_inv[end];
+            continue;
+        }
         if let Some(n) = triangle::size_before(m, end) {
             end -= n;
             triangle::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
@@ -337,6 +342,10 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     for i in dofs {
         let row = row(m, i);
         let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
+        if before.is_empty() {
+            out[i] = diagonal * v[i];
+            continue;
+        }
         let columns = &m.M_colind[row][..before.len()];
         let ((fours, rest), (by_four, columns)) = (before.as_chunks::<4>(), columns.as_chunks::<4>());
         let (vi, mut sums) = (v[i], f64x4::ZERO);

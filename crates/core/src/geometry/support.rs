@@ -51,7 +51,9 @@ impl<'a> Body<'a> {
     /// What a support point costs.
     pub(super) fn price(&self) -> u64 {
         match self.form {
-            Form::Shape(s) if s.kind == geom::MESH && s.mesh().hull.is_none() => 20 + s.mesh().vert.len() as u64,
+            Form::Shape(s) if s.kind == geom::MESH && s.mesh().hull.is_none() => {
+                20 + s.mesh().vert.len() as u64
+            }
             _ => 40,
         }
     }

@@ -84,7 +84,8 @@ impl Assets {
             geom::HFIELD => {
                 let (head, samples) = self.field.as_ref().unwrap();
                 let size = [head[2], head[3], head[4], head[5]];
-                shape.field = Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
+                shape.field =
+                    Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
             }
             _ => {}
         }

@@ -439,7 +439,8 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
         let kind =
             [geom::SPHERE, geom::CAPSULE, geom::ELLIPSOID, geom::CYLINDER, geom::BOX, geom::MESH][case % 6];
         let mut ground = Shape::new(geom::HFIELD, [1.2, 0.9, 0.3], r.vector(-0.2, 0.2), r.turn());
-        ground.field = Some(crate::geometry::Field { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data });
+        ground.field =
+            Some(crate::geometry::Field { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data });
         let mut b = shape(kind, &mut r, &solids);
         b.pos = r.vector(-2.5, 2.5);
         let most = [0.0, 0.3, 1e3][r.below(3)];
@@ -455,7 +456,7 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
                     // In the world a prism is any body with corners.
                     let vert = corners.to_vec();
                     let mut prism = Shape::new(geom::MESH, [1.0; 3], [0.0; 3], EYE);
-                    prism.mesh = Some(crate::geometry::Mesh { vert: &vert, ..Default::default() });
+                    prism.mesh = Some(Mesh { vert: &vert, ..Default::default() });
                     let (mut u, mut v) = (Convex::new(&prism), Convex::new(&b));
                     if let Some(n) = nearest(&mut u, &mut v, 1e3, settings.effort, &mut work.room) {
                         least = least.min(n.dist);
