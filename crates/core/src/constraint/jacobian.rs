@@ -204,7 +204,10 @@ impl Jacobian {
         let rows = &mut self.values[adr..adr + R * n].as_chunks_mut::<R>().0[..n];
         match n {
             FREE_DOFS => reversed(descending, values, &mut columns[..FREE_DOFS], &mut rows[..FREE_DOFS]),
-            TWO_FREE => reversed(descending, values, &mut columns[..TWO_FREE], &mut rows[..TWO_FREE]),
+            // Worth a copy of its own for the commonest contacts alone.
+            TWO_FREE if R == 4 => {
+                reversed(descending, values, &mut columns[..TWO_FREE], &mut rows[..TWO_FREE])
+            }
             _ => reversed(descending, values, columns, rows),
         }
     }

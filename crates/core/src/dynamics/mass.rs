@@ -277,15 +277,15 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
+    // Rows that the tree begins with, where they are done at once.
+    let mut first = 0;
     let mut end = dofs.end;
     while end > dofs.start {
-        if m.M_rownnz[end - 1] == 1 {
-            end -= 1;
-            x[end] *= diag_inv[end];
-            continue;
-        }
         if let Some(n) = triangle::size_before(m, end) {
             end -= n;
+            if end == dofs.start {
+                first = n;
+            }
             triangle::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
             continue;
         }
@@ -300,7 +300,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
             }
         }
     }
-    for i in dofs {
+    for i in dofs.skip(first) {
         if triangle::size_before(m, i + 1).is_some() {
             continue; // done above
         }
@@ -348,8 +348,18 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         }
         let columns = &m.M_colind[row][..before.len()];
         let ((fours, rest), (by_four, columns)) = (before.as_chunks::<4>(), columns.as_chunks::<4>());
-        let (vi, mut sums) = (v[i], f64x4::ZERO);
+        let vi = v[i];
+        let mut sum = diagonal * vi;
         // The upper triangle, too: the columns are ancestors of i, so that their own sums are already begun.
+        for (a, &j) in rest.iter().zip(columns) {
+            sum += a * v[j as usize];
+            out[j as usize] += a * vi;
+        }
+        if fours.is_empty() {
+            out[i] = sum;
+            continue;
+        }
+        let mut sums = f64x4::ZERO;
         for (a, j) in fours.iter().zip(by_four) {
             let (a, of) = (f64x4::new(*a), j.map(|j| j as usize));
             let together = (j[3] - j[0] == 3).then_some(of[0]..of[3] + 1);
@@ -365,11 +375,6 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
                     }
                 }
             }
-        }
-        let mut sum = diagonal * vi;
-        for (a, &j) in rest.iter().zip(columns) {
-            sum += a * v[j as usize];
-            out[j as usize] += a * vi;
         }
         out[i] = sum + total(sums);
     }
