@@ -94,7 +94,8 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
     for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
         let known = limit < f64::INFINITY;
-        if !(known && apart(d, pair) > limit) && !list.leaves_out(m, d, pair) {
+        let far = known && apart(d, pair) > limit;
+        if !far && !list.leaves_out(m, d, pair) {
             narrow(m, d, work, pair, params, known);
         }
     }
