@@ -93,9 +93,10 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
     }
     for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
-        let far = limit < f64::INFINITY && apart(d, pair) > limit;
+        let known = limit < f64::INFINITY;
+        let far = known && apart(d, pair) > limit;
         if !far && !list.leaves_out(m, d, pair) {
-            narrow(m, d, work, pair, params);
+            narrow(m, d, work, pair, params, known);
         }
     }
     let looked_at = 8 * list.pairs.len() + 100 * d.contact.len();
@@ -134,17 +135,18 @@ fn apart(d: &Fields, pair: &Pair) -> f64 {
 /// The exact test of one pair whose parameters may have been written.
 #[inline(never)]
 fn narrow_mixed(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair) {
-    narrow(m, d, work, pair, &params::params(m, pair));
+    narrow(m, d, work, pair, &params::params(m, pair), false);
 }
 
-/// The exact test of one pair. Spheres, the commonest, have a short way.
+/// The exact test of one pair, of which it may be known that its bounding spheres are in reach. Spheres, the commonest, have a
+/// short way.
 #[inline(never)]
-fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
+fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params, near: bool) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
+        _ if !near && sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
         _ => return general(m, d, work, [g1, g2], params),
     };
     if let Some(t) = touch {

@@ -9,6 +9,7 @@ use super::rows::{Rows, push, regularization};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::math::*;
 use crate::model::{Contact, Fields, Model};
+use wide::f64x4;
 
 /// Value of `opt.cone`.
 const PYRAMIDAL: i32 = 0;
@@ -81,7 +82,8 @@ fn common(
         push::<1>(d, &shared(c, id, kind::CONTACT_FRICTIONLESS, kbi, kbi, r));
         return;
     }
-    let edges = |&[n, t1, t2]: &Vec3| [n + mu * t1, n - mu * t1, n + mu2 * t2, n - mu2 * t2];
+    let sides = f64x4::new([mu, -mu, mu2, -mu2]);
+    let edges = |&[n, t1, t2]: &Vec3| (f64x4::splat(n) + sides * f64x4::new([t1, t1, t2, t2])).to_array();
     jac.push::<4>(Cost::Push, row, cols, along.iter().map(edges));
     let r = friction(m, c, false, regularization(kbi.imp, translation + mu * mu * translation));
     push::<4>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));

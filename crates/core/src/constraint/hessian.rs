@@ -9,7 +9,8 @@
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
 use crate::math::MINVAL;
-use crate::math::sort::{sort, sort_by};
+use crate::math::lanes::total;
+use crate::math::sort::sort;
 use crate::model::Model;
 use std::array::from_fn;
 use wide::f64x4;
@@ -45,10 +46,9 @@ pub(super) struct Hessian {
     /// Per row: its first column, and what is added to a column to find its place.
     first: Vec<u32>,
     places: Vec<usize>,
-    /// Scratch of a block of the Jacobian: its columns as they follow each other in the island, where they are there, and its rows
-    /// by fours of columns.
-    by_place: Vec<usize>,
-    at: Vec<[u32; 4]>,
+    /// Scratch of a block of the Jacobian: its columns, where they are, and its rows by fours of columns.
+    stood: Vec<u32>,
+    quads: Vec<Quad>,
     fours: Vec<Four>,
     order: Order,
 }
@@ -59,6 +59,16 @@ struct BlockRow {
     first: usize,
     start: usize,
 }
+
+/// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Quad {
+    block: u32,
+    of: [u32; 4],
+}
+
+/// No column.
+const NONE: u32 = u32::MAX;
 
 /// Scratch of the ordering of trees.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -160,7 +170,10 @@ impl Hessian {
 
     /// All numbers zero, but for the identity of the rows that fill up.
     pub(super) fn clear(&mut self) {
-        self.values.fill([0.0; 4]);
+        self.stood.clear();
+        for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
+            self.values[start..start + 4 * (i + 1 - first)].fill([0.0; 4]);
+        }
         for i in self.len..self.room() {
             self.values.as_flattened_mut()[self.places[i].wrapping_add(i)] = 1.0;
         }
@@ -177,55 +190,28 @@ impl Hessian {
         }
     }
 
-    /// H ← H + Jᵀ W J, four columns at a time, given the column that is the `i`-th in the island.
+    /// The columns of a block of the Jacobian, by the fours of columns of H that they are among.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn add_gram_by<const R: usize>(
-        &mut self,
-        columns: &[u32],
-        v: &[[f64; R]],
-        weigh: &dyn Fn(&[f64; R]) -> [f64; R],
-        ith: &dyn Fn(usize) -> usize,
-    ) {
-        let n = columns.len();
-        let fours = n.div_ceil(4);
-        if self.at.len() < fours || self.fours.len() < R * fours {
-            self.at.resize(fours, [0; 4]);
-            self.fours.resize(R * fours, [0.0; 4]);
+    fn stand(&mut self, columns: &[u32]) {
+        if self.stood == columns {
+            return;
         }
-        let (at, fours) = (&mut self.at[..fours], &mut self.fours.as_chunks_mut::<R>().0[..fours]);
-        for (q, (at, four)) in at.iter_mut().zip(fours.iter_mut()).enumerate() {
-            // Beyond the last column is no place.
-            let of: [usize; 4] = from_fn(|l| ith((4 * q + l).min(n - 1)));
-            *at = from_fn(|l| if 4 * q + l < n { self.local[columns[of[l]] as usize] } else { u32::MAX });
-            *four = from_fn(|r| from_fn(|l| v[of[l]][r]));
-        }
-        let values = self.values.as_flattened_mut();
-        for (i, &row) in at.as_flattened()[..n].iter().enumerate() {
-            let w = weigh(&v[ith(i)]);
-            let (from, row) = row_of(&self.blocks, values, row as usize);
-            for (at, four) in at[..=i / 4].iter().zip(&*fours) {
-                let mut sums = f64x4::new(four[0]) * w[0];
-                for r in 1..R {
-                    sums += f64x4::new(four[r]) * w[r];
-                }
-                let sums = sums.to_array();
-                let first = (at[0] as usize).wrapping_sub(from);
-                match row.get_mut(first..first.wrapping_add(4)) {
-                    // Beyond the diagonal of its last block a row counts as zero, whatever is there.
-                    Some(row) if at[3].wrapping_sub(at[0]) == 3 => {
-                        for (x, sum) in row.iter_mut().zip(sums) {
-                            *x += sum;
-                        }
-                    }
-                    _ => {
-                        for (&j, sum) in at.iter().zip(sums) {
-                            if let Some(x) = row.get_mut((j as usize).wrapping_sub(from)) {
-                                *x += sum;
-                            }
-                        }
-                    }
-                }
+        self.stood.clear();
+        self.stood.extend_from_slice(columns);
+        self.quads.clear();
+        // Ascending in the file, so that those of a tree descend here.
+        for (p, &k) in columns.iter().enumerate().rev() {
+            let local = self.local[k as usize];
+            let (block, lane) = (local / 4, local as usize % 4);
+            let mut q = self.quads.len();
+            while q > 0 && self.quads[q - 1].block > block {
+                q -= 1;
             }
+            if q == 0 || self.quads[q - 1].block < block {
+                self.quads.insert(q, Quad { block, of: [NONE; 4] });
+                q += 1;
+            }
+            self.quads[q - 1].of[lane] = p as u32;
         }
     }
 
@@ -315,7 +301,7 @@ impl Hessian {
             let own = f64x4::new(own);
             for (k, x) in before[first..].iter_mut().enumerate() {
                 for (column, x) in columns.iter().zip(x) {
-                    *x -= (f64x4::new(column[k]) * own).reduce_add();
+                    *x -= total(f64x4::new(column[k]) * own);
                 }
             }
         }
@@ -336,8 +322,10 @@ impl Gram for Hessian {
     }
 
     fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64> {
-        let (from, row) = row_of(&self.blocks, self.values.as_flattened_mut(), row);
-        row.get_mut(column.wrapping_sub(from))
+        let BlockRow { first, start } = *self.blocks.get(row / 4)?;
+        let n = row / 4 + 1 - first;
+        let row = self.values.get_mut(start + row % 4 * n..)?.get_mut(..n)?;
+        row.as_flattened_mut().get_mut(column.wrapping_sub(4 * first))
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
@@ -347,18 +335,40 @@ impl Gram for Hessian {
         v: &[[f64; R]],
         weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        let n = columns.len();
-        let local = |p: usize| self.local[columns[p] as usize];
-        if self.len <= SMALL || (1..n).all(|p| local(p) < local(p - 1)) {
-            return self.add_gram_by(columns, v, weigh, &|i| n - 1 - i);
+        self.stand(columns);
+        let Hessian { quads, blocks, values, .. } = self;
+        if self.fours.len() < R * quads.len() {
+            self.fours.resize(R * quads.len(), [0.0; 4]);
         }
-        // Trees of a large island in another order than in the file.
-        let mut order = std::mem::take(&mut self.by_place);
-        order.clear();
-        order.extend(0..n);
-        sort_by(&mut order, |&p, &q| local(p).cmp(&local(q)));
-        self.add_gram_by(columns, v, weigh, &|i| order[i]);
-        self.by_place = order;
+        let fours = &mut self.fours.as_chunks_mut::<R>().0[..quads.len()];
+        for (quad, four) in quads.iter().zip(fours.iter_mut()) {
+            *four = [[0.0; 4]; R];
+            for (lane, &p) in quad.of.iter().enumerate() {
+                if let Some(v) = v.get(p as usize) {
+                    for r in 0..R {
+                        four[r][lane] = v[r];
+                    }
+                }
+            }
+        }
+        for (q, quad) in quads.iter().enumerate() {
+            let BlockRow { first, start } = blocks[quad.block as usize];
+            let n = quad.block as usize + 1 - first;
+            for (lane, &p) in quad.of.iter().enumerate() {
+                let Some(v) = v.get(p as usize) else { continue };
+                let w = weigh(v).map(f64x4::splat);
+                let row = &mut values[start + lane * n..][..n];
+                // Beyond the diagonal a row counts as zero, whatever is there.
+                for (to, four) in quads[..=q].iter().zip(&*fours) {
+                    let mut sums = f64x4::new(four[0]) * w[0];
+                    for r in 1..R {
+                        sums += f64x4::new(four[r]) * w[r];
+                    }
+                    let to = &mut row[to.block as usize - first];
+                    *to = (f64x4::new(*to) + sums).to_array();
+                }
+            }
+        }
     }
 }
 
@@ -371,14 +381,6 @@ fn parts(of: &[Four], n: usize, from: usize, len: usize) -> [&[Four]; 4] {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn transposed(rows: [Four; 4]) -> [f64x4; 4] {
     from_fn(|c| f64x4::new(rows.map(|row| row[c])))
-}
-
-/// Row `i`: its first column, and its numbers up to the end of the block of the diagonal.
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn row_of<'a>(blocks: &[BlockRow], values: &'a mut [f64], i: usize) -> (usize, &'a mut [f64]) {
-    let BlockRow { first, start } = blocks[i / 4];
-    let n = i / 4 + 1 - first;
-    (4 * first, &mut values[4 * (start + (i % 4) * n)..][..4 * n])
 }
 
 impl Order {
@@ -531,7 +533,7 @@ mod tests {
             wide += usize::from(columns.len() == 12);
         }
         assert!(jac.blocks.len() > wide && wide > 0);
-        let mut same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
+        let same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
             let mut filled = 0;
             for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
                 let [a, b] = [a.entry(i, j).copied(), b.entry(i, j).copied()];

@@ -7,6 +7,7 @@ use super::cost::Cost;
 use crate::math::{FREE_DOFS, SMALL, dot, dot_in_order};
 use crate::model::{Fields, Model};
 use std::ops::Range;
+use wide::f64x4;
 
 /// Rows of the largest block.
 pub(super) const MOST_ROWS: usize = 10;
@@ -110,8 +111,33 @@ pub(super) struct Block {
     /// First column index, and their number.
     col: u32,
     ncol: u32,
-    /// The first of its degrees of freedom when they are six that follow each other, as those of a free body.
-    six: Option<u32>,
+    /// Where its degrees of freedom are those of one or two free bodies, six that follow each other of each: the first of each.
+    free: Free,
+}
+
+/// Degrees of freedom of two free bodies.
+const TWO_FREE: usize = 2 * FREE_DOFS;
+
+/// How many free bodies, and the first degree of freedom of each.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Free {
+    bodies: u32,
+    first: [u32; 2],
+}
+
+impl Free {
+    /// The free bodies whose degrees of freedom are these, which descend.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn of(descending: &[u32]) -> Free {
+        let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
+        match *descending {
+            [a, _, _, _, _, b] if six(a, b) => Free { bodies: 1, first: [b, b] },
+            [a, _, _, _, _, b, c, _, _, _, _, d] if six(a, b) && six(c, d) => {
+                Free { bodies: 2, first: [d, b] }
+            }
+            _ => Free::default(),
+        }
+    }
 }
 
 impl Block {
@@ -136,6 +162,16 @@ fn reversed<T>(items: impl Iterator<Item = T>, to: &mut [T]) {
     for (to, item) in to.iter_mut().rev().zip(items) {
         *to = item;
     }
+}
+
+/// v f of four columns.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn four_products<const R: usize>(v: &[[f64; R]; 4], f: &[f64; R]) -> f64x4 {
+    let mut sum = f64x4::new(v.map(|v| v[0])) * f[0];
+    for r in 1..R {
+        sum += f64x4::new(v.map(|v| v[r])) * f[r];
+    }
+    sum
 }
 
 /// All blocks, in row order.
@@ -172,6 +208,7 @@ impl Jacobian {
         let rows = self.open_rows(cost, row, R, descending).as_chunks_mut::<R>().0;
         match rows.len() {
             FREE_DOFS if !SMALL => reversed(values, &mut rows[..FREE_DOFS]),
+            TWO_FREE if R == 4 && !SMALL => reversed(values, &mut rows[..TWO_FREE]),
             n => reversed(values, &mut rows[..n]),
         }
     }
@@ -195,24 +232,28 @@ impl Jacobian {
             adr: adr as u32,
             col: col as u32,
             ncol: n as u32,
-            six: match descending {
-                &[last, .., first] if n == FREE_DOFS && last - first + 1 == FREE_DOFS as u32 => Some(first),
-                _ => None,
-            },
+            free: Free::of(descending),
         });
         let columns = &mut self.columns[col..col + n];
-        if n == FREE_DOFS && !SMALL {
-            reversed(descending.iter().copied(), &mut columns[..FREE_DOFS]);
-        } else {
-            reversed(descending.iter().copied(), columns);
+        let items = descending.iter().copied();
+        match n {
+            FREE_DOFS if !SMALL => reversed(items, &mut columns[..FREE_DOFS]),
+            // Worth a copy of its own for the commonest contacts alone.
+            TWO_FREE if nrow == 4 && !SMALL => reversed(items, &mut columns[..TWO_FREE]),
+            _ => reversed(items, columns),
         }
         &mut self.values[adr..adr + nrow * n]
     }
 
-    /// The values of a block whose columns are six that follow each other.
+    /// The free bodies of a block: the first degree of freedom of each, and its values.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn values_of_six<const R: usize>(&self, b: &Block) -> Option<&[[f64; R]; FREE_DOFS]> {
-        self.values[b.adr as usize..].as_chunks::<R>().0.first_chunk::<FREE_DOFS>()
+    fn free_bodies<const R: usize>(
+        &self,
+        b: &Block,
+    ) -> impl Iterator<Item = (usize, &[[f64; R]; FREE_DOFS])> {
+        let values = self.values[b.adr as usize..].as_chunks::<R>().0.as_chunks::<FREE_DOFS>().0;
+        let first = b.free.first.iter().take(b.free.bodies as usize);
+        first.map(|&first| first as usize).zip(values)
     }
 
     /// The degrees of freedom of a block, ascending.
@@ -317,7 +358,7 @@ impl Jacobian {
     /// Begins a block of one row.
     fn open(&mut self, cost: Cost, row: usize) {
         let (adr, col) = (self.used_values as u32, self.used_columns as u32);
-        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, six: None });
+        self.blocks.push(Block { row: row as u32, nrow: 1, cost, adr, col, ncol: 0, free: Free::default() });
     }
 
     /// Adds a column to it.
@@ -410,11 +451,12 @@ impl Jacobian {
                 sum[r] += v[r] * x;
             }
         };
-        if let Some(first) = b.six {
-            let x = x[first as usize..].first_chunk::<FREE_DOFS>();
-            if let (Some(v), Some(x)) = (self.values_of_six::<R>(b), x) {
-                for c in 0..FREE_DOFS {
-                    accumulate(&v[c], x[c]);
+        if b.free.bodies > 0 {
+            for (first, v) in self.free_bodies::<R>(b) {
+                if let Some(x) = x[first..].first_chunk::<FREE_DOFS>() {
+                    for c in 0..FREE_DOFS {
+                        accumulate(&v[c], x[c]);
+                    }
                 }
             }
         } else {
@@ -435,19 +477,29 @@ impl Jacobian {
         if SMALL {
             return self.add_rows_transposed(b, 0, f, out);
         }
-        if let Some(first) = b.six {
-            let out = out[first as usize..].first_chunk_mut::<FREE_DOFS>();
-            if let (Some(v), Some(out)) = (self.values_of_six::<R>(b), out) {
-                for c in 0..FREE_DOFS {
-                    out[c] += dot(v[c], *f);
+        if b.free.bodies > 0 {
+            for (first, v) in self.free_bodies::<R>(b) {
+                if let Some(out) = out[first..].first_chunk_mut::<FREE_DOFS>() {
+                    let (fours, rest) = out.as_chunks_mut::<4>();
+                    for (out, v) in fours.iter_mut().zip(v.as_chunks::<4>().0) {
+                        *out = (f64x4::new(*out) + four_products(v, f)).to_array();
+                    }
+                    for (out, v) in rest.iter_mut().zip(&v[4..]) {
+                        *out += dot(*v, *f);
+                    }
                 }
             }
             return;
         }
-        let (cols, vals) = (self.columns(b), self.values(b).as_chunks::<R>().0);
-        match contiguous(cols) {
-            Some(range) => vals.iter().zip(&mut out[range]).for_each(|(v, out)| *out += dot(*v, *f)),
-            None => vals.iter().zip(cols).for_each(|(v, &c)| out[c as usize] += dot(*v, *f)),
+        let (cols, vals) =
+            (self.columns(b).as_chunks::<4>(), self.values(b).as_chunks::<R>().0.as_chunks::<4>());
+        for (cols, v) in cols.0.iter().zip(vals.0) {
+            for (&c, sum) in cols.iter().zip(four_products(v, f).to_array()) {
+                out[c as usize] += sum;
+            }
+        }
+        for (&c, v) in cols.1.iter().zip(vals.1) {
+            out[c as usize] += dot(*v, *f);
         }
     }
 }

@@ -6,7 +6,7 @@ use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::search::{Point, minimize};
-use crate::dynamics::mass;
+use crate::dynamics::{Scratch as Trees, mass, ways};
 use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
@@ -27,6 +27,7 @@ pub(super) struct Problem<'a> {
     pub(super) m: &'a Model,
     pub(super) d: &'a mut Fields,
     pub(super) s: &'a mut Iterate,
+    pub(super) trees: &'a mut Trees,
     pub(super) jac: &'a Jacobian,
     pub(super) islands: &'a Islands,
     pub(super) island: usize,
@@ -116,12 +117,13 @@ impl<'a> Problem<'a> {
     /// and the norm of the gradient.
     pub(super) fn update(&mut self) -> (f64, f64) {
         let mut cost = 0.0;
+        let jac = self.jac;
         for b in self.blocks() {
-            let b = self.jac.blocks[b];
+            let b = &jac.blocks[b];
             cost += match (b.cost, b.nrow) {
-                (Cost::Push, 1) => self.push_block::<1>(&b),
-                (Cost::Push, 4) => self.push_block::<4>(&b),
-                _ => by_rows!(b.nrow, R => self.other_block::<R>(&b)),
+                (Cost::Push, 1) => self.push_block::<1>(b),
+                (Cost::Push, 4) => self.push_block::<4>(b),
+                _ => by_rows!(b.nrow, R => self.other_block::<R>(b)),
             };
         }
         let mut square = 0.0;
@@ -169,6 +171,7 @@ impl<'a> Problem<'a> {
 
     /// ½ gᵀ M⁻¹ g; step ← M⁻¹ g.
     pub(super) fn decrement_by_mass(&mut self) -> f64 {
+        ways::complete(self.m, self.d, self.trees);
         for dofs in self.dofs() {
             self.s.step[dofs.clone()].copy_from_slice(&self.s.grad[dofs.clone()]);
             mass::solve(self.m, &self.d.qLD, &self.d.qLDiagInv, &mut self.s.step, dofs);

@@ -9,7 +9,7 @@ use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::primal::{Problem, shape};
-use crate::dynamics::mass;
+use crate::dynamics::{Scratch as Trees, mass, ways};
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
 use crate::model::plan::Fact;
@@ -17,18 +17,18 @@ use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn solve(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     d.solver_niter = 0;
     d.nisland = 0;
     copy(&d.qacc_smooth, &mut d.qacc);
     zero(&mut d.qfrc_constraint);
     if d.nefc > 0 {
-        solve_rows(m, d, w);
+        solve_rows(m, d, w, trees);
     }
 }
 
 #[inline(never)] // a step in which nothing touches does not carry its set-up
-fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch) {
+fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     let [_, columns, values] = w.jac.size();
     d.meter.add(8 * (columns + values) + 40 * d.nefc as u64);
     let dual = m.opt.solver == solver::PGS || m.opt.noslip_iterations > 0;
@@ -44,16 +44,17 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch) {
     s.resize(m.nv, d.nefc);
     if dual {
         unconstrained_residual(d, jac);
+        ways::complete(m, d, trees);
         s.dual.build(m, d, jac);
     }
     if m.opt.solver == solver::PGS {
-        dual_start(m, d, s, islands, jac);
+        dual_start(m, d, s, trees, islands, jac);
     } else {
-        primal(m, d, s, islands, jac);
+        primal(m, d, s, trees, islands, jac);
     }
     if dual {
         for island in 0..d.nisland {
-            let mut problem = Problem { m, d, s, islands, jac, island };
+            let mut problem = Problem { m, d, s, trees, islands, jac, island };
             if m.opt.solver == solver::PGS {
                 problem.gauss_seidel();
             }
@@ -70,8 +71,8 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 /// Newton's method or conjugate gradients, from the better start.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) {
-    if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, islands, jac) {
+fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, trees: &mut Trees, islands: &Islands, jac: &Jacobian) {
+    if !m.opt.disabled(disable::WARMSTART) && warm_start(m, d, s, trees, islands, jac) {
         return;
     }
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -79,14 +80,21 @@ fn primal(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &J
     copy(&d.qfrc_smooth, &mut s.ma);
     jac.residual(&d.qacc_smooth, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, islands, jac, island };
+        let mut problem = Problem { m, d, s, trees, islands, jac, island };
         let from = problem.reached();
         problem.run(from);
     }
 }
 
 /// The forces that the dual method starts from: those at the last step's acceleration, unless none cost less.
-fn dual_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) {
+fn dual_start(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Iterate,
+    trees: &mut Trees,
+    islands: &Islands,
+    jac: &Jacobian,
+) {
     d.efc_force.fill(0.0);
     if m.opt.disabled(disable::WARMSTART) {
         return;
@@ -94,7 +102,7 @@ fn dual_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     let mut cost = 0.0;
     for island in 0..d.nisland {
-        let mut problem = Problem { m, d, s, islands, jac, island };
+        let mut problem = Problem { m, d, s, trees, islands, jac, island };
         problem.update();
         cost += problem.dual_cost();
     }
@@ -104,7 +112,7 @@ fn dual_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
 }
 
 /// `efc_force` and `qfrc_constraint` at the acceleration `qacc` (`mj_invConstraint`).
-pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch) {
+pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     d.qfrc_constraint.fill(0.0);
     if d.nefc == 0 {
         return;
@@ -115,7 +123,7 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch) {
     s.ma.fill(0.0);
     jac.residual(&d.qacc, &d.efc_aref, &mut s.jar);
     for island in 0..d.nisland {
-        Problem { m, d, s, islands, jac, island }.update();
+        Problem { m, d, s, trees, islands, jac, island }.update();
     }
 }
 
@@ -126,7 +134,14 @@ pub(crate) fn inverse(m: &Model, d: &mut Fields, w: &mut Scratch) {
 /// The choice is made once for the whole system; what no constraint touches keeps the unconstrained
 /// acceleration.
 #[inline(never)]
-fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac: &Jacobian) -> bool {
+fn warm_start(
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Iterate,
+    trees: &mut Trees,
+    islands: &Islands,
+    jac: &Jacobian,
+) -> bool {
     jac.residual(&d.qacc_warmstart, &d.efc_aref, &mut s.jar);
     for tree in 0..m.ntree {
         mass::mul(m, &d.M, &d.qacc_warmstart, &mut s.ma, m.tree_dofs(tree));
@@ -137,7 +152,7 @@ fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
         for dofs in islands.dofs(island) {
             copy(&d.qacc_warmstart[dofs.clone()], &mut d.qacc[dofs]);
         }
-        reached.push(Problem { m, d, s, islands, jac, island }.reached());
+        reached.push(Problem { m, d, s, trees, islands, jac, island }.reached());
     }
     let mut done = reached.iter().all(|r| r.minimum);
     if !done {
@@ -147,7 +162,7 @@ fn warm_start(m: &Model, d: &mut Fields, s: &mut Iterate, islands: &Islands, jac
         let warm = reached.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
         if !costs_less(d, jac, s, warm) {
             for (island, &from) in reached.iter().enumerate() {
-                Problem { m, d, s, islands, jac, island }.run(from);
+                Problem { m, d, s, trees, islands, jac, island }.run(from);
             }
             done = true;
         }

@@ -221,7 +221,8 @@ pub(crate) fn orientations(d: &mut Fields, frames: &Frames) {
             None => f.quat,
         };
         if f.parent > 0 && !f.free {
-            quat = quat_mul(xquat[f.parent], quat);
+            let above = xquat[f.parent];
+            quat = if f.straight && f.mocap.is_none() { above } else { quat_mul(above, quat) };
         }
         for joint in &joints[f.joints.clone()] {
             quat = match joint.kind {

@@ -8,9 +8,11 @@
 use super::path::Path;
 use super::reflected::{self, On};
 use super::triangle;
+use crate::math::lanes::total;
 use crate::math::*;
 use crate::model::{Fields, Model};
 use std::ops::Range;
+use wide::f64x4;
 
 /// `crb` of all bodies, and the rows of `M` of some degrees of freedom (ascending, whole trees).
 pub(crate) fn composite_inertia(m: &Model, d: &mut Fields, path: &mut Path, of: &[Range<usize>]) {
@@ -275,10 +277,15 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
+    // Rows that the tree begins with, where they are done at once.
+    let mut first = 0;
     let mut end = dofs.end;
     while end > dofs.start {
         if let Some(n) = triangle::size_before(m, end) {
             end -= n;
+            if end == dofs.start {
+                first = n;
+            }
             triangle::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
             continue;
         }
@@ -293,7 +300,7 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
             }
         }
     }
-    for i in dofs {
+    for i in dofs.skip(first) {
         if triangle::size_before(m, i + 1).is_some() {
             continue; // done above
         }
@@ -335,15 +342,41 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     for i in dofs {
         let row = row(m, i);
         let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
-        let vi = v[i];
-        let mut s = diagonal * vi;
-        for (&j, a) in m.M_colind[row].iter().zip(before) {
-            let j = j as usize;
-            s += a * v[j];
-            // The upper triangle: j is an ancestor of i, so its own sum is already begun.
-            out[j] += a * vi;
+        if before.is_empty() {
+            out[i] = diagonal * v[i];
+            continue;
         }
-        out[i] = s;
+        let columns = &m.M_colind[row][..before.len()];
+        let ((fours, rest), (by_four, columns)) = (before.as_chunks::<4>(), columns.as_chunks::<4>());
+        let vi = v[i];
+        let mut sum = diagonal * vi;
+        // The upper triangle, too: the columns are ancestors of i, so that their own sums are already begun.
+        for (a, &j) in rest.iter().zip(columns) {
+            sum += a * v[j as usize];
+            out[j as usize] += a * vi;
+        }
+        if fours.is_empty() {
+            out[i] = sum;
+            continue;
+        }
+        let mut sums = f64x4::ZERO;
+        for (a, j) in fours.iter().zip(by_four) {
+            let (a, of) = (f64x4::new(*a), j.map(|j| j as usize));
+            let together = (j[3] - j[0] == 3).then_some(of[0]..of[3] + 1);
+            match together.and_then(|r| Some((v[r.clone()].first_chunk()?, out[r].first_chunk_mut()?))) {
+                Some((v, out)) => {
+                    sums += a * f64x4::new(*v);
+                    *out = (f64x4::new(*out) + a * vi).to_array();
+                }
+                None => {
+                    sums += a * f64x4::new(of.map(|j| v[j]));
+                    for (j, x) in of.into_iter().zip((a * vi).to_array()) {
+                        out[j] += x;
+                    }
+                }
+            }
+        }
+        out[i] = sum + total(sums);
     }
 }
 

@@ -29,6 +29,8 @@ use ways::Kept;
 pub(crate) struct Scratch {
     /// What each way of computing trees knows of its own.
     ways: Kept,
+    /// Whether `qLD` and `qLDiagInv` are still to be made of what a factorization has left.
+    rows_due: bool,
     /// Motions of ancestors, for rows of M.
     pub(crate) path: Path,
     /// Spatial accelerations and forces of bodies.
@@ -43,6 +45,7 @@ impl Scratch {
     pub(crate) fn new(m: &Model, ways: Ways) -> Scratch {
         Scratch {
             ways: Kept::new(m, ways),
+            rows_due: false,
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],

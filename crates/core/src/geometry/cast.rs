@@ -18,8 +18,8 @@ pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
         geom::ELLIPSOID => ray::ellipsoid(shape.size, &r),
         geom::CYLINDER => ray::cylinder(shape.size, &r),
         geom::BOX => ray::cuboid(shape.size, &r),
-        geom::MESH => surface::mesh(&shape.mesh, shape.size, &r),
-        geom::HFIELD => surface::field(&shape.field, &r),
+        geom::MESH => surface::mesh(&shape.mesh(), shape.size, &r),
+        geom::HFIELD => surface::field(&shape.field(), &r),
         _ => None,
     }?;
     Some(Hit { normal: mat_mul_vec(&shape.mat, hit.normal), ..hit })

@@ -15,9 +15,9 @@ pub(crate) struct Shape<'a> {
     /// Orientation of its frame, world.
     pub mat: Mat3,
     /// Its vertices, when it is a mesh.
-    pub mesh: Mesh<'a>,
+    pub mesh: Option<Mesh<'a>>,
     /// Its samples, when it is a height field.
-    pub field: Field<'a>,
+    pub field: Option<Field<'a>>,
 }
 
 /// The data of a mesh, in the frame of the geom.
@@ -68,7 +68,17 @@ impl Field<'_> {
 impl<'a> Shape<'a> {
     /// A primitive shape.
     pub(crate) fn new(kind: i32, size: Vec3, pos: Vec3, mat: Mat3) -> Shape<'a> {
-        Shape { kind, size, pos, mat, mesh: Mesh::default(), field: Field::default() }
+        Shape { kind, size, pos, mat, mesh: None, field: None }
+    }
+
+    /// Its vertices; none when it is no mesh.
+    pub(crate) fn mesh(&self) -> Mesh<'a> {
+        self.mesh.unwrap_or_default()
+    }
+
+    /// Its samples; none when it is no height field.
+    pub(crate) fn field(&self) -> Field<'a> {
+        self.field.unwrap_or_default()
     }
 
     /// The axis `i` of its frame, world.

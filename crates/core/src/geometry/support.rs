@@ -51,7 +51,9 @@ impl<'a> Body<'a> {
     /// What a support point costs.
     pub(super) fn price(&self) -> u64 {
         match self.form {
-            Form::Shape(s) if s.kind == geom::MESH && s.mesh.hull.is_none() => 20 + s.mesh.vert.len() as u64,
+            Form::Shape(s) if s.kind == geom::MESH && s.mesh().hull.is_none() => {
+                20 + s.mesh().vert.len() as u64
+            }
             _ => 40,
         }
     }
@@ -156,9 +158,9 @@ impl<'a> Body<'a> {
                 }
                 geom::CYLINDER => consider(s.axis(2)),
                 geom::MESH => {
-                    let vertex = self.mesh_vertex(&s.mesh, mat_t_mul_vec(&s.mat, dir));
-                    let at = |v: usize| s.mesh.vert.get(v).copied().unwrap_or_default();
-                    let Some(sides) = s.mesh.sides else { return List::new() };
+                    let vertex = self.mesh_vertex(&s.mesh(), mat_t_mul_vec(&s.mat, dir));
+                    let at = |v: usize| s.mesh().vert.get(v).copied().unwrap_or_default();
+                    let Some(sides) = s.mesh().sides else { return List::new() };
                     for (side, place) in sides.around(vertex) {
                         let list = sides.vertices(side);
                         let other = list[(place + 1) % list.len()] as usize;
@@ -202,9 +204,9 @@ impl<'a> Body<'a> {
                 point
             }
             geom::MESH => {
-                let v = self.mesh_vertex(&s.mesh, dir);
+                let v = self.mesh_vertex(&s.mesh(), dir);
                 self.corner = v as i32;
-                s.mesh.vert.get(v).copied().unwrap_or_default()
+                s.mesh().vert.get(v).copied().unwrap_or_default()
             }
             _ => [0.0; 3],
         }

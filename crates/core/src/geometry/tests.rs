@@ -80,11 +80,12 @@ impl Assets {
         let quat = quat_normalize([take(), take(), take(), take()]);
         let mut shape = Shape::new(kind, size, pos, quat_to_mat(quat));
         match kind {
-            geom::MESH => shape.mesh = self.mesh(data),
+            geom::MESH => shape.mesh = Some(self.mesh(data)),
             geom::HFIELD => {
                 let (head, samples) = self.field.as_ref().unwrap();
                 let size = [head[2], head[3], head[4], head[5]];
-                shape.field = Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples };
+                shape.field =
+                    Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
             }
             _ => {}
         }
@@ -395,12 +396,12 @@ fn hostile_numbers_are_harmless() {
         let pos = if k.is_multiple_of(2) { [0.0; 3] } else { [at(3), at(4), at(5)] };
         let mut s = Shape::new(kind as i32, [at(0), at(1), at(2)], pos, mat);
         if s.kind == geom::MESH {
-            s.mesh = assets.mesh(["wedge", "prism", "stone"][k % 3]);
+            s.mesh = Some(assets.mesh(["wedge", "prism", "stone"][k % 3]));
         }
         if s.kind == geom::HFIELD {
             let (head, samples) = assets.field.as_ref().unwrap();
             let size = [at(6), at(7), at(8), at(9)];
-            s.field = Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples };
+            s.field = Some(Field { size, nrow: head[0] as usize, ncol: head[1] as usize, data: samples });
         }
         s
     };

@@ -27,6 +27,13 @@ pub(crate) fn scatter<const N: usize>(lanes: [f64x4; N], rows: &mut [[f64; N]], 
     }
 }
 
+/// The sum of the lanes, in an order that is the same on every processor.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn total(lanes: f64x4) -> f64 {
+    let [a, b, c, d] = lanes.to_array();
+    (a + c) + (b + d)
+}
+
 /// The bodies 1 to n-1 by fours; the last ones repeat themselves to fill a vector, which changes nothing.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn by_fours(n: usize) -> impl Iterator<Item = [usize; 4]> {

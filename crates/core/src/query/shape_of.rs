@@ -14,8 +14,8 @@ impl<'a> Shape<'a> {
         let mut shape = Shape::new(m.geom_type[g], size, pos, mat);
         if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
             match shape.kind {
-                geom::MESH => shape.mesh = Mesh::of(m, id),
-                geom::HFIELD => shape.field = Field::of(m, id),
+                geom::MESH => shape.mesh = Some(Mesh::of(m, id)),
+                geom::HFIELD => shape.field = Some(Field::of(m, id)),
                 _ => {}
             }
         }
@@ -29,7 +29,7 @@ impl<'a> Shape<'a> {
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
         let mut shape = Shape::new(m.site_type[s], size, pos, mat);
         if let Ok(id) = usize::try_from(m.site_dataid[s]) {
-            shape.mesh = Mesh::of(m, id);
+            shape.mesh = Some(Mesh::of(m, id));
         }
         shape
     }

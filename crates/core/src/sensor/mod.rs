@@ -66,8 +66,8 @@ pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
     let mut values = std::mem::take(&mut d.sensordata);
     for s in 0..m.nsensor {
-        let wanted = d.plan.every_sensor || is_read(m, s, d.plan.sensed);
-        if m.sensor_needstage[s] == when as i32 && wanted && !sleeps(m, d, s) {
+        let wanted = || d.plan.every_sensor || is_read(m, s, d.plan.sensed);
+        if m.sensor_needstage[s] == when as i32 && wanted() && !sleeps(m, d, s) {
             let out = &mut values[places(m, s)];
             if !timing::past(m, d, s, out) {
                 read(m, d, w, s, out);

@@ -11,7 +11,7 @@
 //! Loan 2013, *Matrix Computations*, section 11.5).
 
 use crate::constraint;
-use crate::dynamics::mass;
+use crate::dynamics::{self, mass};
 use crate::forces::derivative;
 use crate::forces::derivative::Medium;
 use crate::forces::derivative::actuator_slope;
@@ -145,7 +145,13 @@ pub(crate) fn prepare_inverse(
 }
 
 /// `qacc` and forces of constraints, in the metric that [`acceleration`] has made. Its terms are rows of their own there.
-pub(crate) fn constraints(m: &Model, d: &mut Fields, w: &mut Metric, rows: &mut constraint::Scratch) {
+pub(crate) fn constraints(
+    m: &Model,
+    d: &mut Fields,
+    w: &mut Metric,
+    rows: &mut constraint::Scratch,
+    trees: &mut dynamics::Scratch,
+) {
     if d.nefc > 0 {
         constraint::at_end_of_step(m, d, rows, &w.diagonal);
     }
@@ -163,7 +169,7 @@ pub(crate) fn constraints(m: &Model, d: &mut Fields, w: &mut Metric, rows: &mut 
         w.solve_alone(m, &mut d.qacc_smooth);
     }
     exchange_metric(d, w);
-    constraint::solve(m, d, rows);
+    constraint::solve(m, d, rows, trees);
     exchange_metric(d, w);
     if apart {
         constraint::pop_metric(d, rows, own);

@@ -226,13 +226,9 @@ pub(super) fn acceleration(m: &Model, data: &mut Data) {
 /// The same where nothing makes forces but gravity and motion, M is diagonal, and nothing can touch: what flies.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn fall(d: &mut Fields) {
-    let n = d.qfrc_bias.len();
-    let forces = d.qfrc_bias.iter().zip(&d.qLDiagInv[..n]).zip(&mut d.qfrc_smooth[..n]);
-    let accelerations = d.qacc_smooth[..n].iter_mut().zip(&mut d.qacc[..n]);
-    for (((bias, inv), smooth), (free, qacc)) in forces.zip(accelerations) {
-        let force = 0.0 - bias;
-        (*smooth, *free, *qacc) = (force, force * inv, force * inv);
-    }
+    combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
+    combine(&mut d.qacc_smooth, [&*d.qfrc_smooth, &*d.qLDiagInv], |_, [force, inv]| force * inv);
+    copy(&d.qacc_smooth, &mut d.qacc);
 }
 
 /// Adds Jᵀ f for the force and torque applied at each body's centre of mass.
@@ -251,9 +247,9 @@ fn applied_forces(m: &Model, d: &mut Fields) {
 pub(super) fn solve(m: &Model, data: &mut Data) {
     let Data { fields: d, work } = &mut *data;
     if m.opt.integrator == integrator::DISCRETE {
-        discrete::constraints(m, d, &mut work.metric, &mut work.constraint);
+        discrete::constraints(m, d, &mut work.metric, &mut work.constraint, &mut work.dynamics);
     } else {
-        constraint::solve(m, d, &mut work.constraint);
+        constraint::solve(m, d, &mut work.constraint, &mut work.dynamics);
     }
     turn_free_bodies(m, data);
 }

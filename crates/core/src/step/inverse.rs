@@ -58,7 +58,7 @@ fn from_velocity(m: &Model, d: &mut Data) {
         let Work { metric, derivative, constraint, .. } = &mut d.work;
         discrete::prepare_inverse(m, &mut d.fields, metric, derivative, constraint);
     }
-    constraint::inverse(m, &mut d.fields, &mut d.work.constraint);
+    constraint::inverse(m, &mut d.fields, &mut d.work.constraint, &mut d.work.dynamics);
     forward::body_forces(m, d);
     forward::acceleration_sensors(m, d);
     let f = &mut d.fields;

@@ -15,13 +15,22 @@
 use super::{Damped, Factors, NOTHING, Own, Row};
 use crate::dynamics::{Scratch, mass, reflected};
 use crate::math::*;
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
 pub(super) const ROW: Row = Row {
     name: "articulated",
     covers,
-    factors: Some(Factors { without_mass: true, factor, solve, solve_with, solve_now, solve_both }),
+    factors: Some(Factors {
+        without_mass: true,
+        factor,
+        complete: rows_of_factor,
+        solve,
+        solve_with,
+        solve_now,
+        solve_both,
+    }),
     ..NOTHING
 };
 
@@ -241,7 +250,10 @@ fn with_carrier(
 #[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
-    rows_of_factor(m, d, w);
+    w.rows_due = d.plan.has(Fact::MassForRows);
+    if !w.rows_due {
+        rows_of_factor(m, d, w);
+    }
     bad
 }
 
@@ -338,6 +350,7 @@ fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64])
 }
 
 /// The rows of `qLD`, and `qLDiagInv`.
+#[inline(never)]
 fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let Trees { spans, untied, joints, .. } = &w.ways.articulated;
     if !*untied {

@@ -24,7 +24,15 @@ pub(super) const ROW: Row = Row {
         constant: |_, _| false,
         turns_alone: false,
     }),
-    factors: Some(Factors { without_mass: false, factor, solve, solve_with, solve_now, solve_both }),
+    factors: Some(Factors {
+        without_mass: false,
+        factor,
+        complete: |_, _, _| {},
+        solve,
+        solve_with,
+        solve_now,
+        solve_both,
+    }),
 };
 
 /// The frames of all bodies, and degrees of freedom that follow each other: those whose M it computes, and those that it

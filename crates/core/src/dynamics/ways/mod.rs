@@ -118,8 +118,10 @@ struct Forces {
 struct Factors {
     /// Whether M is not looked at.
     without_mass: bool,
-    /// `qLD` and `qLDiagInv`.
+    /// `qLD` and `qLDiagInv`; may be left to `complete` where only constraints look at them.
     factor: fn(&Model, &mut Fields, &mut Scratch) -> Option<usize>,
+    /// What `factor` has put off.
+    complete: fn(&Model, &mut Fields, &mut Scratch),
     /// x ← M⁻¹ x, by what `factor` has left.
     solve: fn(&Model, &Fields, &mut Scratch, &mut [f64]),
     /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after `factor`.
@@ -325,6 +327,15 @@ pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize
     let mut bad = None;
     each!(w, factors, |_way, row, of| bad = first(bad, (of.factor)(m, d, w)));
     bad
+}
+
+/// What [`factor`] has put off of `qLD` and `qLDiagInv`, for constraints that look at them: few steps do.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    if w.rows_due {
+        w.rows_due = false;
+        each!(w, factors, |_way, row, of| (of.complete)(m, d, w));
+    }
 }
 
 /// x ← M⁻¹ x by what [`factor`] has left.

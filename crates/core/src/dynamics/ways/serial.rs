@@ -12,7 +12,15 @@ use crate::model::{Fields, Model};
 pub(super) const ROW: Row = Row {
     name: "serial",
     covers,
-    factors: Some(Factors { without_mass: false, factor, solve, solve_with, solve_now, solve_both }),
+    factors: Some(Factors {
+        without_mass: false,
+        factor,
+        complete: |_, _, _| {},
+        solve,
+        solve_with,
+        solve_now,
+        solve_both,
+    }),
     ..NOTHING
 };
 

@@ -60,12 +60,17 @@ pub(crate) fn tendons(m: &Model, d: &mut Fields) {
 fn fixed(m: &Model, d: &Fields, t: usize, jacobian: &mut [f64]) -> f64 {
     let first = m.tendon_adr[t] as usize;
     let row = row(m, t);
-    let mut length = 0.0;
+    let columns = &m.ten_J_colind[row.clone()];
+    let (mut length, mut next) = (0.0, 0);
     for w in first..first + m.tendon_num[t] as usize {
         let (j, coefficient) = (m.wrap_objid[w] as usize, m.wrap_prm[w]);
         length += coefficient * d.qpos[m.jnt_qposadr[j] as usize];
-        if let Ok(at) = m.ten_J_colind[row.clone()].binary_search(&m.jnt_dofadr[j]) {
+        // As a rule joints come in their order.
+        let dof = m.jnt_dofadr[j];
+        let found = if columns.get(next) == Some(&dof) { Ok(next) } else { columns.binary_search(&dof) };
+        if let Ok(at) = found {
             jacobian[row.start + at] += coefficient;
+            next = at + 1;
         }
     }
     length

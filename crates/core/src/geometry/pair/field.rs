@@ -26,12 +26,12 @@ pub(super) fn field(
     let local = seen_from(ground, b);
     let mut body = Convex::new(&local);
     let bounds = bounds(&mut body);
-    if !is_near(&ground.field, &bounds, margin) {
+    if !is_near(&ground.field(), &bounds, margin) {
         return;
     }
     let half = 0.5 * margin;
     let start = out.len();
-    each_prism(&ground.field, &bounds, 0.0, margin, |corners| {
+    each_prism(&ground.field(), &bounds, 0.0, margin, |corners| {
         let found = nearest(&mut Convex::prism(corners), &mut body, half, settings.effort, room);
         if let Some(found) = found.filter(|n| n.dist < half) {
             let [on_a, on_b] = found.witness;
@@ -55,11 +55,11 @@ pub(crate) fn field_distance(
     let local = seen_from(ground, b);
     let mut body = Convex::new(&local);
     let bounds = bounds(&mut body);
-    if !is_near(&ground.field, &bounds, most) {
+    if !is_near(&ground.field(), &bounds, most) {
         return None;
     }
     let mut best: Option<Nearest> = None;
-    each_prism(&ground.field, &bounds, most, 0.0, |corners| {
+    each_prism(&ground.field(), &bounds, most, 0.0, |corners| {
         let cutoff = best.map_or(most, |n| n.dist.min(most));
         room.cost += PASSED;
         if gap(&corners, &bounds) > cutoff.max(0.0) {

@@ -113,7 +113,7 @@ pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut
 /// than four those that span the largest area; of these the ones within the margin and below the centre.
 pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
-    let mesh = &other.mesh;
+    let mesh = &other.mesh();
     let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);
     let at = |v: usize| {
         let point = other.world(mesh.vert.get(v).copied().unwrap_or_default());

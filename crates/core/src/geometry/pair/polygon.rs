@@ -166,7 +166,7 @@ impl Feature {
             }
             geom::BOX => box_corner(s, corner, &mut at_corner),
             _ => {
-                if let (Some(sides), Ok(vertex)) = (s.mesh.sides, usize::try_from(body.corner())) {
+                if let (Some(sides), Ok(vertex)) = (s.mesh().sides, usize::try_from(body.corner())) {
                     mesh_corner(s, sides, vertex, corner, &mut at_corner);
                 }
             }
@@ -233,7 +233,7 @@ fn mesh_corner(s: &Shape, sides: &Sides, vertex: usize, corner: Vec3, out: &mut 
         let list = sides.vertices(index);
         let other = list[(at + 1) % list.len()] as usize;
         out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, sides.normal(index)) });
-        out.edges.push([corner, s.world(s.mesh.vert.get(other).copied().unwrap_or_default())]);
+        out.edges.push([corner, s.world(s.mesh().vert.get(other).copied().unwrap_or_default())]);
     }
 }
 
@@ -258,9 +258,9 @@ fn corners(s: &Shape, face: usize) -> Corners {
             }
         }
         _ => {
-            let vertices = s.mesh.sides.map_or(&[][..], |sides| sides.vertices(face));
+            let vertices = s.mesh().sides.map_or(&[][..], |sides| sides.vertices(face));
             for &v in vertices.iter().rev() {
-                out.push(s.world(s.mesh.vert.get(v as usize).copied().unwrap_or_default()));
+                out.push(s.world(s.mesh().vert.get(v as usize).copied().unwrap_or_default()));
             }
         }
     }

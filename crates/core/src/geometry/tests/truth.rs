@@ -66,7 +66,7 @@ pub(super) fn farthest(s: &Shape, dir: Vec3) -> Vec3 {
         geom::BOX => [x * sign(local[0]), y * sign(local[1]), z * sign(local[2])],
         _ => {
             let height = |v: &Vec3| dot(*v, local);
-            s.mesh.vert.iter().copied().max_by(|u, v| height(u).total_cmp(&height(v))).unwrap()
+            s.mesh().vert.iter().copied().max_by(|u, v| height(u).total_cmp(&height(v))).unwrap()
         }
     })
 }
@@ -82,9 +82,9 @@ fn faces_and_edges(s: &Shape) -> (Vec<Vec3>, Vec<Vec3>) {
         let axes = [0, 1, 2].map(|i| s.axis(i)).to_vec();
         return (axes.clone(), axes);
     }
-    let point = |v: i32| s.world(s.mesh.vert[v as usize]);
+    let point = |v: i32| s.world(s.mesh().vert[v as usize]);
     let (mut normals, mut edges) = (Vec::new(), Vec::new());
-    for f in s.mesh.hull.unwrap().face {
+    for f in s.mesh().hull.unwrap().face {
         let [p, q, r] = f.map(point);
         normals.push(normalize(cross(sub(q, p), sub(r, p))).0);
         edges.extend([sub(q, p), sub(r, q), sub(p, r)].map(|e| normalize(e).0));
@@ -198,7 +198,7 @@ fn shape<'a>(kind: i32, r: &mut Random, solids: &'a [Solid]) -> Shape<'a> {
     let size = [0; 3].map(|_| if flat { 10f64.powf(r.within(-4.0, 0.0)) } else { r.within(0.05, 0.6) });
     let mut s = Shape::new(kind, size, [0.0; 3], r.turn());
     if kind == geom::MESH {
-        s.mesh = solids[r.below(solids.len())].mesh();
+        s.mesh = Some(solids[r.below(solids.len())].mesh());
         s.size = [0.4; 3];
     }
     s
@@ -439,7 +439,8 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
         let kind =
             [geom::SPHERE, geom::CAPSULE, geom::ELLIPSOID, geom::CYLINDER, geom::BOX, geom::MESH][case % 6];
         let mut ground = Shape::new(geom::HFIELD, [1.2, 0.9, 0.3], r.vector(-0.2, 0.2), r.turn());
-        ground.field = crate::geometry::Field { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data };
+        ground.field =
+            Some(crate::geometry::Field { size: [1.2, 0.9, 0.5, 0.3], nrow: 5, ncol: 7, data: &data });
         let mut b = shape(kind, &mut r, &solids);
         b.pos = r.vector(-2.5, 2.5);
         let most = [0.0, 0.3, 1e3][r.below(3)];
@@ -448,14 +449,14 @@ fn distances_of_height_fields_are_those_of_their_prisms() {
         for row in 0..4 {
             for col in 0..6 {
                 let [p, q, s, t] = [(row, col), (row, col + 1), (row + 1, col), (row + 1, col + 1)]
-                    .map(|(i, j)| ground.field.point(i, j));
+                    .map(|(i, j)| ground.field().point(i, j));
                 for top in [[p, s, t], [p, q, t]] {
                     let low = top.map(|[x, y, _]| [x, y, -0.3]);
                     let corners = [low[0], low[1], low[2], top[0], top[1], top[2]].map(|p| ground.world(p));
                     // In the world a prism is any body with corners.
                     let vert = corners.to_vec();
                     let mut prism = Shape::new(geom::MESH, [1.0; 3], [0.0; 3], EYE);
-                    prism.mesh.vert = &vert;
+                    prism.mesh = Some(Mesh { vert: &vert, ..Default::default() });
                     let (mut u, mut v) = (Convex::new(&prism), Convex::new(&b));
                     if let Some(n) = nearest(&mut u, &mut v, 1e3, settings.effort, &mut work.room) {
                         least = least.min(n.dist);
