@@ -531,7 +531,7 @@ mod tests {
             wide += usize::from(columns.len() == 12);
         }
         assert!(jac.blocks.len() > wide && wide > 0);
-        let mut same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
+        let same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
             let mut filled = 0;
             for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
                 let [a, b] = [a.entry(i, j).copied(), b.entry(i, j).copied()];
