@@ -3,6 +3,7 @@
 //! There are hundreds of them: in the module the loop is there once for each type of object, and for each array what it takes
 //! of an object.
 
+use super::gather::put;
 use super::spec::List;
 
 /// Numbers of each object, one after the other.
@@ -32,29 +33,9 @@ fn integers<T>(list: impl Iterator<Item = T>, of: &mut dyn FnMut(T) -> i32) -> V
     out
 }
 
-/// Appends an item; in the module once, however many lists are made.
-#[inline(never)]
-fn put<T>(list: &mut Vec<T>, item: T) {
-    list.push(item);
-}
-
-/// The items, put in one by one: `collect` makes room for what will come, and has the code that finds the first item twice.
-pub(super) fn listed<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
-    let mut out = Vec::new();
-    items.into_iter().for_each(|item| put(&mut out, item));
-    out
-}
-
 /// The user values of each object, `width` of them.
 pub(super) fn padded<'l>(lists: impl Iterator<Item = &'l List>, width: usize) -> Vec<f64> {
     let mut out = Vec::new();
     lists.for_each(|l| (0..width).for_each(|k| put(&mut out, l.numbers.get(k).copied().unwrap_or(0.0))));
     out
-}
-
-/// A map or set of items, put in one by one: `collect` sorts first, and a sort is a lot of code for each type.
-pub(super) fn filled<C: Default + Extend<T>, T>(items: impl IntoIterator<Item = T>) -> C {
-    let mut all = C::default();
-    all.extend(items);
-    all
 }

@@ -1,6 +1,7 @@
 //! Specifications to the arrays of [`Model`].
 
-use super::arrays::{flat, ints, listed, padded};
+use super::arrays::{flat, ints, padded};
+use super::gather::listed;
 use super::layout::{Dof, Layout, Pattern, WholePattern};
 use super::spec::{
     ActuatorSpec, BodySpec, EqualitySpec, ExcludeSpec, GeomSpec, Inertia, JointSpec, KeySpec, PairSpec,

@@ -4,8 +4,8 @@
 use super::spec::{BodySpec, Inertia};
 use crate::kinds::joint;
 use crate::math::{Quat, Vec3};
-use crate::mjcf::arrays::listed;
 use crate::mjcf::body::inertia::shown;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 

@@ -19,6 +19,7 @@ mod constraint;
 mod context;
 mod expand;
 mod fill;
+mod gather;
 mod geom;
 mod ids;
 mod layout;

@@ -14,7 +14,7 @@ use super::text::files::Files;
 use super::text::patch::{Patch, Refusal};
 use super::text::{load, tree};
 use super::{context, expand, fill, ids, layout, names, settings};
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::model::Model;
 

@@ -2,7 +2,8 @@
 
 use super::check_actuator::{controls, outputs};
 use crate::forces::{history, transmission};
-use crate::mjcf::arrays::{flat, ints, listed, padded};
+use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
 use crate::mjcf::text::diagnostic::Report;

@@ -1,6 +1,6 @@
 //! Actuators: what their classes and elements say, and what they act on.
 
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 use std::rc::Rc;
 
 use super::{check_actuator, shortcut};

@@ -5,7 +5,8 @@ use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
 use crate::geometry::{self, Sides};
 use crate::math::Vec3;
-use crate::mjcf::arrays::{flat, ints, listed};
+use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::gather::listed;
 use crate::mjcf::scene::fill_scene::{Places, single as single_each};
 use crate::model::Model;
 

@@ -1,6 +1,6 @@
 //! `asset`: meshes, height fields and skins, from text, files and rules, numbered in the order of the text.
 
-use crate::mjcf::arrays::{filled, listed};
+use crate::mjcf::gather::{filled, listed};
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 

@@ -4,8 +4,8 @@ use crate::math::{
     IDENTITY, Mat3, Quat, Vec3, add_scaled, cross, dot, norm, normalize, quat_axis_angle, quat_mul,
     quat_normalize,
 };
-use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::schema::{ALTERNATIVES, is_form};
 use crate::mjcf::settings::Compiler;

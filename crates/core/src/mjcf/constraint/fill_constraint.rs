@@ -1,6 +1,7 @@
 //! Equality constraints, contact pairs and exclusions to the arrays of [`Model`].
 
-use crate::mjcf::arrays::{flat, ints, listed};
+use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::gather::listed;
 use crate::mjcf::spec::{EqualitySpec, ExcludeSpec, PairSpec};
 use crate::model::Model;
 

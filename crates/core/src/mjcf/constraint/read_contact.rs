@@ -1,8 +1,8 @@
 //! Explicit contact pairs, and bodies that do not touch.
 
 use crate::math::sort::sort_by_key;
-use crate::mjcf::arrays::listed;
 use crate::mjcf::context::Context;
+use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{BodySpec, ExcludeSpec, PairSpec, SOLIMP, SOLREF};

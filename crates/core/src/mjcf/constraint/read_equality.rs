@@ -1,9 +1,9 @@
 //! Equality constraints: what they tie, and their data as far as the text gives it.
 
 use crate::kinds::{eqtype, joint};
-use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
+use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{EqualitySpec, SOLIMP, SOLREF};

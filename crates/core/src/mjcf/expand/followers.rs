@@ -1,6 +1,6 @@
 //! What goes with copies of a part: sensors, tendons and all else that refers to it.
 
-use crate::mjcf::arrays::{filled, listed};
+use crate::mjcf::gather::{filled, listed};
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::copy::own_name;

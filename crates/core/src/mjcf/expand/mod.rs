@@ -10,7 +10,7 @@ mod copy;
 mod followers;
 pub(crate) mod references;
 
-use crate::mjcf::arrays::{filled, listed};
+use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeMap;
 
 use super::MAX_ELEMENTS;

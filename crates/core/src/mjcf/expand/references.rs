@@ -1,6 +1,6 @@
 //! Which objects an element refers to, and whether it is copied with them.
 
-use crate::mjcf::arrays::{filled, listed};
+use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
 
 use crate::mjcf::names::WORLD;

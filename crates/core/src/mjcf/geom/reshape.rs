@@ -4,7 +4,7 @@
 //!
 //! What is kept and in which order follows MuJoCo 3.14.0 (XML reference, `compiler`; measured on the library).
 
-use crate::mjcf::arrays::{filled, listed};
+use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
 
 use crate::kinds::joint;

@@ -1,6 +1,7 @@
 //! Geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
 
-use crate::mjcf::arrays::{filled, flat, ints, listed};
+use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::gather::{filled, listed};
 use crate::mjcf::spec::{
     CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec,
 };

@@ -1,8 +1,8 @@
 //! Keyframes: states to start from.
 
-use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::fill::Sizes;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::KeySpec;
 use crate::mjcf::text::diagnostic::Report;

@@ -2,9 +2,9 @@
 
 use crate::kinds::geom;
 use crate::math::normalize;
-use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
+use crate::mjcf::gather::listed;
 use crate::mjcf::geom::read_geom::fromto;
 use crate::mjcf::geom::{read_form, shapes};
 use crate::mjcf::ids::{Ids, References};

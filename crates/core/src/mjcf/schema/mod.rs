@@ -174,7 +174,7 @@ macro_rules! attributes {
     };
     ($($rows:tt)*) => { $crate::mjcf::schema::attributes!(@ [] $($rows)*) };
 }
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 use attributes;
 
 const REAL: Kind = Kind::Reals(1, 1);

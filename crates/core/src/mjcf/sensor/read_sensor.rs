@@ -3,8 +3,8 @@
 //! Kinds of sensors and what each can be attached to stand in [`crate::sensor`]'s table.
 
 use crate::kinds::joint;
-use crate::mjcf::arrays::listed;
 use crate::mjcf::classes::Props;
+use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;

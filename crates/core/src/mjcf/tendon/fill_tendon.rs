@@ -2,7 +2,8 @@
 
 use crate::forces::tendon;
 use crate::kinds::{trntype, wraptype};
-use crate::mjcf::arrays::{flat, ints, listed, padded};
+use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, TendonSpec};
 use crate::mjcf::text::diagnostic::Report;

@@ -1,10 +1,10 @@
 //! Tendons: attributes and paths.
 
 use crate::kinds::{geom, wraptype};
-use crate::mjcf::arrays::listed;
 use crate::mjcf::body::limits;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
+use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::settings::checked;

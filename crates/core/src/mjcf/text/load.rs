@@ -4,7 +4,7 @@
 //! As in MuJoCo, paths are seen from the folder of the model, the root element of an included file is dropped
 //! with its attributes, and no file is included twice.
 
-use crate::mjcf::arrays::filled;
+use crate::mjcf::gather::filled;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;

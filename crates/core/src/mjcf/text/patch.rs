@@ -6,7 +6,7 @@
 use super::diagnostic::nearest;
 use super::xml::{Attribute, Element};
 use crate::math::sort::sort;
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 use crate::mjcf::schema::{self, INCLUDE, Kind, ROOT};
 
 /// Elements that stand at most once and may be left out of a text; the second one stands in the first.

@@ -3,7 +3,7 @@
 //! Elements stand in one list and hold their children by index, so that depth costs no stack and texts of several
 //! files can be put together.
 
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, ParsingOptions};

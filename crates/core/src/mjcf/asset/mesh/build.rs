@@ -6,9 +6,9 @@ use super::bulk::Mass;
 use super::normals;
 use crate::math::sort::sort;
 use crate::math::{IDENTITY, MINVAL, Quat, Vec3, mat_t_mul_vec, quat_normalize, quat_to_mat, sub};
-use crate::mjcf::arrays::listed;
 use crate::mjcf::asset::mesh::{Flat, Hull, Mesh, Problem, Raw, triangle};
 use crate::mjcf::body::inertia::principal_to;
+use crate::mjcf::gather::listed;
 
 /// How well the axes of a mesh are found, and how far apart moments are that are not equal: as a part of the largest element
 /// of its inertia. MuJoCo 3.14.0 was measured: boxes that are turned, and whose sides differ, by little.

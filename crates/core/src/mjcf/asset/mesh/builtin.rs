@@ -1,7 +1,7 @@
 //! Meshes that are made by a rule: `builtin` with `params`. The order of vertices and triangles is MuJoCo 3.14.0's,
 //! measured on the library.
 
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 

@@ -5,7 +5,7 @@
 //! left is rounding, and it becomes a normal.
 
 use crate::math::{MINVAL, Vec3, cross, dot, normalize, scale, sub};
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 
 /// Cosine of the largest angle of a triangle that counts.
 const SHARP: f64 = 0.8;

@@ -2,7 +2,7 @@
 //! have ears*). Which ear comes first is MuJoCo 3.14.0's choice, measured on the library.
 
 use crate::math::{Vec3, cross, dot, sub};
-use crate::mjcf::arrays::listed;
+use crate::mjcf::gather::listed;
 
 /// The triangles of a polygon, as places in it. A polygon that crosses itself may be covered only in part.
 pub(super) fn triangles(corners: &[Vec3]) -> Vec<[usize; 3]> {
