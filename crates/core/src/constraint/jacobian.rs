@@ -131,6 +131,7 @@ impl Free {
     fn of(descending: &[u32]) -> Free {
         let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
         match *descending {
+            _ if SMALL => Free::default(),
             [a, _, _, _, _, b] if six(a, b) => Free { bodies: 1, first: [b, b] },
             [a, _, _, _, _, b, c, _, _, _, _, d] if six(a, b) && six(c, d) => {
                 Free { bodies: 2, first: [d, b] }

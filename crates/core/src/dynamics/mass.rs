@@ -362,7 +362,7 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         let mut sums = f64x4::ZERO;
         for (a, j) in fours.iter().zip(by_four) {
             let (a, of) = (f64x4::new(*a), j.map(|j| j as usize));
-            let together = (j[3] - j[0] == 3).then_some(of[0]..of[3] + 1);
+            let together = (!SMALL && j[3] - j[0] == 3).then_some(of[0]..of[3] + 1);
             match together.and_then(|r| Some((v[r.clone()].first_chunk()?, out[r].first_chunk_mut()?))) {
                 Some((v, out)) => {
                     sums += a * f64x4::new(*v);
