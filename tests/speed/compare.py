@@ -170,6 +170,9 @@ def switched(model, off, folder):
     """A copy of a model with something switched off."""
     text = pathlib.Path(model).read_text()
     text = re.sub(r"(<mujoco[^>]*>)", rf'\1<option><flag {off}="disable"/></option>', text, count=1)
+    # What it attaches lies beside it.
+    for attached in re.findall(r'<model[^>]*file="([^"]+)"', text):
+        shutil.copy(pathlib.Path(model).parent / attached, folder)
     copy = pathlib.Path(folder) / pathlib.Path(model).name
     copy.write_text(text)
     return str(copy)
