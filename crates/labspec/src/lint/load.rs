@@ -33,7 +33,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 }
 
 /// The same of a lesson that lies at this path, with the labs of other lessons that it names.
-pub(crate) fn load_lesson_at(file: SourceFile, path: &Path, models: &ModelFolder) -> Lesson {
+pub fn load_lesson_at(file: SourceFile, path: &Path, models: &ModelFolder) -> Lesson {
     let mut lesson = load_lesson(file, models);
     lesson.others = read_others(&lesson, path);
     lesson

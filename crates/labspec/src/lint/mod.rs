@@ -15,9 +15,9 @@ mod markup;
 pub(crate) mod model;
 mod models;
 
-pub(crate) use load::load_lesson_at;
 pub use load::{
-    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_file, not_utf8, snapshot_path, withhold_fixes,
+    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, snapshot_path,
+    withhold_fixes,
 };
 pub use models::ModelFolder;
 pub(crate) use models::{lesson_folder, root_of};

@@ -23,7 +23,7 @@ impl Lesson {
     }
 
     /// The objects that one uses, one after the other.
-    pub(crate) fn used_by<'a>(&'a self, verify: &'a Verify) -> impl Iterator<Item = &'a Verify> {
+    pub fn used_by<'a>(&'a self, verify: &'a Verify) -> impl Iterator<Item = &'a Verify> {
         let next = |of: &&'a Verify| self.verify_at(&of.uses.as_ref()?.1);
         std::iter::successors(next(&verify), next).take(LONGEST)
     }
