@@ -181,6 +181,7 @@ impl<'a> Problem<'a> {
 
     /// ½ gᵀ M⁻¹ g where M is diagonal.
     fn decrement_by_diagonal(&mut self) -> f64 {
+        ways::complete(self.m, self.d, self.trees);
         let of =
             |r: Range<usize>| sum([&self.d.qLDiagInv[r.clone()], &self.s.grad[r]], |[inv, g]| inv * g * g);
         0.5 * self.dofs().map(of).sum::<f64>()
