@@ -277,40 +277,33 @@ pub(crate) fn solve(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64], dofs
         triangle::solve_rows(n, ld, diag_inv, x);
         return;
     }
-    // Rows that the tree begins with, where they are done at once.
-    let mut first = 0;
-    let mut end = dofs.end;
-    while end > dofs.start {
-        if let Some(n) = triangle::size_before(m, end) {
-            end -= n;
-            if end == dofs.start {
-                first = n;
-            }
-            triangle::solve_rows(n, &ld[m.M_rowadr[end] as usize..], &diag_inv[end..], &mut x[end..]);
-            continue;
-        }
-        end -= 1;
-        let (values, columns) = below(m, ld, end);
-        let xi = x[end];
-        if are_serial(columns, end) {
-            subtract(&mut x[end - values.len()..end], values, xi);
-        } else {
-            for (l, &j) in values.iter().zip(columns) {
-                x[j as usize] -= l * xi;
+    // The rows that the tree begins with are done at once, when both passes have come to them.
+    let head = dofs.start + triangle::size_from(m, &dofs);
+    for i in (head..dofs.end).rev() {
+        let (values, columns) = below(m, ld, i);
+        let xi = x[i];
+        match consecutive(columns) {
+            Some(range) if range.len() <= 3 => triangle::subtract_row(&mut x[range], values, xi),
+            Some(range) => subtract(&mut x[range], values, xi),
+            None => {
+                for (l, &j) in values.iter().zip(columns) {
+                    x[j as usize] -= l * xi;
+                }
             }
         }
     }
-    for i in dofs.skip(first) {
-        if triangle::size_before(m, i + 1).is_some() {
-            continue; // done above
-        }
+    let first = m.M_rowadr[dofs.start] as usize;
+    triangle::solve_rows(head - dofs.start, &ld[first..], &diag_inv[dofs.start..], &mut x[dofs.start..]);
+    for i in head..dofs.end {
         let (values, columns) = below(m, ld, i);
         let mut s = x[i] * diag_inv[i];
-        if are_serial(columns, i) {
-            s -= dot_slice(values, &x[i - values.len()..i]);
-        } else {
-            for (l, &j) in values.iter().zip(columns) {
-                s -= l * x[j as usize];
+        match consecutive(columns) {
+            Some(range) if range.len() <= 3 => s = triangle::less_row(s, values, &x[range]),
+            Some(range) => s -= dot_slice(values, &x[range]),
+            None => {
+                for (l, &j) in values.iter().zip(columns) {
+                    s -= l * x[j as usize];
+                }
             }
         }
         x[i] = s;
@@ -325,10 +318,11 @@ fn below<'a>(m: &'a Model, ld: &'a [f64], i: usize) -> (&'a [f64], &'a [i32]) {
     (&ld[start..end], &m.M_colind[start..end])
 }
 
-/// Whether the columns of a row that is not short are consecutive, as those of a serial chain are.
+/// Columns that follow each other, as those of a serial chain do and of what it carries.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn are_serial(columns: &[i32], i: usize) -> bool {
-    columns.len() > 3 && columns[0] as usize + columns.len() == i
+fn consecutive(columns: &[i32]) -> Option<Range<usize>> {
+    let range = *columns.first()? as usize..*columns.last()? as usize + 1;
+    (range.len() == columns.len()).then_some(range)
 }
 
 /// out ← M v for the degrees of freedom `dofs` (ascending, whole trees).

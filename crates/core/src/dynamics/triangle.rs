@@ -4,6 +4,7 @@
 
 use crate::math::MINVAL;
 use crate::model::Model;
+use std::ops::Range;
 
 /// Calls a function with the number of rows and of entries of a triangle as constants.
 macro_rules! by_size {
@@ -17,12 +18,31 @@ macro_rules! by_size {
 }
 pub(super) use by_size;
 
+/// The same with the number of rows alone, which may be none.
+macro_rules! by_length {
+    ($n:expr, $function:ident($($argument:expr),*)) => {
+        match $n {
+            0 => $function::<0>($($argument),*),
+            1 => $function::<1>($($argument),*),
+            2 => $function::<2>($($argument),*),
+            _ => $function::<3>($($argument),*),
+        }
+    };
+}
+
 /// Size of the serial tree whose last degree of freedom is the one before `end`, when it is small.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn size_before(m: &Model, end: usize) -> Option<usize> {
     let n = m.M_rownnz[end - 1] as usize;
     // Columns ascend: they are consecutive when the first is where consecutive ones would begin.
     (n <= 3 && m.M_colind[m.M_rowadr[end - 1] as usize] as usize == end - n).then_some(n)
+}
+
+/// How many rows a tree begins with that are a triangle.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn size_from(m: &Model, dofs: &Range<usize>) -> usize {
+    let lengths = m.M_rownnz[dofs.clone()].iter().zip(1..=3);
+    lengths.take_while(|&(&length, n)| length == n).count()
 }
 
 /// The factorization of a packed triangle of `n` rows, in place.
@@ -51,6 +71,33 @@ pub(super) fn solve_at<const N: usize, const T: usize>(
 ) {
     if let (Some(ld), Some(diag_inv), Some(x)) = (ld.first_chunk(), diag_inv.first_chunk(), part_mut(x, at)) {
         solve::<N, T>(ld, diag_inv, x);
+    }
+}
+
+/// x ← x - xi row for at most three numbers.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn subtract_row(x: &mut [f64], row: &[f64], xi: f64) {
+    by_length!(row.len(), subtract_part(x, row, xi));
+}
+
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn subtract_part<const N: usize>(x: &mut [f64], row: &[f64], xi: f64) {
+    if let (Some(x), Some(row)) = (x.first_chunk_mut::<N>(), row.first_chunk::<N>()) {
+        (0..N).for_each(|k| x[k] -= row[k] * xi);
+    }
+}
+
+/// s - row · x for at most three numbers.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn less_row(s: f64, row: &[f64], x: &[f64]) -> f64 {
+    by_length!(row.len(), less_part(s, row, x))
+}
+
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn less_part<const N: usize>(s: f64, row: &[f64], x: &[f64]) -> f64 {
+    match (row.first_chunk::<N>(), x.first_chunk::<N>()) {
+        (Some(row), Some(x)) => (0..N).fold(s, |s, k| s - row[k] * x[k]),
+        _ => s,
     }
 }
 

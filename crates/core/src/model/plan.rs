@@ -51,6 +51,9 @@ pub(crate) enum Fact {
     /// All actuators are motors or servos of slides, hinges and tendons: their forces follow from a control, a length and a
     /// velocity.
     Servos,
+    /// How forces of actuators and dampers change with velocities follows from the model alone, which stays as it is, and from which
+    /// actuators are held by a range.
+    SlopesStay,
     /// Forces of actuators are limited, one by one or by joint.
     ForceLimits,
     /// The solver says more than forces: `efc_b` and `efc_state`.
@@ -106,6 +109,7 @@ impl Default for Plan {
             Fact::DampersStay,
             Fact::Motors,
             Fact::Servos,
+            Fact::SlopesStay,
             Fact::Unforced,
             Fact::Ballistic,
         ];

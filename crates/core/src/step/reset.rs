@@ -56,6 +56,7 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
         d.plan.passes = by_the_clock(d.plan.passes);
     }
     ways::load(m, &mut d.work.dynamics);
+    d.work.derivative.forget();
     if sleep::is_fresh(&d.work.sleep) {
         lay_down(m, d);
     }

@@ -1,7 +1,7 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
 use crate::dynamics::ways;
-use crate::forces::{actuation, derivative};
+use crate::forces::{actuation, derivative, tendon};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
 use crate::model::plan::Fact;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
@@ -85,7 +85,7 @@ type Test = fn(&Scene) -> bool;
 
 /// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
 /// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(Fact, Test); 21] = [
+pub(super) const FACTS: [(Fact, Test); 22] = [
     (Fact::General, |s| s.general),
     (Fact::Composite, |s| s.large || s.reads_field("crb")),
     (Fact::Recursion, |s| s.large),
@@ -101,6 +101,7 @@ pub(super) const FACTS: [(Fact, Test); 21] = [
     (Fact::ActuatorDampers, |s| s.damped().is_none() || s.m.jnt_actuatorid.iter().any(|&i| i != -1)),
     (Fact::Motors, |s| s.actuators_are(Scene::is_motor)),
     (Fact::Servos, |s| s.actuators_are(Scene::is_servo)),
+    (Fact::SlopesStay, |s| s.slopes_stay()),
     (Fact::ForceLimits, |s| {
         s.m.actuator_forcelimited.contains(&true)
             || s.m.jnt_actfrclimited.contains(&true)
@@ -323,6 +324,20 @@ impl<'a> Scene<'a> {
         let switched = self.writes(Object::Option, &["disableactuator"])
             || self.writes(Object::Model, &["actuator_group", "actuator_gear"]);
         !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
+    }
+
+    /// Whether forces change with velocities by numbers of the model that stay: linear dampers and servos, along joints and fixed
+    /// tendons.
+    pub(super) fn slopes_stay(&self) -> bool {
+        let growth = [JOINT_FORCES[1], TENDON_FORCES[3], ACTUATOR_DAMPING[1]];
+        let numbers = ["actuator_gainprm", "actuator_biasprm", "wrap_prm", TENDON_FORCES[2].0];
+        !self.sleeps
+            && !self.fluid
+            && self.damped().is_some()
+            && !self.some(&growth)
+            && !self.writes(Object::Model, &numbers)
+            && (self.m.nactuator == 0 || self.actuators_are(Scene::is_servo))
+            && (0..self.m.ntendon).all(|t| tendon::is_fixed(self.m, t))
     }
 
     /// Whether some sensor that is evaluated uses the results of a stage.

@@ -7,12 +7,21 @@ use crate::model::{Fields, Model};
 
 use super::sparse;
 
-/// Adds the derivative of `qfrc_actuator` with respect to `qvel`.
-pub(super) fn add_velocity(m: &Model, d: &Fields, out: &mut [f64]) {
-    if m.opt.disabled(disable::ACTUATION) {
-        return;
+/// `acting` ← which actuators follow their laws; whether they are others than before.
+pub(super) fn others_act(m: &Model, d: &Fields, acting: &mut [bool]) -> bool {
+    let on = !m.opt.disabled(disable::ACTUATION);
+    let mut others = false;
+    for (i, acting) in acting.iter_mut().enumerate() {
+        let now = on && acts(m, d, i);
+        others |= now != *acting;
+        *acting = now;
     }
-    for i in (0..m.nactuator).filter(|&i| acts(m, d, i)) {
+    others
+}
+
+/// Adds the derivative of `qfrc_actuator` with respect to `qvel`, of those that are acting.
+pub(super) fn add_velocity(m: &Model, d: &Fields, acting: &[bool], out: &mut [f64]) {
+    for (i, _) in acting.iter().enumerate().filter(|(_, acting)| **acting) {
         let slope = slopes(m, d, i).velocity;
         if slope != 0.0 {
             for (dofs, moment) in moments(m, d, i) {

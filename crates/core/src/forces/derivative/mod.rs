@@ -23,6 +23,11 @@ use crate::model::{Fields, Model};
 pub(crate) struct Work {
     /// The derivative, then the matrix M - h D and its factorization.
     pub(crate) whole: Vec<f64>,
+    /// That of actuators, dampers and the medium alone.
+    forces: Vec<f64>,
+    /// Whether `forces` is that of the model as it is, and of which actuators.
+    known: bool,
+    acting: Vec<bool>,
     /// The motion of a frame for a unit velocity of each degree of freedom that moves it.
     columns: Vec<Spatial>,
     /// How fast the force of the damper of each degree of freedom falls with its velocity.
@@ -44,23 +49,43 @@ pub(crate) enum Medium {
 impl Work {
     fn resize(&mut self, m: &Model) {
         self.whole.resize(m.nD, 0.0);
+        self.forces.resize(m.nD, 0.0);
+        self.acting.resize(m.nactuator, false);
         self.columns.resize(m.nv, [0.0; 6]);
         self.slopes.resize(m.nv, 0.0);
         self.bias.resize(m);
     }
+
+    /// The parameters of the model, or the plan, may be others.
+    pub(crate) fn forget(&mut self) {
+        self.known = false;
+    }
 }
 
 /// `w.whole` ← the derivative of forces of actuators, dampers and the medium.
+///
+/// Where it is known once and for all how forces change with velocities, all that may change is which actuators are held by a range:
+/// as long as they are the same ones, it stays.
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
+    if !(w.known && d.plan.has(Fact::SlopesStay) && !actuator_slope::others_act(m, d, &mut w.acting)) {
+        make_forces(m, d, w, medium);
+    }
+    w.whole.copy_from_slice(&w.forces);
+}
+
+fn make_forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
-    w.whole.fill(0.0);
-    actuator_slope::add_velocity(m, d, &mut w.whole);
+    w.forces.fill(0.0);
+    actuator_slope::others_act(m, d, &mut w.acting);
+    actuator_slope::add_velocity(m, d, &w.acting, &mut w.forces);
     if !m.opt.disabled(disable::DAMPER) {
         dampers(m, d, w);
     }
     if fluid::acts(m) {
-        add_fluid(m, d, w, medium);
+        let Work { forces, columns, .. } = w;
+        add_fluid(m, d, columns, forces, medium);
     }
+    w.known = true;
 }
 
 /// Subtracts the derivative of the bias force of all trees.
@@ -105,7 +130,7 @@ pub(crate) fn tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
 pub(crate) fn medium(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.whole.fill(0.0);
-    add_fluid(m, d, w, medium);
+    add_fluid(m, d, &mut w.columns, &mut w.whole, medium);
 }
 
 /// M - h D for a free joint, given its first degree of freedom, with a matrix in the place of M.
@@ -134,7 +159,7 @@ pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
 
 /// Dampers of joints and tendons.
 fn dampers(m: &Model, d: &Fields, w: &mut Work) {
-    let Work { whole: out, slopes, .. } = w;
+    let Work { forces: out, slopes, .. } = w;
     let actuators = d.plan.has(Fact::ActuatorDampers);
     spring::of_dampers(m, actuators, &d.qvel, slopes, |law, v| law.slope(v.abs()));
     for (i, slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
@@ -151,8 +176,7 @@ fn dampers(m: &Model, d: &Fields, w: &mut Work) {
 }
 
 /// Adds Jᵀ B J for the derivative B of the forces on every body or geom in the medium.
-fn add_fluid(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
-    let Work { whole, columns, .. } = w;
+fn add_fluid(m: &Model, d: &Fields, columns: &mut [Spatial], out: &mut [f64], medium: Medium) {
     fluid::shapes(m, d, |frame, shape| {
         let last = walk::last_dof(m, frame.body);
         if last < 0 {
@@ -175,7 +199,7 @@ fn add_fluid(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
                     std::cmp::Ordering::Equal => sparse::diagonal(m, i),
                     std::cmp::Ordering::Greater => sparse::pair(m, i, j, b).0,
                 };
-                whole[place] += dot(columns[a], force);
+                out[place] += dot(columns[a], force);
             }
         }
     });
