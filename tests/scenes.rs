@@ -79,11 +79,39 @@ pub(crate) struct Tendon {
     armature: f64,
 }
 
+/// Actuators that any joint of one coordinate, and any tendon, may have.
+const ACTUATORS: [&str; 8] = [
+    "motor gear='2'",
+    "position kp='30' kv='2'",
+    "velocity kv='3'",
+    "damper kv='2' ctrlrange='0 1'",
+    "intvelocity kp='20' actrange='-1 1'",
+    "position kp='10' timeconst='0.05'",
+    "general gaintype='affine' gainprm='3 -1 -0.5' biastype='affine' biasprm='0.2 -4 -1'",
+    "muscle ctrlrange='0 1' lengthrange='-1 1' force='5'",
+];
+/// `Euler` three times out of seven.
+const INTEGRATORS: [&str; 7] = ["Euler", "Euler", "Euler", "RK4", "implicit", "implicitfast", "discrete"];
+
+/// An actuator.
+#[derive(Clone, Debug)]
+pub(crate) struct Actuator {
+    /// Place in `ACTUATORS`, and what it acts on.
+    kind: usize,
+    on: usize,
+    /// Largest force.
+    most: Option<f64>,
+    /// Damping and inertia that it adds to what it acts on.
+    damping: f64,
+    armature: f64,
+}
+
 /// A scene.
 #[derive(Clone)]
 pub(crate) struct Scene {
     bodies: Vec<Body>,
     tendons: Vec<Tendon>,
+    actuators: Vec<Actuator>,
     /// Density of the medium, kg/m^3.
     density: f64,
     floor: bool,
@@ -91,7 +119,8 @@ pub(crate) struct Scene {
     /// Places in `SENSORS`.
     pub(crate) sensors: Vec<usize>,
     energy: bool,
-    rk4: bool,
+    /// Place in `INTEGRATORS`.
+    integrator: usize,
 }
 
 fn triple(size: f64) -> impl Strategy<Value = Triple> {
@@ -157,20 +186,29 @@ fn tendon() -> impl Strategy<Value = Tendon> {
         })
 }
 
+fn actuator() -> impl Strategy<Value = Actuator> {
+    let most = prop::option::of(0.05..2.0);
+    (0..ACTUATORS.len(), 0usize..1000, most, sometimes(0.5), sometimes(0.05))
+        .prop_map(|(kind, on, most, damping, armature)| Actuator { kind, on, most, damping, armature })
+}
+
 /// Scenes of one to five bodies.
 pub(crate) fn scene() -> impl Strategy<Value = Scene> {
     let density = prop_oneof![3 => Just(0.0), 1 => 0.1..20.0];
     let sensors = prop_oneof![Just(vec![]), vec(0..SENSORS.len(), 1..4)];
-    (vec(body(), 1..6), vec(tendon(), 0..3), density, sensors, any::<(bool, bool, bool, bool)>()).prop_map(
-        |(bodies, tendons, density, sensors, (floor, mocap, energy, rk4))| Scene {
+    let actuators = prop_oneof![Just(vec![]), vec(actuator(), 1..4)];
+    let parts = (vec(body(), 1..6), vec(tendon(), 0..3), actuators);
+    (parts, density, sensors, 0..INTEGRATORS.len(), any::<(bool, bool, bool)>()).prop_map(
+        |((bodies, tendons, actuators), density, sensors, integrator, (floor, mocap, energy))| Scene {
             bodies,
             tendons,
+            actuators,
             density,
             floor,
             mocap,
             sensors,
             energy,
-            rk4,
+            integrator,
         },
     )
 }
@@ -217,8 +255,8 @@ impl Scene {
     /// With all that a scene may have, or without what constrains.
     fn write(&self, constraints: bool) -> String {
         let mut text = String::from("<mujoco><option");
-        if self.rk4 && constraints {
-            text.push_str(" integrator=\"RK4\"");
+        if constraints {
+            let _ = write!(text, " integrator=\"{}\"", INTEGRATORS[self.integrator]);
         }
         if self.density > 0.0 && constraints {
             let _ = write!(text, " density=\"{}\" viscosity=\"0.01\" wind=\"0.5 0 0\"", self.density);
@@ -245,8 +283,15 @@ impl Scene {
         text.push_str("</worldbody>");
         if constraints {
             text.push_str("<tendon>");
-            self.tendons.iter().for_each(|t| t.write(self.bodies.len(), &scalars, &mut text));
-            text.push_str("</tendon>");
+            for (i, tendon) in self.tendons.iter().enumerate() {
+                tendon.write(&format!("t{i}"), self.bodies.len(), &scalars, &mut text);
+            }
+            text.push_str("</tendon><actuator>");
+            let joints = scalars.iter().map(|j| format!("joint='{j}'"));
+            let on: Vec<String> =
+                joints.chain((0..self.tendons.len()).map(|i| format!("tendon='t{i}'"))).collect();
+            self.actuators.iter().for_each(|a| a.write(&on, &mut text));
+            text.push_str("</actuator>");
         }
         text.push_str("<sensor>");
         self.sensors.iter().for_each(|&i| text.push_str(SENSORS[i]));
@@ -310,10 +355,10 @@ impl Scene {
 }
 
 impl Tendon {
-    fn write(&self, bodies: usize, scalars: &[String], text: &mut String) {
+    fn write(&self, name: &str, bodies: usize, scalars: &[String], text: &mut String) {
         let (k, growth) = self.stiffness;
         let laws = format!(
-            "stiffness=\"{k} {growth}\" damping=\"{} {growth}\" springlength=\"0.1 0.4\"",
+            "name=\"{name}\" stiffness=\"{k} {growth}\" damping=\"{} {growth}\" springlength=\"0.1 0.4\"",
             self.damping
         );
         if let (true, [first, .., last]) = (self.fixed, scalars) {
@@ -344,6 +389,19 @@ impl Tendon {
             let _ = write!(text, "<site site=\"s{}\"/><site site=\"anchor\"/>", site % bodies);
         }
         text.push_str("</spatial>");
+    }
+}
+
+impl Actuator {
+    fn write(&self, on: &[String], text: &mut String) {
+        if on.is_empty() {
+            return;
+        }
+        let _ = write!(text, "<{} {}", ACTUATORS[self.kind], on[self.on % on.len()]);
+        if let Some(most) = self.most {
+            let _ = write!(text, " forcerange='-{most} {most}'");
+        }
+        let _ = write!(text, " damping='{}' armature='{}'/>", self.damping, self.armature);
     }
 }
 

@@ -394,8 +394,9 @@ impl<'a> Scene<'a> {
         let bodies =
             |&t: &usize| derivative::is_free_rigid(self.m, t) && !ways::turns_alone(self.m, self.ways, t);
         let free = || (0..self.m.ntree).any(|t| bodies(&t));
+        let of_free = [integrator::IMPLICITFAST, integrator::DISCRETE];
         self.may_integrate_by(integrator::IMPLICIT)
-            || self.may_integrate_by(integrator::IMPLICITFAST) && free()
+            || of_free.into_iter().any(|kind| self.may_integrate_by(kind)) && free()
     }
 
     /// The first field of a stage that is read, as a reason.
