@@ -455,11 +455,27 @@ fn a_force_that_nobody_announced_acts() {
 /// Parameters that a plan was told would stay may change all the same: it is made again.
 #[test]
 fn a_parameter_that_nobody_announced_counts() {
-    let mut m = model("pendulum");
+    unannounced(model("pendulum"), |m| {
+        m.edit().dof_damping[0] = 0.7;
+        m.edit().body_mass[1] *= 2.0;
+    });
+}
+
+/// So may those that say how forces change with velocities, which are looked at once.
+#[test]
+fn a_slope_that_nobody_announced_counts() {
+    let slide = "<mujoco><option integrator='implicitfast'/><worldbody><body><joint name='x' type='slide' damping='1'/>\
+                 <geom size='.1'/></body></worldbody><actuator><position joint='x' kp='90' kv='5'/></actuator></mujoco>";
+    unannounced(compile(slide), |m| m.edit().actuator_biasprm[2] = -40.0);
+    unannounced(compile(slide), |m| m.edit().dof_damping[0] = 30.0);
+}
+
+/// Steps with a plan before and after `change` end as full steps after it.
+fn unannounced(mut m: Model, change: impl Fn(&mut Model)) {
     let mut planned = Data::planned(&m, Plan::new(&m, &reading(&["qpos"])));
+    planned.edit().qvel[0] = 1.0;
     core::step(&m, &mut planned).unwrap();
-    m.edit().dof_damping[0] = 0.7;
-    m.edit().body_mass[1] *= 2.0;
+    change(&mut m);
     let mut full = Data::unplanned(&m);
     core::state::copy(&m, &planned, &mut full, core::state::INTEGRATION).unwrap();
     for _ in 0..20 {
