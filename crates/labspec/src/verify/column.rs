@@ -19,23 +19,19 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
     let stage = court.bound.stage();
     stage.spend(LOOK * court.shown.cells() as u64);
     if stage.left() == 0 {
-        let message = "the work of a check was spent before this column";
-        findings.push(
-            Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), message)
-                .why("nothing was compared")
-                .help("make the runs shorter, or claim fewer columns in one lesson"),
-        );
-        return vec![Quote::unclear(&claim.column, message)];
+        let spent = "the work of a check was spent before this column";
+        let told = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
+            .why("nothing was compared")
+            .help("make the runs shorter, or claim fewer columns in one lesson");
+        return vec![refused(&claim.column, told, findings)];
     }
     let cells = match quote::cells(claim, court.shown) {
         Ok(cells) => cells,
         Err([message, help]) => {
-            findings.push(
-                Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message.clone())
-                    .why("nothing was compared: the text was changed, or says it in other words")
-                    .help(help),
-            );
-            return vec![Quote::unclear(&claim.column, &message)];
+            let told = Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message)
+                .why("nothing was compared: the text was changed, or says it in other words")
+                .help(help);
+            return vec![refused(&claim.column, told, findings)];
         }
     };
     let unit = quote::unit_of_head(claim.column.as_str());
@@ -55,13 +51,11 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
         let member = read.and_then(|read| values.iter().position(|x| read.is(*x)));
         let Some(member) = member else {
             let message = format!("nothing was run for the row \"{}\"", key.value);
-            findings.push(
-                Finding::new(rules::QUOTE_UNCLEAR, key.span(), message.clone())
-                    .why("the number in this row was compared with nothing")
-                    .help("run the sweep with this value, too, or correct the row")
-                    .related(list.span(), "these are the values"),
-            );
-            all.push(Quote::unclear(&text, &message));
+            let told = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
+                .why("the number in this row was compared with nothing")
+                .help("run the sweep with this value, too, or correct the row")
+                .related(list.span(), "these are the values");
+            all.push(refused(&text, told, findings));
             continue;
         };
         all.push(cell(court, &text, &claim.is, &unit, &format!("[{member}]"), findings));
@@ -93,30 +87,24 @@ fn cell(
     let Some((_, expr)) = words.iter().find(|(word, _)| quote::same(word.as_str(), text.as_str())) else {
         let message = format!("nothing says when \"{}\" is right", text.value);
         let known: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
-        findings.push(
-            Finding::new(rules::QUOTE_UNCLEAR, text.span(), message.clone())
-                .why("this cell was compared with nothing")
-                .help(format!("write one of {}, or a condition for this word", known.join(", "))),
-        );
-        return Quote::unclear(text, &message);
+        let told = Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
+            .why("this cell was compared with nothing")
+            .help(format!("write one of {}, or a condition for this word", known.join(", ")));
+        return refused(text, told, findings);
     };
     if words.len() > MOST_WORDS {
         let message = format!("a column has {} words, and at most {MOST_WORDS} are read", words.len());
-        findings.push(
-            Finding::error(rules::QUOTE_UNCLEAR, text.span(), message.clone())
-                .why("nothing was compared")
-                .help("claim its cells one by one, with `row`"),
-        );
-        return Quote::unclear(text, &message);
+        let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
+            .why("nothing was compared")
+            .help("claim its cells one by one, with `row`");
+        return refused(text, told, findings);
     }
     if !quote::parts(text.as_str()).is_empty() {
         let message = format!("\"{}\" holds a number, which no condition checks", text.value);
-        findings.push(
-            Finding::error(rules::QUOTE_UNCLEAR, text.span(), message.clone())
-                .why("whatever the number says, the cell would be called right")
-                .help("quote it under `says`: an expression for its number, and a condition for its words"),
-        );
-        return Quote::unclear(text, &message);
+        let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
+            .why("whatever the number says, the cell would be called right")
+            .help("quote it under `says`: an expression for its number, and a condition for its words");
+        return refused(text, told, findings);
     }
     let expr = part(expr, member);
     let given = match Given::of(court, &expr, findings) {
@@ -130,17 +118,22 @@ fn cell(
                 continue;
             }
             let message = format!("\"{}\" may be right in this row, too", word.value);
-            findings.push(
-                Finding::error(rules::QUOTE_UNCLEAR, other.span(), message.clone())
-                    .why("one of several words can be right only where the others are not")
-                    .help("write conditions that exclude each other")
-                    .related(text.span(), "the row"),
-            );
-            return Quote::unclear(text, &message);
+            let told = Finding::error(rules::QUOTE_UNCLEAR, other.span(), message)
+                .why("one of several words can be right only where the others are not")
+                .help("write conditions that exclude each other")
+                .related(text.span(), "the row");
+            return refused(text, told, findings);
         }
     }
     let claim = quote::Claim { quote: text, part: "", expr: &expr };
     says::words(court, &claim, &given, &[text.span()], findings)
+}
+
+/// What was compared with nothing, and was told so.
+fn refused(text: &Text, told: Finding, findings: &mut Vec<Finding>) -> Quote {
+    let quote = Quote::unclear(text, &told.message);
+    findings.push(told);
+    quote
 }
 
 /// The numbers of a list.

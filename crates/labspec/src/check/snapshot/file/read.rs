@@ -1,0 +1,203 @@
+//! What a text says, or where it is not as it is written.
+
+use super::super::digits;
+use super::{Fault, HEAD, NOTHING, OPEN, SAME, StoredLab, StoredRow, StoredRun};
+use crate::printable::printable;
+use crate::source::SourceFile;
+use std::collections::BTreeSet;
+
+/// Reads what was written.
+///
+/// # Errors
+/// The first thing that is not as it is written.
+pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLab>, Fault> {
+    let mut reader = Reader { lines: file.text().lines().collect(), at: 0 };
+    reader.head()?;
+    let mut labs: Vec<StoredLab> = Vec::new();
+    let mut known = BTreeSet::new();
+    loop {
+        let Some(line) = reader.next() else {
+            return Err(
+                reader.fault(0, "the file ends here, without the line `end of … labs`: it is not whole")
+            );
+        };
+        if let Some(rest) = line.strip_prefix("lab ") {
+            let start = reader.at - 1;
+            let [address, _] = reader.names(rest, 4)?;
+            if !known.insert(address.clone()) {
+                return Err(reader.fault(4, &format!("the lab {address} stands here a second time")));
+            }
+            let runs = reader.runs()?;
+            let lines = reader.lines.get(start..reader.at).unwrap_or_default();
+            let text = lines.iter().filter(|l| !is_empty(l)).map(|l| format!("{l}\n")).collect();
+            labs.push(StoredLab { address, runs, text });
+        } else if let Some(rest) = line.strip_prefix("end of ") {
+            if rest != format!("{} labs", labs.len()) {
+                return Err(
+                    reader.fault(7, &format!("there are {} labs above, and this says `{rest}`", labs.len()))
+                );
+            }
+            return match reader.next() {
+                None => Ok(labs),
+                Some(_) => Err(reader.fault(0, "nothing stands behind the end")),
+            };
+        } else {
+            return Err(reader.fault(0, "here a lab begins (`lab \"#1\" \"title\"`), or the end stands"));
+        }
+    }
+}
+
+fn is_empty(line: &str) -> bool {
+    line.trim().is_empty() || line.starts_with('#')
+}
+
+struct Reader<'t> {
+    lines: Vec<&'t str>,
+    /// The line that comes next.
+    at: usize,
+}
+
+impl<'t> Reader<'t> {
+    /// A mistake in the line that was read last, behind so many characters.
+    fn fault(&self, before: usize, message: &str) -> Fault {
+        Fault { line: self.at.max(1), column: before + 1, message: message.to_string() }
+    }
+
+    fn head(&mut self) -> Result<(), Fault> {
+        self.at = 1;
+        match self.lines.first() {
+            Some(line) if *line == HEAD => Ok(()),
+            Some(line) if line.starts_with("labspec snapshot ") => {
+                Err(self.fault(17, "this is of another version: labspec snapshot --accept writes it anew"))
+            }
+            _ => Err(self.fault(0, &format!("this is no snapshot: one begins with `{HEAD}`"))),
+        }
+    }
+
+    /// The next line in which something stands.
+    fn next(&mut self) -> Option<&'t str> {
+        while let Some(line) = self.lines.get(self.at) {
+            self.at += 1;
+            if !is_empty(line) {
+                return Some(line);
+            }
+        }
+        self.at = self.lines.len();
+        None
+    }
+
+    /// The next line, if it begins like this.
+    fn next_with(&mut self, start: &str) -> Option<&'t str> {
+        let before = self.at;
+        let rest = self.next().and_then(|line| line.strip_prefix(start));
+        if rest.is_none() {
+            self.at = before;
+        }
+        rest
+    }
+
+    /// Two texts between quotes.
+    fn names(&self, rest: &str, before: usize) -> Result<[String; 2], Fault> {
+        let words = self.words(rest, before)?;
+        let text = |i: usize| words.get(i).and_then(|(_, w)| serde_json::from_str::<String>(w).ok());
+        match (text(0), text(1), words.len()) {
+            (Some(a), Some(b), 2) => Ok([a, b]),
+            _ => {
+                Err(self.fault(before, "here the address of a lab and its title stand, both between quotes"))
+            }
+        }
+    }
+
+    /// The words of a line, each with the characters before it: what is between quotes is one.
+    fn words(&self, line: &'_ str, before: usize) -> Result<Vec<(usize, String)>, Fault> {
+        let mut words: Vec<(usize, String)> = Vec::new();
+        let mut letters = line.chars().enumerate().peekable();
+        while let Some((i, c)) = letters.next() {
+            if c.is_whitespace() {
+                continue;
+            }
+            let mut word = String::from(c);
+            if c == '"' {
+                let mut escaped = false;
+                let mut closed = false;
+                for (_, c) in letters.by_ref() {
+                    word.push(c);
+                    if c == '"' && !escaped {
+                        closed = true;
+                        break;
+                    }
+                    escaped = c == '\\' && !escaped;
+                }
+                if !closed || serde_json::from_str::<String>(&word).is_err() {
+                    return Err(self.fault(before + i, "this text between quotes is not whole"));
+                }
+            } else {
+                while let Some((_, c)) = letters.next_if(|(_, c)| !c.is_whitespace()) {
+                    word.push(c);
+                }
+            }
+            words.push((before + i, word));
+        }
+        Ok(words)
+    }
+
+    fn runs(&mut self) -> Result<Vec<StoredRun>, Fault> {
+        let mut runs: Vec<StoredRun> = Vec::new();
+        while let Some(name) = self.next_with("run ") {
+            if runs.iter().any(|run| run.name == name) {
+                return Err(self.fault(4, "this run stands here a second time"));
+            }
+            let about = self.next_with("  ");
+            let about = about
+                .ok_or_else(|| self.fault(0, "below the name of a run stand its length and its timestep"))?;
+            let about = about.split(", ").map(str::to_string).collect();
+            if let (Some(first), Some(_)) = (runs.first(), self.next_with(&format!("  {SAME}"))) {
+                let run = StoredRun { name: name.to_string(), about, ..first.clone() };
+                runs.push(run);
+                continue;
+            }
+            let times = self.next_with("  ").map(|line| self.words(line, 2)).transpose()?.unwrap_or_default();
+            if times.first().is_none_or(|(_, word)| word != "time") || times.len() < 2 {
+                return Err(self.fault(0, "here the times of a run stand, behind the word `time`"));
+            }
+            let time = |(at, word): &(usize, String)| {
+                let t = word.parse::<f64>().ok().filter(|t| t.is_finite());
+                t.ok_or_else(|| self.fault(*at, &format!("`{}` is no time", shortened(word))))
+            };
+            let times: Vec<f64> = times.iter().skip(1).map(time).collect::<Result<_, _>>()?;
+            let mut rows = Vec::new();
+            while let Some(line) = self.next_with("  ") {
+                rows.push(self.row(line, times.len())?);
+            }
+            runs.push(StoredRun { name: name.to_string(), about, times, rows });
+        }
+        Ok(runs)
+    }
+
+    fn row(&self, line: &str, columns: usize) -> Result<StoredRow, Fault> {
+        let mut words = self.words(line, 2)?.into_iter();
+        let name = words.next().and_then(|(_, w)| serde_json::from_str(&w).ok());
+        let Some(name) = name else {
+            return Err(self.fault(2, "here the name of a trace or a readout stands, between quotes"));
+        };
+        let words: Vec<(usize, String)> = words.collect();
+        if words.len() != columns {
+            let end = line.chars().count() + 2;
+            return Err(self.fault(end, &format!("here are {} values, for {columns} times", words.len())));
+        }
+        for (at, word) in &words {
+            let fixed = [OPEN, NOTHING, "true", "false", "nan", "inf", "-inf"];
+            if !fixed.contains(&word.as_str()) && !word.starts_with('"') && digits::read(word).is_none() {
+                return Err(self.fault(*at, &format!("`{}` is no value", shortened(word))));
+            }
+        }
+        Ok(StoredRow { name, cells: words.into_iter().map(|(_, w)| w).collect(), line: self.at })
+    }
+}
+
+/// The beginning of a word that somebody else wrote.
+fn shortened(word: &str) -> String {
+    let short: String = word.chars().take(24).collect();
+    let more = if short.len() < word.len() { "…" } else { "" };
+    format!("{}{more}", printable(&short))
+}

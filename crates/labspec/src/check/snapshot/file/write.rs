@@ -1,0 +1,125 @@
+//! What labs show, as a text.
+
+use super::super::digits;
+use super::super::runs::Taken;
+use super::{HEAD, LONG, NOTHING, OPEN, SAME, WIDE};
+use crate::printable::{printable, printable_json};
+use crate::run::Cell;
+use std::fmt::Write;
+
+/// The text of a file. `name` is that of the lesson, without its folder.
+pub(in crate::check::snapshot) fn whole<'t>(name: &str, labs: impl Iterator<Item = &'t str>) -> String {
+    let mut text = format!(
+        "{HEAD}\n\
+         # What the labs of {} show at 11 times: as they stand, with each slider at its ends, each select at\n\
+         # its other options, after each button. A number has the digits that neither half the timestep nor a start moved\n\
+         # by 1e-14 changes, at most five ({OPEN}: none; {NOTHING}: nothing is shown), and is as stored while it rounds to them.\n\
+         # Written by `labspec snapshot`; look at changes with `labspec snapshot --review`.\n",
+        printable(name)
+    );
+    let mut count = 0;
+    for lab in labs {
+        text.push('\n');
+        text.push_str(lab);
+        count += 1;
+    }
+    let _ = writeln!(text, "\nend of {count} labs");
+    text
+}
+
+/// The lines of a lab. Each run has its values, and the same under the numerics that digits must survive.
+pub(in crate::check::snapshot) fn lab(address: &str, title: &str, runs: &[(Taken, Vec<Taken>)]) -> String {
+    let mut text = format!("lab {} {}\n", quoted(address), quoted(title));
+    let mut first = String::new();
+    for (run, others) in runs {
+        let mut rows = vec![times(run)];
+        for (i, (name, cells)) in run.rows.iter().enumerate() {
+            let others: Vec<&Vec<Cell>> = others.iter().filter_map(|o| Some(&o.rows.get(i)?.1)).collect();
+            rows.push((quoted(name), row(cells, &others)));
+        }
+        let _ = writeln!(text, "run {}\n  {}", printable(&run.name), run.about.join(", "));
+        let mut shown = String::new();
+        table(&rows, &mut shown);
+        if shown == first {
+            shown = format!("  {SAME}\n");
+        } else if first.is_empty() {
+            first.clone_from(&shown);
+        }
+        text.push_str(&shown);
+    }
+    text
+}
+
+fn times(run: &Taken) -> (String, Vec<String>) {
+    ("time".into(), run.times.iter().map(|t| crate::verify::significant(*t)).collect())
+}
+
+/// The values of a row with the digits that all its numerics share.
+fn row(cells: &[Cell], others: &[&Vec<Cell>]) -> Vec<String> {
+    let numbers: Vec<f64> = cells.iter().filter_map(number).collect();
+    let (finest, coarsest) = digits::units(&numbers);
+    let one = |(i, cell): (usize, &Cell)| match number(cell).filter(|x| x.is_finite()) {
+        None => {
+            let text = plain(cell);
+            let same = others.iter().all(|o| o.get(i).map(plain).as_ref() == Some(&text));
+            if same { text } else { OPEN.into() }
+        }
+        Some(x) => {
+            let at = |unit: i32| {
+                let text = digits::written(x, unit);
+                let same = |o: &&Vec<Cell>| {
+                    o.get(i)
+                        .and_then(number)
+                        .is_some_and(|y| y.is_finite() && digits::written(y, unit) == text)
+                };
+                others.iter().all(same).then_some(text)
+            };
+            (finest..=coarsest).find_map(at).unwrap_or_else(|| OPEN.into())
+        }
+    };
+    cells.iter().enumerate().map(one).collect()
+}
+
+fn number(cell: &Cell) -> Option<f64> {
+    match cell {
+        Cell::Number(x) => Some(*x),
+        _ => None,
+    }
+}
+
+/// What is no number: a text, a truth value, nothing.
+pub(in crate::check::snapshot) fn plain(cell: &Cell) -> String {
+    match cell {
+        Cell::Number(x) => crate::run::shown(*x, 6),
+        Cell::Bool(b) => b.to_string(),
+        Cell::Nothing => NOTHING.into(),
+        Cell::Text(text) if text.chars().count() <= LONG => quoted(text),
+        Cell::Text(text) => {
+            let start: String = text.chars().take(LONG).collect();
+            let mark = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
+                (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+            });
+            quoted(&format!("{start}… ({} bytes, {mark:016x})", text.len()))
+        }
+    }
+}
+
+fn quoted(text: &str) -> String {
+    printable_json(&serde_json::Value::from(text).to_string()).into_owned()
+}
+
+/// Names to the left, numbers to the right, in columns.
+fn table(rows: &[(String, Vec<String>)], text: &mut String) {
+    let width = |of: &str| of.chars().count();
+    let names = rows.iter().map(|(name, _)| width(name)).max().unwrap_or(0);
+    let columns = rows.iter().map(|(_, cells)| cells.len()).max().unwrap_or(0);
+    let widest = |k: usize| rows.iter().filter_map(|(_, cells)| cells.get(k)).map(|c| width(c)).max();
+    let widths: Vec<usize> = (0..columns).map(|k| widest(k).unwrap_or(0).max(WIDE)).collect();
+    for (name, cells) in rows {
+        let _ = write!(text, "  {name:names$}");
+        for (cell, width) in cells.iter().zip(&widths) {
+            let _ = write!(text, "  {cell:>width$}");
+        }
+        text.push('\n');
+    }
+}
