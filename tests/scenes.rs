@@ -106,12 +106,31 @@ pub(crate) struct Actuator {
     armature: f64,
 }
 
+/// What ties a body or a joint, and how constraints are solved.
+#[derive(Clone, Debug, Default)]
+struct Ties {
+    /// Places in `TIES`, each with two things to tie.
+    list: Vec<(usize, usize, usize)>,
+    frictionloss: f64,
+    cone: bool,
+    condim: usize,
+    /// Place in `SOLVERS`.
+    solver: usize,
+    noslip: bool,
+    sleep: bool,
+}
+
+/// Equality constraints: of two bodies, or of two joints.
+const TIES: [&str; 4] = ["weld", "connect", "joint", "tendon"];
+const SOLVERS: [&str; 4] = ["Newton", "Newton", "CG", "PGS"];
+
 /// A scene.
 #[derive(Clone)]
 pub(crate) struct Scene {
     bodies: Vec<Body>,
     tendons: Vec<Tendon>,
     actuators: Vec<Actuator>,
+    ties: Ties,
     /// Density of the medium, kg/m^3.
     density: f64,
     floor: bool,
@@ -203,6 +222,7 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
             bodies,
             tendons,
             actuators,
+            ties: Ties::default(),
             density,
             floor,
             mocap,
@@ -211,6 +231,33 @@ pub(crate) fn scene() -> impl Strategy<Value = Scene> {
             integrator,
         },
     )
+}
+
+/// The same with equality constraints and dry friction, cones, every solver, and trees that sleep.
+#[allow(dead_code)] // one of the two users of this file has no need of it
+pub(crate) fn tied_scene() -> impl Strategy<Value = Scene> {
+    let list = vec((0..TIES.len(), 0usize..1000, 0usize..1000), 0..3);
+    let condim = prop_oneof![2 => Just(0usize), 1 => Just(4), 1 => Just(6)];
+    let ties = (
+        list,
+        sometimes(0.5),
+        any::<bool>(),
+        condim,
+        0..SOLVERS.len(),
+        any::<bool>(),
+        prop::bool::weighted(0.2),
+    )
+        .prop_map(|(list, frictionloss, cone, condim, solver, noslip, sleep)| Ties {
+            list,
+            frictionloss,
+            cone,
+            condim,
+            solver,
+            noslip,
+            sleep,
+        });
+    (scene(), prop_oneof![1 => Just(Ties::default()), 2 => ties])
+        .prop_map(|(scene, ties)| Scene { ties, ..scene })
 }
 
 /// A failing test shows the model, which is what one wants to load.
@@ -257,14 +304,18 @@ impl Scene {
         let mut text = String::from("<mujoco><option");
         if constraints {
             let _ = write!(text, " integrator=\"{}\"", INTEGRATORS[self.integrator]);
+            let cone = if self.ties.cone { "elliptic" } else { "pyramidal" };
+            let noslip = if self.ties.noslip { 3 } else { 0 };
+            let solver = SOLVERS[self.ties.solver];
+            let _ = write!(text, " cone='{cone}' solver='{solver}' noslip_iterations='{noslip}'");
         }
         if self.density > 0.0 && constraints {
             let _ = write!(text, " density=\"{}\" viscosity=\"0.01\" wind=\"0.5 0 0\"", self.density);
         }
         text.push('>');
-        if self.energy || !constraints {
-            text.push_str("<flag energy=\"enable\"/>");
-        }
+        let on = |on: bool| if on { "enable" } else { "disable" };
+        let (energy, sleep) = (on(self.energy || !constraints), on(self.ties.sleep && constraints));
+        let _ = write!(text, "<flag energy='{energy}' sleep='{sleep}'/>");
         text.push_str("</option><worldbody>");
         if self.floor && constraints {
             text.push_str("<geom type=\"plane\" size=\"1 1 1\" pos=\"0 0 -0.1\"/>");
@@ -291,13 +342,32 @@ impl Scene {
             let on: Vec<String> =
                 joints.chain((0..self.tendons.len()).map(|i| format!("tendon='t{i}'"))).collect();
             self.actuators.iter().for_each(|a| a.write(&on, &mut text));
-            text.push_str("</actuator>");
+            text.push_str("</actuator><equality>");
+            self.ties.list.iter().for_each(|&tie| self.tie(tie, &scalars, &mut text));
+            text.push_str("</equality>");
         }
         text.push_str("<sensor>");
         self.sensors.iter().for_each(|&i| text.push_str(SENSORS[i]));
         text.push_str("</sensor>");
         text.push_str("</mujoco>");
         text
+    }
+
+    fn tie(&self, (kind, one, two): (usize, usize, usize), scalars: &[String], text: &mut String) {
+        let (bodies, tendons) = (self.bodies.len(), self.tendons.len());
+        let [b1, b2] = [one % bodies, two % bodies];
+        let _ = match TIES[kind] {
+            "weld" if b1 != b2 => write!(text, "<weld body1='b{b1}' body2='b{b2}'/>"),
+            "connect" if b1 != b2 => write!(text, "<connect body1='b{b1}' body2='b{b2}' anchor='0 0 0.1'/>"),
+            "joint" if !scalars.is_empty() => {
+                write!(text, "<joint joint1='{}' polycoef='0.1 1 0 0 0'/>", scalars[one % scalars.len()])
+            }
+            // Not where trees sleep: the engine says that it does not simulate this.
+            "tendon" if tendons > 0 && !self.ties.sleep => {
+                write!(text, "<tendon tendon1='t{}'/>", one % tendons)
+            }
+            _ => Ok(()),
+        };
     }
 
     /// The body that holds body `i`, `None` for the world.
@@ -324,7 +394,7 @@ impl Scene {
                     if turns && joint.kind != 1 { &Joint { kind: 1, ..joint.clone() } } else { joint };
                 turns |= joint.kind == 0 || (joint.kind == 2 && b.joints.iter().any(|j| j.kind == 0));
                 let name = format!("j{i}_{k}");
-                joint.write(&name, constraints, text);
+                joint.write(&name, constraints, self.ties.frictionloss, text);
                 if joint.kind % 3 != 0 {
                     scalars.push(name);
                 }
@@ -336,7 +406,7 @@ impl Scene {
             match &b.material {
                 _ if !constraints => text.push_str(" contype=\"0\" conaffinity=\"0\""),
                 Some((time, damping, friction, slides, margin, gap)) => {
-                    let condim = if *slides { 3 } else { 1 };
+                    let condim = if *slides { self.ties.condim.max(3) } else { 1 };
                     let _ = write!(
                         text,
                         " solref=\"{time} {damping}\" friction=\"{friction}\" condim=\"{condim}\" margin=\"{margin}\" gap=\"{gap}\""
@@ -406,7 +476,7 @@ impl Actuator {
 }
 
 impl Joint {
-    fn write(&self, name: &str, constraints: bool, text: &mut String) {
+    fn write(&self, name: &str, constraints: bool, frictionloss: f64, text: &mut String) {
         let kind = ["ball", "slide", "hinge"][usize::from(self.kind % 3)];
         let (x, y, z) = self.axis;
         let (px, py, pz) = self.pos;
@@ -416,6 +486,9 @@ impl Joint {
             self.armature
         );
         let _ = write!(text, " stiffness=\"{} {}\"", self.stiffness, self.growth.0);
+        if constraints && frictionloss > 0.0 {
+            let _ = write!(text, " frictionloss='{frictionloss}'");
+        }
         if constraints && self.damping > 0.0 {
             let _ = write!(text, " damping=\"{} {}\"", self.damping, self.growth.1);
         }
