@@ -67,7 +67,10 @@ pub(super) fn damps(m: &Model, d: &Fields) -> bool {
 
 /// Whether some degree of freedom has a damper.
 pub(super) fn has_dampers(m: &Model) -> bool {
-    m.dof_damping.iter().any(|&b| b != 0.0)
-        || m.dof_dampingpoly.iter().any(|&p| p != 0.0)
-        || m.jnt_actuatorid.iter().any(|&i| i != -1)
+    let some = |numbers: &[f64]| numbers.iter().any(|&x| x != 0.0);
+    // Joints may have an actuator's inertia without its damping.
+    let actuators = || some(&m.actuator_damping) || some(&m.actuator_dampingpoly);
+    some(&m.dof_damping)
+        || some(&m.dof_dampingpoly)
+        || m.jnt_actuatorid.iter().any(|&i| i != -1) && actuators()
 }
