@@ -4,6 +4,7 @@ mod census;
 mod filter;
 mod params;
 mod primitive;
+mod reach;
 mod sweep;
 
 pub use census::PairFate;
@@ -12,6 +13,7 @@ use filter::Pair;
 pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
 pub(crate) use filter::{can_collide, may_touch};
 use params::Params;
+use reach::Spheres;
 use sweep::Sweep;
 
 use crate::geometry::{Narrow, Shape, pair};
@@ -33,9 +35,8 @@ pub(crate) struct Scratch {
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
-    /// Together with these, the squared distance of centres beyond which bounding spheres are out of reach; infinite where a
-    /// pair has a test of its own.
-    limits: Vec<f64>,
+    /// Together with these, their bounding spheres, but for pairs that have a test of their own.
+    spheres: Spheres,
     /// Filters are asked at every step, because what they look at may be written.
     filter: bool,
     /// Too many pairs for a list: the near ones are found at every step.
@@ -60,7 +61,8 @@ pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) 
             let limit = m.geom_rbound[a] + m.geom_rbound[b] + params.reach;
             if both && !spheres { limit * limit } else { f64::INFINITY }
         };
-        list.limits = list.pairs.iter().zip(&list.params).map(limit).collect();
+        let limits: Vec<f64> = list.pairs.iter().zip(&list.params).map(limit).collect();
+        list.spheres = Spheres::new(&list.pairs, &limits);
     }
     list
 }
@@ -92,11 +94,15 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
             }
         }
     }
-    for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
-        let known = limit < f64::INFINITY;
-        let far = known && apart(d, pair) > limit;
-        if !far && !list.leaves_out(m, d, pair) {
-            narrow(m, d, work, pair, params, known);
+    list.spheres.compare(rows(&d.geom_xpos));
+    for (first, mut near, others) in list.spheres.near() {
+        while near != 0 {
+            let k = near.trailing_zeros();
+            near &= near - 1;
+            let (pair, params) = (&list.pairs[first + k as usize], &list.params[first + k as usize]);
+            if !list.leaves_out(m, d, pair) {
+                narrow(m, d, work, pair, params, others >> k & 1 == 0);
+            }
         }
     }
     let looked_at = 8 * list.pairs.len() + 100 * d.contact.len();
@@ -122,14 +128,6 @@ impl Pairs {
         self.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
             || asleep::pair(m, d, g1, g2)
     }
-}
-
-/// The squared distance of the centres of two geoms.
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn apart(d: &Fields, pair: &Pair) -> f64 {
-    let centres = rows::<3>(&d.geom_xpos);
-    let between = sub(centres[pair.geom2 as usize], centres[pair.geom1 as usize]);
-    dot(between, between)
 }
 
 /// The exact test of one pair whose parameters may have been written.
@@ -161,7 +159,7 @@ fn general(m: &Model, d: &mut Fields, work: &mut Narrow, [g1, g2]: [usize; 2], p
     work.touches.clear();
     work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
-    pair::contacts(method, &a, &b, params.reach, &pair::Settings::of(m), &mut work.room, &mut work.touches);
+    pair::contacts(method, &a, &b, params.reach, || pair::Settings::of(m), &mut work.room, &mut work.touches);
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
     }

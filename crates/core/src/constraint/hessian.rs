@@ -8,11 +8,13 @@
 
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
+use crate::dynamics::mass;
 use crate::math::MINVAL;
 use crate::math::lanes::total;
 use crate::math::sort::sort;
 use crate::model::Model;
 use std::array::from_fn;
+use std::ops::Range;
 use wide::f64x4;
 
 /// Degrees of freedom up to which trees stay in the order of the file.
@@ -46,9 +48,14 @@ pub(super) struct Hessian {
     /// Per row: its first column, and what is added to a column to find its place.
     first: Vec<u32>,
     places: Vec<usize>,
-    /// Scratch of a block of the Jacobian: its columns, where they are, and its rows by fours of columns.
+    /// Where the numbers of M go, those of the island row by row.
+    mass: Vec<u32>,
+    /// The columns of the blocks of the Jacobian, where they are here, and how many of these blocks have been passed.
+    stands: Vec<Stand>,
     stood: Vec<u32>,
     quads: Vec<Quad>,
+    passed: usize,
+    /// Scratch of a block of the Jacobian: its rows by fours of columns.
     fours: Vec<Four>,
     order: Order,
 }
@@ -58,6 +65,13 @@ pub(super) struct Hessian {
 struct BlockRow {
     first: usize,
     start: usize,
+}
+
+/// Where columns of a block of the Jacobian, or of several that follow each other, are listed, and the fours that they are among.
+#[derive(Clone, Debug, PartialEq)]
+struct Stand {
+    columns: Range<usize>,
+    quads: Range<usize>,
 }
 
 /// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
@@ -130,6 +144,8 @@ impl Hessian {
         if self.fits {
             self.values.resize(start, [0.0; 4]);
             self.inverse.resize(self.blocks.len(), [0.0; 4]);
+            self.place_mass(m, islands.dofs(island));
+            self.place_columns(jac, islands.blocks.of(island));
         }
         self.fits
     }
@@ -168,9 +184,60 @@ impl Hessian {
         }
     }
 
+    /// Finds where the numbers of M go.
+    fn place_mass(&mut self, m: &Model, runs: impl Iterator<Item = Range<usize>>) {
+        self.mass.clear();
+        for k in runs.flatten() {
+            // It comes before its ancestors here.
+            let (places, local, column) = (&self.places, &self.local, self.local[k] as usize);
+            let place = |&j: &i32| places[local[j as usize] as usize].wrapping_add(column) as u32;
+            self.mass.extend(m.M_colind[mass::row(m, k)].iter().map(place));
+        }
+    }
+
+    /// Finds where the columns of blocks of the Jacobian go, by the fours of columns of H that they are among.
+    fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
+        self.stands.clear();
+        self.stood.clear();
+        self.quads.clear();
+        for columns in blocks.map(|i| jac.columns(&jac.blocks[i])) {
+            if self.stands.last().is_some_and(|last| self.stood[last.columns.clone()] == *columns) {
+                continue;
+            }
+            let (column, first) = (self.stood.len(), self.quads.len());
+            self.stood.extend_from_slice(columns);
+            // Ascending in the file, so that those of a tree descend here.
+            for (p, &k) in columns.iter().enumerate().rev() {
+                let local = self.local[k as usize];
+                let (block, lane) = (local / 4, local as usize % 4);
+                let mut q = self.quads.len();
+                while q > first && self.quads[q - 1].block > block {
+                    q -= 1;
+                }
+                if q == first || self.quads[q - 1].block < block {
+                    self.quads.insert(q, Quad { block, of: [NONE; 4] });
+                    q += 1;
+                }
+                self.quads[q - 1].of[lane] = p as u32;
+            }
+            self.stands.push(Stand { columns: column..self.stood.len(), quads: first..self.quads.len() });
+        }
+    }
+
+    /// Where the columns of a block of the Jacobian are; blocks come in their order.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn stand(&mut self, columns: &[u32]) -> Range<usize> {
+        let left = &self.stands[self.passed..];
+        let Some(k) = left.iter().position(|s| self.stood[s.columns.clone()] == *columns) else {
+            return 0..0;
+        };
+        self.passed += k;
+        left[k].quads.clone()
+    }
+
     /// All numbers zero, but for the identity of the rows that fill up.
     pub(super) fn clear(&mut self) {
-        self.stood.clear();
+        self.passed = 0;
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
             self.values[start..start + 4 * (i + 1 - first)].fill([0.0; 4]);
         }
@@ -179,39 +246,16 @@ impl Hessian {
         }
     }
 
-    /// Adds numbers to the entries of a degree of freedom of the model with others before it in its tree.
+    /// Adds M, of which the degrees of freedom of the island are given.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn add(&mut self, i: usize, with: impl Iterator<Item = (usize, f64)>) {
-        let (local, values) = (self.local.as_slice(), self.values.as_flattened_mut());
-        // It comes before them here.
-        let i = local[i] as usize;
-        for (j, number) in with {
-            values[self.places[local[j] as usize].wrapping_add(i)] += number;
-        }
-    }
-
-    /// The columns of a block of the Jacobian, by the fours of columns of H that they are among.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn stand(&mut self, columns: &[u32]) {
-        if self.stood == columns {
-            return;
-        }
-        self.stood.clear();
-        self.stood.extend_from_slice(columns);
-        self.quads.clear();
-        // Ascending in the file, so that those of a tree descend here.
-        for (p, &k) in columns.iter().enumerate().rev() {
-            let local = self.local[k as usize];
-            let (block, lane) = (local / 4, local as usize % 4);
-            let mut q = self.quads.len();
-            while q > 0 && self.quads[q - 1].block > block {
-                q -= 1;
+    pub(super) fn add_mass(&mut self, m: &Model, mass: &[f64], runs: impl Iterator<Item = Range<usize>>) {
+        let (mut places, values) = (self.mass.as_slice(), self.values.as_flattened_mut());
+        for run in runs {
+            let rows = &mass[mass::rows_of(m, run)];
+            for (number, &place) in rows.iter().zip(places) {
+                values[place as usize] += number;
             }
-            if q == 0 || self.quads[q - 1].block < block {
-                self.quads.insert(q, Quad { block, of: [NONE; 4] });
-                q += 1;
-            }
-            self.quads[q - 1].of[lane] = p as u32;
+            places = places.get(rows.len()..).unwrap_or_default();
         }
     }
 
@@ -335,31 +379,29 @@ impl Gram for Hessian {
         v: &[[f64; R]],
         weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        self.stand(columns);
-        let Hessian { quads, blocks, values, .. } = self;
-        if self.fours.len() < R * quads.len() {
-            self.fours.resize(R * quads.len(), [0.0; 4]);
+        let stand = self.stand(columns);
+        let Hessian { quads, blocks, values, fours, .. } = self;
+        let quads = &quads[stand];
+        if fours.len() < R * quads.len() {
+            fours.resize(R * quads.len(), [0.0; 4]);
         }
-        let fours = &mut self.fours.as_chunks_mut::<R>().0[..quads.len()];
+        let fours = &mut fours.as_chunks_mut::<R>().0[..quads.len()];
         for (quad, four) in quads.iter().zip(fours.iter_mut()) {
-            *four = [[0.0; 4]; R];
-            for (lane, &p) in quad.of.iter().enumerate() {
-                if let Some(v) = v.get(p as usize) {
-                    for r in 0..R {
-                        four[r][lane] = v[r];
-                    }
-                }
-            }
+            let columns = quad.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
+            *four = from_fn(|r| columns.map(|v| v[r]));
         }
         for (q, quad) in quads.iter().enumerate() {
             let BlockRow { first, start } = blocks[quad.block as usize];
             let n = quad.block as usize + 1 - first;
-            for (lane, &p) in quad.of.iter().enumerate() {
+            let mut rows = &mut values[start..][..4 * n];
+            // Beyond the diagonal a row counts as zero, whatever is there.
+            let (quads, fours) = (&quads[..=q], &fours[..=q]);
+            for p in quad.of {
+                let (row, below) = rows.split_at_mut(n);
+                rows = below;
                 let Some(v) = v.get(p as usize) else { continue };
                 let w = weigh(v).map(f64x4::splat);
-                let row = &mut values[start + lane * n..][..n];
-                // Beyond the diagonal a row counts as zero, whatever is there.
-                for (to, four) in quads[..=q].iter().zip(&*fours) {
+                for (to, four) in quads.iter().zip(fours) {
                     let mut sums = f64x4::new(four[0]) * w[0];
                     for r in 1..R {
                         sums += f64x4::new(four[r]) * w[r];
