@@ -95,13 +95,15 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
     }
     list.spheres.compare(rows(&d.geom_xpos));
-    for (first, mut near, others) in list.spheres.near() {
-        while near != 0 {
-            let k = near.trailing_zeros();
-            near &= near - 1;
-            let (pair, params) = (&list.pairs[first + k as usize], &list.params[first + k as usize]);
+    for word in 0..list.spheres.words() {
+        let [near, others] = list.spheres.take(word);
+        let mut left = near | others;
+        while left != 0 {
+            let k = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let (pair, params) = (&list.pairs[64 * word + k], &list.params[64 * word + k]);
             if !list.leaves_out(m, d, pair) {
-                narrow(m, d, work, pair, params, others >> k & 1 == 0);
+                narrow(m, d, work, pair, params, near >> k & 1 == 1);
             }
         }
     }
@@ -112,6 +114,12 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
         d.warn(Warning::ContactFull, MOST_CONTACTS);
     }
     d.ncon = d.contact.len();
+}
+
+/// Whether filters, as they are now, keep a pair from touching.
+#[cfg_attr(not(feature = "small"), inline(never))]
+fn is_refused(m: &Model, pair: &Pair) -> bool {
+    pair.explicit == Pair::DYNAMIC && !filter::admitted(m, pair.geom1 as usize, pair.geom2 as usize)
 }
 
 /// No contacts: they are switched off.
@@ -125,8 +133,7 @@ impl Pairs {
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn leaves_out(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
-        self.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
-            || asleep::pair(m, d, g1, g2)
+        self.filter && is_refused(m, pair) || asleep::pair(m, d, g1, g2)
     }
 }
 

@@ -16,7 +16,7 @@ pub(super) struct Spheres {
     geoms: Vec<u32>,
     centres: Vec<[[f64; 4]; 3]>,
     comparisons: Vec<Comparison>,
-    /// A bit for each pair of the list: whether its spheres are not compared, and whether it is in reach now.
+    /// A bit for each pair of the list: whether its spheres are not compared, and whether they are in reach now.
     others: Vec<u64>,
     near: Vec<u64>,
 }
@@ -65,7 +65,7 @@ impl Spheres {
             .filter(|&p| limits[p] == f64::INFINITY)
             .for_each(|p| others[p / 64] |= 1 << (p % 64));
         let centres = vec![[[0.0; 4]; 3]; geoms.len().div_ceil(4)];
-        Spheres { near: others.clone(), geoms, centres, comparisons, others }
+        Spheres { near: vec![0; others.len()], geoms, centres, comparisons, others }
     }
 
     /// Compares them where the geoms are now.
@@ -84,9 +84,8 @@ impl Spheres {
                 (four[0][lane], four[1][lane], four[2][lane]) = (x, y, z);
             }
         }
-        self.near.iter_mut().zip(&self.others).for_each(|(near, others)| *near = *others);
         for c in &self.comparisons {
-            let (centre, four) = (places[c.geom as usize], &self.centres[c.four as usize]);
+            let (centre, four) = (&places[c.geom as usize], &self.centres[c.four as usize]);
             let [x, y, z]: [f64x4; 3] = from_fn(|k| f64x4::new(four[k]) - centre[k]);
             let far = (x * x + y * y + z * z).simd_gt(f64x4::new(c.limits));
             let mut near = !far.to_bitmask() & 0xf;
@@ -99,10 +98,15 @@ impl Spheres {
         }
     }
 
-    /// The pairs that may touch, in the order of the list, 64 to a word: the first of them, a bit for each, and a bit for each
-    /// whose spheres have not been compared.
+    /// How many words there are of a bit for each pair of the list.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn near(&self) -> impl Iterator<Item = (usize, u64, u64)> {
-        self.near.iter().zip(&self.others).enumerate().map(|(i, (&near, &others))| (64 * i, near, others))
+    pub(super) fn words(&self) -> usize {
+        self.others.len()
+    }
+
+    /// Takes a word of what may touch: a bit for each pair in reach, and a bit for each whose spheres are not compared.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    pub(super) fn take(&mut self, word: usize) -> [u64; 2] {
+        [std::mem::take(&mut self.near[word]), self.others[word]]
     }
 }
