@@ -102,8 +102,13 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
             let k = left.trailing_zeros() as usize;
             left &= left - 1;
             let (pair, params) = (&list.pairs[64 * word + k], &list.params[64 * word + k]);
-            if !list.leaves_out(m, d, pair) {
-                narrow(m, d, work, pair, params, near >> k & 1 == 1);
+            if list.leaves_out(m, d, pair) {
+                continue;
+            }
+            if near >> k & 1 == 0 {
+                narrow(m, d, work, pair, params);
+            } else if !d.meter.over() {
+                general(m, d, work, pair, params);
             }
         }
     }
@@ -140,19 +145,18 @@ impl Pairs {
 /// The exact test of one pair whose parameters may have been written.
 #[inline(never)]
 fn narrow_mixed(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair) {
-    narrow(m, d, work, pair, &params::params(m, pair), false);
+    narrow(m, d, work, pair, &params::params(m, pair));
 }
 
-/// The exact test of one pair, of which it may be known that its bounding spheres are in reach. Spheres, the commonest, have a
-/// short way.
+/// The exact test of one pair whose bounds have not been compared. Spheres, the commonest, have a short way.
 #[inline(never)]
-fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params, near: bool) {
+fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ if !near && sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
-        _ => return general(m, d, work, [g1, g2], params),
+        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
+        _ => return general(m, d, work, pair, params),
     };
     if let Some(t) = touch {
         d.contact.push(params::contact(params, g1, g2, &t, frame(t.normal)));
@@ -161,7 +165,8 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
 
 /// The exact test of any pair.
 #[inline(never)]
-fn general(m: &Model, d: &mut Fields, work: &mut Narrow, [g1, g2]: [usize; 2], params: &Params) {
+fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
+    let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
     work.touches.clear();
     work.room.cost = 0;
