@@ -1,11 +1,11 @@
 //! Broad phase of small scenes: which pairs of a list have their bounding spheres in reach, four at a time.
 //!
 //! A geom is held against four others at once, in the lanes of a vector. Which of them are its pairs, and from which distance on
-//! these are out of reach, is found once, when the list is made.
+//! these are out of reach, is found once, when the list is made. A small module leaves it to the test of each pair.
 
 use super::filter::Pair;
-use crate::math::Vec3;
 use crate::math::sort::sort;
+use crate::math::{SMALL, Vec3};
 use std::array::from_fn;
 use wide::f64x4;
 
@@ -37,7 +37,13 @@ const NONE: u32 = u32::MAX;
 impl Spheres {
     /// For pairs with the squared distances of centres beyond which they are out of reach; infinite where spheres say nothing.
     pub(super) fn new(pairs: &[Pair], limits: &[f64]) -> Spheres {
-        let compared = || (0..pairs.len()).filter(|&p| limits[p] < f64::INFINITY);
+        let is_compared = |&p: &usize| !SMALL && limits[p] < f64::INFINITY;
+        let mut others = vec![0; pairs.len().div_ceil(64)];
+        (0..pairs.len()).filter(|p| !is_compared(p)).for_each(|p| others[p / 64] |= 1 << (p % 64));
+        if SMALL {
+            return Spheres { near: vec![0; others.len()], others, ..Spheres::default() };
+        }
+        let compared = || (0..pairs.len()).filter(is_compared);
         let mut geoms: Vec<u32> = compared().flat_map(|p| [pairs[p].geom1, pairs[p].geom2]).collect();
         sort(&mut geoms);
         geoms.dedup();
@@ -60,10 +66,6 @@ impl Spheres {
                 (last.limits[lane], last.pairs[lane]) = (limits[pair as usize], pair);
             }
         }
-        let mut others = vec![0; pairs.len().div_ceil(64)];
-        (0..pairs.len())
-            .filter(|&p| limits[p] == f64::INFINITY)
-            .for_each(|p| others[p / 64] |= 1 << (p % 64));
         let centres = vec![[[0.0; 4]; 3]; geoms.len().div_ceil(4)];
         Spheres { near: vec![0; others.len()], geoms, centres, comparisons, others }
     }
@@ -71,12 +73,12 @@ impl Spheres {
     /// Compares them where the geoms are now.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn compare(&mut self, places: &[Vec3]) {
-        if !self.comparisons.is_empty() {
+        if !SMALL && !self.comparisons.is_empty() {
             self.compare_all(places);
         }
     }
 
-    #[cfg_attr(not(feature = "small"), inline(never))]
+    #[inline(never)]
     fn compare_all(&mut self, places: &[Vec3]) {
         for (four, geoms) in self.centres.iter_mut().zip(self.geoms.chunks(4)) {
             for (lane, &geom) in geoms.iter().enumerate() {

@@ -9,9 +9,9 @@
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
 use crate::dynamics::mass;
-use crate::math::MINVAL;
 use crate::math::lanes::total;
 use crate::math::sort::sort;
+use crate::math::{self, MINVAL};
 use crate::model::Model;
 use std::array::from_fn;
 use std::ops::Range;
@@ -141,7 +141,9 @@ impl Hessian {
             self.values.resize(start, [[0.0; 4]; 4]);
             self.inverse.resize(self.blocks.len(), [0.0; 4]);
             self.place_mass(m, islands.dofs(island));
-            self.place_columns(jac, islands.blocks.of(island));
+            if !math::SMALL {
+                self.place_columns(jac, islands.blocks.of(island));
+            }
         }
         self.fits
     }
