@@ -4,6 +4,7 @@ mod census;
 mod filter;
 mod params;
 mod primitive;
+mod reach;
 mod sweep;
 
 pub use census::PairFate;
@@ -12,6 +13,7 @@ use filter::Pair;
 pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
 pub(crate) use filter::{can_collide, may_touch};
 use params::Params;
+use reach::Spheres;
 use sweep::Sweep;
 
 use crate::geometry::{Narrow, Shape, pair};
@@ -33,9 +35,8 @@ pub(crate) struct Scratch {
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
     params: Vec<Params>,
-    /// Together with these, the squared distance of centres beyond which bounding spheres are out of reach; infinite where a
-    /// pair has a test of its own.
-    limits: Vec<f64>,
+    /// Together with these, their bounding spheres, but for pairs that have a test of their own.
+    spheres: Spheres,
     /// Filters are asked at every step, because what they look at may be written.
     filter: bool,
     /// Too many pairs for a list: the near ones are found at every step.
@@ -60,7 +61,8 @@ pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) 
             let limit = m.geom_rbound[a] + m.geom_rbound[b] + params.reach;
             if both && !spheres { limit * limit } else { f64::INFINITY }
         };
-        list.limits = list.pairs.iter().zip(&list.params).map(limit).collect();
+        let limits: Vec<f64> = list.pairs.iter().zip(&list.params).map(limit).collect();
+        list.spheres = Spheres::new(&list.pairs, &limits);
     }
     list
 }
@@ -92,11 +94,22 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
             }
         }
     }
-    for ((pair, params), &limit) in list.pairs.iter().zip(&list.params).zip(&list.limits) {
-        let known = limit < f64::INFINITY;
-        let far = known && apart(d, pair) > limit;
-        if !far && !list.leaves_out(m, d, pair) {
-            narrow(m, d, work, pair, params, known);
+    list.spheres.compare(rows(&d.geom_xpos));
+    for word in 0..list.spheres.words() {
+        let [near, others] = list.spheres.take(word);
+        let mut left = near | others;
+        while left != 0 {
+            let k = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let (pair, params) = (&list.pairs[64 * word + k], &list.params[64 * word + k]);
+            if list.leaves_out(m, d, pair) {
+                continue;
+            }
+            if near >> k & 1 == 0 {
+                narrow(m, d, work, pair, params);
+            } else if !d.meter.over() {
+                general(m, d, work, pair, params);
+            }
         }
     }
     let looked_at = 8 * list.pairs.len() + 100 * d.contact.len();
@@ -106,6 +119,12 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
         d.warn(Warning::ContactFull, MOST_CONTACTS);
     }
     d.ncon = d.contact.len();
+}
+
+/// Whether filters, as they are now, keep a pair from touching.
+#[cfg_attr(not(feature = "small"), inline(never))]
+fn is_refused(m: &Model, pair: &Pair) -> bool {
+    pair.explicit == Pair::DYNAMIC && !filter::admitted(m, pair.geom1 as usize, pair.geom2 as usize)
 }
 
 /// No contacts: they are switched off.
@@ -119,35 +138,25 @@ impl Pairs {
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn leaves_out(&self, m: &Model, d: &Fields, pair: &Pair) -> bool {
         let [g1, g2] = [pair.geom1 as usize, pair.geom2 as usize];
-        self.filter && pair.explicit == Pair::DYNAMIC && !filter::admitted(m, g1, g2)
-            || asleep::pair(m, d, g1, g2)
+        self.filter && is_refused(m, pair) || asleep::pair(m, d, g1, g2)
     }
-}
-
-/// The squared distance of the centres of two geoms.
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn apart(d: &Fields, pair: &Pair) -> f64 {
-    let centres = rows::<3>(&d.geom_xpos);
-    let between = sub(centres[pair.geom2 as usize], centres[pair.geom1 as usize]);
-    dot(between, between)
 }
 
 /// The exact test of one pair whose parameters may have been written.
 #[inline(never)]
 fn narrow_mixed(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair) {
-    narrow(m, d, work, pair, &params::params(m, pair), false);
+    narrow(m, d, work, pair, &params::params(m, pair));
 }
 
-/// The exact test of one pair, of which it may be known that its bounding spheres are in reach. Spheres, the commonest, have a
-/// short way.
+/// The exact test of one pair whose bounds have not been compared. Spheres, the commonest, have a short way.
 #[inline(never)]
-fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params, near: bool) {
+fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
         (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
         (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
-        _ if !near && sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
-        _ => return general(m, d, work, [g1, g2], params),
+        _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
+        _ => return general(m, d, work, pair, params),
     };
     if let Some(t) = touch {
         d.contact.push(params::contact(params, g1, g2, &t, frame(t.normal)));
@@ -156,12 +165,13 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
 
 /// The exact test of any pair.
 #[inline(never)]
-fn general(m: &Model, d: &mut Fields, work: &mut Narrow, [g1, g2]: [usize; 2], params: &Params) {
+fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
+    let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
     work.touches.clear();
     work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
-    pair::contacts(method, &a, &b, params.reach, &pair::Settings::of(m), &mut work.room, &mut work.touches);
+    pair::contacts(method, &a, &b, params.reach, || pair::Settings::of(m), &mut work.room, &mut work.touches);
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
     }

@@ -8,11 +8,13 @@
 
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
-use crate::math::MINVAL;
+use crate::dynamics::mass;
 use crate::math::lanes::total;
 use crate::math::sort::sort;
+use crate::math::{self, MINVAL};
 use crate::model::Model;
 use std::array::from_fn;
+use std::ops::Range;
 use wide::f64x4;
 
 /// Degrees of freedom up to which trees stay in the order of the file.
@@ -23,16 +25,16 @@ const SMALL: usize = 120;
 /// solution without it.
 const MOST_WORK: usize = 330_000_000;
 
-/// Four numbers of a row that follow each other.
+/// Four numbers of a row that follow each other, and a block of four by four, row by row.
 type Four = [f64; 4];
+type Tile = [Four; 4];
 
-/// A symmetric matrix: the lower triangle, by rows of blocks, row by row in each. Rows that fill the last one up are
-/// those of the identity.
+/// A symmetric matrix: the lower triangle, by rows of blocks. Rows that fill the last one up are those of the identity.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Hessian {
     /// Position of each degree of freedom of the model in its island.
     pub(super) local: Vec<u32>,
-    values: Vec<Four>,
+    values: Vec<Tile>,
     /// Inverse diagonal of L.
     inverse: Vec<Four>,
     blocks: Vec<BlockRow>,
@@ -43,21 +45,32 @@ pub(super) struct Hessian {
     fits: bool,
     /// What a factorization costs.
     pub(super) work: u64,
-    /// Per row: its first column, and what is added to a column to find its place.
+    /// The first column of each row.
     first: Vec<u32>,
-    places: Vec<usize>,
-    /// Scratch of a block of the Jacobian: its columns, where they are, and its rows by fours of columns.
+    /// Where the numbers of M go, those of the island row by row.
+    mass: Vec<u32>,
+    /// The columns of the blocks of the Jacobian, where they are here, and how many of these blocks have been passed.
+    stands: Vec<Stand>,
     stood: Vec<u32>,
     quads: Vec<Quad>,
+    passed: usize,
+    /// Scratch of a block of the Jacobian: its rows by fours of columns.
     fours: Vec<Four>,
     order: Order,
 }
 
-/// Four rows: their first block, and where that of the first row lies.
+/// Four rows: their first block, and where it lies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct BlockRow {
     first: usize,
     start: usize,
+}
+
+/// Where columns of a block of the Jacobian, or of several that follow each other, are listed, and the fours that they are among.
+#[derive(Clone, Debug, PartialEq)]
+struct Stand {
+    columns: Range<usize>,
+    quads: Range<usize>,
 }
 
 /// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
@@ -90,7 +103,7 @@ impl Hessian {
     /// Numbers of the matrix that are kept.
     #[cfg(test)]
     pub(super) fn kept(&self) -> usize {
-        4 * self.values.len()
+        16 * self.values.len()
     }
 
     /// Numbers the degrees of freedom of an island, and lays out its rows. `false`, and no room is made, where to
@@ -113,23 +126,24 @@ impl Hessian {
         }
         self.find_first(m, jac, islands, island);
         self.blocks.clear();
-        self.places.clear();
         let (mut start, mut work) = (0, 0);
         for i in 0..self.len.div_ceil(4) {
             let rows = self.first.iter().skip(4 * i).take(4);
             let first = rows.map(|&c| c as usize / 4).min().unwrap_or(0);
             self.blocks.push(BlockRow { first, start });
             let length = i + 1 - first;
-            // The sum with a column of the row is never negative.
-            self.places.extend((0..4).map(|r| (4 * (start + r * length)).wrapping_sub(4 * first)));
-            start += 4 * length;
+            start += length;
             work += 4 * (4 * length) * (4 * length);
         }
         self.fits = work <= MOST_WORK;
         self.work = (work / 2 + 50 * self.len) as u64;
         if self.fits {
-            self.values.resize(start, [0.0; 4]);
+            self.values.resize(start, [[0.0; 4]; 4]);
             self.inverse.resize(self.blocks.len(), [0.0; 4]);
+            self.place_mass(m, islands.dofs(island));
+            if !math::SMALL {
+                self.place_columns(jac, islands.blocks.of(island));
+            }
         }
         self.fits
     }
@@ -168,50 +182,78 @@ impl Hessian {
         }
     }
 
+    /// Finds where the numbers of M go.
+    fn place_mass(&mut self, m: &Model, runs: impl Iterator<Item = Range<usize>>) {
+        self.mass.clear();
+        for k in runs.flatten() {
+            // It comes before its ancestors here.
+            let (blocks, local, column) = (&self.blocks, &self.local, self.local[k] as usize);
+            let place = |&j: &i32| place(blocks, local[j as usize] as usize, column) as u32;
+            self.mass.extend(m.M_colind[mass::row(m, k)].iter().map(place));
+        }
+    }
+
+    /// Finds where the columns of blocks of the Jacobian go, by the fours of columns of H that they are among.
+    fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
+        self.stands.clear();
+        self.stood.clear();
+        self.quads.clear();
+        for columns in blocks.map(|i| jac.columns(&jac.blocks[i])) {
+            if self.stands.last().is_some_and(|last| self.stood[last.columns.clone()] == *columns) {
+                continue;
+            }
+            let (column, first) = (self.stood.len(), self.quads.len());
+            self.stood.extend_from_slice(columns);
+            // Ascending in the file, so that those of a tree descend here.
+            for (p, &k) in columns.iter().enumerate().rev() {
+                let local = self.local[k as usize];
+                let (block, lane) = (local / 4, local as usize % 4);
+                let mut q = self.quads.len();
+                while q > first && self.quads[q - 1].block > block {
+                    q -= 1;
+                }
+                if q == first || self.quads[q - 1].block < block {
+                    self.quads.insert(q, Quad { block, of: [NONE; 4] });
+                    q += 1;
+                }
+                self.quads[q - 1].of[lane] = p as u32;
+            }
+            self.stands.push(Stand { columns: column..self.stood.len(), quads: first..self.quads.len() });
+        }
+    }
+
+    /// Where the columns of a block of the Jacobian are; blocks come in their order.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn stand(&mut self, columns: &[u32]) -> Range<usize> {
+        let left = &self.stands[self.passed..];
+        let Some(k) = left.iter().position(|s| self.stood[s.columns.clone()] == *columns) else {
+            return 0..0;
+        };
+        self.passed += k;
+        left[k].quads.clone()
+    }
+
     /// All numbers zero, but for the identity of the rows that fill up.
     pub(super) fn clear(&mut self) {
-        self.stood.clear();
+        self.passed = 0;
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
-            self.values[start..start + 4 * (i + 1 - first)].fill([0.0; 4]);
+            self.values[start..start + i + 1 - first].fill([[0.0; 4]; 4]);
         }
         for i in self.len..self.room() {
-            self.values.as_flattened_mut()[self.places[i].wrapping_add(i)] = 1.0;
+            self.values.as_flattened_mut().as_flattened_mut()[place(&self.blocks, i, i)] = 1.0;
         }
     }
 
-    /// Adds numbers to the entries of a degree of freedom of the model with others before it in its tree.
+    /// Adds M, of which the degrees of freedom of the island are given.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn add(&mut self, i: usize, with: impl Iterator<Item = (usize, f64)>) {
-        let (local, values) = (self.local.as_slice(), self.values.as_flattened_mut());
-        // It comes before them here.
-        let i = local[i] as usize;
-        for (j, number) in with {
-            values[self.places[local[j] as usize].wrapping_add(i)] += number;
-        }
-    }
-
-    /// The columns of a block of the Jacobian, by the fours of columns of H that they are among.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn stand(&mut self, columns: &[u32]) {
-        if self.stood == columns {
-            return;
-        }
-        self.stood.clear();
-        self.stood.extend_from_slice(columns);
-        self.quads.clear();
-        // Ascending in the file, so that those of a tree descend here.
-        for (p, &k) in columns.iter().enumerate().rev() {
-            let local = self.local[k as usize];
-            let (block, lane) = (local / 4, local as usize % 4);
-            let mut q = self.quads.len();
-            while q > 0 && self.quads[q - 1].block > block {
-                q -= 1;
+    pub(super) fn add_mass(&mut self, m: &Model, mass: &[f64], runs: impl Iterator<Item = Range<usize>>) {
+        let (mut places, values) = (self.mass.as_slice(), self.values.as_flattened_mut().as_flattened_mut());
+        for run in runs {
+            let rows = &mass[mass::rows_of(m, run)];
+            for (number, &place) in rows.iter().zip(places) {
+                values[place as usize] += number;
             }
-            if q == 0 || self.quads[q - 1].block < block {
-                self.quads.insert(q, Quad { block, of: [NONE; 4] });
-                q += 1;
-            }
-            self.quads[q - 1].of[lane] = p as u32;
+            places = places.get(rows.len()..).unwrap_or_default();
         }
     }
 
@@ -219,27 +261,24 @@ impl Hessian {
     #[inline(never)]
     pub(super) fn factor(&mut self) {
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
-            let n = i + 1 - first;
             let (above, below) = self.values.split_at_mut(start);
-            let own = &mut below[..4 * n];
+            let own = &mut below[..i + 1 - first];
             for j in first..=i {
-                let mut block = transposed(from_fn(|r| own[r * n + j - first]));
+                let mut block = transposed(own[j - first]);
                 // Less the products of what is to the left of it in both rows.
-                let (row, begin) = if j < i { (&*above, self.blocks[j].start) } else { (&*own, 0) };
                 let up = self.blocks[j].first;
+                let row = if j < i { &above[self.blocks[j].start..][..j + 1 - up] } else { &*own };
                 let from = first.max(up);
-                let left = parts(own, n, from - first, j - from);
-                let right = parts(&row[begin..], j + 1 - up, from - up, j - from);
-                for k in 0..j - from {
-                    for (left, right) in left.iter().zip(&right) {
-                        let x = f64x4::new(left[k]);
-                        for (b, y) in block.iter_mut().zip(right[k]) {
-                            *b -= x * y;
+                for (left, right) in own[from - first..j - first].iter().zip(&row[from - up..j - up]) {
+                    for (left, right) in left.iter().zip(right) {
+                        let x = f64x4::new(*left);
+                        for (b, y) in block.iter_mut().zip(right) {
+                            *b -= x * *y;
                         }
                     }
                 }
                 if j < i {
-                    let corner: [Four; 4] = from_fn(|c| row[begin + (c + 1) * (j + 1 - up) - 1]);
+                    let corner = row[j - up];
                     for b in 0..4 {
                         block[b] *= self.inverse[j][b];
                         let left = block[b];
@@ -258,9 +297,7 @@ impl Hessian {
                         }
                     }
                 }
-                for (r, b) in block.into_iter().enumerate() {
-                    own[r * n + j - first] = b.to_array();
-                }
+                own[j - first] = block.map(|b| b.to_array());
             }
         }
     }
@@ -269,51 +306,54 @@ impl Hessian {
     #[inline(never)]
     pub(super) fn solve(&self, x: &mut [f64]) {
         let x = x.as_chunks_mut::<4>().0;
-        for (i, columns) in self.columns() {
-            let first = self.blocks[i].first;
+        for (i, row) in self.rows() {
             let (before, here) = x.split_at_mut(i);
+            let Some((corner, left)) = row.split_last() else { continue };
             let mut own = f64x4::new(here[0]);
-            for (k, x) in before[first..].iter().enumerate() {
-                for (column, x) in columns.iter().zip(x) {
-                    own -= f64x4::new(column[k]) * *x;
+            for (block, x) in left.iter().zip(&before[i - left.len()..]) {
+                for (column, x) in block.iter().zip(x) {
+                    own -= f64x4::new(*column) * *x;
                 }
             }
             let mut own = own.to_array();
             for b in 0..4 {
                 own[b] *= self.inverse[i][b];
                 for c in b + 1..4 {
-                    own[c] -= columns[b][i - first][c] * own[b];
+                    own[c] -= corner[b][c] * own[b];
                 }
             }
             here[0] = own;
         }
-        for (i, columns) in self.columns().rev() {
-            let first = self.blocks[i].first;
+        for (i, row) in self.rows().rev() {
             let (before, here) = x.split_at_mut(i);
+            let Some((corner, left)) = row.split_last() else { continue };
             let mut own = here[0];
             for b in (0..4).rev() {
                 for c in b + 1..4 {
-                    own[b] -= columns[b][i - first][c] * own[c];
+                    own[b] -= corner[b][c] * own[c];
                 }
                 own[b] *= self.inverse[i][b];
             }
             here[0] = own;
             let own = f64x4::new(own);
-            for (k, x) in before[first..].iter_mut().enumerate() {
-                for (column, x) in columns.iter().zip(x) {
-                    *x -= total(f64x4::new(column[k]) * own);
+            for (block, x) in left.iter().zip(&mut before[i - left.len()..]) {
+                for (column, x) in block.iter().zip(x) {
+                    *x -= total(f64x4::new(*column) * own);
                 }
             }
         }
     }
 
-    /// The rows of blocks of L, by the four columns of their blocks, from their first block to the diagonal.
-    fn columns(&self) -> impl DoubleEndedIterator<Item = (usize, [&[Four]; 4])> {
-        self.blocks.iter().enumerate().map(|(i, b)| {
-            let n = i + 1 - b.first;
-            (i, parts(&self.values[b.start..], n, 0, n))
-        })
+    /// The rows of blocks of L, each by its four columns, from the first block to the diagonal.
+    fn rows(&self) -> impl DoubleEndedIterator<Item = (usize, &[Tile])> {
+        self.blocks.iter().enumerate().map(|(i, b)| (i, &self.values[b.start..][..i + 1 - b.first]))
     }
+}
+
+/// Where the number in a row and a column lies.
+fn place(blocks: &[BlockRow], row: usize, column: usize) -> usize {
+    let BlockRow { first, start } = blocks[row / 4];
+    16 * (start + column / 4 - first) + row % 4 * 4 + column % 4
 }
 
 impl Gram for Hessian {
@@ -323,9 +363,8 @@ impl Gram for Hessian {
 
     fn entry(&mut self, row: usize, column: usize) -> Option<&mut f64> {
         let BlockRow { first, start } = *self.blocks.get(row / 4)?;
-        let n = row / 4 + 1 - first;
-        let row = self.values.get_mut(start + row % 4 * n..)?.get_mut(..n)?;
-        row.as_flattened_mut().get_mut(column.wrapping_sub(4 * first))
+        let blocks = self.values.get_mut(start..start + row / 4 + 1 - first)?;
+        Some(&mut blocks.get_mut((column / 4).wrapping_sub(first))?[row % 4][column % 4])
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
@@ -335,36 +374,31 @@ impl Gram for Hessian {
         v: &[[f64; R]],
         weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        self.stand(columns);
-        let Hessian { quads, blocks, values, .. } = self;
-        if self.fours.len() < R * quads.len() {
-            self.fours.resize(R * quads.len(), [0.0; 4]);
+        let stand = self.stand(columns);
+        let Hessian { quads, blocks, values, fours, .. } = self;
+        let quads = &quads[stand];
+        if fours.len() < R * quads.len() {
+            fours.resize(R * quads.len(), [0.0; 4]);
         }
-        let fours = &mut self.fours.as_chunks_mut::<R>().0[..quads.len()];
+        let fours = &mut fours.as_chunks_mut::<R>().0[..quads.len()];
         for (quad, four) in quads.iter().zip(fours.iter_mut()) {
-            *four = [[0.0; 4]; R];
-            for (lane, &p) in quad.of.iter().enumerate() {
-                if let Some(v) = v.get(p as usize) {
-                    for r in 0..R {
-                        four[r][lane] = v[r];
-                    }
-                }
-            }
+            let columns = quad.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
+            *four = from_fn(|r| columns.map(|v| v[r]));
         }
         for (q, quad) in quads.iter().enumerate() {
             let BlockRow { first, start } = blocks[quad.block as usize];
-            let n = quad.block as usize + 1 - first;
-            for (lane, &p) in quad.of.iter().enumerate() {
+            let row = &mut values[start..][..quad.block as usize + 1 - first];
+            // Beyond the diagonal a row counts as zero, whatever is there.
+            let (quads, fours) = (&quads[..=q], &fours[..=q]);
+            for (lane, p) in quad.of.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
                 let w = weigh(v).map(f64x4::splat);
-                let row = &mut values[start + lane * n..][..n];
-                // Beyond the diagonal a row counts as zero, whatever is there.
-                for (to, four) in quads[..=q].iter().zip(&*fours) {
+                for (to, four) in quads.iter().zip(fours) {
                     let mut sums = f64x4::new(four[0]) * w[0];
                     for r in 1..R {
                         sums += f64x4::new(four[r]) * w[r];
                     }
-                    let to = &mut row[to.block as usize - first];
+                    let to = &mut row[to.block as usize - first][lane];
                     *to = (f64x4::new(*to) + sums).to_array();
                 }
             }
@@ -372,14 +406,8 @@ impl Gram for Hessian {
     }
 }
 
-/// Four rows or columns of blocks, each of `n` blocks: `len` of these from `from` on.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn parts(of: &[Four], n: usize, from: usize, len: usize) -> [&[Four]; 4] {
-    from_fn(|r| &of[r * n + from..][..len])
-}
-
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn transposed(rows: [Four; 4]) -> [f64x4; 4] {
+fn transposed(rows: Tile) -> [f64x4; 4] {
     from_fn(|c| f64x4::new(rows.map(|row| row[c])))
 }
 

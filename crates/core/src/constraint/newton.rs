@@ -8,7 +8,6 @@ use super::iterate::Reached;
 use super::jacobian::{Block, Gram, Jacobian, add_entries, by_rows};
 use super::primal::{Direction, Problem, shape};
 use super::six::Six;
-use crate::dynamics::mass;
 use crate::math::{FREE_DOFS, SMALL, dot};
 use crate::model::Fields;
 use std::array::from_fn;
@@ -62,18 +61,21 @@ impl Problem<'_> {
         let (dofs, blocks) = (self.dofs(), self.blocks());
         let (m, d, s) = (self.m, &*self.d, &mut *self.s);
         s.hessian.clear();
-        for k in dofs.clone().flatten() {
-            let row = mass::row(m, k);
-            let columns = m.M_colind[row.clone()].iter().map(|&j| j as usize);
-            s.hessian.add(k, columns.zip(d.M[row].iter().copied()));
-            s.rhs[s.hessian.local[k] as usize] = s.grad[k];
-        }
+        s.hessian.add_mass(m, &d.M, dofs.clone());
         add_curvatures(d, self.jac, &s.jar, blocks, &mut s.hessian);
+        for run in dofs.clone() {
+            for (&place, &g) in s.hessian.local[run.clone()].iter().zip(&s.grad[run]) {
+                s.rhs[place as usize] = g;
+            }
+        }
         s.hessian.factor();
         s.hessian.solve(&mut s.rhs);
-        for k in dofs.flatten() {
-            let x = s.rhs[s.hessian.local[k] as usize];
-            (s.step[k], s.search[k]) = (x, -x);
+        for run in dofs {
+            let (step, search) = (&mut s.step[run.clone()], &mut s.search[run.clone()]);
+            for ((step, search), &place) in step.iter_mut().zip(search).zip(&s.hessian.local[run]) {
+                let x = s.rhs[place as usize];
+                (*step, *search) = (x, -x);
+            }
         }
     }
 

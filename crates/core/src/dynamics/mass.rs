@@ -333,6 +333,8 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         combine(&mut out[dofs.clone()], [diagonal, &v[dofs]], |_, [mass, v]| mass * v);
         return;
     }
+    // The same lengths, so that what is inside of one is inside of both.
+    let (v, out) = (&v[..dofs.end], &mut out[..dofs.end]);
     for i in dofs {
         let row = row(m, i);
         let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
@@ -356,8 +358,8 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
         let mut sums = f64x4::ZERO;
         for (a, j) in fours.iter().zip(by_four) {
             let (a, of) = (f64x4::new(*a), j.map(|j| j as usize));
-            let together = (!SMALL && j[3] - j[0] == 3).then_some(of[0]..of[3] + 1);
-            match together.and_then(|r| Some((v[r.clone()].first_chunk()?, out[r].first_chunk_mut()?))) {
+            let together = (!SMALL && j[3] - j[0] == 3).then_some(of[0]);
+            match together.and_then(|j| Some((v[j..].first_chunk()?, out[j..].first_chunk_mut()?))) {
                 Some((v, out)) => {
                     sums += a * f64x4::new(*v);
                     *out = (f64x4::new(*out) + a * vi).to_array();

@@ -43,7 +43,7 @@ pub(crate) fn shape_distance(
         return Some(found.map_or(best, |n| Distance { dist: n.dist, fromto: n.witness }));
     }
     work.touches.clear();
-    pair::contacts(method, first, second, most, settings, &mut work.room, &mut work.touches);
+    pair::contacts(method, first, second, most, || *settings, &mut work.room, &mut work.touches);
     for t in &work.touches {
         if t.dist < best.dist {
             let half = scale(t.normal, 0.5 * t.dist);

@@ -318,7 +318,7 @@ fn contacts_are_those_of_mujoco() {
             continue;
         }
         work.touches.clear();
-        pair::contacts(method, &a, &b, margin, &patient(), &mut work.room, &mut work.touches);
+        pair::contacts(method, &a, &b, margin, patient, &mut work.room, &mut work.touches);
         let mut got = Vec::new();
         for t in &work.touches {
             got.push(t.dist);
@@ -420,7 +420,7 @@ fn hostile_numbers_are_harmless() {
                         &first,
                         &second,
                         margin,
-                        &settings(),
+                        settings,
                         &mut work.room,
                         &mut work.touches,
                     );

@@ -350,7 +350,7 @@ pub fn quat_to_vel(q: Quat) -> Vec3 {
 }
 
 /// q rotated for a time h by the angular velocity w, given in the rotating frame (rad/s).
-#[inline]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
     if w == [0.0; 3] {
         return quat_normalize(q);
@@ -405,11 +405,14 @@ pub(crate) fn frame_along(normal: Vec3, tangent: Vec3) -> Mat3 {
     [normal[0], normal[1], normal[2], t1[0], t1[1], t1[2], t2[0], t2[1], t2[2]]
 }
 
-/// A number that no simulation means: NaN, or larger than 1e10.
+/// The largest number that a simulation means.
+pub(crate) const LARGEST: f64 = 1e10;
+
+/// A number that no simulation means: NaN, or a larger one.
 #[cfg_attr(not(feature = "small"), inline(always))]
 #[allow(clippy::neg_cmp_op_on_partial_ord)] // one comparison that NaN fails, too: it runs for every number of the state
 pub(crate) fn bad(x: f64) -> bool {
-    !(x.abs() <= 1e10)
+    !(x.abs() <= LARGEST)
 }
 
 /// Column `i` of a matrix.

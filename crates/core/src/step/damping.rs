@@ -58,6 +58,7 @@ fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
 }
 
 /// Whether some degree of freedom has a damper, and dampers are on.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn damps(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)

@@ -28,6 +28,7 @@ pub(crate) fn forward_unseen(m: &Model, d: &mut Data) {
 }
 
 /// What follows from positions and velocities, with the sensors and the energy that they determine.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn from_state(m: &Model, d: &mut Data) {
     let half = d.meter.half;
     d.meter.add(half);
@@ -54,6 +55,7 @@ pub(crate) fn velocity(m: &Model, d: &mut Data) {
 }
 
 /// What follows from inputs as well: forces, accelerations and the other sensors.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn from_inputs(m: &Model, d: &mut Data) {
     let half = d.meter.half;
     d.meter.add(half);
@@ -179,10 +181,16 @@ pub(super) fn bias(m: &Model, d: &mut Data) {
 
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
 pub(super) fn acceleration(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = &mut *data;
-    if d.plan.has(Fact::Ballistic) && m.opt.integrator != integrator::DISCRETE {
-        return fall(d);
+    if data.plan.has(Fact::Ballistic) && m.opt.integrator != integrator::DISCRETE {
+        fall(data);
+    } else {
+        accelerate(m, data);
     }
+}
+
+#[cfg_attr(not(feature = "small"), inline(never))]
+fn accelerate(m: &Model, data: &mut Data) {
+    let Data { fields: d, work } = &mut *data;
     if d.plan.has(Fact::Unforced) {
         combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
     } else {

@@ -24,9 +24,10 @@ pub(crate) mod store;
 pub(crate) mod workspace;
 
 use crate::kinds::disable;
-use crate::math::{bad, sum};
-use crate::model::{Model, Warning, WarningStat};
+use crate::math::{LARGEST, SMALL, bad};
+use crate::model::{Fields, Model, Warning, WarningStat};
 use crate::step::workspace::Data;
+use wide::f64x4;
 
 /// Advances the simulation by one step (`mj_step`).
 ///
@@ -34,7 +35,8 @@ use crate::step::workspace::Data;
 /// then starts from there (`warning` says which and when).
 pub(crate) fn step(m: &Model, d: &mut Data) {
     check_state(m, d);
-    forward::forward(m, d);
+    forward::from_state(m, d);
+    forward::from_inputs(m, d);
     check_acceleration(m, d);
     integrate::integrate(m, d);
 }
@@ -54,19 +56,23 @@ pub(crate) fn step2(m: &Model, d: &mut Data) {
     integrate::integrate_once(m, d);
 }
 
+/// Whether no number is [`bad`]: four at a time, where the last four may overlap those before.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn first_bad(v: &[f64]) -> Option<usize> {
-    // Nearly always there is none, and even their sum is good.
-    let some = match v {
-        [x] => bad(*x),
-        [x, y] => bad(*x) | bad(*y),
-        _ => bad(sum([v], |[x]| x.abs())),
-    };
-    if some { v.iter().position(|&x| bad(x)) } else { None }
+fn all_good(v: &[f64]) -> bool {
+    let good = |x: &[f64; 4]| f64x4::new(*x).abs().simd_le(f64x4::splat(LARGEST));
+    match (v.split_first_chunk(), v.last_chunk()) {
+        (Some((first, rest)), Some(last)) if !SMALL => {
+            rest.as_chunks().0.iter().fold(good(first) & good(last), |all, x| all & good(x)).all()
+        }
+        _ => !v.iter().any(|&x| bad(x)),
+    }
 }
 
-/// Warns, and resets unless that is switched off. The warning survives the reset.
-fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
+/// Warns of the first bad number, and resets unless that is switched off. The warning survives the reset.
+#[cold]
+#[inline(never)]
+fn reset_after(m: &Model, d: &mut Data, warning: Warning, of: fn(&Fields) -> &[f64]) -> bool {
+    let Some(info) = of(d).iter().position(|&x| bad(x)) else { return false };
     d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
         // The library counts what it does not reset twice.
@@ -79,20 +85,19 @@ fn reset_after(m: &Model, d: &mut Data, warning: Warning, info: usize) -> bool {
     true
 }
 
-#[inline(never)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn check_state(m: &Model, d: &mut Data) {
-    if let Some(i) = first_bad(&d.qpos) {
-        reset_after(m, d, Warning::BadQpos, i);
+    if !all_good(&d.qpos) {
+        reset_after(m, d, Warning::BadQpos, |d| &d.qpos);
     }
-    if let Some(i) = first_bad(&d.qvel) {
-        reset_after(m, d, Warning::BadQvel, i);
+    if !all_good(&d.qvel) {
+        reset_after(m, d, Warning::BadQvel, |d| &d.qvel);
     }
 }
 
+#[cfg_attr(not(feature = "small"), inline(always))]
 fn check_acceleration(m: &Model, d: &mut Data) {
-    if let Some(i) = first_bad(&d.qacc)
-        && reset_after(m, d, Warning::BadQacc, i)
-    {
+    if !all_good(&d.qacc) && reset_after(m, d, Warning::BadQacc, |d| &d.qacc) {
         forward::forward(m, d);
     }
 }

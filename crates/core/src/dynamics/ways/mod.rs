@@ -318,7 +318,13 @@ pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    each!(w, forces, |_way, row, of| (of.bias)(m, d, w, gravity));
+    each!(w, forces, |way, row, of| {
+        // M may be constant, so that nothing was loaded for it.
+        if row.places.is_none() && d.plan.changing.has(way) {
+            (row.load)(m, w);
+        }
+        (of.bias)(m, d, w, gravity);
+    });
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive: so below.

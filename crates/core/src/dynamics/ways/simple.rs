@@ -12,6 +12,8 @@ use std::ops::Range;
 pub(super) const ROW: Row = Row {
     name: "simple",
     covers,
+    copies: &["body_mass", "body_inertia"],
+    load: |m, w| w.ways.simple.joints.iter_mut().for_each(|joint| joint.load(m)),
     forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia, turns_alone: true }),
     ..NOTHING
 };
@@ -62,19 +64,29 @@ struct Joint {
     kind: i32,
     body: usize,
     dof: usize,
+    /// Of the body: its mass, and its inertia along its own axes.
+    mass: f64,
+    inertia: Vec3,
 }
 
 impl Joint {
     fn new(m: &Model, joint: usize) -> Joint {
         let body = m.jnt_bodyid[joint] as usize;
-        Joint { joint, kind: m.jnt_type[joint], body, dof: m.jnt_dofadr[joint] as usize }
+        let (kind, dof) = (m.jnt_type[joint], m.jnt_dofadr[joint] as usize);
+        let mut joint = Joint { joint, kind, body, dof, mass: 0.0, inertia: [0.0; 3] };
+        joint.load(m);
+        joint
+    }
+
+    fn load(&mut self, m: &Model) {
+        (self.mass, self.inertia) = (m.body_mass[self.body], rows::<3>(&m.body_inertia)[self.body]);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     for joint in &w.ways.simple.joints {
-        bias_of(m, d, joint, gravity);
+        bias_of(d, joint, gravity);
     }
 }
 
@@ -86,11 +98,8 @@ pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
 /// One joint of a simple body: weight along translations, ω × I ω for rotations in the body's frame. A
 /// hinge turns about a principal axis and feels nothing.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn bias_of(m: &Model, d: &mut Fields, s: &Joint, gravity: Vec3) {
-    let (Some(mass), Some(&[a, b, c])) = (m.body_mass.get(s.body), rows::<3>(&m.body_inertia).get(s.body))
-    else {
-        return;
-    };
+fn bias_of(d: &mut Fields, s: &Joint, gravity: Vec3) {
+    let (mass, [a, b, c]) = (s.mass, s.inertia);
     let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
     let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else { return };
     match (s.kind, v, out) {
@@ -98,7 +107,10 @@ fn bias_of(m: &Model, d: &mut Fields, s: &Joint, gravity: Vec3) {
             [*fx, *fy, *fz] = scale(gravity, -mass);
             [*tx, *ty, *tz] = turning([x, y, z]);
         }
-        (joint::SLIDE, _, [out, ..]) => *out = -mass * dot(gravity, rows::<3>(&d.xaxis)[s.joint]),
+        (joint::SLIDE, _, [out, ..]) => {
+            let axis = d.xaxis.get(3 * s.joint..).and_then(|axes| axes.first_chunk());
+            *out = axis.map_or(0.0, |axis| -mass * dot(gravity, *axis));
+        }
         (joint::HINGE, _, [out, ..]) => *out = 0.0,
         (joint::BALL, &[x, y, z, ..], [tx, ty, tz, ..]) => [*tx, *ty, *tz] = turning([x, y, z]),
         _ => {}

@@ -29,6 +29,7 @@ pub(super) fn rates(m: &Model, d: &mut Fields, i: usize, ctrl: &mut [f64]) {
 }
 
 /// Advances `act` by a step along `act_dot`.
+#[cfg_attr(not(feature = "small"), inline(never))]
 pub(crate) fn advance(m: &Model, d: &mut Fields) {
     if m.opt.disabled(disable::ACTUATION) {
         return;

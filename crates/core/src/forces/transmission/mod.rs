@@ -75,22 +75,21 @@ pub(crate) fn transmissions(m: &Model, d: &mut Fields, w: &mut Scratch) {
         values: std::mem::take(&mut d.actuator_moment),
         at: 0,
     };
-    for i in 0..m.nactuator {
-        let first = m.actuator_outadr[i] as usize;
-        for o in first..first + m.actuator_outnum[i] as usize {
+    let outputs = m.actuator_outadr.iter().zip(&m.actuator_outnum);
+    let targets = m.actuator_trntype.iter().zip(m.actuator_trnid.as_chunks().0);
+    for (i, ((&first, &number), (&kind, &[target, _]))) in outputs.zip(targets).enumerate() {
+        for o in first as usize..(first + number) as usize {
             let start = out.at;
-            (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, 0);
-            if asleep::actuator(m, d, i) {
-                continue;
+            if !asleep::actuator(m, d, i) {
+                d.actuator_length[o] = match kind {
+                    trntype::JOINT | trntype::JOINTINPARENT => {
+                        let gear = &rows::<6>(&m.actuator_gear)[o];
+                        at_joint(m, d, target as usize, kind == trntype::JOINTINPARENT, gear, &mut out)
+                    }
+                    _ => elsewhere(m, d, [i, o], w, &mut out),
+                };
             }
-            d.actuator_length[o] = match m.actuator_trntype[i] {
-                kind @ (trntype::JOINT | trntype::JOINTINPARENT) => {
-                    let gear = &rows::<6>(&m.actuator_gear)[o];
-                    at_joint(m, d, target(m, i).0, kind == trntype::JOINTINPARENT, gear, &mut out)
-                }
-                _ => elsewhere(m, d, [i, o], w, &mut out),
-            };
-            d.moment_rownnz[o] = (out.at - start) as i32;
+            (d.moment_rowadr[o], d.moment_rownnz[o]) = (start as i32, (out.at - start) as i32);
         }
     }
     (d.moment_colind, d.actuator_moment) = (out.colind, out.values);
@@ -178,10 +177,11 @@ pub(crate) fn velocities(m: &Model, d: &mut Fields) {
         d.actuator_velocity.fill(0.0);
         return;
     }
-    for o in 0..m.nout {
-        let row = row(d, o);
+    let rows = d.moment_rowadr.iter().zip(&d.moment_rownnz);
+    for (velocity, (&start, &number)) in d.actuator_velocity.iter_mut().zip(rows) {
+        let row = start as usize..(start + number) as usize;
         let terms = d.moment_colind[row.clone()].iter().zip(&d.actuator_moment[row]);
-        d.actuator_velocity[o] = terms.map(|(&k, x)| x * d.qvel[k as usize]).sum();
+        *velocity = terms.map(|(&k, x)| x * d.qvel[k as usize]).sum();
     }
 }
 

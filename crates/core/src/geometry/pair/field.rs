@@ -15,6 +15,7 @@ const PASSED: u64 = 30;
 ///
 /// With a margin the ground is higher by it and the shape thicker by half of it, and distances are those of the two so
 /// changed (measured on MuJoCo 3.14.0).
+#[cfg_attr(not(feature = "small"), inline(never))]
 pub(super) fn field(
     ground: &Shape,
     b: &Shape,

@@ -101,19 +101,20 @@ pub(crate) fn is_searched(kind1: i32, kind2: i32, distance: bool) -> bool {
 }
 
 /// Appends the contacts of two shapes within `margin`.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn contacts(
     method: Method,
     a: &Shape,
     b: &Shape,
     margin: f64,
-    settings: &Settings,
+    settings: impl FnOnce() -> Settings,
     room: &mut Room,
     out: &mut Vec<Touch>,
 ) {
     match method {
         Method::Direct(test) => test(a, b, margin, out),
-        Method::Convex if CONVEX => searched::convex(a, b, margin, settings, room, out),
-        Method::Field if CONVEX => field::field(a, b, margin, settings, room, out),
+        Method::Convex if CONVEX => searched::convex(a, b, margin, &settings(), room, out),
+        Method::Field if CONVEX => field::field(a, b, margin, &settings(), room, out),
         Method::Convex | Method::Field => {}
     }
 }

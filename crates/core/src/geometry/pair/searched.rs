@@ -14,6 +14,7 @@ const DISTINCT: f64 = 1e-3;
 const ROCK: f64 = 1e-3;
 
 /// The nearest or deepest place, and further ones where the shapes lie flat on each other.
+#[cfg_attr(not(feature = "small"), inline(never))]
 pub(super) fn convex(
     a: &Shape,
     b: &Shape,

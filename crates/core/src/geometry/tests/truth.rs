@@ -404,7 +404,7 @@ fn contacts_of_faces_are_below_both_surfaces() {
         work.touches.clear();
         let method = crate::geometry::pair::method(a.kind, b.kind).unwrap();
         let settings = super::settings();
-        crate::geometry::pair::contacts(method, &a, &b, 0.0, &settings, &mut work.room, &mut work.touches);
+        crate::geometry::pair::contacts(method, &a, &b, 0.0, || settings, &mut work.room, &mut work.touches);
         let deep = nearest(&mut Convex::new(&a), &mut Convex::new(&b), 0.0, settings.effort, &mut work.room);
         let depth = deep.map_or(0.0, |n| -n.dist);
         let say = || format!("case {case}: {:?} {depth} {a:?} {b:?}", work.touches);

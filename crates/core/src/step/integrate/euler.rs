@@ -7,12 +7,17 @@ use crate::step::workspace::Data;
 
 /// v += h a, then q advances with the new v. Joint damping is implicit, so that it is stable however stiff:
 /// (M + h B) a' = M a, where B is the derivative of the damping force.
-#[inline(never)]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn euler(m: &Model, d: &mut Data) {
-    if !damps(m, d) {
+    if damps(m, d) {
+        damped(m, d);
+    } else {
         advance(m, d, Slopes::default());
-        return;
     }
+}
+
+#[cfg_attr(not(feature = "small"), inline(never))]
+fn damped(m: &Model, d: &mut Data) {
     if !d.work.damping.done {
         damp(m, &d.fields, &mut d.work.dynamics, &mut d.work.damping);
     }

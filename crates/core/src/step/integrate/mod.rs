@@ -21,7 +21,16 @@ use crate::{constraint, sensor};
 pub(crate) use position::{differentiate_pos, integrate_pos};
 
 /// The next state, by the integrator that the options name.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate(m: &Model, d: &mut Data) {
+    match m.opt.integrator {
+        integrator::EULER => euler::euler(m, d),
+        _ => by_another(m, d),
+    }
+}
+
+#[cfg_attr(not(feature = "small"), inline(never))]
+fn by_another(m: &Model, d: &mut Data) {
     match m.opt.integrator {
         integrator::RK4 => runge_kutta::rk4(m, d),
         integrator::RKMK4 => explicit::explicit(m, d, &explicit::FOURTH),
@@ -95,6 +104,7 @@ fn advance_along(m: &Model, d: &mut Data) {
 
 /// Velocities and positions where trees may sleep: those that fall asleep stop, and what depends on their velocities is
 /// computed again; those that sleep stay where they are.
+#[cfg_attr(not(feature = "small"), inline(never))]
 fn advance_awake(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
     let (mut a, mut start) =
         (std::mem::take(&mut d.work.sleep.acceleration), std::mem::take(&mut d.work.sleep.start));
@@ -122,6 +132,7 @@ fn advance_awake(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity
 }
 
 /// Keeps the controls and values of this time for delayed actuators and sensors.
+#[cfg_attr(not(feature = "small"), inline(never))]
 fn record(m: &Model, d: &mut Data) {
     actuation::record(m, d);
     if d.plan.keeps(Stage::Sensors) {

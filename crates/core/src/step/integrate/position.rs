@@ -8,7 +8,7 @@ use crate::math::*;
 use crate::model::Model;
 
 /// qpos ← qpos advanced for a time `h` with velocity `v` (`mj_integratePos`).
-#[inline]
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     if m.nq == m.nv {
         // Slides and hinges only: coordinates and velocities are in the same places.
@@ -19,24 +19,33 @@ pub(crate) fn integrate_pos(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
     }
 }
 
+/// The same where joints have quaternions: coordinates and velocities follow each other joint by joint.
 #[inline(never)] // scenes of slides and hinges alone do not carry its set-up
-fn along_joints(m: &Model, qpos: &mut [f64], v: &[f64], h: f64) {
-    for (&kind, (&q, &k)) in m.jnt_type.iter().zip(m.jnt_qposadr.iter().zip(&m.jnt_dofadr)) {
-        let (to, v) = (&mut qpos[q as usize..], &v[k as usize..]);
-        let (quat, turn) = match (kind, to, v) {
-            (joint::SLIDE | joint::HINGE, [q, ..], [v, ..]) => {
+fn along_joints(m: &Model, mut qpos: &mut [f64], mut v: &[f64], h: f64) {
+    for &kind in &m.jnt_type {
+        (qpos, v) = match (kind, qpos, v) {
+            (joint::SLIDE | joint::HINGE, [q, qpos @ ..], [v, later @ ..]) => {
                 *q += h * v;
-                continue;
+                (qpos, later)
             }
-            (joint::FREE, [x, y, z, quat @ ..], &[vx, vy, vz, ref turn @ ..]) => {
+            (joint::FREE, [x, y, z, qpos @ ..], [vx, vy, vz, v @ ..]) => {
                 [*x, *y, *z] = [*x + h * vx, *y + h * vy, *z + h * vz];
-                (quat, turn)
+                turn(qpos, v, h)
             }
-            (_, quat, turn) => (quat, turn),
+            (_, qpos, v) => turn(qpos, v, h),
         };
-        if let (Some(quat), Some(&turn)) = (quat.first_chunk_mut(), turn.first_chunk()) {
+    }
+}
+
+/// Turns the quaternion that coordinates begin with; returns what follows.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn turn<'q, 'v>(qpos: &'q mut [f64], v: &'v [f64], h: f64) -> (&'q mut [f64], &'v [f64]) {
+    match (qpos.split_first_chunk_mut(), v.split_first_chunk()) {
+        (Some((quat, qpos)), Some((&turn, v))) => {
             *quat = quat_integrate(*quat, turn, h);
+            (qpos, v)
         }
+        _ => Default::default(),
     }
 }
 
