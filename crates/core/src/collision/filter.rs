@@ -1,17 +1,19 @@
 //! Which pairs of geoms may touch, and in which order they are tested.
 
-use crate::geometry::pair;
+use crate::geometry::pair::{self, Method};
 use crate::kinds::disable;
 use crate::math::sort::sort_by;
 use crate::model::Model;
 
 /// Two geoms, ordered so that the first has the smaller type.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pair {
     pub(crate) geom1: u32,
     pub(crate) geom2: u32,
     /// The explicit pair that names them, [`Pair::DYNAMIC`] if none.
     pub(crate) explicit: u32,
+    /// How they are tested.
+    pub(crate) method: Method,
 }
 
 impl Pair {
@@ -21,8 +23,8 @@ impl Pair {
     /// Geoms ordered by type; equal types stay as they are. `None` when such types pass through each other.
     fn of(m: &Model, a: usize, b: usize, explicit: u32) -> Option<Pair> {
         let (a, b) = if m.geom_type[a] <= m.geom_type[b] { (a, b) } else { (b, a) };
-        pair::method(m.geom_type[a], m.geom_type[b])?;
-        Some(Pair { geom1: a as u32, geom2: b as u32, explicit })
+        let method = pair::method(m.geom_type[a], m.geom_type[b])?;
+        Some(Pair { geom1: a as u32, geom2: b as u32, explicit, method })
     }
 
     /// Pairs are tested by bodies; for the same bodies explicit pairs come first, in their own order, the others by

@@ -167,11 +167,18 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
 #[inline(never)]
 fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
-    let Some(method) = pair::method(m.geom_type[g1], m.geom_type[g2]) else { return };
     work.touches.clear();
     work.room.cost = 0;
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
-    pair::contacts(method, &a, &b, params.reach, || pair::Settings::of(m), &mut work.room, &mut work.touches);
+    pair::contacts(
+        pair.method,
+        &a,
+        &b,
+        params.reach,
+        || pair::Settings::of(m),
+        &mut work.room,
+        &mut work.touches,
+    );
     for t in &work.touches {
         d.contact.push(params::contact(params, g1, g2, t, frame_along(t.normal, t.tangent)));
     }

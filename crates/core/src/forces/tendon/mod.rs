@@ -31,45 +31,35 @@ pub(crate) fn row(m: &Model, t: usize) -> std::ops::Range<usize> {
 
 /// `ten_length`, `ten_J` and the points of the paths. A tendon that sleeps has no length and stays where it is.
 pub(crate) fn tendons(m: &Model, d: &mut Fields) {
-    // Taken out, so that the rest of the data can be read while they are written.
-    let mut out = spatial_tendon::Paths {
-        jacobian: std::mem::take(&mut d.ten_J),
-        on: std::mem::take(&mut d.wrap_obj),
-        points: std::mem::take(&mut d.wrap_xpos),
-        count: 0,
-    };
-    out.jacobian.fill(0.0);
+    d.ten_J.fill(0.0);
+    let mut points = 0;
     for t in 0..m.ntendon {
         if asleep::tendon(m, d, t) {
             d.ten_length[t] = 0.0;
             continue;
         }
-        let first = out.count;
-        d.ten_length[t] = if is_fixed(m, t) {
-            fixed(m, d, t, &mut out.jacobian)
-        } else {
-            spatial_tendon::spatial(m, d, t, &mut out)
-        };
+        let first = points;
+        d.ten_length[t] =
+            if is_fixed(m, t) { fixed(m, d, t) } else { spatial_tendon::spatial(m, d, t, &mut points) };
         d.ten_wrapadr[t] = first as i32;
-        d.ten_wrapnum[t] = (out.count - first) as i32;
+        d.ten_wrapnum[t] = (points - first) as i32;
     }
-    (d.ten_J, d.wrap_obj, d.wrap_xpos) = (out.jacobian, out.on, out.points);
 }
 
 /// The length Σ c q of a fixed tendon; its Jacobian is c.
-fn fixed(m: &Model, d: &Fields, t: usize, jacobian: &mut [f64]) -> f64 {
-    let first = m.tendon_adr[t] as usize;
+fn fixed(m: &Model, d: &mut Fields, t: usize) -> f64 {
     let row = row(m, t);
-    let columns = &m.ten_J_colind[row.clone()];
+    let (columns, jacobian) = (&m.ten_J_colind[row.clone()], &mut d.ten_J[row]);
+    let path = m.tendon_adr[t] as usize..(m.tendon_adr[t] + m.tendon_num[t]) as usize;
     let (mut length, mut next) = (0.0, 0);
-    for w in first..first + m.tendon_num[t] as usize {
-        let (j, coefficient) = (m.wrap_objid[w] as usize, m.wrap_prm[w]);
-        length += coefficient * d.qpos[m.jnt_qposadr[j] as usize];
+    for (&joint, coefficient) in m.wrap_objid[path.clone()].iter().zip(&m.wrap_prm[path]) {
+        let joint = joint as usize;
+        length += coefficient * d.qpos[m.jnt_qposadr[joint] as usize];
         // As a rule joints come in their order.
-        let dof = m.jnt_dofadr[j];
+        let dof = m.jnt_dofadr[joint];
         let found = if columns.get(next) == Some(&dof) { Ok(next) } else { columns.binary_search(&dof) };
         if let Ok(at) = found {
-            jacobian[row.start + at] += coefficient;
+            jacobian[at] += coefficient;
             next = at + 1;
         }
     }

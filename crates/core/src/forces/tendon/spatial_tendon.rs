@@ -7,14 +7,14 @@ use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// Jacobians and points of all paths.
-pub(super) struct Paths {
-    pub(super) jacobian: Vec<f64>,
+struct Paths {
+    jacobian: Vec<f64>,
     /// What each point lies on: a geom, [`ON_SITE`] or [`ON_PULLEY`].
-    pub(super) on: Vec<i32>,
+    on: Vec<i32>,
     /// Their places, world.
-    pub(super) points: Vec<f64>,
+    points: Vec<f64>,
     /// Number of points so far.
-    pub(super) count: usize,
+    count: usize,
 }
 
 const ON_SITE: i32 = -1;
@@ -99,7 +99,23 @@ impl Iterator for Legs<'_> {
 }
 
 /// The length of a spatial tendon, m; adds its Jacobian and points to `out`.
-pub(super) fn spatial(m: &Model, d: &Fields, t: usize, out: &mut Paths) -> f64 {
+///
+/// `points`: how many points all paths have so far.
+pub(super) fn spatial(m: &Model, d: &mut Fields, t: usize, points: &mut usize) -> f64 {
+    // Taken out, so that the rest of the data can be read while they are written.
+    let mut out = Paths {
+        jacobian: std::mem::take(&mut d.ten_J),
+        on: std::mem::take(&mut d.wrap_obj),
+        points: std::mem::take(&mut d.wrap_xpos),
+        count: *points,
+    };
+    let length = path(m, d, t, &mut out);
+    *points = out.count;
+    (d.ten_J, d.wrap_obj, d.wrap_xpos) = (out.jacobian, out.on, out.points);
+    length
+}
+
+fn path(m: &Model, d: &Fields, t: usize, out: &mut Paths) -> f64 {
     let site_xpos = rows::<3>(&d.site_xpos);
     let mut length = 0.0;
     for leg in Legs::new(m, t) {

@@ -63,6 +63,13 @@ pub(crate) enum Method {
     Field,
 }
 
+/// Which closed form it is follows from the types.
+impl PartialEq for Method {
+    fn eq(&self, other: &Method) -> bool {
+        std::mem::discriminant(self) == std::mem::discriminant(other)
+    }
+}
+
 /// Whether this build has the general algorithm. Without it a model that needs it is refused when it is loaded
 /// (`setup/needs`).
 pub(crate) const CONVEX: bool = cfg!(feature = "convex");
