@@ -331,16 +331,12 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
             *q = quat_normalize(*q);
         }
     }
-    let quats: Vec<usize> = m
-        .jnt_type
-        .iter()
-        .zip(&m.jnt_qposadr)
-        .filter_map(|(&kind, &adr)| match kind {
+    let quats: Vec<usize> =
+        listed(m.jnt_type.iter().zip(&m.jnt_qposadr).filter_map(|(&kind, &adr)| match kind {
             joint::FREE => Some(adr as usize + 3),
             joint::BALL => Some(adr as usize),
             _ => None,
-        })
-        .collect();
+        }));
     let nq = m.nq;
     for key in m.key_qpos.chunks_exact_mut(nq.max(1)) {
         for &at in &quats {

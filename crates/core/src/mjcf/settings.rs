@@ -3,6 +3,7 @@
 use super::classes::Props;
 use super::spec::List;
 use crate::kinds::{disable, enable};
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, shown};
 use crate::mjcf::text::tree::Tree;
@@ -111,10 +112,9 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
         true => p.text("eulerseq").unwrap_or(""),
         false => "xyz",
     };
-    let axes: Vec<_> = text
-        .chars()
-        .filter_map(|c| Some(("xyz".find(c.to_ascii_lowercase())?, c.is_ascii_uppercase())))
-        .collect();
+    let axes: Vec<_> = listed(
+        text.chars().filter_map(|c| Some(("xyz".find(c.to_ascii_lowercase())?, c.is_ascii_uppercase()))),
+    );
     match <[_; 3]>::try_from(axes) {
         Ok(axes) if text.chars().count() == 3 => axes,
         _ => {

@@ -17,12 +17,10 @@ fn single(list: &[Vec3]) -> impl Iterator<Item = f64> + '_ {
 
 /// First places of things that follow each other, from their numbers.
 fn places(counts: impl Iterator<Item = usize>) -> Vec<i32> {
-    counts
-        .scan(0, |next, n| {
-            *next += n;
-            Some((*next - n) as i32)
-        })
-        .collect()
+    listed(counts.scan(0, |next, n| {
+        *next += n;
+        Some((*next - n) as i32)
+    }))
 }
 
 /// The sizes that these objects add to the model.
@@ -50,7 +48,7 @@ fn graph_len(mesh: &Mesh) -> usize {
 
 pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     let list: Vec<&Mesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
-    let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { list.iter().map(|x| of(x)).collect() };
+    let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| of(x))) };
     let numbers =
         |counts: &[usize]| (places(counts.iter().copied()), listed(counts.iter().map(|&n| n as i32)));
     (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));
@@ -72,22 +70,16 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_face = listed(list.iter().flat_map(|x| x.shape.face.as_flattened()).copied());
     m.mesh_facenormal = listed(list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied());
     // A mesh without texture coordinates has room for them.
-    m.mesh_facetexcoord = list
-        .iter()
-        .flat_map(|x| {
-            let own = x.shape.facetexcoord.as_flattened().iter().copied();
-            own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
-        })
-        .collect();
+    m.mesh_facetexcoord = listed(list.iter().flat_map(|x| {
+        let own = x.shape.facetexcoord.as_flattened().iter().copied();
+        own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
+    }));
     m.mesh_graph = listed(list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()));
-    m.mesh_sides = list
-        .iter()
-        .map(|x| {
-            // Seen before the vertices lose their precision.
-            let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
-            geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
-        })
-        .collect();
+    m.mesh_sides = listed(list.iter().map(|x| {
+        // Seen before the vertices lose their precision.
+        let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
+        geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
+    }));
     flat(&mut m.mesh_scale, &list, |x| x.options.scale);
     flat(&mut m.mesh_pos, &list, |x| x.pos);
     flat(&mut m.mesh_quat, &list, |x| x.quat);

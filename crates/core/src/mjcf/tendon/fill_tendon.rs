@@ -27,11 +27,12 @@ pub(crate) fn demote_simple(
 ) {
     let site_body: Vec<usize> =
         listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
-    let rotors: Vec<i32> = actuators
-        .iter()
-        .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
-        .map(|t| t.id[0])
-        .collect();
+    let rotors: Vec<i32> = listed(
+        actuators
+            .iter()
+            .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
+            .map(|t| t.id[0]),
+    );
     let heavy = |&(t, spec): &(usize, &TendonSpec)| spec.armature > 0.0 || rotors.contains(&(t as i32));
     let sites = list.iter().enumerate().filter(heavy).flat_map(|(_, t)| &t.path);
     for site in sites.filter(|w| w.kind == wraptype::SITE) {
