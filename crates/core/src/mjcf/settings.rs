@@ -351,7 +351,7 @@ pub(crate) fn min_keys(tree: &Tree) -> usize {
 pub(crate) fn user_width<'l>(
     tree: &Tree,
     size: &str,
-    lists: impl Iterator<Item = &'l List>,
+    lists: &mut dyn Iterator<Item = &'l List>,
     report: &mut Report,
 ) -> usize {
     let p = section(tree, "size");
