@@ -348,10 +348,10 @@ pub(crate) fn min_keys(tree: &Tree) -> usize {
 
 /// How many user values each object of a kind has: as many as `size` says, else, and for -1, as the longest list.
 /// `lists` has one for each object.
-pub(crate) fn user_width<'l>(
+pub(crate) fn user_width(
     tree: &Tree,
     size: &str,
-    lists: &mut dyn Iterator<Item = &'l List>,
+    lists: &mut dyn Iterator<Item = &List>,
     report: &mut Report,
 ) -> usize {
     let p = section(tree, "size");

@@ -245,7 +245,7 @@ impl Expander {
             frames.push(frame);
             self.follow(&mut followers, rename)?;
         }
-        self.settle(at, listed(node.attribute("childclass").cloned().into_iter()), frames)?;
+        self.settle(at, listed(node.attribute("childclass").cloned()), frames)?;
         // What referred to the pattern goes with it.
         self.uses.remove(followers.into_iter().flat_map(|f| f.bound));
         Some(())
