@@ -130,8 +130,8 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
         4 if info.name.contains("quat") => format!(" quaternion {}", ["w", "x", "y", "z"].get(at)?),
         _ => format!(" number {at}"),
     };
-    let unit = if info.unit.is_empty() { String::new() } else { format!(", {}", info.unit) };
-    Some(format!("{noun} {name}:{part} of {}{unit}", info.doc))
+    let unit = if f.unit().is_empty() { String::new() } else { format!(", {}", f.unit()) };
+    Some(format!("{noun} {name}:{part} of {}{unit}", f.doc()))
 }
 
 fn joint_word(ty: i32) -> &'static str {

@@ -55,12 +55,12 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
         "actuator_ctrlrange" => return control(m, at / 2),
         _ => {}
     }
-    if info.unit.is_empty() {
+    if f.unit().is_empty() {
         let turned = ["quat", "mat", "axis", "xdir"].iter().any(|part| info.name.contains(part));
         return if turned { Measure::Known(Dimension::NUMBER) } else { Measure::Unknown };
     }
     let width: usize = shape.iter().skip(1).map(|d| d.unwrap_or(1)).product();
-    let Some(unit) = part(info.unit, at % width.max(1), width) else { return Measure::Unknown };
+    let Some(unit) = part(f.unit(), at % width.max(1), width) else { return Measure::Unknown };
     let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
     let motion = match dim {
         "nq" | "nv" | "njnt" => joint_motion(m, f, dim, at),

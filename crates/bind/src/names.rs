@@ -213,8 +213,8 @@ fn field(f: FieldId, path: String, first: usize, shape: Vec<Option<usize>>, owne
             reflect::Elem::I32 | reflect::Elem::Size => Elem::Int,
             reflect::Elem::Bool => Elem::Byte,
         },
-        unit: info.unit.into(),
-        doc: info.doc.into(),
+        unit: f.unit().into(),
+        doc: f.doc().into(),
         owner,
     }
 }

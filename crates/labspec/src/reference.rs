@@ -52,13 +52,14 @@ fn fields() -> String {
             text,
             "\n## `{name}`\n\n{about}\n\n| field | shape | by name | unit | kind | meaning |\n|---|---|---|---|---|---|\n"
         );
-        for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == object) {
+        for id in reflect::fields().filter(|id| id.info().object == object) {
+            let (f, unit, doc) = (id.info(), id.unit(), id.doc());
             let shape = if f.shape.is_empty() { "–".to_string() } else { f.shape.join(" × ") };
-            let unit = if f.unit.is_empty() { "–" } else { f.unit };
+            let unit = if unit.is_empty() { "–" } else { unit };
             let named = f.shape.first().and_then(|dim| by_name(f.object, f.name, dim));
             let named = named.map_or("–".to_string(), |path| format!("`{path}`"));
             let kind = kind(f.kind, f.stage);
-            let _ = writeln!(text, "| `{}` | {shape} | {named} | {unit} | {kind} | {} |", f.name, f.doc);
+            let _ = writeln!(text, "| `{}` | {shape} | {named} | {unit} | {kind} | {doc} |", f.name);
         }
     }
     text.push_str(

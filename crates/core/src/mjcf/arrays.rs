@@ -1,41 +1,32 @@
 //! Arrays of a model, from one value or more of each object.
 //!
 //! There are hundreds of them: in the module the loop is there once for each type of object, and for each array what it takes
-//! of an object.
+//! of an object. They are filled where they are: a list that is made anew has to be moved there, and what was there freed.
 
 use super::gather::put;
 use super::spec::List;
 
-/// Numbers of each object, one after the other.
-pub(super) fn flat<T, const N: usize>(
+/// Values of each object, one after the other.
+pub(super) fn flat<T, V, const N: usize>(
+    array: &mut Vec<V>,
     list: impl IntoIterator<Item = T>,
-    of: impl Fn(T) -> [f64; N],
-) -> Vec<f64> {
-    numbers(list.into_iter(), &of)
+    mut of: impl FnMut(T) -> [V; N],
+) {
+    refill(array, list.into_iter(), &mut of);
 }
 
 #[inline(never)]
-fn numbers<T, const N: usize>(list: impl Iterator<Item = T>, of: &dyn Fn(T) -> [f64; N]) -> Vec<f64> {
-    let mut out = Vec::new();
-    list.for_each(|x| of(x).into_iter().for_each(|x| put(&mut out, x)));
-    out
-}
-
-/// One integer of each object.
-pub(super) fn ints<T>(list: impl IntoIterator<Item = T>, mut of: impl FnMut(T) -> i32) -> Vec<i32> {
-    integers(list.into_iter(), &mut of)
-}
-
-#[inline(never)]
-fn integers<T>(list: impl Iterator<Item = T>, of: &mut dyn FnMut(T) -> i32) -> Vec<i32> {
-    let mut out = Vec::new();
-    list.for_each(|x| put(&mut out, of(x)));
-    out
+fn refill<T, V, const N: usize>(
+    array: &mut Vec<V>,
+    list: impl Iterator<Item = T>,
+    of: &mut dyn FnMut(T) -> [V; N],
+) {
+    array.clear();
+    list.for_each(|x| of(x).into_iter().for_each(|x| put(array, x)));
 }
 
 /// The user values of each object, `width` of them.
-pub(super) fn padded<'l>(lists: impl Iterator<Item = &'l List>, width: usize) -> Vec<f64> {
-    let mut out = Vec::new();
-    lists.for_each(|l| (0..width).for_each(|k| put(&mut out, l.numbers.get(k).copied().unwrap_or(0.0))));
-    out
+pub(super) fn padded<'l>(array: &mut Vec<f64>, lists: impl Iterator<Item = &'l List>, width: usize) {
+    array.clear();
+    lists.for_each(|l| (0..width).for_each(|k| put(array, l.numbers.get(k).copied().unwrap_or(0.0))));
 }

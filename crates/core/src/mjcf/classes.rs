@@ -3,6 +3,7 @@
 //! One rule for all: a class starts as its parent, and every attribute overlays what stands below it. A list
 //! overlays number by number from the front, so `friction="0.5"` keeps the class's other two coefficients.
 
+use crate::mjcf::gather::listed;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -158,7 +159,7 @@ impl Room {
             return over.clone();
         }
         self.taken.set(taken);
-        Rc::new(over.iter().chain(below.iter().skip(over.len())).copied().collect())
+        Rc::new(listed(over.iter().chain(below.iter().skip(over.len())).copied()))
     }
 }
 

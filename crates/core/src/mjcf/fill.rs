@@ -1,6 +1,6 @@
 //! Specifications to the arrays of [`Model`].
 
-use super::arrays::{flat, ints, padded};
+use super::arrays::{flat, padded};
 use super::gather::listed;
 use super::layout::{Dof, Layout, Pattern, WholePattern};
 use super::spec::{
@@ -178,24 +178,24 @@ fn addresses(list: &[BodySpec], count: impl Fn(&BodySpec) -> usize) -> (Vec<i32>
 }
 
 fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &Layout, simple: &[i32]) {
-    m.body_parentid = ints(list, |b| b.parent as i32);
-    m.body_rootid = ints(&layout.root, |&i| i as i32);
-    m.body_weldid = ints(&layout.weld, |&i| i as i32);
+    flat(&mut m.body_parentid, list, |b| [b.parent as i32]);
+    flat(&mut m.body_rootid, &layout.root, |&i| [i as i32]);
+    flat(&mut m.body_weldid, &layout.weld, |&i| [i as i32]);
     m.body_mocapid = layout.mocap.clone();
     m.body_treeid = layout.body_tree.clone();
     (m.body_jntadr, m.body_jntnum) = addresses(list, |b| b.joints.len());
     (m.body_geomadr, m.body_geomnum) = addresses(list, |b| b.geoms.len());
-    m.body_dofnum = ints(&layout.body_dofs, |&(_, n)| n as i32);
-    m.body_dofadr = ints(&layout.body_dofs, |&(at, n)| if n == 0 { -1 } else { at as i32 });
+    flat(&mut m.body_dofnum, &layout.body_dofs, |&(_, n)| [n as i32]);
+    flat(&mut m.body_dofadr, &layout.body_dofs, |&(at, n)| [if n == 0 { -1 } else { at as i32 }]);
     m.body_simple = simple.to_vec();
-    m.body_pos = flat(list, |b| b.pos);
-    m.body_quat = flat(list, |b| b.quat);
-    m.body_ipos = flat(inertias, |i| i.pos);
-    m.body_iquat = flat(inertias, |i| i.quat);
-    m.body_mass = flat(inertias, |i| [i.mass]);
-    m.body_inertia = flat(inertias, |i| i.moments);
-    m.body_gravcomp = flat(list, |b| [b.gravcomp]);
-    m.body_user = padded(list.iter().map(|b| &b.user), m.nuser_body);
+    flat(&mut m.body_pos, list, |b| b.pos);
+    flat(&mut m.body_quat, list, |b| b.quat);
+    flat(&mut m.body_ipos, inertias, |i| i.pos);
+    flat(&mut m.body_iquat, inertias, |i| i.quat);
+    flat(&mut m.body_mass, inertias, |i| [i.mass]);
+    flat(&mut m.body_inertia, inertias, |i| i.moments);
+    flat(&mut m.body_gravcomp, list, |b| [b.gravcomp]);
+    padded(&mut m.body_user, list.iter().map(|b| &b.user), m.nuser_body);
 }
 
 fn joints_and_dofs(
@@ -232,44 +232,43 @@ fn joints_and_dofs(
             }
         }
     }
-    m.jnt_type = ints(joints, |(_, j)| j.kind);
-    m.jnt_bodyid = ints(joints, |&(b, _)| b as i32);
-    m.jnt_limited = listed(joints.iter().map(|(_, j)| j.limited));
-    m.jnt_solref = flat(joints, |(_, j)| j.solref);
-    m.jnt_solimp = flat(joints, |(_, j)| j.solimp);
-    m.jnt_pos = flat(joints, |(_, j)| j.pos);
-    m.jnt_axis = flat(joints, |(_, j)| j.axis);
-    m.jnt_group = ints(joints, |(_, j)| j.group);
-    m.jnt_actfrclimited = listed(joints.iter().map(|(_, j)| j.actfrclimited));
-    m.jnt_actfrcrange = flat(joints, |(_, j)| j.actfrcrange);
-    m.jnt_actgravcomp = listed(joints.iter().map(|(_, j)| j.actgravcomp));
-    m.jnt_stiffness = flat(joints, |(_, j)| [j.stiffness[0]]);
-    m.jnt_stiffnesspoly = flat(joints, |(_, j)| [j.stiffness[1], j.stiffness[2]]);
-    m.jnt_user = padded(joints.iter().map(|(_, j)| &j.user), m.nuser_jnt);
-    m.jnt_range = flat(joints, |(_, j)| j.range);
-    m.jnt_margin = flat(joints, |(_, j)| [j.margin]);
+    flat(&mut m.jnt_type, joints, |(_, j)| [j.kind]);
+    flat(&mut m.jnt_bodyid, joints, |&(b, _)| [b as i32]);
+    flat(&mut m.jnt_limited, joints, |(_, j)| [j.limited]);
+    flat(&mut m.jnt_solref, joints, |(_, j)| j.solref);
+    flat(&mut m.jnt_solimp, joints, |(_, j)| j.solimp);
+    flat(&mut m.jnt_pos, joints, |(_, j)| j.pos);
+    flat(&mut m.jnt_axis, joints, |(_, j)| j.axis);
+    flat(&mut m.jnt_group, joints, |(_, j)| [j.group]);
+    flat(&mut m.jnt_actfrclimited, joints, |(_, j)| [j.actfrclimited]);
+    flat(&mut m.jnt_actfrcrange, joints, |(_, j)| j.actfrcrange);
+    flat(&mut m.jnt_actgravcomp, joints, |(_, j)| [j.actgravcomp]);
+    flat(&mut m.jnt_stiffness, joints, |(_, j)| [j.stiffness[0]]);
+    flat(&mut m.jnt_stiffnesspoly, joints, |(_, j)| [j.stiffness[1], j.stiffness[2]]);
+    padded(&mut m.jnt_user, joints.iter().map(|(_, j)| &j.user), m.nuser_jnt);
+    flat(&mut m.jnt_range, joints, |(_, j)| j.range);
+    flat(&mut m.jnt_margin, joints, |(_, j)| [j.margin]);
 
     let dofs = &layout.dofs;
-    m.dof_bodyid = ints(dofs, |d| d.body as i32);
-    m.dof_jntid = ints(dofs, |d| d.joint as i32);
-    m.dof_parentid = ints(dofs, |d| d.parent.map_or(-1, |p| p as i32));
-    m.dof_treeid = ints(dofs, |d| d.tree as i32);
+    flat(&mut m.dof_bodyid, dofs, |d| [d.body as i32]);
+    flat(&mut m.dof_jntid, dofs, |d| [d.joint as i32]);
+    flat(&mut m.dof_parentid, dofs, |d| [d.parent.map_or(-1, |p| p as i32)]);
+    flat(&mut m.dof_treeid, dofs, |d| [d.tree as i32]);
     let of_joint = |d: &Dof| joints.get(d.joint).map(|&(_, j)| j);
-    m.dof_armature = flat(dofs, |d| [of_joint(d).map_or(0.0, |j| j.armature)]);
-    m.dof_frictionloss = flat(dofs, |d| [of_joint(d).map_or(0.0, |j| j.frictionloss)]);
-    m.dof_solref = flat(dofs, |d| of_joint(d).map_or(SOLREF, |j| j.solref_friction));
-    m.dof_solimp = flat(dofs, |d| of_joint(d).map_or(SOLIMP, |j| j.solimp_friction));
+    flat(&mut m.dof_armature, dofs, |d| [of_joint(d).map_or(0.0, |j| j.armature)]);
+    flat(&mut m.dof_frictionloss, dofs, |d| [of_joint(d).map_or(0.0, |j| j.frictionloss)]);
+    flat(&mut m.dof_solref, dofs, |d| of_joint(d).map_or(SOLREF, |j| j.solref_friction));
+    flat(&mut m.dof_solimp, dofs, |d| of_joint(d).map_or(SOLIMP, |j| j.solimp_friction));
     let damping = |d: &Dof| of_joint(d).map_or([0.0; 3], |j| j.damping);
-    m.dof_damping = flat(dofs, |d| [damping(d)[0]]);
-    m.dof_dampingpoly = flat(dofs, |d| [damping(d)[1], damping(d)[2]]);
+    flat(&mut m.dof_damping, dofs, |d| [damping(d)[0]]);
+    flat(&mut m.dof_dampingpoly, dofs, |d| [damping(d)[1], damping(d)[2]]);
     // Counted from the end: a simple degree of freedom continues the run that follows it.
     let mut run = 0;
-    let mut simplenum = ints(dofs.iter().rev(), |d| {
+    flat(&mut m.dof_simplenum, dofs.iter().rev(), |d| {
         run = if simple.get(d.body).is_some_and(|&s| s != 0) { run + 1 } else { 0 };
-        run
+        [run]
     });
-    simplenum.reverse();
-    m.dof_simplenum = simplenum;
+    m.dof_simplenum.reverse();
 }
 
 /// What a body can touch is what its geoms can touch, as far away as the farthest-reaching of them.
@@ -292,28 +291,30 @@ fn fill_sensors(m: &mut Model, sensors: &[SensorSpec]) {
         m.sensor_historyadr.push(if s.history() == 0 { -1 } else { history as i32 });
         history += s.history();
     }
-    m.sensor_type = ints(sensors, |s| s.kind);
-    m.sensor_datatype = ints(sensors, |s| s.datatype);
-    m.sensor_needstage = ints(sensors, |s| s.needstage);
-    m.sensor_objtype = ints(sensors, |s| s.objects.objtype);
-    m.sensor_objid = ints(sensors, |s| s.objects.objid);
-    m.sensor_reftype = ints(sensors, |s| s.objects.reftype);
-    m.sensor_refid = ints(sensors, |s| s.objects.refid);
-    m.sensor_intprm = listed(sensors.iter().flat_map(|s| s.intprm));
-    m.sensor_dim = ints(sensors, |s| s.dim);
-    m.sensor_cutoff = flat(sensors, |s| [s.cutoff]);
-    m.sensor_noise = flat(sensors, |s| [s.noise]);
-    m.sensor_history = listed(sensors.iter().flat_map(|s| [s.timing.nsample, s.timing.interp]));
-    m.sensor_delay = flat(sensors, |s| [s.timing.delay]);
-    m.sensor_interval = flat(sensors, |s| s.timing.interval);
-    m.sensor_user = padded(sensors.iter().map(|s| &s.user), m.nuser_sensor);
+    flat(&mut m.sensor_type, sensors, |s| [s.kind]);
+    flat(&mut m.sensor_datatype, sensors, |s| [s.datatype]);
+    flat(&mut m.sensor_needstage, sensors, |s| [s.needstage]);
+    flat(&mut m.sensor_objtype, sensors, |s| [s.objects.objtype]);
+    flat(&mut m.sensor_objid, sensors, |s| [s.objects.objid]);
+    flat(&mut m.sensor_reftype, sensors, |s| [s.objects.reftype]);
+    flat(&mut m.sensor_refid, sensors, |s| [s.objects.refid]);
+    flat(&mut m.sensor_intprm, sensors, |s| s.intprm);
+    flat(&mut m.sensor_dim, sensors, |s| [s.dim]);
+    flat(&mut m.sensor_cutoff, sensors, |s| [s.cutoff]);
+    flat(&mut m.sensor_noise, sensors, |s| [s.noise]);
+    flat(&mut m.sensor_history, sensors, |s| [s.timing.nsample, s.timing.interp]);
+    flat(&mut m.sensor_delay, sensors, |s| [s.timing.delay]);
+    flat(&mut m.sensor_interval, sensors, |s| s.timing.interval);
+    padded(&mut m.sensor_user, sensors.iter().map(|s| &s.user), m.nuser_sensor);
 }
 
 /// Keyframes: what is not given is taken from the reference configuration; quaternions are normalized.
 fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
     let mocap: Vec<&BodySpec> = listed(bodies.iter().filter(|b| b.mocap));
-    let (mpos0, mquat0) = (flat(mocap.iter().copied(), |b| b.pos), flat(mocap.iter().copied(), |b| b.quat));
-    m.key_time = flat(keys, |k| [k.time]);
+    let (mut mpos0, mut mquat0) = (Vec::new(), Vec::new());
+    flat(&mut mpos0, &mocap, |b| b.pos);
+    flat(&mut mquat0, &mocap, |b| b.quat);
+    flat(&mut m.key_time, keys, |k| [k.time]);
     let of = |given: fn(&KeySpec) -> &Option<Vec<f64>>, rest: &[f64]| -> Vec<f64> {
         listed(keys.iter().flat_map(|k| given(k).as_deref().unwrap_or(rest)).copied())
     };
@@ -330,16 +331,12 @@ fn fill_keys(m: &mut Model, bodies: &[BodySpec], keys: &[KeySpec]) {
             *q = quat_normalize(*q);
         }
     }
-    let quats: Vec<usize> = m
-        .jnt_type
-        .iter()
-        .zip(&m.jnt_qposadr)
-        .filter_map(|(&kind, &adr)| match kind {
+    let quats: Vec<usize> =
+        listed(m.jnt_type.iter().zip(&m.jnt_qposadr).filter_map(|(&kind, &adr)| match kind {
             joint::FREE => Some(adr as usize + 3),
             joint::BALL => Some(adr as usize),
             _ => None,
-        })
-        .collect();
+        }));
     let nq = m.nq;
     for key in m.key_qpos.chunks_exact_mut(nq.max(1)) {
         for &at in &quats {

@@ -92,35 +92,35 @@ pub(super) fn build(
     let sensors = read_sensor::sensors(&tree, refs, &tendons, report);
     let actuator_users: Vec<_> = listed(actuators.iter().map(fill_actuator::user));
     let users = fill::Users {
-        body: settings::user_width(&tree, "nuser_body", bodies.iter().map(|b| &b.user), report),
+        body: settings::user_width(&tree, "nuser_body", &mut bodies.iter().map(|b| &b.user), report),
         joint: settings::user_width(
             &tree,
             "nuser_jnt",
-            bodies.iter().flat_map(|b| &b.joints).map(|j| &j.user),
+            &mut bodies.iter().flat_map(|b| &b.joints).map(|j| &j.user),
             report,
         ),
         geom: settings::user_width(
             &tree,
             "nuser_geom",
-            bodies.iter().flat_map(|b| &b.geoms).map(|g| &g.user),
+            &mut bodies.iter().flat_map(|b| &b.geoms).map(|g| &g.user),
             report,
         ),
         site: settings::user_width(
             &tree,
             "nuser_site",
-            bodies.iter().flat_map(|b| &b.sites).map(|s| &s.user),
+            &mut bodies.iter().flat_map(|b| &b.sites).map(|s| &s.user),
             report,
         ),
         camera: settings::user_width(
             &tree,
             "nuser_cam",
-            bodies.iter().flat_map(|b| &b.cameras).map(|c| &c.user),
+            &mut bodies.iter().flat_map(|b| &b.cameras).map(|c| &c.user),
             report,
         ),
-        tendon: settings::user_width(&tree, "nuser_tendon", tendons.iter().map(|t| &t.user), report),
-        sensor: settings::user_width(&tree, "nuser_sensor", sensors.iter().map(|s| &s.user), report),
+        tendon: settings::user_width(&tree, "nuser_tendon", &mut tendons.iter().map(|t| &t.user), report),
+        sensor: settings::user_width(&tree, "nuser_sensor", &mut sensors.iter().map(|s| &s.user), report),
         data: settings::userdata(&tree, report),
-        actuator: settings::user_width(&tree, "nuser_actuator", actuator_users.iter(), report),
+        actuator: settings::user_width(&tree, "nuser_actuator", &mut actuator_users.iter(), report),
     };
     if !report.is_clean() {
         return None;

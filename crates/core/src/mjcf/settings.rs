@@ -3,6 +3,7 @@
 use super::classes::Props;
 use super::spec::List;
 use crate::kinds::{disable, enable};
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, shown};
 use crate::mjcf::text::tree::Tree;
@@ -111,10 +112,9 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
         true => p.text("eulerseq").unwrap_or(""),
         false => "xyz",
     };
-    let axes: Vec<_> = text
-        .chars()
-        .filter_map(|c| Some(("xyz".find(c.to_ascii_lowercase())?, c.is_ascii_uppercase())))
-        .collect();
+    let axes: Vec<_> = listed(
+        text.chars().filter_map(|c| Some(("xyz".find(c.to_ascii_lowercase())?, c.is_ascii_uppercase()))),
+    );
     match <[_; 3]>::try_from(axes) {
         Ok(axes) if text.chars().count() == 3 => axes,
         _ => {
@@ -348,10 +348,10 @@ pub(crate) fn min_keys(tree: &Tree) -> usize {
 
 /// How many user values each object of a kind has: as many as `size` says, else, and for -1, as the longest list.
 /// `lists` has one for each object.
-pub(crate) fn user_width<'l>(
+pub(crate) fn user_width(
     tree: &Tree,
     size: &str,
-    lists: impl Iterator<Item = &'l List>,
+    lists: &mut dyn Iterator<Item = &List>,
     report: &mut Report,
 ) -> usize {
     let p = section(tree, "size");

@@ -68,10 +68,13 @@ pub struct FieldInfo {
     pub kind: Kind,
     /// What computes it.
     pub stage: Stage,
-    /// Unit, empty when dimensionless.
-    pub unit: &'static str,
-    /// One line of documentation.
-    pub doc: &'static str,
+}
+
+/// What a field is, for people: a table of its own, which a program that shows none of it does not carry.
+#[derive(Debug)]
+struct Words {
+    unit: &'static str,
+    doc: &'static str,
 }
 
 /// A field: a row of the table.
@@ -92,6 +95,16 @@ impl FieldId {
     /// The row of the table.
     pub fn info(self) -> &'static FieldInfo {
         FIELDS[self.0 as usize]
+    }
+
+    /// Its unit, empty when dimensionless.
+    pub fn unit(self) -> &'static str {
+        WORDS[self.0 as usize].unit
+    }
+
+    /// One line of documentation.
+    pub fn doc(self) -> &'static str {
+        WORDS[self.0 as usize].doc
     }
 }
 
@@ -273,7 +286,7 @@ fn data<'a>(_: &'a Model, d: &'a Fields) -> &'a Fields {
 }
 
 macro_rules! reflect {
-    ($infos:ident, $readers:ident, $count:ident, $ids:ident, $object:ident, $struct:ty, $of:ident; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
+    ($infos:ident, $words:ident, $readers:ident, $count:ident, $ids:ident, $object:ident, $struct:ty, $of:ident; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $doc:literal;)*) => {
         const $infos: &[&FieldInfo] = &[$(&FieldInfo {
             object: Object::$object,
             name: stringify!($name),
@@ -281,9 +294,8 @@ macro_rules! reflect {
             shape: &[$(stringify!($dim)),*],
             kind: Kind::$kind,
             stage: Stage::$stage,
-            unit: $unit,
-            doc: $doc,
         }),*];
+        const $words: &[&Words] = &[$(&Words { unit: $unit, doc: $doc }),*];
         const $count: usize = $infos.len();
         const $readers: &[Reader] = &[$(|m, d, i| $of(m, d).$name.view().get(i)),*];
         #[allow(non_camel_case_types)] // variants carry the fields' own names
@@ -300,10 +312,10 @@ macro_rules! reflect {
         }
     };
 }
-macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
-macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
-macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
-macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
+macro_rules! reflect_model { ($($t:tt)*) => { reflect! { MODEL, MODEL_WORDS, MODEL_READERS, MODEL_COUNT, ModelId, Model, Model, model; $($t)* } } }
+macro_rules! reflect_option { ($($t:tt)*) => { reflect! { OPTION, OPTION_WORDS, OPTION_READERS, OPTION_COUNT, OptionId, Option, crate::model::Options, options; $($t)* } } }
+macro_rules! reflect_stat { ($($t:tt)*) => { reflect! { STAT, STAT_WORDS, STAT_READERS, STAT_COUNT, StatId, Statistic, crate::model::Statistic, statistic; $($t)* } } }
+macro_rules! reflect_data { ($($t:tt)*) => { reflect! { DATA, DATA_WORDS, DATA_READERS, DATA_COUNT, DataId, Data, Fields, data; $($t)* } } }
 model_fields!(reflect_model);
 option_fields!(reflect_option);
 statistic_fields!(reflect_stat);
@@ -338,6 +350,7 @@ macro_rules! whole_table {
 
 /// The whole table: model, options, statistics, data.
 pub(crate) static FIELDS: [&FieldInfo; NFIELD] = whole_table!(MODEL, OPTION, STAT, DATA);
+static WORDS: [&Words; NFIELD] = whole_table!(MODEL_WORDS, OPTION_WORDS, STAT_WORDS, DATA_WORDS);
 static READERS: [Reader; NFIELD] = whole_table!(MODEL_READERS, OPTION_READERS, STAT_READERS, DATA_READERS);
 
 /// All field ids, in table order.

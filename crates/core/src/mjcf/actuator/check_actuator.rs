@@ -5,6 +5,7 @@ use crate::forces::actuation::slots;
 use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
 use crate::mjcf::body::limits;
 use crate::mjcf::context::Context;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, JointSpec, RangeSpec, TendonSpec};
 use crate::mjcf::text::diagnostic::Said;
@@ -46,15 +47,15 @@ pub(crate) fn controls(a: &ActuatorSpec) -> Vec<RangeSpec> {
     let own = |range: [f64; 2]| RangeSpec { flag: i32::from(range[0] < range[1]), range };
     match a.gaintype {
         gaintype::SO3 => alike(if a.ctrlspec == inputs::QUAT { 4 } else { 3 }),
-        gaintype::PID => [inputs::POS, inputs::VEL, inputs::FF]
-            .into_iter()
-            .filter(|bit| a.ctrlspec & bit != 0)
-            .map(|bit| match bit {
-                inputs::POS => a.ctrl.clone(),
-                inputs::VEL => own(a.velrange),
-                _ => own(a.ffrange),
-            })
-            .collect(),
+        gaintype::PID => listed(
+            [inputs::POS, inputs::VEL, inputs::FF].into_iter().filter(|bit| a.ctrlspec & bit != 0).map(
+                |bit| match bit {
+                    inputs::POS => a.ctrl.clone(),
+                    inputs::VEL => own(a.velrange),
+                    _ => own(a.ffrange),
+                },
+            ),
+        ),
         gaintype::DCMOTOR => alike((a.ctrlspec & (inputs::NONE - 1)).count_ones() as usize),
         _ => alike(1),
     }

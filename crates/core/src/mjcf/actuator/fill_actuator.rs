@@ -2,7 +2,7 @@
 
 use super::check_actuator::{controls, outputs};
 use crate::forces::{history, transmission};
-use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
@@ -49,53 +49,53 @@ fn samples(a: &ActuatorSpec) -> usize {
 }
 
 /// Where the numbers of each actuator begin: -1 for none, unless there is always one.
-fn addresses(list: &[ActuatorSpec], size: impl Fn(&ActuatorSpec) -> usize, always: bool) -> Vec<i32> {
+fn addresses(array: &mut Vec<i32>, list: &[ActuatorSpec], size: fn(&ActuatorSpec) -> usize, always: bool) {
     let mut next = 0;
-    ints(list, |a| {
+    flat(array, list, |a| {
         let at = if size(a) == 0 && !always { -1 } else { next as i32 };
         next += size(a);
-        at
-    })
+        [at]
+    });
 }
 
 /// All fields of actuators.
 pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
-    m.actuator_trntype = ints(list, |a| a.transmission.map_or(0, |t| t.kind));
-    m.actuator_trnid = listed(list.iter().flat_map(|a| a.transmission.map_or([-1; 2], |t| t.id)));
-    m.actuator_dyntype = ints(list, |a| a.dyntype);
-    m.actuator_gaintype = ints(list, |a| a.gaintype);
-    m.actuator_biastype = ints(list, |a| a.biastype);
-    m.actuator_ctrlspec = ints(list, |a| a.ctrlspec);
-    m.actuator_ctrladr = addresses(list, |a| controls(a).len(), true);
-    m.actuator_ctrlnum = ints(list, |a| controls(a).len() as i32);
-    m.actuator_outadr = addresses(list, outputs, true);
-    m.actuator_outnum = ints(list, |a| outputs(a) as i32);
-    m.actuator_actadr = addresses(list, activations, false);
-    m.actuator_actnum = ints(list, |a| a.actdim);
-    m.actuator_historyadr = addresses(list, |a| history::size(samples(a), controls(a).len()), false);
-    m.actuator_history = listed(list.iter().flat_map(|a| [a.nsample, a.interp]));
-    m.actuator_delay = flat(list, |a| [a.delay]);
-    m.actuator_cranklength = flat(list, |a| [a.cranklength]);
-    m.actuator_dynprm = flat(list, |a| a.dynprm);
-    m.actuator_gainprm = flat(list, |a| a.gainprm);
-    m.actuator_biasprm = flat(list, |a| a.biasprm);
-    m.actuator_actlimited = listed(list.iter().map(|a| a.act.flag == 1));
-    m.actuator_actrange = flat(list, |a| a.act.range);
-    m.actuator_actearly = listed(list.iter().map(|a| a.actearly));
-    m.actuator_damping = flat(list, |a| [a.damping[0]]);
-    m.actuator_dampingpoly = flat(list, |a| [a.damping[1], a.damping[2]]);
-    m.actuator_armature = flat(list, |a| [a.armature]);
-    m.actuator_group = ints(list, |a| a.group);
-    m.actuator_forcelimited = listed(list.iter().map(|a| a.force.flag == 1));
-    m.actuator_forcerange = flat(list, |a| a.force.range);
+    flat(&mut m.actuator_trntype, list, |a| [a.transmission.map_or(0, |t| t.kind)]);
+    flat(&mut m.actuator_trnid, list, |a| a.transmission.map_or([-1; 2], |t| t.id));
+    flat(&mut m.actuator_dyntype, list, |a| [a.dyntype]);
+    flat(&mut m.actuator_gaintype, list, |a| [a.gaintype]);
+    flat(&mut m.actuator_biastype, list, |a| [a.biastype]);
+    flat(&mut m.actuator_ctrlspec, list, |a| [a.ctrlspec]);
+    addresses(&mut m.actuator_ctrladr, list, |a| controls(a).len(), true);
+    flat(&mut m.actuator_ctrlnum, list, |a| [controls(a).len() as i32]);
+    addresses(&mut m.actuator_outadr, list, outputs, true);
+    flat(&mut m.actuator_outnum, list, |a| [outputs(a) as i32]);
+    addresses(&mut m.actuator_actadr, list, activations, false);
+    flat(&mut m.actuator_actnum, list, |a| [a.actdim]);
+    addresses(&mut m.actuator_historyadr, list, |a| history::size(samples(a), controls(a).len()), false);
+    flat(&mut m.actuator_history, list, |a| [a.nsample, a.interp]);
+    flat(&mut m.actuator_delay, list, |a| [a.delay]);
+    flat(&mut m.actuator_cranklength, list, |a| [a.cranklength]);
+    flat(&mut m.actuator_dynprm, list, |a| a.dynprm);
+    flat(&mut m.actuator_gainprm, list, |a| a.gainprm);
+    flat(&mut m.actuator_biasprm, list, |a| a.biasprm);
+    flat(&mut m.actuator_actlimited, list, |a| [a.act.flag == 1]);
+    flat(&mut m.actuator_actrange, list, |a| a.act.range);
+    flat(&mut m.actuator_actearly, list, |a| [a.actearly]);
+    flat(&mut m.actuator_damping, list, |a| [a.damping[0]]);
+    flat(&mut m.actuator_dampingpoly, list, |a| [a.damping[1], a.damping[2]]);
+    flat(&mut m.actuator_armature, list, |a| [a.armature]);
+    flat(&mut m.actuator_group, list, |a| [a.group]);
+    flat(&mut m.actuator_forcelimited, list, |a| [a.force.flag == 1]);
+    flat(&mut m.actuator_forcerange, list, |a| a.force.range);
     let ranges: Vec<RangeSpec> = listed(list.iter().flat_map(controls));
-    m.actuator_ctrllimited = listed(ranges.iter().map(|r| r.flag == 1));
-    m.actuator_ctrlrange = flat(&ranges, |r| r.range);
+    flat(&mut m.actuator_ctrllimited, &ranges, |r| [r.flag == 1]);
+    flat(&mut m.actuator_ctrlrange, &ranges, |r| r.range);
     let each_output = || list.iter().flat_map(|a| std::iter::repeat_n(a, outputs(a)));
-    m.actuator_gear = flat(each_output(), |a| a.gear);
-    m.actuator_lengthrange = flat(each_output(), |a| a.lengthrange);
+    flat(&mut m.actuator_gear, each_output(), |a| a.gear);
+    flat(&mut m.actuator_lengthrange, each_output(), |a| a.lengthrange);
     let users: Vec<List> = listed(list.iter().map(user));
-    m.actuator_user = padded(users.iter(), m.nuser_actuator);
+    padded(&mut m.actuator_user, users.iter(), m.nuser_actuator);
 }
 
 /// The user values of an actuator.

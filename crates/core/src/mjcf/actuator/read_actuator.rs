@@ -154,11 +154,12 @@ fn transmission(
     let (attribute, object, mut kind) = match given.last().filter(|(name, ..)| named(name)) {
         Some(one) => **one,
         None => {
-            let possible: Vec<_> = TARGETS
-                .iter()
-                .filter(|(name, ..)| node.element.attribute(name).is_some())
-                .map(|(name, ..)| format!("`{name}`"))
-                .collect();
+            let possible: Vec<_> = listed(
+                TARGETS
+                    .iter()
+                    .filter(|(name, ..)| node.element.attribute(name).is_some())
+                    .map(|(name, ..)| format!("`{name}`")),
+            );
             report
                 .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on nothing"))
                 .why("a force needs something to act on")

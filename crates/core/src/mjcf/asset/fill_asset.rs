@@ -5,7 +5,7 @@ use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
 use crate::geometry::{self, Sides};
 use crate::math::Vec3;
-use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::arrays::flat;
 use crate::mjcf::gather::listed;
 use crate::mjcf::scene::fill_scene::{Places, single as single_each};
 use crate::model::Model;
@@ -17,12 +17,10 @@ fn single(list: &[Vec3]) -> impl Iterator<Item = f64> + '_ {
 
 /// First places of things that follow each other, from their numbers.
 fn places(counts: impl Iterator<Item = usize>) -> Vec<i32> {
-    counts
-        .scan(0, |next, n| {
-            *next += n;
-            Some((*next - n) as i32)
-        })
-        .collect()
+    listed(counts.scan(0, |next, n| {
+        *next += n;
+        Some((*next - n) as i32)
+    }))
 }
 
 /// The sizes that these objects add to the model.
@@ -50,8 +48,9 @@ fn graph_len(mesh: &Mesh) -> usize {
 
 pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     let list: Vec<&Mesh> = listed(assets.meshes.iter().filter_map(|a| a.value.as_ref()));
-    let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { list.iter().map(|x| of(x)).collect() };
-    let numbers = |counts: &[usize]| (places(counts.iter().copied()), ints(counts, |&n| n as i32));
+    let counts = |of: fn(&Mesh) -> usize| -> Vec<usize> { listed(list.iter().map(|x| of(x))) };
+    let numbers =
+        |counts: &[usize]| (places(counts.iter().copied()), listed(counts.iter().map(|&n| n as i32)));
     (m.mesh_vertadr, m.mesh_vertnum) = numbers(&counts(|x| x.shape.vert.len()));
     (m.mesh_normaladr, m.mesh_normalnum) = numbers(&counts(|x| x.shape.normal.len()));
     (m.mesh_faceadr, m.mesh_facenum) = numbers(&counts(|x| x.shape.face.len()));
@@ -71,33 +70,27 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_face = listed(list.iter().flat_map(|x| x.shape.face.as_flattened()).copied());
     m.mesh_facenormal = listed(list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied());
     // A mesh without texture coordinates has room for them.
-    m.mesh_facetexcoord = list
-        .iter()
-        .flat_map(|x| {
-            let own = x.shape.facetexcoord.as_flattened().iter().copied();
-            own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
-        })
-        .collect();
+    m.mesh_facetexcoord = listed(list.iter().flat_map(|x| {
+        let own = x.shape.facetexcoord.as_flattened().iter().copied();
+        own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
+    }));
     m.mesh_graph = listed(list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()));
-    m.mesh_sides = list
-        .iter()
-        .map(|x| {
-            // Seen before the vertices lose their precision.
-            let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
-            geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
-        })
-        .collect();
-    m.mesh_scale = flat(&list, |x| x.options.scale);
-    m.mesh_pos = flat(&list, |x| x.pos);
-    m.mesh_quat = flat(&list, |x| x.quat);
+    m.mesh_sides = listed(list.iter().map(|x| {
+        // Seen before the vertices lose their precision.
+        let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
+        geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
+    }));
+    flat(&mut m.mesh_scale, &list, |x| x.options.scale);
+    flat(&mut m.mesh_pos, &list, |x| x.pos);
+    flat(&mut m.mesh_quat, &list, |x| x.quat);
     m.names.mesh = listed(assets.meshes.iter().map(|a| a.name.clone()));
 }
 
 pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
     let list: Vec<_> = listed(assets.hfields.iter().filter_map(|a| a.value.as_ref()));
-    m.hfield_size = flat(&list, |x| x.size);
-    m.hfield_nrow = ints(&list, |x| x.nrow as i32);
-    m.hfield_ncol = ints(&list, |x| x.ncol as i32);
+    flat(&mut m.hfield_size, &list, |x| x.size);
+    flat(&mut m.hfield_nrow, &list, |x| [x.nrow as i32]);
+    flat(&mut m.hfield_ncol, &list, |x| [x.ncol as i32]);
     m.hfield_adr = places(list.iter().map(|x| x.data.len()));
     m.hfield_data = listed(list.iter().flat_map(|x| &x.data).copied());
     m.names.hfield = listed(assets.hfields.iter().map(|a| a.name.clone()));
@@ -109,29 +102,29 @@ pub(crate) fn skins(m: &mut Model, assets: &Assets) {
     let bones: Vec<&Bone> = listed(list.iter().flat_map(|s| &s.bones));
     let materials = Places::of(m.names.material.iter());
     let bodies = Places::of(m.names.body.iter());
-    m.skin_matid = ints(&list, |s| materials.find(s.material.as_ref()));
-    m.skin_group = ints(&list, |s| s.group);
-    m.skin_rgba = flat(&list, |s| single_each(s.rgba));
-    m.skin_inflate = flat(&list, |s| single_each([s.inflate]));
+    flat(&mut m.skin_matid, &list, |s| [materials.find(s.material.as_ref())]);
+    flat(&mut m.skin_group, &list, |s| [s.group]);
+    flat(&mut m.skin_rgba, &list, |s| single_each(s.rgba));
+    flat(&mut m.skin_inflate, &list, |s| single_each([s.inflate]));
     m.skin_vertadr = places(list.iter().map(|s| s.vert.len()));
-    m.skin_vertnum = ints(&list, |s| s.vert.len() as i32);
+    flat(&mut m.skin_vertnum, &list, |s| [s.vert.len() as i32]);
     m.skin_texcoordadr = places(list.iter().map(|s| s.texcoord.len()));
     for (at, s) in m.skin_texcoordadr.iter_mut().zip(&list) {
         *at = if s.texcoord.is_empty() { -1 } else { *at };
     }
     m.skin_faceadr = places(list.iter().map(|s| s.face.len()));
-    m.skin_facenum = ints(&list, |s| s.face.len() as i32);
+    flat(&mut m.skin_facenum, &list, |s| [s.face.len() as i32]);
     m.skin_boneadr = places(list.iter().map(|s| s.bones.len()));
-    m.skin_bonenum = ints(&list, |s| s.bones.len() as i32);
+    flat(&mut m.skin_bonenum, &list, |s| [s.bones.len() as i32]);
     m.skin_vert = listed(list.iter().flat_map(|s| single(&s.vert)));
     m.skin_texcoord =
         listed(list.iter().flat_map(|s| s.texcoord.as_flattened()).map(|&x| f64::from(x as f32)));
     m.skin_face = listed(list.iter().flat_map(|s| s.face.as_flattened()).copied());
     m.skin_bonevertadr = places(bones.iter().map(|b| b.vertid.len()));
-    m.skin_bonevertnum = ints(&bones, |b| b.vertid.len() as i32);
-    m.skin_bonebindpos = flat(&bones, |b| single_each(b.bindpos));
-    m.skin_bonebindquat = flat(&bones, |b| single_each(b.bindquat));
-    m.skin_bonebodyid = ints(&bones, |b| bodies.find(Some(&b.body)));
+    flat(&mut m.skin_bonevertnum, &bones, |b| [b.vertid.len() as i32]);
+    flat(&mut m.skin_bonebindpos, &bones, |b| single_each(b.bindpos));
+    flat(&mut m.skin_bonebindquat, &bones, |b| single_each(b.bindquat));
+    flat(&mut m.skin_bonebodyid, &bones, |b| [bodies.find(Some(&b.body))]);
     m.skin_bonevertid = listed(bones.iter().flat_map(|b| &b.vertid).copied());
     m.skin_bonevertweight = listed(bones.iter().flat_map(|b| &b.vertweight).map(|&x| f64::from(x as f32)));
     m.names.skin = listed(assets.skins.iter().map(|a| a.name.clone()));

@@ -1,6 +1,9 @@
 //! Height fields: samples of a ground on a grid, from text or a file, brought to 0 to 1.
 
 use super::mesh::{Bytes, Problem};
+#[cfg(feature = "pictures")]
+use super::png;
+use crate::mjcf::gather::listed;
 use crate::mjcf::text::diagnostic::shown;
 
 /// Most samples of a field.
@@ -109,7 +112,7 @@ pub(crate) fn written(nrow: i32, ncol: i32, elevation: &[f64]) -> Result<Samples
         ));
     }
     let rows = elevation.chunks_exact(ncol).rev();
-    let data = rows.flatten().map(|&x| f64::from(x as f32)).collect();
+    let data = listed(rows.flatten().map(|&x| f64::from(x as f32)));
     Ok(Samples { nrow, ncol, data })
 }
 
@@ -141,36 +144,18 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
 /// A PNG picture: the elevation is what is red, in 8 bits, and the last row of the picture has the smallest y.
 #[cfg(feature = "pictures")]
 fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
-    let bad = |what: String| {
+    let bad = |what: &str| {
         Problem::file(
             format!("has a file that cannot be read as a PNG picture: {what}"),
             "export the picture again",
         )
     };
-    let mut decoder = png::Decoder::new_with_limits(
-        std::io::Cursor::new(bytes),
-        // Colours of 16 bits and four channels at most.
-        png::Limits { bytes: 16 * MAX_SAMPLES },
-    );
-    decoder.set_transformations(png::Transformations::normalize_to_color8());
-    decoder.ignore_checksums(false);
-    let mut reader = decoder.read_info().map_err(|e| bad(e.to_string()))?;
-    let (width, height) = (reader.info().width, reader.info().height);
+    let mut rest = bytes;
+    let header = png::header(&mut rest).map_err(bad)?;
     let to_int = |n: u32| i32::try_from(n).unwrap_or(i32::MAX);
-    let (nrow, ncol) = grid(to_int(height), to_int(width), "file")?;
-    let size = reader.output_buffer_size().unwrap_or(usize::MAX);
-    if size > 8 * MAX_SAMPLES {
-        return Err(bad("it is too large".into()));
-    }
-    let mut pixels = vec![0; size];
-    let frame = reader.next_frame(&mut pixels).map_err(|e| bad(e.to_string()))?;
-    let step = frame.color_type.samples();
-    let rows = pixels.chunks_exact(frame.line_size.max(1)).take(nrow).rev();
-    let red = rows.flat_map(|row| row.chunks_exact(step.max(1)).take(ncol).filter_map(|p| p.first()));
-    let data: Vec<f64> = red.map(|&x| f64::from(x)).collect();
-    if data.len() != nrow * ncol {
-        return Err(bad("it is cut off".into()));
-    }
+    let (nrow, ncol) = grid(to_int(header.height), to_int(header.width), "file")?;
+    let red = png::first_colors(&header, rest).map_err(bad)?;
+    let data = listed(red.chunks_exact(ncol).rev().flatten().map(|&x| f64::from(x)));
     Ok(Samples { nrow, ncol, data })
 }
 
@@ -209,5 +194,5 @@ fn own(bytes: &[u8]) -> Result<Samples, Problem> {
             "write the file again: it is cut off or of another kind",
         ));
     }
-    Ok(Samples { nrow, ncol, data: (0..nrow * ncol).map_while(|_| numbers.real()).collect() })
+    Ok(Samples { nrow, ncol, data: listed((0..nrow * ncol).map_while(|_| numbers.real())) })
 }

@@ -3,5 +3,7 @@
 pub(crate) mod fill_asset;
 pub(crate) mod hfield;
 pub(crate) mod mesh;
+#[cfg(feature = "pictures")]
+mod png;
 pub(crate) mod read_asset;
 pub(crate) mod skin;

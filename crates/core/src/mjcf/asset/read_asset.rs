@@ -240,7 +240,7 @@ impl Reader<'_> {
         if let [_, second, ..] = sources[..] {
             return Some(Err(Problem::new(
                 second,
-                format!("has {}", sources.iter().map(|s| format!("`{s}`")).collect::<Vec<_>>().join(" and ")),
+                format!("has {}", listed(sources.iter().map(|s| format!("`{s}`"))).join(" and ")),
                 "each of them gives the shape of the mesh",
                 "keep one of them",
             )));
@@ -452,7 +452,7 @@ fn texcoords(pairs: &[[f64; 2]], vertices: usize) -> Result<(), Problem> {
 fn chunks<const N: usize>(p: &Props, name: &'static str) -> Result<Vec<[f64; N]>, Problem> {
     let list = p.list(name).unwrap_or(&[]);
     match list.as_chunks() {
-        (chunks, []) => Ok(chunks.iter().map(|c| c.map(|x| f64::from(x as f32))).collect()),
+        (chunks, []) => Ok(listed(chunks.iter().map(|c| c.map(|x| f64::from(x as f32))))),
         _ => Err(not_whole(name, list.len(), N)),
     }
 }

@@ -1,6 +1,7 @@
 //! Skins: triangles whose vertices follow bodies ("bones"), each with weights. Physics does not know them; a frontend
 //! that draws them finds their data in the model (XML reference, `deformable/skin`; details measured on the library).
 
+use crate::mjcf::gather::listed;
 use std::ops::Range;
 
 use super::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem};
@@ -49,7 +50,7 @@ impl Skin {
                 ("triangles", self.face.is_empty()),
                 ("bones", self.bones.is_empty()),
             ];
-            let missing = missing.iter().filter(|m| m.1).map(|m| m.0).collect::<Vec<_>>().join(" and no ");
+            let missing = listed(missing.iter().filter(|m| m.1).map(|m| m.0)).join(" and no ");
             return Err(Problem::new(
                 "",
                 format!("has no {missing}"),
@@ -149,9 +150,9 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
         return Err(damaged());
     }
     let mut skin = Skin {
-        vert: (0..nvert).map_while(|_| numbers.reals()).collect(),
-        texcoord: (0..ntexcoord).map_while(|_| numbers.reals()).collect(),
-        face: (0..nface).map_while(|_| numbers.ints()).collect(),
+        vert: listed((0..nvert).map_while(|_| numbers.reals())),
+        texcoord: listed((0..ntexcoord).map_while(|_| numbers.reals())),
+        face: listed((0..nface).map_while(|_| numbers.ints())),
         ..Skin::default()
     };
     for _ in 0..nbone {
@@ -164,8 +165,8 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
             return Err(damaged());
         };
         let n = usize::try_from(n).ok().filter(|&n| n <= numbers.0.len() / 8).ok_or_else(damaged)?;
-        let vertid = (0..n).map_while(|_| numbers.int()).collect();
-        let vertweight = (0..n).map_while(|_| numbers.real()).collect();
+        let vertid = listed((0..n).map_while(|_| numbers.int()));
+        let vertweight = listed((0..n).map_while(|_| numbers.real()));
         skin.bones.push(Bone { body, bindpos, bindquat, vertid, vertweight, file: Some(span.clone()) });
     }
     if !numbers.0.is_empty() {

@@ -5,6 +5,7 @@ use crate::math::{
     quat_to_mat, sub,
 };
 use crate::mjcf::expand::Part;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::settings::{Compiler, InertiaFromGeom};
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
@@ -42,11 +43,13 @@ fn body_inertia(body: &BodySpec, compiler: &Compiler) -> Inertia {
 /// The inertia of the geoms that have mass, `None` if there are none.
 fn of_geoms(geoms: &[GeomSpec], compiler: &Compiler) -> Option<Inertia> {
     let [lowest, highest] = compiler.inertiagrouprange;
-    let massive: Vec<Inertia> = geoms
-        .iter()
-        .filter(|g| g.mass > MINVAL && (lowest..=highest).contains(&g.group))
-        .map(|g| Inertia { pos: g.pos, quat: g.quat, mass: g.mass, moments: g.moments })
-        .collect();
+    let massive: Vec<Inertia> =
+        listed(
+            geoms
+                .iter()
+                .filter(|g| g.mass > MINVAL && (lowest..=highest).contains(&g.group))
+                .map(|g| Inertia { pos: g.pos, quat: g.quat, mass: g.mass, moments: g.moments }),
+        );
     match massive.as_slice() {
         [] => None,
         // One geom keeps its own frame, which need not be sorted.

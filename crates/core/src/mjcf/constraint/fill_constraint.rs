@@ -1,35 +1,34 @@
 //! Equality constraints, contact pairs and exclusions to the arrays of [`Model`].
 
-use crate::mjcf::arrays::{flat, ints};
-use crate::mjcf::gather::listed;
+use crate::mjcf::arrays::flat;
 use crate::mjcf::spec::{EqualitySpec, ExcludeSpec, PairSpec};
 use crate::model::Model;
 
 /// All fields of equality constraints.
 pub(crate) fn equalities(m: &mut Model, list: &[EqualitySpec]) {
-    m.eq_type = ints(list, |e| e.kind);
-    m.eq_objtype = ints(list, |e| e.objtype);
-    m.eq_obj1id = ints(list, |e| e.obj1);
-    m.eq_obj2id = ints(list, |e| e.obj2);
-    m.eq_active0 = listed(list.iter().map(|e| e.active));
-    m.eq_solref = flat(list, |e| e.solref);
-    m.eq_solimp = flat(list, |e| e.solimp);
-    m.eq_data = flat(list, |e| e.data);
+    flat(&mut m.eq_type, list, |e| [e.kind]);
+    flat(&mut m.eq_objtype, list, |e| [e.objtype]);
+    flat(&mut m.eq_obj1id, list, |e| [e.obj1]);
+    flat(&mut m.eq_obj2id, list, |e| [e.obj2]);
+    flat(&mut m.eq_active0, list, |e| [e.active]);
+    flat(&mut m.eq_solref, list, |e| e.solref);
+    flat(&mut m.eq_solimp, list, |e| e.solimp);
+    flat(&mut m.eq_data, list, |e| e.data);
 }
 
 /// All fields of contact pairs and exclusions.
 pub(crate) fn contacts(m: &mut Model, pairs: &[PairSpec], excludes: &[ExcludeSpec]) {
-    m.pair_dim = ints(pairs, |p| p.condim);
-    m.pair_geom1 = ints(pairs, |p| p.geoms[0]);
-    m.pair_geom2 = ints(pairs, |p| p.geoms[1]);
-    m.pair_signature = ints(pairs, |p| p.signature);
-    m.pair_solref = flat(pairs, |p| p.solref);
-    m.pair_solreffriction = flat(pairs, |p| p.solreffriction);
-    m.pair_solimp = flat(pairs, |p| p.solimp);
-    m.pair_margin = flat(pairs, |p| [p.margin]);
-    m.pair_gap = flat(pairs, |p| [p.gap]);
-    m.pair_adhesion = flat(pairs, |p| [p.adhesion]);
-    m.pair_friction = flat(pairs, |p| p.friction);
-    m.exclude_signature = ints(excludes, |e| e.signature);
-    m.exclude_bodies = listed(excludes.iter().map(|e| e.bodies));
+    flat(&mut m.pair_dim, pairs, |p| [p.condim]);
+    flat(&mut m.pair_geom1, pairs, |p| [p.geoms[0]]);
+    flat(&mut m.pair_geom2, pairs, |p| [p.geoms[1]]);
+    flat(&mut m.pair_signature, pairs, |p| [p.signature]);
+    flat(&mut m.pair_solref, pairs, |p| p.solref);
+    flat(&mut m.pair_solreffriction, pairs, |p| p.solreffriction);
+    flat(&mut m.pair_solimp, pairs, |p| p.solimp);
+    flat(&mut m.pair_margin, pairs, |p| [p.margin]);
+    flat(&mut m.pair_gap, pairs, |p| [p.gap]);
+    flat(&mut m.pair_adhesion, pairs, |p| [p.adhesion]);
+    flat(&mut m.pair_friction, pairs, |p| p.friction);
+    flat(&mut m.exclude_signature, excludes, |e| [e.signature]);
+    flat(&mut m.exclude_bodies, excludes, |e| [e.bodies]);
 }

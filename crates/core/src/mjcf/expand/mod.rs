@@ -24,6 +24,7 @@ use crate::mjcf::text::diagnostic::{Report, nearest, shown};
 use crate::mjcf::text::load::Written;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
+use crate::mjcf::words::Words;
 use copy::Rename;
 use followers::{Followers, Uses};
 use references::Names;
@@ -59,7 +60,7 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
         written: nodes.len(),
         nodes,
         bytes: 0,
-        sections: BTreeMap::new(),
+        sections: Words::default(),
         names: BTreeMap::new(),
         parts: vec![Part { compiler, folder: written.folder }],
         models,
@@ -117,7 +118,7 @@ struct Expander {
     /// How many elements stand in the text: those from there on are copies.
     written: usize,
     /// The last section of each name.
-    sections: BTreeMap<&'static str, usize>,
+    sections: Words<usize>,
     /// Bodies and frames by name.
     names: BTreeMap<(&'static str, String), usize>,
     parts: Vec<Part>,
@@ -244,7 +245,7 @@ impl Expander {
             frames.push(frame);
             self.follow(&mut followers, rename)?;
         }
-        self.settle(at, node.attribute("childclass").cloned().into_iter().collect(), frames)?;
+        self.settle(at, listed(node.attribute("childclass").cloned()), frames)?;
         // What referred to the pattern goes with it.
         self.uses.remove(followers.into_iter().flat_map(|f| f.bound));
         Some(())

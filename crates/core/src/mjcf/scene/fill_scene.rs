@@ -1,10 +1,8 @@
 //! Geoms, sites, cameras, lights, materials and custom data to the arrays of the model.
 
-use crate::mjcf::arrays::{flat, ints};
+use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::{filled, listed};
-use crate::mjcf::spec::{
-    CameraSpec, GeomSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec,
-};
+use crate::mjcf::spec::{CameraSpec, GeomSpec, LightSpec, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use crate::model::Model;
 use std::collections::BTreeMap;
 
@@ -38,11 +36,6 @@ impl<'n> Places<'n> {
     }
 }
 
-/// User values of one object, as many as all have.
-fn padded(list: &List, width: usize) -> impl Iterator<Item = f64> + '_ {
-    list.numbers.iter().copied().chain(std::iter::repeat(0.0)).take(width)
-}
-
 /// The sizes that these objects add to the model.
 pub(crate) fn count(m: &mut Model, scene: &Scene) {
     (m.nmat, m.ntex) = (scene.materials.len(), scene.textures.len());
@@ -53,96 +46,114 @@ pub(crate) fn count(m: &mut Model, scene: &Scene) {
 
 pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) {
     let materials = Places::of(scene.materials.iter().map(|m| &m.name));
-    m.geom_type = ints(geoms, |(_, g)| g.kind);
-    m.geom_contype = ints(geoms, |(_, g)| g.contype);
-    m.geom_conaffinity = ints(geoms, |(_, g)| g.conaffinity);
-    m.geom_condim = ints(geoms, |(_, g)| g.condim);
-    m.geom_bodyid = ints(geoms, |&(b, _)| b as i32);
-    m.geom_dataid = ints(geoms, |(_, g)| g.data);
-    m.geom_matid = ints(geoms, |(_, g)| materials.find(g.material.as_ref()));
-    m.geom_group = ints(geoms, |(_, g)| g.group);
-    m.geom_priority = ints(geoms, |(_, g)| g.priority);
-    m.geom_solmix = flat(geoms, |(_, g)| [g.solmix]);
-    m.geom_solref = flat(geoms, |(_, g)| g.solref);
-    m.geom_solimp = flat(geoms, |(_, g)| g.solimp);
-    m.geom_size = flat(geoms, |(_, g)| g.size);
-    m.geom_aabb = flat(geoms, |(_, g)| g.aabb);
-    m.geom_rbound = flat(geoms, |(_, g)| [g.rbound]);
-    m.geom_pos = flat(geoms, |(_, g)| g.pos);
-    m.geom_quat = flat(geoms, |(_, g)| g.quat);
-    m.geom_friction = flat(geoms, |(_, g)| g.friction);
-    m.geom_margin = flat(geoms, |(_, g)| [g.margin]);
-    m.geom_gap = flat(geoms, |(_, g)| [g.gap]);
-    m.geom_surfacevel = flat(geoms, |(_, g)| g.surfacevel);
-    m.geom_adhesion = flat(geoms, |(_, g)| [g.adhesion]);
-    m.geom_fluid = flat(geoms, |(_, g)| g.fluid);
-    m.geom_user = listed(geoms.iter().flat_map(|(_, g)| padded(&g.user, m.nuser_geom)));
-    m.geom_rgba = flat(geoms, |(_, g)| single(g.rgba));
+    flat(&mut m.geom_type, geoms, |(_, g)| [g.kind]);
+    flat(&mut m.geom_contype, geoms, |(_, g)| [g.contype]);
+    flat(&mut m.geom_conaffinity, geoms, |(_, g)| [g.conaffinity]);
+    flat(&mut m.geom_condim, geoms, |(_, g)| [g.condim]);
+    flat(&mut m.geom_bodyid, geoms, |&(b, _)| [b as i32]);
+    flat(&mut m.geom_dataid, geoms, |(_, g)| [g.data]);
+    flat(&mut m.geom_matid, geoms, |(_, g)| [materials.find(g.material.as_ref())]);
+    flat(&mut m.geom_group, geoms, |(_, g)| [g.group]);
+    flat(&mut m.geom_priority, geoms, |(_, g)| [g.priority]);
+    flat(&mut m.geom_solmix, geoms, |(_, g)| [g.solmix]);
+    flat(&mut m.geom_solref, geoms, |(_, g)| g.solref);
+    flat(&mut m.geom_solimp, geoms, |(_, g)| g.solimp);
+    flat(&mut m.geom_size, geoms, |(_, g)| g.size);
+    flat(&mut m.geom_aabb, geoms, |(_, g)| g.aabb);
+    flat(&mut m.geom_rbound, geoms, |(_, g)| [g.rbound]);
+    flat(&mut m.geom_pos, geoms, |(_, g)| g.pos);
+    flat(&mut m.geom_quat, geoms, |(_, g)| g.quat);
+    flat(&mut m.geom_friction, geoms, |(_, g)| g.friction);
+    flat(&mut m.geom_margin, geoms, |(_, g)| [g.margin]);
+    flat(&mut m.geom_gap, geoms, |(_, g)| [g.gap]);
+    flat(&mut m.geom_surfacevel, geoms, |(_, g)| g.surfacevel);
+    flat(&mut m.geom_adhesion, geoms, |(_, g)| [g.adhesion]);
+    flat(&mut m.geom_fluid, geoms, |(_, g)| g.fluid);
+    padded(&mut m.geom_user, geoms.iter().map(|(_, g)| &g.user), m.nuser_geom);
+    flat(&mut m.geom_rgba, geoms, |(_, g)| single(g.rgba));
 }
 
 pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &Scene) {
     let materials = Places::of(scene.materials.iter().map(|m| &m.name));
-    m.site_type = ints(sites, |(_, s)| s.kind);
-    m.site_dataid = ints(sites, |(_, s)| s.data);
-    m.site_bodyid = ints(sites, |&(b, _)| b as i32);
-    m.site_matid = ints(sites, |(_, s)| materials.find(s.material.as_ref()));
-    m.site_group = ints(sites, |(_, s)| s.group);
-    m.site_size = flat(sites, |(_, s)| s.size);
-    m.site_pos = flat(sites, |(_, s)| s.pos);
-    m.site_quat = flat(sites, |(_, s)| s.quat);
-    m.site_user = listed(sites.iter().flat_map(|(_, s)| padded(&s.user, m.nuser_site)));
-    m.site_rgba = flat(sites, |(_, s)| single(s.rgba));
+    flat(&mut m.site_type, sites, |(_, s)| [s.kind]);
+    flat(&mut m.site_dataid, sites, |(_, s)| [s.data]);
+    flat(&mut m.site_bodyid, sites, |&(b, _)| [b as i32]);
+    flat(&mut m.site_matid, sites, |(_, s)| [materials.find(s.material.as_ref())]);
+    flat(&mut m.site_group, sites, |(_, s)| [s.group]);
+    flat(&mut m.site_size, sites, |(_, s)| s.size);
+    flat(&mut m.site_pos, sites, |(_, s)| s.pos);
+    flat(&mut m.site_quat, sites, |(_, s)| s.quat);
+    padded(&mut m.site_user, sites.iter().map(|(_, s)| &s.user), m.nuser_site);
+    flat(&mut m.site_rgba, sites, |(_, s)| single(s.rgba));
 }
 
 /// `bodies` are the names of all bodies.
 pub(crate) fn cameras(m: &mut Model, cameras: &[(usize, &CameraSpec)], bodies: &[String]) {
     let places = Places::of(bodies.iter());
-    m.cam_mode = ints(cameras, |(_, c)| c.mode);
-    m.cam_bodyid = ints(cameras, |&(b, _)| b as i32);
-    m.cam_targetbodyid = ints(cameras, |(_, c)| places.find(c.target.as_ref()));
-    m.cam_pos = flat(cameras, |(_, c)| c.pos);
-    m.cam_quat = flat(cameras, |(_, c)| c.quat);
-    m.cam_projection = ints(cameras, |(_, c)| c.projection);
-    m.cam_fovy = flat(cameras, |(_, c)| [c.fovy]);
-    m.cam_ipd = flat(cameras, |(_, c)| [c.ipd]);
-    m.cam_resolution = listed(cameras.iter().flat_map(|(_, c)| c.resolution));
-    m.cam_output = ints(cameras, |(_, c)| c.output);
-    m.cam_sensorsize = flat(cameras, |(_, c)| single(c.sensorsize));
-    m.cam_intrinsic = flat(cameras, |(_, c)| single(c.intrinsic));
-    m.cam_user = listed(cameras.iter().flat_map(|(_, c)| padded(&c.user, m.nuser_cam)));
+    flat(&mut m.cam_mode, cameras, |(_, c)| [c.mode]);
+    flat(&mut m.cam_bodyid, cameras, |&(b, _)| [b as i32]);
+    flat(&mut m.cam_targetbodyid, cameras, |(_, c)| [places.find(c.target.as_ref())]);
+    flat(&mut m.cam_pos, cameras, |(_, c)| c.pos);
+    flat(&mut m.cam_quat, cameras, |(_, c)| c.quat);
+    flat(&mut m.cam_projection, cameras, |(_, c)| [c.projection]);
+    flat(&mut m.cam_fovy, cameras, |(_, c)| [c.fovy]);
+    flat(&mut m.cam_ipd, cameras, |(_, c)| [c.ipd]);
+    flat(&mut m.cam_resolution, cameras, |(_, c)| c.resolution);
+    flat(&mut m.cam_output, cameras, |(_, c)| [c.output]);
+    flat(&mut m.cam_sensorsize, cameras, |(_, c)| single(c.sensorsize));
+    flat(&mut m.cam_intrinsic, cameras, |(_, c)| single(c.intrinsic));
+    padded(&mut m.cam_user, cameras.iter().map(|(_, c)| &c.user), m.nuser_cam);
 }
 
 /// `bodies` and `textures` are the names of all bodies and textures.
 pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[String], textures: &[String]) {
     let (places, textures) = (Places::of(bodies.iter()), Places::of(textures.iter()));
-    m.light_mode = ints(lights, |(_, l)| l.mode);
-    m.light_bodyid = ints(lights, |&(b, _)| b as i32);
-    m.light_targetbodyid = ints(lights, |(_, l)| places.find(l.target.as_ref()));
-    m.light_type = ints(lights, |(_, l)| l.kind);
-    m.light_texid = ints(lights, |(_, l)| textures.find(l.texture.as_ref()));
-    m.light_castshadow = listed(lights.iter().map(|(_, l)| l.castshadow));
-    m.light_active = listed(lights.iter().map(|(_, l)| l.active));
-    m.light_pos = flat(lights, |(_, l)| l.pos);
-    m.light_dir = flat(lights, |(_, l)| l.dir);
-    let number = |i: usize| flat(lights, |(_, l)| single([l.numbers[i]]));
-    let triple = |i: usize| flat(lights, |(_, l)| single(l.triples[i]));
-    (m.light_bulbradius, m.light_intensity, m.light_range) = (number(0), number(1), number(2));
-    (m.light_cutoff, m.light_softness, m.light_exponent) = (number(3), number(4), number(5));
-    (m.light_attenuation, m.light_ambient) = (triple(0), triple(1));
-    (m.light_diffuse, m.light_specular) = (triple(2), triple(3));
+    flat(&mut m.light_mode, lights, |(_, l)| [l.mode]);
+    flat(&mut m.light_bodyid, lights, |&(b, _)| [b as i32]);
+    flat(&mut m.light_targetbodyid, lights, |(_, l)| [places.find(l.target.as_ref())]);
+    flat(&mut m.light_type, lights, |(_, l)| [l.kind]);
+    flat(&mut m.light_texid, lights, |(_, l)| [textures.find(l.texture.as_ref())]);
+    flat(&mut m.light_castshadow, lights, |(_, l)| [l.castshadow]);
+    flat(&mut m.light_active, lights, |(_, l)| [l.active]);
+    flat(&mut m.light_pos, lights, |(_, l)| l.pos);
+    flat(&mut m.light_dir, lights, |(_, l)| l.dir);
+    let numbers = [
+        &mut m.light_bulbradius,
+        &mut m.light_intensity,
+        &mut m.light_range,
+        &mut m.light_cutoff,
+        &mut m.light_softness,
+        &mut m.light_exponent,
+    ];
+    for (i, array) in numbers.into_iter().enumerate() {
+        flat(array, lights, |(_, l)| single([l.numbers[i]]));
+    }
+    let triples =
+        [&mut m.light_attenuation, &mut m.light_ambient, &mut m.light_diffuse, &mut m.light_specular];
+    for (i, array) in triples.into_iter().enumerate() {
+        flat(array, lights, |(_, l)| single(l.triples[i]));
+    }
 }
 
 pub(crate) fn materials(m: &mut Model, scene: &Scene) {
     let list = &scene.materials;
     let places = Places::of(scene.textures.iter());
     let textures = list.iter().flat_map(|material| &material.textures);
-    m.mat_texid = listed(textures.map(|name| places.find(name.as_ref())));
-    m.mat_texuniform = listed(list.iter().map(|x| x.texuniform));
-    m.mat_texrepeat = flat(list, |x| single(x.texrepeat));
-    let number = |i: usize| flat(list, |x| single([x.numbers[i]]));
-    (m.mat_emission, m.mat_specular, m.mat_shininess) = (number(0), number(1), number(2));
-    (m.mat_reflectance, m.mat_metallic, m.mat_roughness) = (number(3), number(4), number(5));
-    m.mat_rgba = flat(list, |x| single(x.rgba));
+    flat(&mut m.mat_texid, textures, |name| [places.find(name.as_ref())]);
+    flat(&mut m.mat_texuniform, list, |x| [x.texuniform]);
+    flat(&mut m.mat_texrepeat, list, |x| single(x.texrepeat));
+    let numbers = [
+        &mut m.mat_emission,
+        &mut m.mat_specular,
+        &mut m.mat_shininess,
+        &mut m.mat_reflectance,
+        &mut m.mat_metallic,
+        &mut m.mat_roughness,
+    ];
+    for (i, array) in numbers.into_iter().enumerate() {
+        flat(array, list, |x| single([x.numbers[i]]));
+    }
+    flat(&mut m.mat_rgba, list, |x| single(x.rgba));
     m.names.material = listed(list.iter().map(|x| x.name.clone()));
     m.names.texture.clone_from(&scene.textures);
 }
@@ -157,12 +168,12 @@ pub(crate) fn custom(m: &mut Model, scene: &Scene) {
         lengths.map(&mut place).unzip()
     };
     (m.numeric_adr, m.numeric_size) = addresses(&mut scene.numerics.iter().map(|n| n.data.len()));
-    m.numeric_data = listed(scene.numerics.iter().flat_map(|n| &n.data).copied());
+    flat(&mut m.numeric_data, scene.numerics.iter().flat_map(|n| &n.data), |&x| [x]);
     (m.tuple_adr, m.tuple_size) = addresses(&mut scene.tuples.iter().map(|t| t.elements.len()));
     let elements = || scene.tuples.iter().flat_map(|t| &t.elements);
-    m.tuple_objtype = listed(elements().map(|e| e.0));
-    m.tuple_objid = listed(elements().map(|e| e.1));
-    m.tuple_objprm = listed(elements().map(|e| e.2));
+    flat(&mut m.tuple_objtype, elements(), |e| [e.0]);
+    flat(&mut m.tuple_objid, elements(), |e| [e.1]);
+    flat(&mut m.tuple_objprm, elements(), |e| [e.2]);
     m.names.numeric = listed(scene.numerics.iter().map(|n| n.name.clone()));
     m.names.text = listed(scene.texts.iter().map(|(name, _)| name.clone()));
     m.names.tuple = listed(scene.tuples.iter().map(|t| t.name.clone()));

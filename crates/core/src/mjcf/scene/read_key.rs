@@ -10,11 +10,9 @@ use crate::mjcf::text::tree::{Node, Tree, name};
 
 /// All keyframes in the order of the text, at least `min` of them.
 pub(crate) fn keys(tree: &Tree, sizes: &Sizes, min: usize, report: &mut Report) -> Vec<KeySpec> {
-    let given: Vec<&Node> = tree
-        .sections("keyframe")
-        .flat_map(|(section, _)| tree.children(section))
-        .map(|(_, node)| node)
-        .collect();
+    let given: Vec<&Node> = listed(
+        tree.sections("keyframe").flat_map(|(section, _)| tree.children(section)).map(|(_, node)| node),
+    );
     let numbers = 1 + sizes.nq + sizes.nv + sizes.na + sizes.nu + 7 * sizes.nmocap;
     let span = given.first().map_or(0..0, |n| n.span.clone());
     if !report.take(given.len().max(min).saturating_mul(numbers), span, "all keyframes together") {

@@ -286,18 +286,19 @@ pub(crate) fn texts(
     report: &mut crate::mjcf::text::diagnostic::Report,
 ) -> Vec<(String, String)> {
     let nodes = tree.sections("custom").flat_map(|(at, _)| tree.children(at));
-    nodes
-        .filter(|(_, node)| node.element.name == "text")
-        .inspect(|(_, node)| {
-            if let Some(data) = node.attribute("data").filter(|_| node.text("data").is_none()) {
-                let message = format!("`data` of {} is empty", node.shown());
-                report
-                    .error(rules::VALUE, data.span.clone(), message)
-                    .help("write a text, or remove the element");
-            }
-        })
-        .map(|(_, node)| (name(node), node.text("data").unwrap_or("").to_string()))
-        .collect()
+    listed(
+        nodes
+            .filter(|(_, node)| node.element.name == "text")
+            .inspect(|(_, node)| {
+                if let Some(data) = node.attribute("data").filter(|_| node.text("data").is_none()) {
+                    let message = format!("`data` of {} is empty", node.shown());
+                    report
+                        .error(rules::VALUE, data.span.clone(), message)
+                        .help("write a text, or remove the element");
+                }
+            })
+            .map(|(_, node)| (name(node), node.text("data").unwrap_or("").to_string())),
+    )
 }
 
 /// All custom tuples.

@@ -2,7 +2,7 @@
 
 use crate::forces::tendon;
 use crate::kinds::{trntype, wraptype};
-use crate::mjcf::arrays::{flat, ints, padded};
+use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{ActuatorSpec, BodySpec, TendonSpec};
@@ -27,11 +27,12 @@ pub(crate) fn demote_simple(
 ) {
     let site_body: Vec<usize> =
         listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
-    let rotors: Vec<i32> = actuators
-        .iter()
-        .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
-        .map(|t| t.id[0])
-        .collect();
+    let rotors: Vec<i32> = listed(
+        actuators
+            .iter()
+            .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
+            .map(|t| t.id[0]),
+    );
     let heavy = |&(t, spec): &(usize, &TendonSpec)| spec.armature > 0.0 || rotors.contains(&(t as i32));
     let sites = list.iter().enumerate().filter(heavy).flat_map(|(_, t)| &t.path);
     for site in sites.filter(|w| w.kind == wraptype::SITE) {
@@ -45,38 +46,38 @@ pub(crate) fn demote_simple(
 /// All fields of tendons and of the objects on their paths.
 pub(crate) fn tendons(m: &mut Model, list: &[TendonSpec]) {
     let mut next = 0;
-    m.tendon_adr = ints(list, |t| {
+    flat(&mut m.tendon_adr, list, |t| {
         next += t.path.len() as i32;
-        next - t.path.len() as i32
+        [next - t.path.len() as i32]
     });
-    m.tendon_num = ints(list, |t| t.path.len() as i32);
+    flat(&mut m.tendon_num, list, |t| [t.path.len() as i32]);
     m.tendon_matid = vec![-1; list.len()];
     m.tendon_actuatorid = vec![-1; list.len()];
-    m.tendon_group = ints(list, |t| t.group);
-    m.tendon_limited = listed(list.iter().map(|t| t.limited));
-    m.tendon_actfrclimited = listed(list.iter().map(|t| t.actfrclimited));
-    m.tendon_width = flat(list, |t| [t.width]);
-    m.tendon_solref_lim = flat(list, |t| t.solref_limit);
-    m.tendon_solimp_lim = flat(list, |t| t.solimp_limit);
-    m.tendon_solref_fri = flat(list, |t| t.solref_friction);
-    m.tendon_solimp_fri = flat(list, |t| t.solimp_friction);
-    m.tendon_range = flat(list, |t| t.range);
-    m.tendon_actfrcrange = flat(list, |t| t.actfrcrange);
-    m.tendon_margin = flat(list, |t| [t.margin]);
-    m.tendon_stiffness = flat(list, |t| [t.stiffness[0]]);
-    m.tendon_stiffnesspoly = flat(list, |t| [t.stiffness[1], t.stiffness[2]]);
-    m.tendon_damping = flat(list, |t| [t.damping[0]]);
-    m.tendon_dampingpoly = flat(list, |t| [t.damping[1], t.damping[2]]);
-    m.tendon_armature = flat(list, |t| [t.armature]);
-    m.tendon_frictionloss = flat(list, |t| [t.frictionloss]);
-    m.tendon_lengthspring = flat(list, |t| t.springlength);
-    m.tendon_rgba = flat(list, |t| t.rgba);
-    m.tendon_user = padded(list.iter().map(|t| &t.user), m.nuser_tendon);
+    flat(&mut m.tendon_group, list, |t| [t.group]);
+    flat(&mut m.tendon_limited, list, |t| [t.limited]);
+    flat(&mut m.tendon_actfrclimited, list, |t| [t.actfrclimited]);
+    flat(&mut m.tendon_width, list, |t| [t.width]);
+    flat(&mut m.tendon_solref_lim, list, |t| t.solref_limit);
+    flat(&mut m.tendon_solimp_lim, list, |t| t.solimp_limit);
+    flat(&mut m.tendon_solref_fri, list, |t| t.solref_friction);
+    flat(&mut m.tendon_solimp_fri, list, |t| t.solimp_friction);
+    flat(&mut m.tendon_range, list, |t| t.range);
+    flat(&mut m.tendon_actfrcrange, list, |t| t.actfrcrange);
+    flat(&mut m.tendon_margin, list, |t| [t.margin]);
+    flat(&mut m.tendon_stiffness, list, |t| [t.stiffness[0]]);
+    flat(&mut m.tendon_stiffnesspoly, list, |t| [t.stiffness[1], t.stiffness[2]]);
+    flat(&mut m.tendon_damping, list, |t| [t.damping[0]]);
+    flat(&mut m.tendon_dampingpoly, list, |t| [t.damping[1], t.damping[2]]);
+    flat(&mut m.tendon_armature, list, |t| [t.armature]);
+    flat(&mut m.tendon_frictionloss, list, |t| [t.frictionloss]);
+    flat(&mut m.tendon_lengthspring, list, |t| t.springlength);
+    flat(&mut m.tendon_rgba, list, |t| t.rgba);
+    padded(&mut m.tendon_user, list.iter().map(|t| &t.user), m.nuser_tendon);
 
     let wraps = || list.iter().flat_map(|t| &t.path);
-    m.wrap_type = ints(wraps(), |w| w.kind);
-    m.wrap_objid = ints(wraps(), |w| w.id);
-    m.wrap_prm = flat(wraps(), |w| [w.prm]);
+    flat(&mut m.wrap_type, wraps(), |w| [w.kind]);
+    flat(&mut m.wrap_objid, wraps(), |w| [w.id]);
+    flat(&mut m.wrap_prm, wraps(), |w| [w.prm]);
 }
 
 /// The pattern of the Jacobians; `None` after reporting that it is too large.

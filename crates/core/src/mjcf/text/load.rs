@@ -5,6 +5,7 @@
 //! with its attributes, and no file is included twice.
 
 use crate::mjcf::gather::filled;
+use crate::mjcf::gather::listed;
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
@@ -84,7 +85,7 @@ impl<'f> Loader<'f> {
             self.include(&mut list, file, &folder, report);
             if self.open.len() == 1 {
                 let change = |p: &Patch| patch::apply(&mut list, root, p).err();
-                self.refusals = self.patches.iter().map(change).collect();
+                self.refusals = listed(self.patches.iter().map(change));
             }
             let mut tree = tree::check(&list, root, report)?;
             names::after_files(&mut tree);

@@ -203,7 +203,7 @@ fn near<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> Str
     match nearest(word, names.iter().copied()) {
         Some(right) if !word.is_empty() => format!("did you mean `{right}`?"),
         _ if names.is_empty() => none.to_string(),
-        _ => names.iter().take(12).copied().collect::<Vec<_>>().join(", "),
+        _ => listed(names.iter().take(12).copied()).join(", "),
     }
 }
 

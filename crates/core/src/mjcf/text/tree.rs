@@ -2,6 +2,7 @@
 //!
 //! Unknown names are reported with the nearest known one; what is refused is left out, with all it holds.
 
+use crate::mjcf::gather::listed;
 use std::ops::Range;
 
 use super::diagnostic::{Report, nearest, shown};
@@ -144,7 +145,7 @@ pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tr
 /// The children of an element, those of included files in the place of their `include`.
 fn content<'x>(list: &'x [Xml], xml: &'x Xml, report: &mut Report) -> Vec<(usize, &'x Xml)> {
     let mut content = Vec::new();
-    let mut stack: Vec<usize> = xml.children.iter().rev().copied().collect();
+    let mut stack: Vec<usize> = listed(xml.children.iter().rev().copied());
     while let Some(at) = stack.pop() {
         let Some(child) = list.get(at) else { continue };
         if child.name == INCLUDE.name {
@@ -213,7 +214,7 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
     report.incomplete = true;
     let places = parents_of(name);
     if !places.is_empty() {
-        let list: Vec<_> = places.iter().map(|p| format!("`{p}`")).collect();
+        let list: Vec<_> = listed(places.iter().map(|p| format!("`{p}`")));
         report
             .error(rules::MISPLACED_ELEMENT, span, format!("`{name}` cannot stand in `{}`", element.name))
             .help(format!("it belongs into {}", list.join(" or ")));

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::diagnostic::{nearest, shown};
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::schema::{Kind, Word};
 
@@ -70,21 +71,21 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
         }
         let mut problem =
             Problem::new(rules::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
-        problem.help = Some(format!("supported: {}", listed(words)));
+        problem.help = Some(format!("supported: {}", known(words)));
         return Err(problem);
     }
     let mut problem =
         Problem::new(rules::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
     problem.help = Some(match nearest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
-        None => format!("write one of: {}", listed(words)),
+        None => format!("write one of: {}", known(words)),
     });
     Err(problem)
 }
 
 /// The keywords that are supported.
-fn listed(words: &[Word]) -> String {
-    words.iter().filter(|w| w.supported).map(|w| w.text).collect::<Vec<_>>().join(", ")
+fn known(words: &[Word]) -> String {
+    listed(words.iter().filter(|w| w.supported).map(|w| w.text)).join(", ")
 }
 
 /// The words of a text, each with its bytes, read by `read`.

@@ -137,7 +137,7 @@ fn element(prepared: &Prepared, base: usize, xml: &Node) -> Element {
         name: name.name().to_string(),
         span: start..start + name.name().len(),
         namespace: name.namespace().is_some(),
-        attributes: xml.attributes().map(attribute).collect(),
+        attributes: listed(xml.attributes().map(attribute)),
         children: Vec::new(),
     }
 }

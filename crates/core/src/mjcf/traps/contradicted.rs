@@ -2,6 +2,7 @@
 
 use super::{digits, own_name, place, shown};
 use crate::kinds::joint;
+use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
@@ -52,7 +53,7 @@ fn switched_off(tree: &Tree, report: &mut Report) {
 /// Keyframes that begin beyond a limit.
 fn keys(tree: &Tree, m: &Model, report: &mut Report) {
     let nodes: Vec<&Node> =
-        tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)).collect();
+        listed(tree.sections("keyframe").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     for (k, node) in nodes.iter().enumerate().take(m.nkey) {
         // What is not written is the model's own start.
         let Some(qpos) = attribute(node, "qpos") else { continue };
@@ -88,7 +89,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
 /// Position servos that go wherever they are told, with any force.
 fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let nodes: Vec<&Node> =
-        tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)).collect();
+        listed(tree.sections("actuator").flat_map(|(i, _)| tree.children(i).map(|(_, n)| n)));
     if nodes.len() != m.nactuator || m.nu != m.nactuator {
         return;
     }
@@ -97,8 +98,8 @@ fn servos(tree: &Tree, m: &Model, report: &mut Report) {
         !limit(&m.actuator_ctrllimited) && !limit(&m.actuator_forcelimited)
     };
     let servo = |i: &usize| nodes.get(*i).is_some_and(|n| SERVOS.contains(&n.element.name));
-    let all: Vec<usize> = (0..nodes.len()).filter(servo).collect();
-    let open: Vec<usize> = all.iter().copied().filter(free).collect();
+    let all: Vec<usize> = listed((0..nodes.len()).filter(servo));
+    let open: Vec<usize> = listed(all.iter().copied().filter(free));
     let Some(first) = open.first() else { return };
     let name = m.names.of(Obj::Actuator).get(*first).map_or("", String::as_str);
     let span = nodes.get(*first).map_or_else(|| place(tree, &SERVOS, name), |n| n.span.clone());

@@ -3,6 +3,7 @@
 //! vertices.
 
 use crate::mjcf::asset::mesh::{Bytes, MAX_FACES, MAX_VERTICES, Problem, Raw};
+use crate::mjcf::gather::listed;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     let cut = || {
@@ -30,10 +31,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
         ));
     }
     let mut raw = Raw {
-        vert: (0..nvert).map_while(|_| numbers.reals()).collect(),
-        normal: (0..nnormal).map_while(|_| numbers.reals()).collect(),
-        texcoord: (0..ntexcoord).map_while(|_| numbers.reals()).collect(),
-        face: (0..nface).map_while(|_| numbers.ints()).collect(),
+        vert: listed((0..nvert).map_while(|_| numbers.reals())),
+        normal: listed((0..nnormal).map_while(|_| numbers.reals())),
+        texcoord: listed((0..ntexcoord).map_while(|_| numbers.reals())),
+        face: listed((0..nface).map_while(|_| numbers.ints())),
         ..Raw::default()
     };
     raw.facenormal.clone_from(&raw.face);

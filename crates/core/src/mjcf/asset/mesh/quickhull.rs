@@ -6,6 +6,7 @@
 //! stretched, so each axis has a grid of its own.)
 
 use crate::math::sort::sort;
+use crate::mjcf::gather::listed;
 use std::collections::{BTreeMap, BinaryHeap};
 
 use crate::math::Vec3;
@@ -52,7 +53,7 @@ impl Hull {
     pub(crate) fn graph(&self) -> Vec<i32> {
         let place = |v: i32| self.vertex.partition_point(|&x| (x as i32) < v) as i32;
         let mut edges: Vec<(i32, i32)> =
-            self.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+            listed(self.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
         sort(&mut edges);
         let mut graph = vec![self.vertex.len() as i32, self.face.len() as i32];
         let (mut starts, mut lists) = (Vec::new(), Vec::with_capacity(self.vertex.len() + edges.len()));
@@ -146,7 +147,7 @@ impl Growing {
         for (corner, beyond) in sides {
             g.add(corner, beyond);
         }
-        g.hand_out((0..g.points.len() as u32).collect(), 0);
+        g.hand_out(listed(0..g.points.len() as u32), 0);
         Ok(g)
     }
 
@@ -203,18 +204,14 @@ impl Growing {
     /// Forgets the faces that are covered.
     fn compact(&mut self) {
         let mut place = 0;
-        let places: Vec<u32> = self
-            .faces
-            .iter()
-            .map(|f| {
-                if f.alive {
-                    place += 1;
-                    place - 1
-                } else {
-                    NONE
-                }
-            })
-            .collect();
+        let places: Vec<u32> = listed(self.faces.iter().map(|f| {
+            if f.alive {
+                place += 1;
+                place - 1
+            } else {
+                NONE
+            }
+        }));
         self.faces.retain(|f| f.alive);
         for face in &mut self.faces {
             face.beyond = face.beyond.map(|i| places.get(i as usize).copied().unwrap_or(NONE));
@@ -353,7 +350,7 @@ impl Growing {
             }
         }
         sort(&mut face);
-        let vertex = (0..meet.len() as u32).filter(|&v| is_corner(v)).collect();
+        let vertex = listed((0..meet.len() as u32).filter(|&v| is_corner(v)));
         Hull { vertex, face }
     }
 }
@@ -379,7 +376,7 @@ fn on_grid(points: &[Vec3]) -> (Vec<Point>, Vec3) {
     // A power of two: what is exact stays exact.
     let steps = [0, 1, 2].map(|i| libm::ldexp(1.0, BITS - libm::frexp(upper[i] - lower[i]).1));
     let grid = |p: &Vec3| std::array::from_fn(|i| libm::round((p[i] - lower[i]) * steps[i]) as i64);
-    (points.iter().map(grid).collect(), steps)
+    (listed(points.iter().map(grid)), steps)
 }
 
 #[cfg(test)]
