@@ -54,6 +54,18 @@ fn threads_and_the_cache_change_no_byte() {
     assert!(files > 50, "{files}");
 }
 
+/// `off` is no folder.
+#[test]
+fn the_cache_can_be_switched_off() {
+    let here = folder();
+    let names = || std::fs::read_dir(here.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect::<Vec<_>>();
+    let before = names();
+    for off in ["", "off"] {
+        shown(here.path(), Some(Path::new(off)), &["check", "clean.md"]);
+    }
+    assert_eq!(names(), before);
+}
+
 /// What is wrong with the first lesson is read while the second is still running.
 #[test]
 fn findings_are_printed_as_lessons_are_done() {

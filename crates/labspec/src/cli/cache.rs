@@ -109,12 +109,12 @@ impl Cache {
     }
 }
 
-/// Where results are kept on this machine. A `LABSPEC_CACHE` that is empty says: nowhere.
+/// Where results are kept on this machine. A `LABSPEC_CACHE` that is empty, or `off`, says: nowhere.
 fn folder() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let full = |path: &PathBuf| path.is_absolute();
     if let Some(own) = set("LABSPEC_CACHE") {
-        return Some(own).filter(|own| !own.as_os_str().is_empty());
+        return Some(own).filter(|own| !own.as_os_str().is_empty() && own.as_os_str() != "off");
     }
     let caches = if cfg!(windows) {
         set("LOCALAPPDATA").filter(full)
