@@ -58,7 +58,9 @@ fn threads_and_the_cache_change_no_byte() {
 #[test]
 fn the_cache_can_be_switched_off() {
     let here = folder();
-    let names = || std::fs::read_dir(here.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect::<Vec<_>>();
+    let names = || {
+        std::fs::read_dir(here.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect::<Vec<_>>()
+    };
     let before = names();
     for off in ["", "off"] {
         shown(here.path(), Some(Path::new(off)), &["check", "clean.md"]);

@@ -51,8 +51,7 @@ pub(crate) enum Fact {
     /// All actuators are motors or servos of slides, hinges and tendons: their forces follow from a control, a length and a
     /// velocity.
     Servos,
-    /// How forces of actuators and dampers change with velocities follows from the model alone, which stays as it is, and from which
-    /// actuators are held by a range.
+    /// How forces change with velocities follows from the model alone, but for how much each actuator's force does.
     SlopesStay,
     /// Forces of actuators are limited, one by one or by joint.
     ForceLimits,

@@ -326,11 +326,11 @@ impl<'a> Scene<'a> {
         !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
     }
 
-    /// Whether forces change with velocities by numbers of the model that stay: linear dampers and servos, along joints and fixed
-    /// tendons.
+    /// Whether forces change with velocities by numbers of the model that stay, but for each actuator's own: linear dampers and
+    /// servos, along joints and fixed tendons.
     pub(super) fn slopes_stay(&self) -> bool {
         let growth = [JOINT_FORCES[1], TENDON_FORCES[3], ACTUATOR_DAMPING[1]];
-        let numbers = ["actuator_gainprm", "actuator_biasprm", "wrap_prm", TENDON_FORCES[2].0];
+        let numbers = ["wrap_prm", TENDON_FORCES[2].0];
         !self.sleeps
             && !self.fluid
             && self.damped().is_some()

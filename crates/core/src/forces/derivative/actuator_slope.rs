@@ -7,26 +7,23 @@ use crate::model::{Fields, Model};
 
 use super::sparse;
 
-/// `acting` ← which actuators follow their laws; whether they are others than before.
-pub(super) fn others_act(m: &Model, d: &Fields, acting: &mut [bool]) -> bool {
+/// `out` ← how the force of each actuator changes with its velocity; whether some number is another one than before.
+pub(super) fn find(m: &Model, d: &Fields, out: &mut [f64]) -> bool {
     let on = !m.opt.disabled(disable::ACTUATION);
     let mut others = false;
-    for (i, acting) in acting.iter_mut().enumerate() {
-        let now = on && acts(m, d, i);
-        others |= now != *acting;
-        *acting = now;
+    for (i, slope) in out.iter_mut().enumerate() {
+        let now = if on && acts(m, d, i) { slopes(m, d, i).velocity } else { 0.0 };
+        others |= now.to_bits() != slope.to_bits();
+        *slope = now;
     }
     others
 }
 
-/// Adds the derivative of `qfrc_actuator` with respect to `qvel`, of those that are acting.
-pub(super) fn add_velocity(m: &Model, d: &Fields, acting: &[bool], out: &mut [f64]) {
-    for (i, _) in acting.iter().enumerate().filter(|(_, acting)| **acting) {
-        let slope = slopes(m, d, i).velocity;
-        if slope != 0.0 {
-            for (dofs, moment) in moments(m, d, i) {
-                sparse::add_outer(m, dofs, moment, slope, out);
-            }
+/// Adds the derivative of `qfrc_actuator` with respect to `qvel`, for these slopes of the actuators.
+pub(super) fn add_velocity(m: &Model, d: &Fields, slopes: &[f64], out: &mut [f64]) {
+    for (i, &slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
+        for (dofs, moment) in moments(m, d, i) {
+            sparse::add_outer(m, dofs, moment, slope, out);
         }
     }
 }
@@ -70,12 +67,26 @@ pub(crate) struct Slopes {
 }
 
 /// How the force of an actuator follows its state within a step.
+#[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
-    let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
-    let mut out = Slopes { velocity: 0.0, length: 0.0 };
-    if matches!(m.actuator_biastype[i], biastype::AFFINE | biastype::SO3) {
-        out = Slopes { velocity: bias[2], length: bias[1] };
+    let mut out = match m.actuator_biastype[i] {
+        biastype::AFFINE | biastype::SO3 => {
+            let [_, length, velocity, ..] = *prm(&m.actuator_biasprm, i);
+            Slopes { velocity, length }
+        }
+        _ => Slopes { velocity: 0.0, length: 0.0 },
+    };
+    // The commonest, whose force is in proportion to its input.
+    if m.actuator_gaintype[i] != gaintype::FIXED || m.actuator_biastype[i] == biastype::MUSCLE {
+        add_other(m, d, i, &mut out);
     }
+    out
+}
+
+/// What other gains than fixed ones and muscles add.
+#[inline(never)]
+fn add_other(m: &Model, d: &Fields, i: usize, out: &mut Slopes) {
+    let (gain, bias) = (prm(&m.actuator_gainprm, i), prm(&m.actuator_biasprm, i));
     match m.actuator_gaintype[i] {
         gaintype::AFFINE => {
             let input = actuation::input(m, d, i, &d.acting);
@@ -99,5 +110,4 @@ pub(crate) fn slopes(m: &Model, d: &Fields, i: usize) -> Slopes {
         let state = muscle::State::new(m, d, m.actuator_outadr[i] as usize, bias);
         out.length += muscle::bias_by_length(bias, &state);
     }
-    out
 }

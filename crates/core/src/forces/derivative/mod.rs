@@ -25,9 +25,9 @@ pub(crate) struct Work {
     pub(crate) whole: Vec<f64>,
     /// That of actuators, dampers and the medium alone.
     forces: Vec<f64>,
-    /// Whether `forces` is that of the model as it is, and of which actuators.
+    /// Whether `forces` is that of the model as it is, and of these slopes of actuators.
     known: bool,
-    acting: Vec<bool>,
+    actuators: Vec<f64>,
     /// The motion of a frame for a unit velocity of each degree of freedom that moves it.
     columns: Vec<Spatial>,
     /// How fast the force of the damper of each degree of freedom falls with its velocity.
@@ -50,7 +50,7 @@ impl Work {
     fn resize(&mut self, m: &Model) {
         self.whole.resize(m.nD, 0.0);
         self.forces.resize(m.nD, 0.0);
-        self.acting.resize(m.nactuator, false);
+        self.actuators.resize(m.nactuator, 0.0);
         self.columns.resize(m.nv, [0.0; 6]);
         self.slopes.resize(m.nv, 0.0);
         self.bias.resize(m);
@@ -64,10 +64,9 @@ impl Work {
 
 /// `w.whole` ← the derivative of forces of actuators, dampers and the medium.
 ///
-/// Where it is known once and for all how forces change with velocities, all that may change is which actuators are held by a range:
-/// as long as they are the same ones, it stays.
+/// Where all else is known once and for all, only the slopes of actuators may change: as long as they are the same, it stays.
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
-    if !(w.known && d.plan.has(Fact::SlopesStay) && !actuator_slope::others_act(m, d, &mut w.acting)) {
+    if !(w.known && d.plan.has(Fact::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
         make_forces(m, d, w, medium);
     }
     w.whole.copy_from_slice(&w.forces);
@@ -76,8 +75,8 @@ pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
 fn make_forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
     w.resize(m);
     w.forces.fill(0.0);
-    actuator_slope::others_act(m, d, &mut w.acting);
-    actuator_slope::add_velocity(m, d, &w.acting, &mut w.forces);
+    actuator_slope::find(m, d, &mut w.actuators);
+    actuator_slope::add_velocity(m, d, &w.actuators, &mut w.forces);
     if !m.opt.disabled(disable::DAMPER) {
         dampers(m, d, w);
     }
