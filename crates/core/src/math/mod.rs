@@ -512,10 +512,21 @@ pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
     [0, 3].iter().all(|&first| {
         let mut part: [Vec3; 3] = std::array::from_fn(|r| std::array::from_fn(|c| a[first + r][first + c]));
         let mut y = [x[first], x[first + 1], x[first + 2]];
-        let solved = eliminate(&mut part, &mut y);
+        let solved = solve_three(&mut part, &mut y);
         x[first..first + 3].copy_from_slice(&y);
         solved
     })
+}
+
+/// The same for three rows, of which each may stand alone: that costs divisions which do not wait for each other.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn solve_three(a: &mut [Vec3; 3], x: &mut Vec3) -> bool {
+    let [[d0, a01, a02], [a10, d1, a12], [a20, a21, d2]] = *a;
+    if [a01, a02, a10, a12, a20, a21] != [0.0; 6] {
+        return eliminate(a, x);
+    }
+    *x = [x[0] / d0, x[1] / d1, x[2] / d2];
+    [d0, d1, d2].iter().all(|d| d.abs() >= MINVAL)
 }
 
 /// The same for any number of rows.
