@@ -20,32 +20,29 @@ impl Six {
         Six { start, values: mass::free_block(m, inertia, start) }
     }
 
-    /// H⁻¹ g by H = L Lᵀ.
+    /// H⁻¹ g by H = L D Lᵀ, which waits for no square roots.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn solve(&mut self, g: [f64; N]) -> [f64; N] {
-        let l = &mut self.values;
-        let mut inverse = [0.0; N];
-        let mut x = g;
+    pub(super) fn solve(&self, g: [f64; N]) -> [f64; N] {
+        let (mut l, mut inverse, mut x) = ([[0.0; N]; N], [0.0; N], g);
         for i in 0..N {
+            // L D below the diagonal, then D
+            let mut ld = self.values[i];
             for j in 0..i {
-                let mut sum = l[i][j];
                 for k in 0..j {
-                    sum -= l[i][k] * l[j][k];
+                    ld[j] -= ld[k] * l[j][k];
                 }
-                l[i][j] = sum * inverse[j];
+                l[i][j] = ld[j] * inverse[j];
             }
-            let mut square = l[i][i];
             for k in 0..i {
-                square -= l[i][k] * l[i][k];
+                ld[i] -= ld[k] * l[i][k];
                 x[i] -= l[i][k] * x[k];
             }
-            inverse[i] = 1.0 / square.max(MINVAL).sqrt();
-            x[i] *= inverse[i];
+            inverse[i] = 1.0 / ld[i].max(MINVAL);
         }
         for i in (0..N).rev() {
             x[i] *= inverse[i];
-            for k in 0..i {
-                x[k] -= l[i][k] * x[i];
+            for k in i + 1..N {
+                x[i] -= l[k][i] * x[k];
             }
         }
         x
