@@ -6,6 +6,8 @@ use crate::model::{Fields, Model};
 
 /// How a camera or light moves (mjtCamLight).
 mod mode {
+    /// Fixed to the body.
+    pub(super) const FIXED: i32 = 0;
     /// Position follows the body, orientation is that at `qpos0`.
     pub(super) const TRACK: i32 = 1;
     /// Position follows the centre of mass of the body's subtree, orientation is that at `qpos0`.
@@ -18,58 +20,81 @@ mod mode {
 
 /// `cam_xpos`, `cam_xmat`.
 pub(crate) fn cameras(m: &Model, d: &mut Fields) {
-    // Where trees may sleep, nothing that stands is looked at: what it tracks moves away.
-    let (sleeping, state) = (asleep::on(m, d), &d.body_awake);
-    let (pos, quat) = (rows::<3>(&m.cam_pos), rows::<4>(&m.cam_quat));
-    let (xpos, xquat, com) = (rows::<3>(&d.xpos), rows::<4>(&d.xquat), rows::<3>(&d.subtree_com));
-    let (out_pos, out_mat) = (rows_mut::<3>(&mut d.cam_xpos), rows_mut::<9>(&mut d.cam_xmat));
     for c in 0..m.ncam {
         let b = m.cam_bodyid[c] as usize;
-        out_pos[c] = add(rotate(pos[c], xquat[b]), xpos[b]);
-        out_mat[c] = quat_to_mat(quat_mul(xquat[b], quat[c]));
-        match m.cam_mode[c] {
-            mode::TRACK => {
-                out_pos[c] = add(xpos[b], rows::<3>(&m.cam_pos0)[c]);
-                out_mat[c] = rows::<9>(&m.cam_mat0)[c];
-            }
-            mode::TRACKCOM if !(sleeping && state[b] == awake::STATIC) => {
-                out_pos[c] = add(com[b], rows::<3>(&m.cam_poscom0)[c]);
-                out_mat[c] = rows::<9>(&m.cam_mat0)[c];
-            }
-            _ => {}
+        let (at, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
+        rows_mut::<3>(&mut d.cam_xpos)[c] = add(rotate(rows::<3>(&m.cam_pos)[c], turn), at);
+        rows_mut::<9>(&mut d.cam_xmat)[c] = quat_to_mat(quat_mul(turn, rows::<4>(&m.cam_quat)[c]));
+        if m.cam_mode[c] != mode::FIXED {
+            move_camera(m, d, c, b);
         }
-        if let Some(target) = target(m.cam_mode[c], m.cam_targetbodyid[c], xpos, com) {
-            out_mat[c] = looking(sub(out_pos[c], target));
+    }
+}
+
+/// The same where camera `c` on body `b` follows or looks at something.
+#[inline(never)] // most are fixed
+fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
+    let stands = stands(m, d, b);
+    let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
+    let pos = &mut rows_mut::<3>(&mut d.cam_xpos)[c];
+    let mat = &mut rows_mut::<9>(&mut d.cam_xmat)[c];
+    match m.cam_mode[c] {
+        mode::TRACK => {
+            *pos = add(xpos[b], rows::<3>(&m.cam_pos0)[c]);
+            *mat = rows::<9>(&m.cam_mat0)[c];
         }
+        mode::TRACKCOM if !stands => {
+            *pos = add(com[b], rows::<3>(&m.cam_poscom0)[c]);
+            *mat = rows::<9>(&m.cam_mat0)[c];
+        }
+        _ => {}
+    }
+    if let Some(target) = target(m.cam_mode[c], m.cam_targetbodyid[c], xpos, com) {
+        *mat = looking(sub(*pos, target));
     }
 }
 
 /// `light_xpos`, `light_xdir`.
 pub(crate) fn lights(m: &Model, d: &mut Fields) {
-    let (sleeping, state) = (asleep::on(m, d), &d.body_awake);
-    let (pos, dir) = (rows::<3>(&m.light_pos), rows::<3>(&m.light_dir));
-    let (xpos, xquat, com) = (rows::<3>(&d.xpos), rows::<4>(&d.xquat), rows::<3>(&d.subtree_com));
-    let (out_pos, out_dir) = (rows_mut::<3>(&mut d.light_xpos), rows_mut::<3>(&mut d.light_xdir));
     for l in 0..m.nlight {
         let b = m.light_bodyid[l] as usize;
-        out_pos[l] = add(rotate(pos[l], xquat[b]), xpos[b]);
-        out_dir[l] = rotate(dir[l], xquat[b]);
-        match m.light_mode[l] {
-            mode::TRACK => {
-                out_pos[l] = add(xpos[b], rows::<3>(&m.light_pos0)[l]);
-                out_dir[l] = rows::<3>(&m.light_dir0)[l];
-            }
-            mode::TRACKCOM if !(sleeping && state[b] == awake::STATIC) => {
-                out_pos[l] = add(com[b], rows::<3>(&m.light_poscom0)[l]);
-                out_dir[l] = rows::<3>(&m.light_dir0)[l];
-            }
-            _ => {}
+        let (at, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
+        rows_mut::<3>(&mut d.light_xpos)[l] = add(rotate(rows::<3>(&m.light_pos)[l], turn), at);
+        rows_mut::<3>(&mut d.light_xdir)[l] = rotate(rows::<3>(&m.light_dir)[l], turn);
+        if m.light_mode[l] != mode::FIXED {
+            move_light(m, d, l, b);
         }
-        if let Some(target) = target(m.light_mode[l], m.light_targetbodyid[l], xpos, com) {
-            out_dir[l] = sub(target, out_pos[l]);
-        }
-        out_dir[l] = normalize(out_dir[l]).0;
+        let dir = &mut rows_mut::<3>(&mut d.light_xdir)[l];
+        *dir = normalize(*dir).0;
     }
+}
+
+/// The same where light `l` on body `b` follows or looks at something.
+#[inline(never)] // most are fixed
+fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
+    let stands = stands(m, d, b);
+    let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
+    let pos = &mut rows_mut::<3>(&mut d.light_xpos)[l];
+    let dir = &mut rows_mut::<3>(&mut d.light_xdir)[l];
+    match m.light_mode[l] {
+        mode::TRACK => {
+            *pos = add(xpos[b], rows::<3>(&m.light_pos0)[l]);
+            *dir = rows::<3>(&m.light_dir0)[l];
+        }
+        mode::TRACKCOM if !stands => {
+            *pos = add(com[b], rows::<3>(&m.light_poscom0)[l]);
+            *dir = rows::<3>(&m.light_dir0)[l];
+        }
+        _ => {}
+    }
+    if let Some(target) = target(m.light_mode[l], m.light_targetbodyid[l], xpos, com) {
+        *dir = sub(target, *pos);
+    }
+}
+
+/// Whether body `b` cannot move while trees may sleep: nothing that stands is looked at then, and what it tracks moves away.
+fn stands(m: &Model, d: &Fields, b: usize) -> bool {
+    asleep::on(m, d) && d.body_awake[b] == awake::STATIC
 }
 
 /// The point that something looks at.

@@ -90,6 +90,7 @@ pub(crate) fn of_object(m: &Model, d: &Fields, kind: i32, id: usize) -> Option<i
 }
 
 /// The state of a tendon: asleep when all trees on its path are.
+#[inline(never)] // few scenes let trees sleep: so below
 fn tendon_state(m: &Model, d: &Fields, t: usize) -> i32 {
     let is_awake = |tree: i32| usize::try_from(tree).is_ok_and(|tree| d.tree_awake[tree] != 0);
     let [first, second] = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]];
@@ -102,6 +103,7 @@ fn tendon_state(m: &Model, d: &Fields, t: usize) -> i32 {
 }
 
 /// The state of what an actuator acts on.
+#[inline(never)]
 fn actuator_state(m: &Model, d: &Fields, i: usize) -> i32 {
     let [id, reference] = [m.actuator_trnid[2 * i], m.actuator_trnid[2 * i + 1]];
     let body = |list: &[i32], id: i32| d.body_awake[list[id.max(0) as usize] as usize];

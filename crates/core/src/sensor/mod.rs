@@ -63,18 +63,25 @@ pub(crate) fn evaluate(m: &Model, d: &mut Fields, w: &mut Scratch, when: When) {
     if m.opt.disabled(disable::SENSOR) || d.meter.over() {
         return;
     }
-    // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
-    let mut values = std::mem::take(&mut d.sensordata);
-    for s in 0..m.nsensor {
-        let wanted = || d.plan.every_sensor || is_read(m, s, d.plan.sensed);
-        if m.sensor_needstage[s] == when as i32 && wanted() && !sleeps(m, d, s) {
-            let out = &mut values[places(m, s)];
-            if !timing::past(m, d, s, out) {
-                read(m, d, w, s, out);
-            }
+    for (s, &stage) in m.sensor_needstage.iter().enumerate() {
+        if stage == when as i32 {
+            show(m, d, w, s);
         }
     }
-    d.sensordata = values;
+}
+
+/// What sensor `s` shows, if it is read: a past value, or what it measures now; while all of it sleeps, what it has shown.
+#[inline(never)] // most are of another stage
+fn show(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) {
+    if (d.plan.every_sensor || is_read(m, s, d.plan.sensed)) && !sleeps(m, d, s) {
+        // Taken out, because reading a sensor uses scratch of the data; nothing is allocated.
+        let mut values = std::mem::take(&mut d.sensordata);
+        let out = &mut values[places(m, s)];
+        if !timing::past(m, d, s, out) {
+            read(m, d, w, s, out);
+        }
+        d.sensordata = values;
+    }
 }
 
 /// Whether all that sensor `s` measures sleeps or cannot move: its values stay as they are.

@@ -101,6 +101,7 @@ impl Iterator for Legs<'_> {
 /// The length of a spatial tendon, m; adds its Jacobian and points to `out`.
 ///
 /// `points`: how many points all paths have so far.
+#[inline(never)] // fixed tendons do not carry its arrays
 pub(super) fn spatial(m: &Model, d: &mut Fields, t: usize, points: &mut usize) -> f64 {
     // Taken out, so that the rest of the data can be read while they are written.
     let mut out = Paths {
