@@ -13,6 +13,7 @@
 
 use super::Touch;
 use crate::geometry::Shape;
+use crate::math::lanes::lane3;
 use crate::math::*;
 
 /// Gap, relative to all half lengths, that rounding may open between boxes that touch.
@@ -133,20 +134,24 @@ fn separation(relative: &Relative, size1: Vec3, size2: Vec3, limit: f64, slack: 
     }
 
     let (mut best, mut edge) = (face_gap, None);
+    let turns = turn.map(lane3);
+    let [s0, s1, s2] = size2;
+    let (after, before) = (lane3([s1, s2, s0]), lane3([s2, s0, s1]));
     for i in 0..3 {
         let [i1, i2] = others(i);
+        // The gaps times the sines, along the cross products as they are, of all j: (e_i × b_j) · b_j1 = e_i · b_j2.
+        let [x, y, z] = spread[i];
+        let reach = turns[i2].abs() * size1[i1]
+            + turns[i1].abs() * size1[i2]
+            + after * lane3([z, x, y])
+            + before * lane3([y, z, x]);
+        let short = (turns[i1] * offset[i2] - turns[i2] * offset[i1]).abs() - reach + slack;
+        // Most pairs are out without root and division: short / sine <= best < 0, or short < 0 <= best.
+        let sine2 = turns[i1] * turns[i1] + turns[i2] * turns[i2];
+        let (short, sine2) = (short.to_array(), sine2.to_array());
         for j in 0..3 {
-            let [j1, j2] = others(j);
-            // The gap times the sine, along the cross product as it is: (e_i × b_j) · b_j1 = e_i · b_j2.
-            let reach = size1[i1] * spread[i2][j]
-                + size1[i2] * spread[i1][j]
-                + size2[j1] * spread[i][j2]
-                + size2[j2] * spread[i][j1];
-            let short = (offset[i2] * turn[i1][j] - offset[i1] * turn[i2][j]).abs() - reach + slack;
-            // Most pairs are out without root and division: short / sine <= best < 0, or short < 0 <= best.
-            let sine2 = turn[i1][j] * turn[i1][j] + turn[i2][j] * turn[i2][j];
             let bar = best.min(0.0);
-            if short <= 0.0 && short * short >= bar * bar * sine2 {
+            if short[j] <= 0.0 && short[j] * short[j] >= bar * bar * sine2[j] {
                 continue;
             }
             // The products above carry the rounding of the turn, which a small sine would magnify: again,
