@@ -262,7 +262,7 @@ the scene does not take the way). `dynamics/ways/` says what each is; `labspec b
 
 ## What is left
 
-Scenes in which a target of the project is missed (every field: half of MuJoCo's instructions; planned: humanoid on the floor a half,
+Scenes that were far from a target of the project (every field: half of MuJoCo's instructions; planned: humanoid on the floor a half,
 two balls 1/6, free fall 500), and where their instructions are (callgrind, own instructions of a step by function,
 the largest seven; what is inlined counts where it is inlined):
 
