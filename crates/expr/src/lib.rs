@@ -50,6 +50,7 @@ mod row;
 mod schema;
 mod value;
 mod vm;
+mod watch;
 mod words;
 
 #[cfg(test)]
@@ -84,4 +85,5 @@ pub use schema::{
     ObjectId, Param, Role, Schema, Touch, Type,
 };
 pub use value::{Value, View};
+pub use watch::{Comparison, Watch};
 pub use words::Words;

@@ -19,6 +19,7 @@ use crate::rules::{self, Rule};
 use crate::schema::{FieldKey, FunctionId, Schema, Type};
 use crate::value::Value;
 use crate::vm::{self, Code};
+use crate::watch::Watch;
 
 /// The host while a program runs. Indexes count from the start of the whole field, as [`crate::Field::first`].
 pub trait Host {
@@ -151,6 +152,8 @@ pub struct Context {
     /// What is handed to a function of the host.
     pub(crate) handed: Vec<Value>,
     pub(crate) events: Vec<RuntimeEvent>,
+    /// What runs note, where somebody watches them.
+    pub(crate) watch: Option<Box<Watch>>,
     /// Work of all runs but that of the host, and what the next run may do.
     pub(crate) work: u64,
     pub(crate) allowed: Option<u64>,
@@ -252,6 +255,16 @@ impl Context {
             self.aggregates.resize(slot + 1, f64::NAN);
         }
         self.aggregates[slot] = value;
+    }
+
+    /// Watches the runs that follow; `None` ends that. What was watched until now comes back.
+    pub fn watch(&mut self, watch: Option<Watch>) -> Option<Watch> {
+        std::mem::replace(&mut self.watch, watch.map(Box::new)).map(|watch| *watch)
+    }
+
+    /// What the last run noted, if runs are watched.
+    pub fn watched(&self) -> Option<&Watch> {
+        self.watch.as_deref()
     }
 
     /// What happened in the last run, one event for each place in the program.
@@ -375,13 +388,25 @@ impl Program {
             return Err(foreign());
         }
         if let Some(row) = &self.row
-            && let Some(value) = row.value(host, &mut context.numbers)
+            && let Some(value) = self.quick(row, host, context)
         {
             context.events.clear();
             return Ok(value);
         }
         context.learn(&self.known);
         vm::run(&self.code, host, context, value)
+    }
+
+    /// The value of a formula; `None` where the machine has to run it: an element does not exist, or a watch needs places.
+    #[inline]
+    fn quick(&self, row: &Row, host: &dyn Host, context: &mut Context) -> Option<Value> {
+        match &mut context.watch {
+            None => row.value(host, &mut context.numbers),
+            Some(watch) => {
+                watch.begin();
+                row.watched_value(host, &mut context.numbers, watch).filter(|_| !watch.loses())
+            }
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::operators::{BinaryOp, UnaryOp};
 use crate::program::Host;
 use crate::schema::FieldKey;
 use crate::value::Value;
+use crate::watch::Watch;
 
 /// Number of registers: a byte names each of them, so none can be out of range.
 pub(crate) const REGISTERS: usize = 256;
@@ -55,6 +56,8 @@ enum Op {
     Select(u8, u8),
     /// f(x)
     One(fn(f64) -> f64),
+    /// f(x), which says whether x is a number.
+    Asks(fn(f64) -> f64),
     /// f(x, r)
     Two(fn(f64, f64) -> f64, u8),
     /// f of so many arguments, from a place in the list of arguments on.
@@ -194,6 +197,80 @@ impl Row {
         Some(if self.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) })
     }
 
+    /// The value now, as [`Row::value`]; the watch notes what happens on the way.
+    pub(crate) fn watched_value(
+        &self,
+        host: &dyn Host,
+        numbers: &mut Vec<f64>,
+        watch: &mut Watch,
+    ) -> Option<Value> {
+        if numbers.len() < REGISTERS {
+            make_room(numbers);
+        }
+        let r: &mut Registers = numbers.first_chunk_mut()?;
+        if !host.read(&self.elements, r.get_mut(..self.elements.len())?) {
+            return None;
+        }
+        let x = self.watched_run(r, watch);
+        Some(if self.truth { Value::Boolean(x != 0.0) } else { Value::Number(x) })
+    }
+
+    /// As [`Row::run`], with a watch.
+    pub(crate) fn watched_run(&self, r: &mut Registers, watch: &mut Watch) -> f64 {
+        let mut x = r[usize::from(self.start)];
+        for op in &self.ops {
+            let register = |a: u8| r[usize::from(a)];
+            x = match *op {
+                Op::Take(a) => register(a),
+                Op::Keep(a) => {
+                    r[usize::from(a)] = x;
+                    x
+                }
+                Op::Put(a, k) => {
+                    r[usize::from(a)] = k;
+                    x
+                }
+                // Arithmetic passes NaN on.
+                Op::Add(a) => x + register(a),
+                Op::Subtract(a) => x - register(a),
+                Op::SubtractFrom(a) => register(a) - x,
+                Op::Multiply(a) => x * register(a),
+                Op::Divide(a) => x / register(a),
+                Op::DivideInto(a) => register(a) / x,
+                Op::AddConstant(k) => x + k,
+                Op::MultiplyConstant(k) => x * k,
+                Op::Binary(op, a) => watch.binary(op, x, register(a)),
+                Op::Round(op, a) => watch.binary(op, register(a), x),
+                Op::Right(op, k) => watch.binary(op, x, k),
+                Op::Left(op, k) => watch.binary(op, k, x),
+                Op::Unary(op) => watch.unary(op, x),
+                Op::Select(yes, no) => {
+                    watch.test(x);
+                    register(select(x, yes, no))
+                }
+                Op::Asks(f) => f(x),
+                Op::One(f) => {
+                    let y = f(x);
+                    watch.kept(x.is_nan(), y);
+                    y
+                }
+                Op::Two(f, a) => {
+                    let y = f(x, register(a));
+                    watch.kept(x.is_nan() || register(a).is_nan(), y);
+                    y
+                }
+                Op::Many(f, count, first) => {
+                    let args = self.args.get(usize::from(first)..).unwrap_or(&[]);
+                    let nan = args.iter().take(usize::from(count)).any(|a| register(*a).is_nan());
+                    let y = self.many(f, first, count, r);
+                    watch.kept(nan, y);
+                    y
+                }
+            };
+        }
+        x
+    }
+
     /// The number that is at hand last.
     #[inline]
     pub(crate) fn run(&self, r: &mut Registers) -> f64 {
@@ -224,7 +301,7 @@ impl Row {
                 Op::Left(op, k) => op.on_numbers(k, x),
                 Op::Unary(op) => op.on_number(x),
                 Op::Select(yes, no) => r[usize::from(select(x, yes, no))],
-                Op::One(f) => f(x),
+                Op::One(f) | Op::Asks(f) => f(x),
                 Op::Two(f, a) => f(x, r[usize::from(a)]),
                 Op::Many(f, count, first) => self.many(f, first, count, r),
             };
@@ -317,6 +394,7 @@ impl Build<'_> {
     fn math(&mut self, function: Function, first: u32, count: u32) -> Option<Op> {
         let args = self.formula.args(first, count);
         match (function.apply_by(), args) {
+            (Apply::One(f), [a, ..]) if function.gives_boolean() => self.one(*a, Op::Asks(f)),
             (Apply::One(f), [a, ..]) => self.one(*a, Op::One(f)),
             (Apply::Two(f), [a, b, ..]) => {
                 self.take(*a)?;

@@ -107,6 +107,11 @@ impl Value {
         }
     }
 
+    /// Whether it is NaN itself.
+    pub(crate) fn is_nan(&self) -> bool {
+        matches!(self, Value::Number(x) if x.is_nan())
+    }
+
     /// JavaScript's `Boolean(v)`: false for `undefined`, `null`, 0, NaN, `false` and the empty string.
     pub fn truthy(&self) -> bool {
         match self {

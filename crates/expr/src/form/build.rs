@@ -395,6 +395,8 @@ impl<'t> Build<'t> {
     /// A number that is true when the node is.
     pub(super) fn truth(&mut self, ir: &Ir) -> Num {
         match ir.known() {
+            // A NaN is false, and stays one: a watched run sees that it decides.
+            Some(Value::Number(x)) if x.is_nan() => self.constant(*x),
             Some(value) => self.constant(f64::from(u8::from(value.truthy()))),
             None if ir.is_plain() && !matches!(ir.kind, Kind::Logical(LogicalOp::Nullish, ..)) => {
                 self.number(ir)

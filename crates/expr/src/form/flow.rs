@@ -190,6 +190,7 @@ impl Build<'_> {
         }
         if let End::If(when, test, _) = end
             && let Some(x) = self.unit.known(test)
+            && !x.is_nan()
         {
             // The answer is known: there is one way.
             return if truthy(x) == when { self.jump(mark, span) } else { None };

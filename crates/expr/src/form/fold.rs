@@ -43,15 +43,36 @@ pub(super) fn fold(unit: &mut Unit) {
 fn result(unit: &Unit, op: &Op) -> Option<(Num, Gives)> {
     let known = |n: Num| unit.known(unit.same.number(n));
     Some(match *op {
-        Op::Unary(name, op, a) => (name, Gives::Known(op.on_number(known(a)?))),
-        Op::Binary(name, op, a, b) => (name, Gives::Known(op.on_numbers(known(a)?, known(b)?))),
+        Op::Unary(name, op, a) => (name, kept(&[known(a)?], op.on_number(known(a)?))?),
+        Op::Binary(name, op, a, b) => {
+            let operands = [known(a)?, known(b)?];
+            (name, kept(&operands, op.on_numbers(operands[0], operands[1]))?)
+        }
+        Op::Select(_, test, ..) if known(test)?.is_nan() => return None,
         Op::Select(name, test, a, b) => (name, Gives::Same(select(known(test)?, a, b))),
         Op::Math(name, function, args) => {
             let numbers: Option<Vec<f64>> = args.of(&unit.args).iter().map(|n| known(Num(*n))).collect();
-            (name, Gives::Known(function.apply(&numbers?)))
+            let numbers = numbers?;
+            let x = function.apply(&numbers);
+            // The extreme of nothing is found while running, where it can be seen.
+            let some = !numbers.is_empty();
+            (
+                name,
+                if function.gives_boolean() {
+                    Gives::Known(x)
+                } else {
+                    kept(&numbers, x).filter(|_| some)?
+                },
+            )
         }
         _ => return None,
     })
+}
+
+/// A known result, unless a NaN was lost on the way to it: a run shows where ([`crate::Watch`]).
+fn kept(operands: &[f64], x: f64) -> Option<Gives> {
+    let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
+    (!lost).then_some(Gives::Known(x))
 }
 
 #[cfg(test)]

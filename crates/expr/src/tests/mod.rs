@@ -8,6 +8,6 @@ mod mistakes;
 mod node;
 mod operations;
 mod programs;
-mod roundtrip;
+pub(crate) mod roundtrip;
 mod semantics;
 mod written;

@@ -19,7 +19,7 @@ fn boxed(kind: ExprKind) -> Box<Expr> {
     Box::new(bare(kind))
 }
 
-fn expression() -> BoxedStrategy<Expr> {
+pub(crate) fn expression() -> BoxedStrategy<Expr> {
     let leaf = prop_oneof![
         prop_oneof![0.0..1e6f64, Just(1e300), Just(5e-324), Just(0.0), Just(f64::INFINITY)]
             .prop_map(|x| bare(ExprKind::Number(x))),

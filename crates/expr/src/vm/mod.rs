@@ -6,9 +6,11 @@
 
 mod code;
 mod emit;
+mod noting;
 mod parts;
 
 pub(crate) use code::{Code, CodeUnit};
+use noting::Operands;
 
 use std::sync::Arc;
 
@@ -45,6 +47,9 @@ pub(crate) fn run(
     input: Option<&Value>,
 ) -> Result<Value, RuntimeError> {
     context.events.clear();
+    if let Some(watch) = &mut context.watch {
+        watch.begin();
+    }
     if context.heap.wants_collection() {
         // What the last run left in registers is of no use any more.
         context.values.clear();
@@ -139,7 +144,16 @@ impl Machine<'_> {
     }
 
     /// Runs a function whose parameters stand in their registers.
+    #[inline]
     fn execute(&mut self, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Failed {
+        match self.context.watch {
+            None => self.execute_as::<false>(code, unit, f),
+            Some(_) => self.execute_as::<true>(code, unit, f),
+        }
+    }
+
+    /// The same; `WATCHED`: the watch of the context notes what happens.
+    fn execute_as<const WATCHED: bool>(&mut self, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Failed {
         for &(register, x) in &unit.numbers {
             self.put(f, register, x);
         }
@@ -149,9 +163,13 @@ impl Machine<'_> {
         let mut at = 0;
         while let Some(&op) = unit.ops.get(at) {
             at += 1;
+            let operands = if WATCHED { self.before(op, unit, f) } else { Operands::NONE };
             match op {
                 Op::Jump(to) => at = to as usize,
                 Op::JumpIf(when, test, to) => {
+                    if WATCHED {
+                        self.settle(unit, at - 1);
+                    }
                     if truthy(self.num(f, test)) == when {
                         at = to as usize;
                     }
@@ -227,7 +245,10 @@ impl Machine<'_> {
                     if let (Some((formula, _)), Some(registers)) =
                         (unit.formulas.get(formula as usize), registers)
                     {
-                        formula.run(registers);
+                        match self.context.watch.as_deref_mut().filter(|_| WATCHED) {
+                            None => formula.run(registers),
+                            Some(watch) => formula.watched_run(registers, watch),
+                        };
                     }
                 }
                 Op::PassNumber(k, src) => {
@@ -255,6 +276,10 @@ impl Machine<'_> {
                         });
                     }
                 }
+            }
+            if WATCHED {
+                self.after(op, operands, f);
+                self.settle(unit, at - 1);
             }
         }
         Ok(())

@@ -1,0 +1,336 @@
+//! What a watched run notes: where a value that is not a number was turned into something else, and how the comparisons of
+//! numbers came out. Claims are decided by it: a condition that lost a NaN on its way says nothing, and how far a condition is
+//! from the opposite follows from its comparisons.
+//!
+//! NaN and `undefined` stand for "there is no number": an event that never happened, a root of a negative number. Arithmetic
+//! passes NaN on. Comparisons, tests, texts, indexes and most methods make an ordinary value of it; that is a loss.
+
+use crate::Span;
+use crate::heap::{Heap, Object};
+use crate::operation::truth;
+use crate::operators::{BinaryOp, UnaryOp};
+use crate::value::Value;
+
+/// A comparison of two numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Comparison {
+    /// The left side.
+    pub left: f64,
+    /// The right side.
+    pub right: f64,
+    /// How far the sides are from giving the other answer: not negative where the comparison holds, not positive where it does
+    /// not; NaN where a side is not a number.
+    pub margin: f64,
+    /// Whether it holds.
+    pub holds: bool,
+}
+
+/// What the runs in a [`crate::Context`] note, once it is given to [`crate::Context::watch`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Watch {
+    /// The number of the comparison, in the order of evaluation, that gives the opposite of what it would.
+    pub turned: Option<usize>,
+    /// The comparisons of the last run, if [`Watch::comparing`] made this.
+    pub comparisons: Vec<Comparison>,
+    /// The part of the program where a value that is not a number was turned into something else first.
+    pub lost: Option<Span>,
+    compares: bool,
+    loses: bool,
+    undefined: bool,
+}
+
+/// Comparisons kept of one run.
+const MOST: usize = 4096;
+
+impl Watch {
+    /// Notes losses of NaN alone.
+    pub fn losses() -> Watch {
+        Watch::default()
+    }
+
+    /// Notes losses of NaN and `undefined`, and comparisons, of which one may be turned over.
+    pub fn comparing(turned: Option<usize>) -> Watch {
+        Watch { turned, compares: true, undefined: true, ..Watch::default() }
+    }
+
+    /// Forgets the last run.
+    pub(crate) fn begin(&mut self) {
+        self.comparisons.clear();
+        (self.lost, self.loses) = (None, false);
+    }
+
+    pub(crate) fn lose(&mut self) {
+        self.loses = true;
+    }
+
+    /// Whether the operation that ran last lost a value; its place is kept.
+    pub(crate) fn settle(&mut self, span: Span) {
+        if std::mem::take(&mut self.loses) {
+            self.lost.get_or_insert(span);
+        }
+    }
+
+    pub(crate) fn loses(&self) -> bool {
+        self.loses
+    }
+
+    /// The outcome of an operation on numbers, which it may have turned over.
+    pub(crate) fn binary(&mut self, op: BinaryOp, a: f64, b: f64) -> f64 {
+        let x = op.on_numbers(a, b);
+        self.kept(a.is_nan() || b.is_nan(), x);
+        if margin(op, a, b).is_some() { self.compared(op, a, b, x) } else { x }
+    }
+
+    pub(crate) fn unary(&mut self, op: UnaryOp, a: f64) -> f64 {
+        let x = op.on_number(a);
+        self.kept(a.is_nan(), x);
+        x
+    }
+
+    /// A number that decides which way is taken.
+    pub(crate) fn test(&mut self, x: f64) {
+        self.loses |= x.is_nan();
+    }
+
+    /// What became of operands.
+    pub(crate) fn kept(&mut self, nan: bool, result: f64) {
+        self.loses |= nan && !result.is_nan();
+    }
+
+    /// Takes a comparison in, which gave `x`; gives what the program is to see.
+    pub(crate) fn compared(&mut self, op: BinaryOp, a: f64, b: f64, x: f64) -> f64 {
+        let Some(margin) = margin(op, a, b).filter(|_| self.compares) else { return x };
+        let at = self.comparisons.len();
+        if at >= MOST {
+            return x;
+        }
+        self.comparisons.push(Comparison { left: a, right: b, margin, holds: x != 0.0 });
+        if self.turned == Some(at) { truth(x == 0.0) } else { x }
+    }
+
+    /// Whether a value is, or holds, what is not a number.
+    pub(crate) fn without_number(&self, heap: &Heap, value: &Value) -> bool {
+        self.within(heap, value, 8)
+    }
+
+    /// As [`Watch::without_number`], down to a depth.
+    fn within(&self, heap: &Heap, value: &Value, depth: usize) -> bool {
+        match value {
+            Value::Number(x) => x.is_nan(),
+            Value::Undefined => self.undefined,
+            Value::List(_) | Value::Record(_) if depth > 0 => match heap.object(value) {
+                Object::List(items) => items.iter().any(|v| self.within(heap, v, depth - 1)),
+                Object::Numbers(items, _) => items.iter().any(|x| x.is_nan()),
+                Object::Record(entries) => entries.iter().any(|(_, v)| self.within(heap, v, depth - 1)),
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+}
+
+/// How far a comparison is from the other answer; `None` for what is no comparison.
+fn margin(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
+    Some(match op {
+        BinaryOp::Less | BinaryOp::LessEqual => b - a,
+        BinaryOp::Greater | BinaryOp::GreaterEqual => a - b,
+        BinaryOp::Equal | BinaryOp::StrictEqual => -(a - b).abs(),
+        BinaryOp::NotEqual | BinaryOp::StrictNotEqual => (a - b).abs(),
+        _ => return None,
+    })
+}
+
+/// Functions that ask whether something is a number: their answer is what was asked for.
+const ASKING: [&str; 5] = ["isNaN", "isFinite", "Number.isNaN", "Number.isFinite", "Array.isArray"];
+
+/// Methods that move elements and look at none.
+const MOVING: [&str; 19] = [
+    "_copy",
+    "_kind",
+    "_like",
+    "Array.of",
+    "Array.from",
+    "Object.entries",
+    "Object.keys",
+    "Object.values",
+    "concat",
+    "flat",
+    "pop",
+    "push",
+    "reverse",
+    "shift",
+    "slice",
+    "splice",
+    "subarray",
+    "toReversed",
+    "unshift",
+];
+
+/// Methods whose arguments are elements, and no indexes.
+const TAKING: [&str; 10] = [
+    "_copy",
+    "_kind",
+    "_like",
+    "Array.of",
+    "Array.from",
+    "Object.entries",
+    "Object.keys",
+    "Object.values",
+    "concat",
+    "push",
+];
+
+/// Whether a function loses nothing, whatever it is called with.
+pub(crate) fn asks(name: &str) -> bool {
+    ASKING.contains(&name)
+}
+
+/// Whether a method looks at the elements of what it is called on, as comparisons and texts do.
+pub(crate) fn looks(name: &str) -> bool {
+    !MOVING.contains(&name) && name != "at" && name != "with" && name != "fill" && name != "set"
+}
+
+/// Whether a method looks at its arguments.
+pub(crate) fn looks_at_arguments(name: &str) -> bool {
+    !TAKING.contains(&name) && name != "unshift"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mock::{Mock, World};
+    use crate::{Compiler, Context, Globals};
+    use proptest::prelude::*;
+
+    /// Runs an expression in which `data.qpos[0]` is `x`; the value, and what was noted.
+    fn run(source: &str, x: f64, watch: Watch) -> (Value, Watch) {
+        let mut globals = Globals::new();
+        let compiled = Compiler::new(&Mock, &mut globals).expression(source);
+        let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:?}", compiled.diagnostics));
+        let (mut world, mut context) = (World::new(), Context::of(&globals));
+        world.fields[1][0] = x;
+        context.watch(Some(watch));
+        let value = program.run(&mut world, &mut context, None).unwrap();
+        (value, context.watch(None).unwrap())
+    }
+
+    fn loses(source: &str, x: f64) -> bool {
+        run(source, x, Watch::comparing(None)).1.lost.is_some()
+    }
+
+    #[test]
+    fn whatever_makes_a_value_of_nothing_loses_it() {
+        for source in [
+            "data.qpos[0] < 1",
+            "!(data.qpos[0] < 1)",
+            "(data.qpos[0] || 0) < 1",
+            "(data.qpos[0] | 0) === 0",
+            "~data.qpos[0] < 0",
+            "Boolean(data.qpos[0])",
+            "!data.qpos[0]",
+            "data.qpos[0] ? 1 : 2",
+            "data.qpos[0] && 1 > 2",
+            "[1, 2].indexOf(data.qpos[0]) < 0",
+            "[data.qpos[0], 2].includes(3)",
+            "String(data.qpos[0]) === 'NaN'",
+            "`${data.qpos[0]}`.length > 0",
+            "('' + data.qpos[0]).length === 3",
+            "data.qpos[0].toFixed(1) === 'NaN'",
+            "[data.qpos[0]].join() === 'NaN'",
+            "[data.qpos[0], 1].map(x => 2 * x).some(x => x > 1)",
+            "[data.qpos[0]].every(x => x > 1)",
+            "[data.qpos[0], 1].filter(x => x > 0).length === 1",
+            "[3, data.qpos[0], 1].sort((a, b) => a - b)[0] === 1",
+            "[3, data.qpos[0], 1].sort()[0] === 1",
+            "data.qpos[0] ** 0 === 1",
+            "Math.hypot(data.qpos[0], 1 / 0) > 1",
+            "Math.clz32(data.qpos[0]) === 32",
+            "[5, 6][data.qpos[0]] === undefined",
+            "[5, 6].at(data.qpos[0]) === 5",
+            "(() => { if (data.qpos[0] > 1) { return 1 } return 2 })() === 2",
+            "Number.isInteger(data.qpos[0])",
+            "data.qpos[0] === data.qpos[0]",
+            "data.qpos[0] !== data.qpos[0]",
+            "Math.max(...[data.qpos[0]].filter(x => false)) < 0",
+            "isNaN(data.qpos[1]) || data.qpos[0] < 1",
+            "isNaN(data.qpos[0]) && !(data.qpos[0] < 1)",
+        ] {
+            assert!(loses(source, f64::NAN), "{source}");
+            let lost = run(source, 0.5, Watch::comparing(None)).1.lost;
+            assert!(
+                lost.is_none() || source.contains("=> false"),
+                "{source}: {:?}",
+                lost.map(|s| s.start..s.end)
+            );
+            if !source.contains("filter(x => false)") {
+                assert!(!loses(source, 0.5), "{source}");
+            }
+        }
+        for source in [
+            "holds(!(NaN < -1))".replace("holds", ""),
+            "Math.sqrt(-1) < 5 || true".into(),
+            "0 / 0 > 1".into(),
+        ] {
+            assert!(loses(&source, 0.5), "{source}");
+        }
+    }
+
+    #[test]
+    fn arithmetic_and_questions_lose_nothing() {
+        for source in [
+            "isNaN(data.qpos[0])",
+            "!isNaN(data.qpos[0]) && data.qpos[0] < 1",
+            "Number.isNaN(data.qpos[0])",
+            "Number.isFinite(data.qpos[0]) || 1 > 0",
+            "2 * data.qpos[0] + Math.sin(data.qpos[0])",
+            "Math.max(data.qpos[0], 1)",
+            "[data.qpos[0], 2].slice(1)[0] === 2",
+            "[data.qpos[0], 2].map(x => 2 * x)[1] === 4",
+            "1 > 0 || data.qpos[0] > 1",
+            "Math.max(...[1, data.qpos[0]])",
+        ] {
+            assert!(!loses(source, f64::NAN), "{source}");
+        }
+    }
+
+    #[test]
+    fn undefined_counts_in_claims_alone() {
+        for source in ["[1].find(x => x > 2) || 1", "[1, 2].some(x => { })", "[1].find(x => x > 2) < 1"] {
+            assert!(loses(source, 0.5), "{source}");
+        }
+        assert!(!loses("[1].find(x => x > 2) === undefined", 0.5), "it is asked for");
+        let (_, watch) = run("[1].find(x => x > 2) || 1", 0.5, Watch::losses());
+        assert_eq!(watch.lost, None);
+    }
+
+    #[test]
+    fn a_turned_comparison_shows_whether_it_decides() {
+        let (value, watch) = run("data.qpos[0] > 1 && data.qpos[0] < 3", 2.5, Watch::comparing(None));
+        assert_eq!(value, Value::Boolean(true));
+        assert_eq!(watch.comparisons.iter().map(|c| c.margin).collect::<Vec<_>>(), [1.5, 0.5]);
+        for turned in [0, 1] {
+            let (value, _) = run("data.qpos[0] > 1 && data.qpos[0] < 3", 2.5, Watch::comparing(Some(turned)));
+            assert_eq!(value, Value::Boolean(false), "{turned}");
+        }
+        let (value, watch) = run("[1, 2].every(x => x > data.qpos[0])", 0.5, Watch::comparing(Some(1)));
+        assert_eq!((value, watch.comparisons.len()), (Value::Boolean(false), 2));
+    }
+
+    proptest! {
+        /// A watch changes no value.
+        #[test]
+        fn a_watched_run_gives_the_same(tree in crate::tests::roundtrip::expression(), x in -2f64..2.0) {
+            let source = crate::print(&tree);
+            let mut globals = Globals::new();
+            if let Some(program) = Compiler::new(&Mock, &mut globals).expression(&source).program {
+                let once = |watch: Option<Watch>| {
+                    let (mut world, mut context) = (World::new(), Context::of(&globals));
+                    world.fields[1][0] = x;
+                    context.watch(watch);
+                    program.run(&mut world, &mut context, None).map(|v| (v.type_of(), v.to_string()))
+                };
+                prop_assert_eq!(once(None), once(Some(Watch::comparing(None))), "{}", source);
+            }
+        }
+    }
+}
