@@ -110,8 +110,8 @@ impl Formula {
     pub(crate) fn select(&mut self, test: At, yes: At, no: At) -> At {
         match self.constant_at(test) {
             _ if yes == no => yes,
-            Some(x) => select(x, yes, no),
-            None => self.step(Step::Select(test, yes, no)),
+            Some(x) if !x.is_nan() => select(x, yes, no),
+            _ => self.step(Step::Select(test, yes, no)),
         }
     }
 

@@ -235,6 +235,11 @@ impl Ir {
         }
     }
 
+    /// The value, if it is known and may decide something before the run. NaN decides while running, where a watch sees it.
+    fn decided(&self) -> Option<&Value> {
+        self.known().filter(|value| !value.is_nan())
+    }
+
     /// Whether it is never a string nor something with parts: then arithmetic on it can use plain numbers.
     pub(crate) fn is_plain(&self) -> bool {
         match (&self.kind, self.ty) {
@@ -252,7 +257,8 @@ impl Ir {
         if op == UnaryOp::Plus {
             return Ir::to_number(operand, span);
         }
-        if let Some(value) = operand.known() {
+        let passes = op != UnaryOp::Not && op != UnaryOp::BitNot;
+        if let Some(value) = operand.known().filter(|value| passes || !value.is_nan()) {
             return Ir::constant(op.on_value(value), span);
         }
         let operand = Box::new(operand);
@@ -272,7 +278,7 @@ impl Ir {
     }
 
     pub(crate) fn to_text(operand: Ir, span: Span) -> Ir {
-        match operand.known() {
+        match operand.decided() {
             Some(value) => Ir::constant(Value::String(value.to_string().into()), span),
             None if operand.ty == Type::String => operand,
             None => Ir::new(Kind::ToText(Box::new(operand)), Type::String, span),
@@ -283,7 +289,10 @@ impl Ir {
         if let (Some(a), Some(b)) = (left.known(), right.known())
             && a.text_len() + b.text_len() < 1000
         {
-            return Ir::constant(op.on_values(a, b), span);
+            let value = op.on_values(a, b);
+            if value.is_nan() || !a.is_nan() && !b.is_nan() {
+                return Ir::constant(value, span);
+            }
         }
         let ty = match op {
             _ if op.is_comparison() => Type::Boolean,
@@ -295,7 +304,7 @@ impl Ir {
     }
 
     pub(crate) fn logical(op: LogicalOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let Some(value) = left.known() {
+        if let Some(value) = left.known().filter(|value| op == LogicalOp::Nullish || !value.is_nan()) {
             return Ir { span, ..if op.keeps(value) { left } else { right } };
         }
         let ty = match (op, left.ty) {
@@ -309,7 +318,7 @@ impl Ir {
     }
 
     pub(crate) fn choice(test: Ir, then: Ir, otherwise: Ir, span: Span) -> Ir {
-        if let Some(value) = test.known() {
+        if let Some(value) = test.decided() {
             return Ir { span, ..if value.truthy() { then } else { otherwise } };
         }
         let ty = then.ty.or(otherwise.ty);
@@ -319,7 +328,10 @@ impl Ir {
     pub(crate) fn math(function: math::Function, args: Vec<Ir>, span: Span) -> Ir {
         let known: Option<Vec<f64>> = args.iter().map(|a| a.known().map(Value::to_number)).collect();
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
-        match known.map(|numbers| function.apply(&numbers)) {
+        let applied = known.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
+        // A NaN that is lost is lost while running, where a watch sees it.
+        let kept = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
+        match applied.filter(kept).filter(|_| !args.is_empty()).map(|(_, x)| x) {
             Some(x) if ty == Type::Boolean => Ir::constant(Value::Boolean(x != 0.0), span),
             Some(x) => Ir::number(x, span),
             None => Ir::new(Kind::Math(function, args), ty, span),
