@@ -258,8 +258,8 @@ impl Context {
     }
 
     /// Watches the runs that follow; `None` ends that. What was watched until now comes back.
-    pub fn watch(&mut self, watch: Option<Watch>) -> Option<Watch> {
-        std::mem::replace(&mut self.watch, watch.map(Box::new)).map(|watch| *watch)
+    pub fn watch(&mut self, watch: Option<Box<Watch>>) -> Option<Box<Watch>> {
+        std::mem::replace(&mut self.watch, watch)
     }
 
     /// What the last run noted, if runs are watched.

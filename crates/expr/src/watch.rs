@@ -209,9 +209,9 @@ mod tests {
         let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:?}", compiled.diagnostics));
         let (mut world, mut context) = (World::new(), Context::of(&globals));
         world.fields[1][0] = x;
-        context.watch(Some(watch));
+        context.watch(Some(Box::new(watch)));
         let value = program.run(&mut world, &mut context, None).unwrap();
-        (value, context.watch(None).unwrap())
+        (value, *context.watch(None).unwrap())
     }
 
     fn loses(source: &str, x: f64) -> bool {
@@ -326,7 +326,7 @@ mod tests {
                 let once = |watch: Option<Watch>| {
                     let (mut world, mut context) = (World::new(), Context::of(&globals));
                     world.fields[1][0] = x;
-                    context.watch(watch);
+                    context.watch(watch.map(Box::new));
                     program.run(&mut world, &mut context, None).map(|v| (v.type_of(), v.to_string()))
                 };
                 prop_assert_eq!(once(None), once(Some(Watch::comparing(None))), "{}", source);

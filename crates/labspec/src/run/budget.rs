@@ -18,7 +18,7 @@ impl Budget {
     /// For one of the many runs of a comparison.
     pub const COMPARED: Budget = Budget { left: 2_000_000_000 };
     /// What a trace, a readout or a measure may do at a sample: a page computes it for every frame.
-    pub(super) const SAMPLE: Budget = Budget { left: 20_000_000 };
+    pub(crate) const SAMPLE: Budget = Budget { left: 20_000_000 };
 }
 
 /// Why a run ended before its time.

@@ -4,12 +4,16 @@
 use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
-use super::{BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, over, shorten, significant};
+use super::{
+    BoundVerify, CLOSER, Outcomes, PERTURBED, decided, empty, grounded, over, shorten, significant,
+    undecided_by_nan,
+};
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Question, QuestionKind, Verify};
+use labspec_expr::Value;
 use std::ops::Range;
 
 /// What became of an answer.
@@ -149,13 +153,16 @@ pub(super) fn check(
 /// What stands for a condition where the evidence does not decide the option.
 pub const UNDECIDED: &str = "undecided";
 
-/// The conditions of all options, each with what it rests on; `None` for one that is not decided.
+/// The conditions of all options, each with what it rests on; `None` for one that is not decided. `tried`: whether they are to
+/// be tried with other values of what was measured, as under the lesson's own numerics.
 fn conditions(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
     verify: &Verify,
+    tried: bool,
     findings: &mut Vec<Finding>,
 ) -> Result<Vec<Option<(Found, Weighed)>>, String> {
+    let ground = if tried { grounded } else { decided };
     let mut all = Vec::new();
     let mut reason = None;
     for text in &verify.options {
@@ -163,14 +170,14 @@ fn conditions(
             all.push(None);
             continue;
         }
-        match grounded(bound, outcome, text, findings) {
+        match ground(bound, outcome, text, findings) {
             Err(why) => reason = reason.or(Some(why)),
+            Ok(found) if !is_truth(&found.value) => {
+                findings.push(no_condition(text, &found.value));
+                reason = reason.or_else(|| Some("an option has no condition".to_string()));
+            }
             Ok(found) => {
-                let weighed = bound.weigh(outcome, text, found.value.truthy());
-                if let Some(part) = &weighed.without_number {
-                    findings.push(no_number(text, part));
-                    reason = reason.or_else(|| Some(format!("`{part}` compares with what is no number")));
-                }
+                let weighed = bound.weigh_found(&found);
                 all.push(Some((found, weighed)));
             }
         }
@@ -183,11 +190,22 @@ pub(super) fn is_undecided(text: &Text) -> bool {
     text.value.trim() == UNDECIDED
 }
 
-/// A comparison that was decided by NaN.
-pub(super) fn no_number(text: &Text, part: &str) -> Finding {
-    Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares with what is no number"))
-        .why("a comparison with NaN never holds, whatever the other side is: here it says nothing about the answer. A measure is NaN when its event never happens in the run")
-        .help("make the run longer, correct the measure, or ask for it: `isNaN(x)`")
+/// Whether a value says that something holds or not: a truth value, or what `holds(…)` gives.
+fn is_truth(value: &Value) -> bool {
+    matches!(value, Value::Boolean(_)) || matches!(value, Value::Number(x) if *x == 0.0 || *x == 1.0)
+}
+
+/// An option with a number or a text instead of a condition.
+fn no_condition(text: &Text, value: &Value) -> Finding {
+    let what = match value {
+        Value::Number(x) => format!("the number {}", significant(*x)),
+        Value::String(_) => "a text".to_string(),
+        other => format!("`{other}`"),
+    };
+    let message = format!("`{}` gives {what}, and an option needs a condition", shorten(text.value.trim()));
+    Finding::error(rules::CONSTANT_CLAIM, text.span(), message)
+        .why("every number but 0 counts as true: the option would hold whatever the number says")
+        .help("compare it: `lands < 0.5`, `abs(speed - 2.4) < 0.1`")
 }
 
 /// Which options hold, and so whether the keyed one is the only one.
@@ -206,7 +224,7 @@ fn options(
     if verify.options.len() != options.len() {
         return Answer::failed("there is not one condition per option");
     }
-    let found = match conditions(bound, &outcomes.nominal, verify, findings) {
+    let found = match conditions(bound, &outcomes.nominal, verify, true, findings) {
         Ok(found) => found,
         Err(reason) => return Answer::failed(reason),
     };
@@ -258,7 +276,7 @@ fn options(
     }
     let mut weights = weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        let again = conditions(bound, outcome, verify, &mut Vec::new());
+        let again = conditions(bound, outcome, verify, false, &mut Vec::new());
         for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
             weight.widen(now.as_ref().and_then(|(_, weighed)| weighed.margin));
         }
@@ -290,32 +308,49 @@ fn options(
     if !verify.over.is_empty() {
         over::hold(bound, verify, keyed.span.clone(), &mut answer, findings);
     }
+    add_searches(bound, &verify.options, &outcomes.nominal, &mut answer);
     answer
 }
 
-/// Whether exactly the same options hold; otherwise the first one that does not, in words. What breaks holds nowhere.
-pub(super) fn same(
-    bound: &BoundVerify<'_>,
-    outcome: &Outcome,
-    verify: &Verify,
-    weights: &[Weight],
-) -> (Option<String>, f64) {
-    let found = match conditions(bound, outcome, verify, &mut Vec::new()) {
+/// Says where the values were looked for that these texts read.
+fn add_searches(bound: &BoundVerify<'_>, texts: &[Text], outcome: &Outcome, answer: &mut Answer) {
+    if !matches!(answer.verdict, Verdict::Verified | Verdict::Computed) {
+        return;
+    }
+    for (i, looked) in outcome.looked.iter().enumerate() {
+        if texts.iter().any(|text| bound.reads_found(text, i)) {
+            let before = std::mem::take(&mut answer.reason);
+            answer.reason = if before.is_empty() { looked.clone() } else { format!("{before}; {looked}") };
+        }
+    }
+}
+
+/// Whether exactly the same options hold, and how far that is from turning over.
+pub(super) enum Same {
+    /// They do, by so much.
+    Yes(f64),
+    /// Another one holds, or one does not: the first one, in words.
+    No(String),
+    /// Nothing decides: why.
+    Open(String),
+}
+
+/// Whether exactly the same options hold as before, with an outcome of other settings.
+pub(super) fn same(bound: &BoundVerify<'_>, outcome: &Outcome, verify: &Verify, weights: &[Weight]) -> Same {
+    let found = match conditions(bound, outcome, verify, false, &mut Vec::new()) {
         Ok(found) => found,
-        Err(reason) => return (Some(reason), f64::NEG_INFINITY),
+        Err(reason) => return Same::Open(reason),
     };
     let now = found.iter().enumerate().map(|(i, found)| weight(i, found.as_ref()));
     let mut least = f64::INFINITY;
-    let mut turned = None;
     for (now, then) in now.zip(weights) {
         if now.holds != then.holds {
             let i = now.option.unwrap_or(0);
-            turned = turned.or_else(|| Some(format!("the condition of option {i} {}", now.words())));
+            return Same::No(format!("the condition of option {i} {}", now.words()));
         }
-        let size = now.margin.map_or(f64::INFINITY, f64::abs);
-        least = least.min(if now.holds == then.holds { size } else { -size });
+        least = least.min(now.margin.map_or(f64::INFINITY, f64::abs));
     }
-    (turned, least)
+    Same::Yes(least)
 }
 
 fn weight(i: usize, found: Option<&(Found, Weighed)>) -> Weight {
@@ -393,10 +428,14 @@ fn value(
     else {
         return Answer::failed("the question asks for no number");
     };
-    let found = match grounded(bound, &outcomes.nominal, text, findings) {
+    let found = match decided(bound, &outcomes.nominal, text, findings) {
         Ok(found) => found,
         Err(reason) => return Answer::failed(reason),
     };
+    if !matches!(found.value, Value::Number(_)) {
+        findings.push(no_quantity(text, &found.value));
+        return Answer::failed("the expression gives no number");
+    }
     let computed = found.value.to_number();
     if !computed.is_finite() {
         findings.push(no_value(text, computed));
@@ -404,6 +443,10 @@ fn value(
     }
     let margin = |x: f64| tol - (x - answer).abs();
     let right = |x: f64| margin(x) >= 0.0;
+    let says = |value: &Value| right(value.to_number());
+    if found.evidence == Evidence::Simulated && !bound.could_differ(&found, Some(&says)) {
+        return Answer::failed(empty(text, findings));
+    }
     let weights = vec![Weight {
         option: None,
         holds: Some(right(computed)),
@@ -426,10 +469,10 @@ fn value(
         return done(Verdict::Refuted, message);
     }
     for mistake in wrong {
-        let Some(taken) = bound.find(&outcomes.nominal, mistake, findings) else {
-            return done(Verdict::Failed, "a wrong value cannot be evaluated".into());
+        let taken = match taken(bound, &outcomes.nominal, mistake, findings) {
+            Ok(taken) => taken,
+            Err(reason) => return done(Verdict::Failed, format!("a wrong value is not known: {reason}")),
         };
-        let taken = taken.value.to_number();
         if right(taken) {
             let message = format!(
                 "the tolerance takes {} for right, which is what a mistake gives",
@@ -449,7 +492,7 @@ fn value(
     }
     let mut weights = weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
-        let again = grounded(bound, outcome, text, &mut Vec::new());
+        let again = decided(bound, outcome, text, &mut Vec::new());
         let what = match again.map(|f| f.value.to_number()) {
             Err(reason) => reason,
             Ok(x) if right(x) => {
@@ -466,7 +509,50 @@ fn value(
     {
         return done(verdict, reason);
     }
-    Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights }
+    let mut answer = Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights };
+    add_searches(bound, std::slice::from_ref(text), &outcomes.nominal, &mut answer);
+    answer
+}
+
+/// What a mistake gives, by an expression under `wrong`.
+fn taken(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    text: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<f64, String> {
+    // A mistake may be a bare number.
+    let found = bound.find(outcome, text, findings).ok_or("it cannot be evaluated")?;
+    if let Some(undecided) = &found.undecided {
+        return Err(undecided_by_nan(text, undecided, findings));
+    }
+    match found.value {
+        Value::Number(x) if x.is_finite() => Ok(x),
+        Value::Number(x) => {
+            findings.push(no_value(text, x));
+            Err(format!("it is {}", shown(x)))
+        }
+        value => {
+            findings.push(no_quantity(text, &value));
+            Err("it gives no number".to_string())
+        }
+    }
+}
+
+/// A condition or a text where a number is asked for.
+fn no_quantity(text: &Text, value: &Value) -> Finding {
+    let what = match value {
+        Value::Boolean(_) => "a condition".to_string(),
+        Value::String(_) => "a text".to_string(),
+        other => format!("`{other}`"),
+    };
+    Finding::error(
+        rules::CLAIM_WITHOUT_NUMBER,
+        text.span(),
+        format!("this expression is {what}, and a number is asked for"),
+    )
+    .why("a condition counts as 1 or 0: an answer of 1 would be right whenever it holds")
+    .help("write the number that the answer states: `final(speed)`")
 }
 
 /// An expression that gives no number where one is claimed.

@@ -1,24 +1,30 @@
 //! A `verify` object bound to its labs and models, ready to run.
 
+use super::claim::{Claim, Inputs, Traced, looks_over_run};
 use super::condition::{self, Weighed};
 use super::curves::{self, Curves};
-use super::outcome::{Outcome, OutcomeNames, RunOutcome};
+use super::evidence::{self, Kind, Outlook};
+use super::layout::{Layout, Slot};
+use super::measure::Sampled;
+use super::outcome::{Outcome, RunOutcome};
 use super::perform::{self, Asked};
 use super::reads;
 use super::search::{self, Case};
 use super::stage::{Scene, Stage};
 use super::units;
-use crate::bind::{ModelNames, Scope, Shown, functions, to_finding};
+use crate::bind::{ModelNames, Scope, Shown, to_finding};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::rules;
-use crate::run::{Numerics, Session};
+use crate::run::{Budget, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Find, Run, Sweep, Verify};
-use labspec_core::reflect::{FieldId, Object};
-use labspec_core::{Demand, Model};
-use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, Value};
+use labspec_core::reflect::FieldId;
+use labspec_core::{self as core, Demand, Model};
+use labspec_expr::{Compiled, Compiler, Globals, Program, RuntimeError, Value};
 use std::cell::{OnceCell, RefCell};
+use std::collections::{BTreeMap, BTreeSet};
+use std::rc::Rc;
 
 /// A program with the text that it came from.
 #[derive(Debug)]
@@ -65,6 +71,11 @@ pub struct BoundVerify<'a> {
     idle: RefCell<Option<Session<'a>>>,
     /// What the measures measure, once somebody has asked.
     units: OnceCell<Option<units::Known>>,
+    /// The places of all numbers, and of which kind each is.
+    layout: Layout,
+    kinds: OnceCell<Vec<Kind>>,
+    /// What was compiled, by its text.
+    claims: RefCell<BTreeMap<String, Rc<Claim>>>,
 }
 
 /// The value of an expression over the measures, and what it rests on.
@@ -75,6 +86,26 @@ pub(super) struct Found {
     pub(super) evidence: Evidence,
     /// A run that it rests on broke: its name and how, unless the expression reads the warnings of that run.
     pub(super) broke: Option<String>,
+    /// The part of the text in which a NaN decided, and why there is one; the value is NaN then.
+    pub(super) undecided: Option<Undecided>,
+    /// How it was evaluated; `None` where somebody else did it.
+    trace: Option<Rc<Evaluated>>,
+}
+
+/// An expression that nothing decides.
+#[derive(Clone, Debug)]
+pub(super) struct Undecided {
+    pub(super) part: String,
+    /// What has no number, and why.
+    pub(super) because: Option<String>,
+}
+
+/// A claim, the numbers that it was evaluated with, and what came of it.
+#[derive(Debug)]
+struct Evaluated {
+    claim: Rc<Claim>,
+    inputs: Inputs,
+    traced: Traced,
 }
 
 impl BoundRun<'_> {
@@ -91,10 +122,6 @@ impl BoundScene<'_> {
     /// The names of a measure, or of what it is compared with.
     pub(super) fn names(&self, scope: Scope) -> ModelNames<'_> {
         ModelNames::new(&self.scene.model, scope).with(&self.scene.programs.functions).showing(&self.shown)
-    }
-
-    fn measured(&self, name: &str) -> Option<&Named<'_>> {
-        self.measures.iter().find(|(n, _)| *n == name).map(|(_, m)| m)
     }
 }
 
@@ -115,6 +142,9 @@ impl<'a> BoundVerify<'a> {
             stage,
             idle: RefCell::default(),
             units: OnceCell::new(),
+            layout: Layout::default(),
+            kinds: OnceCell::new(),
+            claims: RefCell::default(),
         };
         if verify.runs.is_empty() {
             let scene = bound.add(base?);
@@ -167,7 +197,124 @@ impl<'a> BoundVerify<'a> {
         for (name, text) in &verify.measure {
             good &= bound.measure(&name.value, text, findings);
         }
+        bound.lay_out();
         good.then_some(bound)
+    }
+
+    fn lay_out(&mut self) {
+        let names = |run: &BoundRun<'_>| {
+            let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
+            measures.map(|(name, _)| name.to_string()).collect()
+        };
+        let bare = |run: &BoundRun<'_>| (run.name.to_string(), run.swept, names(run));
+        let runs: Vec<_> = self.runs.iter().map(bare).collect();
+        self.layout = Layout::of(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
+    }
+
+    /// The places of the numbers that claims read.
+    pub(super) fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Whether a measure looks at a simulation.
+    pub(super) fn is_simulated(&self, run: usize, measure: usize) -> bool {
+        self.measure_at(run, measure).is_some_and(|m| looks_over_run(&m.program))
+    }
+
+    fn measure_at(&self, run: usize, measure: usize) -> Option<&Named<'a>> {
+        let (_, named) = self.scene_of(self.runs.get(run)?)?.measures.get(measure)?;
+        Some(named)
+    }
+
+    /// Of which kind each number is.
+    fn kinds(&self) -> &[Kind] {
+        self.kinds.get_or_init(|| {
+            let all = self.idle(|session| {
+                let mut known: BTreeMap<String, Kind> = BTreeMap::new();
+                let mut one = |slot: &Slot| match *slot {
+                    Slot::Measure(run, m) => self.measure_at(run, m).map_or(Kind::ANY, |named| {
+                        let kind = || evidence::kind_of(named, &session.world, &session.context);
+                        *known.entry(named.text.value.clone()).or_insert_with(kind)
+                    }),
+                    Slot::Warnings(_) => Kind::COUNT,
+                    _ => Kind::ANY,
+                };
+                self.layout.slots.iter().map(&mut one).collect()
+            });
+            all.unwrap_or_default()
+        })
+    }
+
+    /// Works with a lab at its start, for expressions over measures: they read nothing of its data.
+    pub(super) fn idle<T>(&self, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
+        let scene = self.lab()?;
+        let mut idle = self.idle.borrow_mut();
+        let start = || Session::start(scene.programs.clone(), &scene.model, None, &Demand::ANY);
+        Some(work(idle.get_or_insert_with(start)))
+    }
+
+    /// The names of the runs that texts read; of one run that it is read on the spot.
+    pub(super) fn runs_read(&self, texts: &[Text]) -> BTreeSet<&'a str> {
+        let mut names = BTreeSet::new();
+        for claim in texts.iter().filter_map(|text| self.claim(text)) {
+            let slots = claim.reads.iter().filter_map(|place| self.layout.slots.get(*place));
+            for slot in slots {
+                if let Slot::Measure(run, _) | Slot::Warnings(run) = *slot {
+                    names.extend(self.runs.get(run).map(|run| run.name));
+                }
+            }
+            let own = claim.program.as_ref().is_some_and(|p| !p.aggregates().is_empty());
+            names.extend(self.runs.first().filter(|_| own).map(|run| run.name));
+        }
+        names
+    }
+
+    /// The numbers that texts read of an outcome, by their bits.
+    pub(super) fn read_by(&self, outcome: &Outcome, texts: &[Text]) -> Vec<u64> {
+        let numbers = self.layout.numbers(outcome);
+        let claims = texts.iter().filter_map(|text| self.claim(text));
+        let places: BTreeSet<usize> = claims.flat_map(|claim| claim.reads.clone()).collect();
+        places.iter().filter_map(|place| numbers.get(*place)).map(|x| x.to_bits()).collect()
+    }
+
+    /// Whether a control makes any difference to the model, the data or the variables of its lab.
+    pub(super) fn moves_anything(&self, label: &Text, from: f64, to: f64) -> bool {
+        let Some(Scene { lab, model, programs, .. }) = self.lab() else { return false };
+        let state = |x: f64| {
+            let mut session =
+                Session::start_within(programs.clone(), model, lab.keyframe(), &Demand::ANY, Budget::TRIAL);
+            let (i, _) = programs.control(&label.value)?;
+            session.set_control(i, Value::Number(x));
+            Some(session)
+        };
+        let (Some(a), Some(b)) = (state(from), state(to)) else { return false };
+        let differs = |f: FieldId| {
+            let count = core::length(&a.world.model, &a.world.data, f);
+            (0..count).any(|i| {
+                let [x, y] = [&a, &b].map(|s| core::element(&s.world.model, &s.world.data, f, i));
+                x.map(f64::to_bits) != y.map(f64::to_bits)
+            })
+        };
+        let variables = programs.control(&label.value).is_some_and(|_| {
+            programs.effects_of(&label.value).is_some_and(|e| !e.ctx_writes.is_empty() || e.any_ctx)
+        });
+        variables || (0..).map_while(FieldId::new).any(differs)
+    }
+
+    /// Whether a text reads a value that is searched for.
+    pub(super) fn reads_found(&self, text: &Text, index: usize) -> bool {
+        let is = |place: &usize| self.layout.slots.get(*place) == Some(&Slot::Found(index));
+        self.claim(text).is_some_and(|claim| claim.reads.iter().any(is))
+    }
+
+    /// An expression over the measures, compiled the first time that it is asked for.
+    pub(super) fn claim(&self, text: &Text) -> Option<Rc<Claim>> {
+        if let Some(known) = self.claims.borrow().get(&text.value) {
+            return Some(known.clone());
+        }
+        let claim = Rc::new(Claim::of(self, &text.value)?);
+        self.claims.borrow_mut().insert(text.value.clone(), claim.clone());
+        Some(claim)
     }
 
     /// The place of a lab in the list, to which it is added the first time.
@@ -277,22 +424,33 @@ impl<'a> BoundVerify<'a> {
             let scene = self.scene_of(run)?;
             let measures: Vec<&Named<'_>> = scene.measures.iter().map(|(_, m)| m).collect();
             let made = self.perform(run, numerics, &measures, findings)?;
-            let measures = scene.measures.iter().map(|(name, _)| name.to_string()).zip(made.values).collect();
+            let names = scene.measures.iter().map(|(name, _)| name.to_string());
+            let mut doubts = Vec::new();
+            let mut measures = Vec::new();
+            for (name, Sampled { value, doubt, .. }) in names.zip(made.values) {
+                doubts.extend(doubt.map(|doubt| (name.clone(), doubt)));
+                measures.push((name, value));
+            }
             runs.push(RunOutcome {
                 name: run.name.to_string(),
                 swept: run.swept,
                 measures,
+                doubts,
                 warnings: made.warnings,
                 broke: made.broke,
             });
         }
-        let find = |f: &Find| Some((f.name.value.clone(), self.search(f, numerics, findings)?));
-        let found = self.verify.find.iter().map(find).collect::<Option<_>>()?;
-        Some(Outcome { runs, found, numerics, elsewhere: Vec::new() })
+        let (mut found, mut looked) = (Vec::new(), Vec::new());
+        for f in &self.verify.find {
+            let limit = self.search(f, numerics, findings)?;
+            found.push((f.name.value.clone(), limit.value));
+            looked.push(limit.looked);
+        }
+        Some(Outcome { runs, found, looked, numerics, elsewhere: Vec::new() })
     }
 
     /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
-    fn search(&self, find: &Find, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<f64> {
+    fn search(&self, find: &Find, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<search::Limit> {
         let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
         let mut runs = self.runs.iter().filter(named);
         let (Some(run), None) = (runs.next(), runs.next()) else {
@@ -346,76 +504,160 @@ impl<'a> BoundVerify<'a> {
 
     /// The value of an expression over the outcome. What is wrong with it goes to `findings`.
     pub(super) fn find(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<Found> {
-        let base = self.scenes.first()?;
-        let names = OutcomeNames::new(outcome, base.names(Scope::Measure));
-        let mut globals = base.globals.clone();
-        let compiled = Compiler::new(&names, &mut globals).expression(&text.value);
-        findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
-        let (used, numbers) = names.used();
-        let program = compiled.program?;
-        let mut broke = used.runs().iter().find_map(|&place| {
-            let run = outcome.runs.get(place)?;
-            let (_, expected) = self.run_place(place);
-            let excused = expected || used.warnings.contains(&place);
-            run.broke
-                .as_ref()
-                .filter(|_| !excused)
-                .map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.title())))
-        });
-        let measured = |(place, name): &(usize, String)| {
-            self.runs.get(*place).and_then(|run| self.scene_of(run)?.measured(name))
-        };
-        let simulated = used.found
-            || !used.warnings.is_empty()
-            || used.measures.iter().filter_map(measured).any(|m| looks_at_data(&m.program))
-            || looks_at_data(&program);
-        let value = match self.runs.as_slice() {
+        let claim = self.claim(text)?;
+        findings.extend(claim.diagnostics.iter().map(|d| to_finding(d, text)));
+        let program = claim.program.as_ref()?;
+        if claim.outside {
+            findings.push(outside(text));
+            return None;
+        }
+        let mut broke = self.broken(&claim, outcome);
+        let measured = claim.measured(self);
+        let evidence = if measured.is_empty() { Evidence::Computed } else { Evidence::Simulated };
+        let mut parts = Vec::new();
+        let mut doubt = None;
+        if !program.aggregates().is_empty() {
+            let [run] = self.runs.as_slice() else { return None };
+            if let Some(x) = outcome.measured_elsewhere(&text.value) {
+                return Some(Found {
+                    value: Value::Number(x),
+                    evidence,
+                    broke,
+                    undecided: None,
+                    trace: None,
+                });
+            }
             // Measured on the spot, as a lesson with one run may write it: the same run once more.
-            [_] if !program.aggregates().is_empty() && outcome.measured_elsewhere(&text.value).is_some() => {
-                Value::Number(outcome.measured_elsewhere(&text.value)?)
+            let named = Named { text, program: program.clone() };
+            let made = self.perform(run, outcome.numerics, &[&named], findings)?;
+            let expected = run.spec.is_some_and(|r| r.breaks);
+            let how = made.broke.filter(|_| !expected);
+            broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
+            if let Some(sampled) = made.values.into_iter().next() {
+                (parts, doubt) = (sampled.parts, sampled.doubt);
             }
-            [run] if !program.aggregates().is_empty() => {
-                let named = Named { text, program };
-                let made = self.perform(run, outcome.numerics, &[&named], findings)?;
-                let expected = run.spec.is_some_and(|r| r.breaks);
-                let how = made.broke.filter(|_| !expected);
-                broke = broke.or(how.map(|how| format!("the run breaks: {how}")));
-                Value::Number(made.values.first().copied()?)
+        }
+        let inputs = claim.inputs(self, outcome, parts);
+        let traced = match claim.evaluate(self, &inputs, None)? {
+            Ok(traced) => traced,
+            Err(error) => {
+                findings.push(threw(text, &error));
+                return None;
             }
-            _ => self.constant(&program, text, numbers, findings)?,
         };
-        let evidence = if simulated { Evidence::Simulated } else { Evidence::Computed };
-        Some(Found { value, evidence, broke })
+        let undecided = traced.lost.map(|span| Undecided {
+            part: text.value.get(span.start..span.end).unwrap_or(&text.value).to_string(),
+            because: doubt.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
+        });
+        let value = if undecided.is_some() { Value::Number(f64::NAN) } else { traced.value.clone() };
+        let trace = Some(Rc::new(Evaluated { claim, inputs, traced }));
+        Some(Found { value, evidence, broke, undecided, trace })
     }
 
-    /// An outcome before there is one, for those who look at names.
-    pub(super) fn blank(&self) -> Outcome {
-        // Some number stands for each measure: what only depends on the number is not said.
-        let run = |run: &BoundRun<'_>| {
-            let measures = self.scene_of(run).into_iter().flat_map(|s| &s.measures);
-            RunOutcome {
-                name: run.name.to_string(),
-                swept: run.swept,
-                measures: measures.map(|(name, _)| (name.to_string(), 0.0)).collect(),
-                warnings: 0,
-                broke: None,
+    /// How a run broke that a claim rests on, unless it reads the warnings of that run.
+    fn broken(&self, claim: &Claim, outcome: &Outcome) -> Option<String> {
+        let slots = || claim.reads.iter().filter_map(|place| self.layout.slots.get(*place));
+        let excused = |place: usize| slots().any(|slot| *slot == Slot::Warnings(place));
+        slots().find_map(|slot| {
+            let Slot::Measure(place, _) = *slot else { return None };
+            let run = outcome.runs.get(place)?;
+            let (_, expected) = self.run_place(place);
+            let broke = run.broke.as_ref().filter(|_| !(expected || excused(place)));
+            broke.map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.title())))
+        })
+    }
+
+    /// The first number that a claim reads and that there is not, with the reason.
+    fn missing(&self, claim: &Claim, outcome: &Outcome, inputs: &Inputs) -> Option<String> {
+        let nothing = |place: &&usize| inputs.numbers.get(**place).is_some_and(|x| x.is_nan());
+        let place = claim.reads.iter().find(nothing)?;
+        match self.layout.slots.get(*place)? {
+            Slot::Measure(run, measure) => {
+                let run = outcome.runs.get(*run)?;
+                let (name, _) = run.measures.get(*measure)?;
+                let title = format!("{}.{name}", run.title());
+                Some(match run.doubts.iter().find(|(known, _)| known == name) {
+                    Some((_, doubt)) => format!("`{title}` has no value: {doubt}"),
+                    None => format!("`{title}` has no value: its event does not happen in the run"),
+                })
             }
+            Slot::Found(i) => outcome.found.get(*i).map(|(name, _)| format!("`{name}` was not found")),
+            _ => None,
+        }
+    }
+
+    /// Whether a claim could have come out otherwise, had the runs given something else. `says` tells what the claim says with a
+    /// value; the truth of a condition, or a number, where it is `None`.
+    pub(super) fn could_differ(&self, found: &Found, says: Option<&dyn Fn(&Value) -> bool>) -> bool {
+        // What somebody else evaluated was evaluated here, too.
+        let Some(evaluated) = &found.trace else { return true };
+        let Evaluated { claim, inputs, .. } = &**evaluated;
+        let places = claim.measured(self);
+        let parts = claim.program.as_ref().map(|program| {
+            self.idle(|session| evidence::kinds_of(program, &session.world, &session.context))
+        });
+        let parts = parts.flatten().unwrap_or_default();
+        let count = inputs.numbers.len();
+        let kind = |place: &usize| match place.checked_sub(count) {
+            None => self.kinds().get(*place).copied().unwrap_or(Kind::ANY),
+            Some(part) => parts.get(part).copied().unwrap_or(Kind::ANY),
         };
-        let found = self.verify.find.iter().map(|f| (f.name.value.clone(), 0.0)).collect();
-        let runs = self.runs.iter().map(run).collect();
-        Outcome { runs, found, numerics: Numerics::NOMINAL, elsewhere: Vec::new() }
+        let kinds: Vec<Kind> = places.iter().map(kind).collect();
+        let mut outlook = |inputs: &Inputs| {
+            let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
+            let look = match (says, &traced.value) {
+                (Some(says), value) => Outlook::Holds(says(value)),
+                (None, Value::Boolean(holds)) => Outlook::Holds(*holds),
+                (None, value) => Outlook::Number(value.to_number()),
+            };
+            Some((look, traced.comparisons))
+        };
+        evidence::could_differ(inputs, &places, &kinds, &claim.constants, &mut outlook)
+    }
+
+    /// How a condition came out, and how far it is from the opposite.
+    pub(super) fn weigh_found(&self, found: &Found) -> Weighed {
+        let holds = found.value.truthy();
+        let without_number = found.undecided.as_ref().map(|u| u.part.clone());
+        let Some(evaluated) = found.trace.as_ref().filter(|_| without_number.is_none()) else {
+            return Weighed { holds, margin: None, without_number };
+        };
+        let Evaluated { claim, inputs, traced } = &**evaluated;
+        let measured = claim.measured(self);
+        // Comparisons that stay as they are when what was measured moves decide nothing about it: those of a loop.
+        let moved = {
+            let mut moved = inputs.clone();
+            let count = moved.numbers.len();
+            for place in &measured {
+                let number = match place.checked_sub(count) {
+                    None => moved.numbers.get_mut(*place),
+                    Some(part) => moved.parts.get_mut(part),
+                };
+                if let Some(x) = number {
+                    *x += 1e-7 * x.abs() + 1e-300;
+                }
+            }
+            claim.evaluate(self, &moved, None).and_then(Result::ok)
+        };
+        let moved = moved.filter(|m| m.comparisons.len() == traced.comparisons.len());
+        let decides = |i: usize| {
+            let pair = moved.as_ref().and_then(|m| m.comparisons.get(i)).zip(traced.comparisons.get(i));
+            measured.is_empty() || pair.is_none_or(|(a, b)| a.left != b.left || a.right != b.right)
+        };
+        let mut turn = |i: usize| {
+            let turned = claim.evaluate(self, inputs, Some(i))?.ok()?;
+            Some(turned.value.truthy())
+        };
+        condition::weigh(holds, &traced.comparisons, &decides, &mut turn)
     }
 
     /// Those of the texts that look at the samples of the only run themselves.
     pub(super) fn on_the_spot<'t>(&self, texts: impl Iterator<Item = &'t Text>) -> Vec<&'t Text> {
-        let (Some(base), [_]) = (self.scenes.first(), self.runs.as_slice()) else { return Vec::new() };
-        let outcome = self.blank();
         let looks = |text: &&Text| {
-            let names = OutcomeNames::new(&outcome, base.names(Scope::Measure));
-            let compiled = Compiler::new(&names, &mut base.globals.clone()).expression(&text.value);
-            compiled.program.is_some_and(|program| !program.aggregates().is_empty())
+            let claim = self.claim(text);
+            claim.is_some_and(|c| c.program.as_ref().is_some_and(|p| !p.aggregates().is_empty()))
         };
-        texts.filter(looks).collect()
+        if self.runs.len() == 1 { texts.filter(looks).collect() } else { Vec::new() }
     }
 
     /// Every run with its lab, in the order of an outcome.
@@ -425,46 +667,14 @@ impl<'a> BoundVerify<'a> {
 
     /// Looks at the names of expressions over the outcome before there is one.
     pub(super) fn look<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
-        let outcome = self.blank();
-        let Some(base) = self.scenes.first() else { return };
         for text in texts {
-            let names = OutcomeNames::new(&outcome, base.names(Scope::Measure));
-            let compiled = Compiler::new(&names, &mut base.globals.clone()).expression(&text.value);
-            let errors = compiled.diagnostics.iter().filter(|d| d.is_error());
+            let Some(claim) = self.claim(text) else { return };
+            let errors = claim.diagnostics.iter().filter(|d| d.is_error());
             findings.extend(errors.map(|d| to_finding(d, text)));
+            if claim.outside && claim.program.is_some() {
+                findings.push(outside(text));
+            }
         }
-    }
-
-    /// A condition, taken apart.
-    pub(super) fn weigh(&self, outcome: &Outcome, text: &Text, holds: bool) -> Weighed {
-        let part = |code: &str| {
-            let text = Text { value: code.to_string(), map: text.map.clone() };
-            self.find(outcome, &text, &mut Vec::new()).map(|found| found.value)
-        };
-        condition::weigh(&text.value, holds, &part)
-    }
-
-    /// The value of a program over known measures. What it throws goes to `findings`.
-    fn constant(
-        &self,
-        program: &Program,
-        text: &Text,
-        numbers: Vec<f64>,
-        findings: &mut Vec<Finding>,
-    ) -> Option<Value> {
-        let scene = self.lab()?;
-        let mut idle = self.idle.borrow_mut();
-        let start = || Session::start(scene.programs.clone(), &scene.model, None, &Demand::ANY);
-        let session = idle.get_or_insert_with(start);
-        session.troubles.clear();
-        session.world.numbers = numbers;
-        let value = session.evaluate(program, text);
-        findings.extend(session.troubles.iter().map(|t| {
-            Finding::error(t.rule, t.text.span_of(t.span.clone()), t.message.clone())
-                .why("the claim cannot be checked: this expression has no value")
-                .help("correct the expression, or guard it with a condition")
-        }));
-        value
     }
 
     /// What the traces of its lab show in every run, up to so many; a run that cannot be made, or whose lab shows nothing, is left
@@ -485,16 +695,21 @@ impl<'a> BoundVerify<'a> {
     }
 }
 
-/// Whether a program looks at the data of a simulation, itself or in what it measures.
-fn looks_at_data(program: &Program) -> bool {
-    let of = |e: &Effects| {
-        let data = |a: &labspec_expr::Access| {
-            FieldId::new(a.field.0 as usize).is_some_and(|f| f.info().object == Object::Data)
-        };
-        e.reads_everything
-            || e.calls.iter().any(|&f| functions::reads(f))
-            || e.calls_values
-            || e.reads.iter().any(data)
-    };
-    of(program.effects()) || program.aggregates().iter().flat_map(|a| &a.args).any(|p| of(p.effects()))
+/// A field that is read outside of what is taken over a run.
+fn outside(text: &Text) -> Finding {
+    let written = super::shorten(text.value.trim());
+    Finding::error(
+        rules::READ_OUTSIDE_RUN,
+        text.span(),
+        format!("`{written}` reads the simulation at no time of the run"),
+    )
+    .why("a run has many samples, and nothing says which of them is meant: the number would be that of the lab before it runs")
+    .help("say which sample: `final(…)` at the end, `initial(…)` at the start, `max(…)`, `mean(…)`, or `at(condition, …)`")
+}
+
+/// What an expression throws.
+fn threw(text: &Text, error: &RuntimeError) -> Finding {
+    Finding::error(error.rule, text.span_of(error.span.start..error.span.end), error.message.clone())
+        .why("the claim cannot be checked: this expression has no value")
+        .help("correct the expression, or guard it with a condition")
 }

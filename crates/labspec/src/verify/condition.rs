@@ -1,7 +1,7 @@
-//! A condition, taken apart: whether it holds, what it looked at, and how far it is from saying the opposite.
+//! How far a condition is from saying the opposite, by the comparisons that it made.
 
-use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
-use labspec_expr::{Value, parse_expression, print};
+use labspec_expr::ast::{Expr, ExprKind};
+use labspec_expr::{Comparison, parse_expression};
 
 /// What became of a condition.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,135 +29,61 @@ pub(super) fn is_bare_constant(text: &str) -> bool {
     bare(&parse_expression(text).tree)
 }
 
-/// Takes a condition apart. `value` evaluates a part of it; `None` where that cannot be done.
-pub(super) fn weigh(text: &str, holds: bool, value: &dyn Fn(&str) -> Option<Value>) -> Weighed {
-    let tree = parse_expression(text).tree;
-    let asks = asks_for_nan(&tree);
-    let mut without_number = None;
-    let margin = margin(&tree, value, &mut without_number).map(|(_, m)| m).filter(|m| m.is_finite());
-    Weighed { holds, margin, without_number: without_number.filter(|_| !asks) }
-}
-
-/// Truth and margin of an expression. Parts that JavaScript would not evaluate are not looked at.
-fn margin(e: &Expr, value: &dyn Fn(&str) -> Option<Value>, nan: &mut Option<String>) -> Option<(bool, f64)> {
-    match &e.kind {
-        ExprKind::Binary { op, left, right } => {
-            let (a, b) = (value(&print(left))?, value(&print(right))?);
-            let (Value::Number(_) | Value::Boolean(_), Value::Number(_) | Value::Boolean(_)) = (&a, &b)
-            else {
-                return None;
-            };
-            let (a, b) = (a.to_number(), b.to_number());
-            let apart = (a - b).abs();
-            let (holds, margin) = match op {
-                BinaryOp::Less => (a < b, b - a),
-                BinaryOp::LessEqual => (a <= b, b - a),
-                BinaryOp::Greater => (a > b, a - b),
-                BinaryOp::GreaterEqual => (a >= b, a - b),
-                BinaryOp::Equal | BinaryOp::StrictEqual => (a == b, -apart),
-                BinaryOp::NotEqual | BinaryOp::StrictNotEqual => (a != b, apart),
-                _ => return leaf(e, value, nan),
-            };
-            if (a.is_nan() || b.is_nan()) && nan.is_none() {
-                *nan = Some(print(e));
-            }
-            Some((holds, margin))
-        }
-        ExprKind::Logical { op, left, right } => {
-            let l = margin(left, value, nan)?;
-            match (op, l.0) {
-                (LogicalOp::And, false) | (LogicalOp::Or, true) => {
-                    // The other side could still turn it over together with this one; this one is what decides.
-                    Some(l)
-                }
-                (LogicalOp::And, true) => {
-                    let r = margin(right, value, nan)?;
-                    Some(if r.0 { (true, l.1.min(r.1)) } else { r })
-                }
-                (LogicalOp::Or, false) => {
-                    let r = margin(right, value, nan)?;
-                    Some(if r.0 { r } else { (false, l.1.max(r.1)) })
-                }
-                _ => None,
+/// The numbers that stand in a text.
+pub(super) fn numbers_in(text: &str) -> Vec<f64> {
+    let mut found = Vec::new();
+    let mut before = ' ';
+    let mut end = 0;
+    for (i, c) in text.char_indices() {
+        let begins = c.is_ascii_digit() || c == '.';
+        if begins && i >= end && !(before.is_alphanumeric() || "_.$".contains(before)) {
+            let rest = text.get(i..).unwrap_or("");
+            let length =
+                rest.find(|c: char| !(c.is_ascii_digit() || ".eE+-".contains(c))).unwrap_or(rest.len());
+            let number = (1..=length).rev().find_map(|n| Some((n, rest.get(..n)?.parse::<f64>().ok()?)));
+            if let Some((n, x)) = number {
+                found.push(x);
+                end = i + n;
             }
         }
-        ExprKind::Unary { op: UnaryOp::Not, operand } => {
-            margin(operand, value, nan).map(|(holds, m)| (!holds, -m))
-        }
-        ExprKind::Conditional { test, then, otherwise } => {
-            let (holds, _) = margin(test, value, nan)?;
-            margin(if holds { then } else { otherwise }, value, nan)
-        }
-        _ => leaf(e, value, nan),
+        before = c;
     }
+    found.truncate(20);
+    found
 }
 
-/// A part in which nothing is compared: it holds or not, and no change of a number is known to turn it over.
-fn leaf(e: &Expr, value: &dyn Fn(&str) -> Option<Value>, nan: &mut Option<String>) -> Option<(bool, f64)> {
-    let found = value(&print(e))?;
-    if matches!(found, Value::Number(x) if x.is_nan()) && nan.is_none() {
-        *nan = Some(print(e));
-    }
-    Some((found.truthy(), if found.truthy() { f64::INFINITY } else { f64::NEG_INFINITY }))
-}
+/// Most comparisons of a condition that are turned over to see whether they decide it.
+const MOST_TURNED: usize = 48;
 
-/// Whether an expression asks for NaN itself.
-fn asks_for_nan(e: &Expr) -> bool {
-    match &e.kind {
-        ExprKind::Call { callee, args, .. } => {
-            let named = match &callee.kind {
-                ExprKind::Name(name) => name == "isNaN" || name == "isFinite",
-                ExprKind::Member { name, .. } => matches!(name.text.as_str(), "isNaN" | "isFinite"),
-                _ => false,
-            };
-            named || asks_for_nan(callee) || args.iter().any(asks_for_nan)
+/// How a condition came out, and how far it is from the opposite. `decides` tells of each comparison whether it depends on
+/// what was measured; `turn` gives the truth of the condition where one comparison comes out the other way.
+pub(super) fn weigh(
+    holds: bool,
+    comparisons: &[Comparison],
+    decides: &dyn Fn(usize) -> bool,
+    turn: &mut dyn FnMut(usize) -> Option<bool>,
+) -> Weighed {
+    let mut decisive: Option<f64> = None;
+    let mut any: Option<f64> = None;
+    let nearer =
+        |best: &mut Option<f64>, size: f64| *best = Some(best.map_or(size, |known: f64| known.min(size)));
+    for (i, comparison) in comparisons.iter().enumerate().take(MOST_TURNED) {
+        let size = comparison.margin.abs();
+        if !size.is_finite() || !decides(i) {
+            continue;
         }
-        ExprKind::Binary { left, right, .. } | ExprKind::Logical { left, right, .. } => {
-            asks_for_nan(left) || asks_for_nan(right)
+        nearer(&mut any, size);
+        if turn(i).is_some_and(|then| then != holds) {
+            nearer(&mut decisive, size);
         }
-        ExprKind::Unary { operand, .. } => asks_for_nan(operand),
-        ExprKind::Conditional { test, then, otherwise } => {
-            asks_for_nan(test) || asks_for_nan(then) || asks_for_nan(otherwise)
-        }
-        _ => false,
     }
+    let margin = decisive.or(any).map(|size| if holds { size } else { -size });
+    Weighed { holds, margin, without_number: None }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Numbers are themselves, and `x` is what is given.
-    fn weighed(text: &str, x: f64) -> (Option<f64>, Option<String>) {
-        let value = |t: &str| match t {
-            "x" => Some(Value::Number(x)),
-            "-x" => Some(Value::Number(-x)),
-            other => other.parse().ok().map(Value::Number),
-        };
-        let w = weigh(text, true, &value);
-        (w.margin, w.without_number)
-    }
-
-    #[test]
-    fn margins_are_the_distance_to_the_other_answer() {
-        assert_eq!(weighed("x < 3", 1.0).0, Some(2.0));
-        assert_eq!(weighed("x > 3", 1.0).0, Some(-2.0));
-        assert_eq!(weighed("x > 0 && x < 3", 1.0).0, Some(1.0));
-        assert_eq!(weighed("x > 0 && x < 3", 4.0).0, Some(-1.0));
-        assert_eq!(weighed("x < 0 || x > 3", 1.0).0, Some(-1.0));
-        assert_eq!(weighed("!(x < 3)", 1.0).0, Some(-2.0));
-        assert_eq!(weighed("x === 3", 1.0).0, Some(-2.0));
-        assert_eq!(weighed("x", 1.0).0, None);
-    }
-
-    #[test]
-    fn a_comparison_with_what_is_no_number_is_named() {
-        assert_eq!(weighed("x < 3", f64::NAN).1.as_deref(), Some("x < 3"));
-        assert_eq!(weighed("1 > 0 && !(x < 3)", f64::NAN).1.as_deref(), Some("x < 3"));
-        assert_eq!(weighed("1 < 0 && x < 3", f64::NAN).1, None, "it is never looked at");
-        assert_eq!(weighed("!isNaN(x) && x < 3", f64::NAN).1, None, "it asks");
-        assert_eq!(weighed("x < 3", 1.0).1, None);
-    }
 
     #[test]
     fn bare_constants() {
@@ -167,5 +93,10 @@ mod tests {
         for text in ["0.5 * 9.81 * 0.004", "a", "1 < 2", "Math.PI", ""] {
             assert!(!is_bare_constant(text), "{text}");
         }
+    }
+
+    #[test]
+    fn numbers_of_a_text() {
+        assert_eq!(numbers_in("abs(m2 - 1.23) < .5e-1"), [1.23, 0.5]);
     }
 }

@@ -7,15 +7,16 @@
 
 use super::stage::Scene;
 use super::{BoundVerify, significant};
-use crate::bind::{Bound, ModelNames, Programs, Scope, include, to_finding};
+use crate::bind::{Bound, ModelNames, Programs, Scope, functions, include, to_finding};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::ledger::{Evidence, State};
 use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Play, Session};
 use crate::spec::{Exact, Lab};
+use labspec_core::reflect::{FieldId, Object};
 use labspec_core::{Model, integrator};
-use labspec_expr::Compiler;
+use labspec_expr::{Access, Compiler, Program};
 use std::ops::{ControlFlow, Range};
 
 /// Most steps of the run at the lab's own timestep; the others take two and four times as many.
@@ -24,6 +25,10 @@ const MAX_STEPS: usize = 50_000;
 const SAMPLES: usize = 500;
 /// Part of a trace's size that rounding may make of it.
 const ROUNDING: f64 = 1e-9;
+/// Parts of a trace's range: how well a formula without a tolerance must be known, and how far the trace may be from it at
+/// the lab's own timestep.
+const UNSURE: f64 = 0.01;
+const FAR: f64 = 0.1;
 
 /// What became of the closed form of a trace.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,6 +66,15 @@ impl Differences {
         self.values.get(i).map_or(f64::NAN, |[trace, form]| trace - form)
     }
 
+    /// How far the trace goes; its size where it stays.
+    fn range(&self) -> f64 {
+        let traces = || self.values.iter().map(|[trace, _]| *trace);
+        let [least, most] =
+            [traces().fold(f64::INFINITY, f64::min), traces().fold(f64::NEG_INFINITY, f64::max)];
+        let range = most - least;
+        if range > ROUNDING * self.size() { range } else { self.size() }
+    }
+
     fn size(&self) -> f64 {
         self.values.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
     }
@@ -68,13 +82,35 @@ impl Differences {
 
 /// Holds a trace to its closed form. What is wrong goes to `findings`.
 pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<Finding>) -> ClosedForm {
-    let unchecked = |reason: &str| ClosedForm::unchecked(claim, reason);
-    let (trace, form) = match bind(bound, claim, findings) {
-        Ok((trace, form)) => (trace, form),
-        Err(reason) => return unchecked(reason),
+    let (traces, form) = match bind(bound, claim, findings) {
+        Ok((traces, form)) => (traces, form),
+        Err(reason) => return ClosedForm::unchecked(claim, reason),
     };
+    // A label that several plots have means all of them: the worst one counts.
+    let held = traces.into_iter().map(|trace| hold(bound, claim, trace, &form, findings));
+    let worst = |a: ClosedForm, b: ClosedForm| if rank(b.state) > rank(a.state) { b } else { a };
+    held.reduce(worst).unwrap_or_else(|| ClosedForm::unchecked(claim, "the lab has no such trace"))
+}
+
+fn rank(state: State) -> u8 {
+    match state {
+        State::True(_) => 0,
+        State::False => 2,
+        _ => 1,
+    }
+}
+
+/// Holds one trace to the closed form.
+fn hold(
+    bound: &BoundVerify<'_>,
+    claim: &Exact,
+    trace: &Bound,
+    form: &Bound,
+    findings: &mut Vec<Finding>,
+) -> ClosedForm {
+    let unchecked = |reason: &str| ClosedForm::unchecked(claim, reason);
     let Some(Scene { lab, model, programs, .. }) = bound.lab() else { return unchecked("it has no lab") };
-    let case = Case { lab, model, programs, trace, form: &form };
+    let case = Case { lab, model, programs, trace, form };
     let mut runs = Vec::new();
     for parts in [1, 2, 4] {
         match case.run(parts) {
@@ -119,24 +155,78 @@ pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<F
     ClosedForm { trace: claim.trace.value.clone(), span: claim.trace.span(), state, remark }
 }
 
-/// The trace and its closed form as programs. What is wrong goes to `findings`.
+/// The traces of the label and their closed form as programs. What is wrong goes to `findings`.
 pub(super) fn bind<'b>(
     bound: &'b BoundVerify<'_>,
     claim: &Exact,
     findings: &mut Vec<Finding>,
-) -> Result<(&'b Bound, Bound), &'static str> {
+) -> Result<(Vec<&'b Bound>, Bound), &'static str> {
     let Scene { lab, model, programs, .. } = bound.lab().ok_or("it has no lab")?;
-    let mut traces = lab.traces().zip(&programs.probes);
-    let Some((_, probe)) = traces.find(|(trace, _)| trace.label.value == claim.trace.value) else {
+    let named =
+        lab.traces().zip(&programs.probes).filter(|(trace, _)| trace.label.value == claim.trace.value);
+    let probes: Vec<_> = named.map(|(_, probe)| probe.bound.as_ref()).collect();
+    if probes.is_empty() {
         findings.push(no_such_trace(claim, lab));
         return Err("the lab has no such trace");
-    };
+    }
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
     let mut globals = programs.globals.clone();
     let compiled = Compiler::new(&names, &mut globals).expression(&claim.form.value);
     findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));
     let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
-    probe.bound.as_ref().zip(form).ok_or("the trace or its closed form has mistakes")
+    let traces: Option<Vec<&Bound>> = probes.into_iter().collect();
+    let (traces, form) = traces.zip(form).ok_or("the trace or its closed form has mistakes")?;
+    if let Some(what) = reads_the_run(&form.program, programs) {
+        findings.push(no_formula(claim, &what));
+        return Err("the closed form reads what the simulation computes");
+    }
+    Ok((traces, form))
+}
+
+/// What a closed form reads of the simulation besides the time; `None` for a formula of time and parameters.
+fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
+    let effects = form.effects();
+    let data = |access: &Access| {
+        let field = FieldId::new(access.field.0 as usize)?;
+        (field.info().object == Object::Data && field.info().name != "time")
+            .then(|| format!("`data.{}`", field.info().name))
+    };
+    if let Some(field) = effects.reads.iter().find_map(data) {
+        return Some(field);
+    }
+    if effects.reads_everything || effects.calls_values || effects.calls.iter().any(|f| functions::reads(*f))
+    {
+        return Some("a function that looks at the simulation".to_string());
+    }
+    // What the lab keeps in `ctx` or in the model while it runs may be anything.
+    let running = programs
+        .controller
+        .iter()
+        .map(|b| &b.program)
+        .chain(programs.probes.iter().filter_map(|p| p.bound.as_ref()).map(|b| &b.program));
+    for program in running.map(Program::effects) {
+        let kept = |slot: &u32| program.any_ctx || program.ctx_writes.contains(slot);
+        if effects.any_ctx || effects.ctx_reads.iter().any(kept) {
+            return Some("a variable of `ctx` that the lab writes while it runs".to_string());
+        }
+        let written =
+            |a: &Access| program.writes_everything || program.writes.iter().any(|w| w.field == a.field);
+        if effects.reads.iter().any(|a| written(a) && !is_time(a)) {
+            return Some("a field that the lab writes while it runs".to_string());
+        }
+    }
+    None
+}
+
+fn is_time(access: &Access) -> bool {
+    FieldId::new(access.field.0 as usize).is_some_and(|f| f.info().object == Object::Data)
+}
+
+fn no_formula(claim: &Exact, what: &str) -> Finding {
+    let message = format!("this closed form reads {what}");
+    Finding::error(rules::CLOSED_FORM_UNTRIED, claim.form.span(), message)
+        .why("a trace that is compared with what the same run computes follows it whatever happens")
+        .help("write a formula of `data.time` and parameters of the lab")
 }
 
 fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
@@ -204,7 +294,18 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     let (i, left) = largest(n, |i| extrapolated(half, quarter, i));
     let (_, unsure) = largest(n, |i| extrapolated(half, quarter, i) - extrapolated(h, half, i));
     let vanishing = errors[2] <= 0.75 * errors[0];
+    let range = quarter.range();
     if vanishing && left <= unsure + rounding {
+        // What cannot be told apart within a hundredth of what the trace does is not called the same, and a formula of which
+        // the lab itself is far off is not what it shows.
+        if unsure > UNSURE * range + rounding {
+            let how = format!("{shrinks}, so that the formula is known to {} only", significant(unsure));
+            return (State::Unchecked, how, None);
+        }
+        if errors[0] > FAR * range + rounding {
+            let how = format!("{shrinks}, and the trace ranges over {}", significant(range));
+            return (State::Unchecked, how, None);
+        }
         return (State::True(Evidence::Simulated), shrinks, None);
     }
     if left > 3.0 * unsure + rounding {

@@ -2,11 +2,12 @@
 
 use crate::run::Session;
 use crate::source::Text;
-use labspec_expr::{Aggregate, Program, Value};
+use labspec_expr::{Aggregate, Program, Value, Watch};
+use std::cell::Cell;
 
 /// How the samples of a run become one number. The names are those of the function table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum How {
+pub(super) enum How {
     First,
     At,
     Before,
@@ -30,7 +31,7 @@ enum How {
 }
 
 impl How {
-    fn of(aggregate: &Aggregate) -> Option<How> {
+    pub(super) fn of(aggregate: &Aggregate) -> Option<How> {
         Some(match crate::bind::functions::name(aggregate.function)? {
             "first" => How::First,
             "at" => How::At,
@@ -73,6 +74,52 @@ struct Running<'a> {
     previous: f64,
     /// What the measures between samples remember.
     trail: Trail,
+    /// Samples at which there was no number to look at, where that leaves the result open.
+    gaps: Gaps,
+    /// The sample before had no number.
+    lacked: bool,
+}
+
+/// Samples without a number.
+#[derive(Clone, Copy, Debug, Default)]
+struct Gaps {
+    count: usize,
+    /// Time of the first one, s.
+    first: f64,
+}
+
+/// Why a measure has no value although its events happened: some samples had no number.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Doubt {
+    /// The part of the measure, as written.
+    pub(crate) part: String,
+    /// Samples without a number, of how many.
+    pub(crate) gaps: usize,
+    pub(crate) samples: usize,
+    /// Time of the first one, s.
+    pub(crate) first: f64,
+}
+
+impl std::fmt::Display for Doubt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Doubt { part, gaps, samples, first } = self;
+        if *samples == 0 {
+            return write!(f, "`{part}` compares NaN");
+        }
+        let first = crate::run::time(*first);
+        let verb = if *gaps == 1 { "has" } else { "have" };
+        write!(f, "in `{part}` {gaps} of {samples} samples {verb} no number, the first at t = {first} s")
+    }
+}
+
+/// What became of a measure.
+#[derive(Clone, Debug)]
+pub(crate) struct Sampled {
+    /// Its value; NaN where samples had no number.
+    pub(crate) value: f64,
+    /// The results of its aggregates, in order.
+    pub(crate) parts: Vec<f64>,
+    pub(crate) doubt: Option<Doubt>,
 }
 
 /// What is remembered of a curve from sample to sample.
@@ -219,6 +266,8 @@ impl<'a> Running<'a> {
                 done: false,
                 previous: f64::NAN,
                 trail: Trail::START,
+                gaps: Gaps::default(),
+                lacked: false,
             })
         };
         program.aggregates().iter().filter_map(start).collect()
@@ -233,17 +282,41 @@ impl<'a> Running<'a> {
         }
     }
 
+    /// The result, as far as it is known: NaN where samples had no number.
+    fn known(&self) -> f64 {
+        if self.gaps.count > 0 { f64::NAN } else { self.result }
+    }
+
+    /// Whether an argument looks at the sample before the first one.
+    fn has_no_past(&self) -> bool {
+        self.inner.iter().any(|r| r.how == How::Previous && !r.done || r.has_no_past())
+    }
+
     /// Looks at the current sample. What stands in its arguments is what it is up to this sample.
     fn sample(&mut self, session: &mut Session<'_>, text: &Text) {
+        let first = self.has_no_past();
         for inner in &mut self.inner {
             inner.sample(session, text);
-            session.context.set_aggregate(inner.slot, inner.result);
+            session.context.set_aggregate(inner.slot, inner.known());
         }
         let (r, time) = (self, session.world.data.time());
-        let mut value =
-            |i: usize| r.args.get(i).and_then(|p| session.evaluate(p, text)).unwrap_or(Value::Undefined);
+        if r.done && matches!(r.how, How::First | How::At | How::Before | How::Crossing | How::Initial) {
+            return;
+        }
+        let lacks = Cell::new(false);
+        let mut value = |i: usize| {
+            let value = r.args.get(i).and_then(|p| session.evaluate(p, text)).unwrap_or(Value::Undefined);
+            let nothing =
+                matches!(value, Value::Undefined) || matches!(value, Value::Number(x) if x.is_nan());
+            let lost = || session.context.watched().is_some_and(|watch| watch.lost.is_some());
+            if nothing || lost() {
+                lacks.set(true);
+            }
+            value
+        };
+        // A later sample decides whatever earlier ones left open.
+        let mut decided = false;
         match r.how {
-            How::First | How::At | How::Before | How::Crossing if r.done => {}
             How::First => {
                 if value(0).truthy() {
                     (r.result, r.done) = (time, true);
@@ -255,22 +328,29 @@ impl<'a> Running<'a> {
                 }
             }
             How::Before => {
-                if value(0).truthy() {
+                let holds = value(0).truthy();
+                let open = lacks.replace(false);
+                let x = value(1).to_number();
+                let before = std::mem::replace(&mut r.lacked, lacks.get());
+                lacks.set(open || holds && before);
+                if holds {
                     (r.result, r.done) = (r.previous, true);
                 } else {
-                    r.previous = value(1).to_number();
+                    r.previous = x;
                 }
             }
-            How::Initial => {
-                if !r.done {
-                    (r.result, r.done) = (value(0).to_number(), true);
-                }
+            How::Initial => (r.result, r.done) = (value(0).to_number(), true),
+            How::Final => {
+                r.result = value(0).to_number();
+                decided = true;
             }
-            How::Final => r.result = value(0).to_number(),
-            How::Previous => (r.result, r.previous) = (r.previous, value(0).to_number()),
-            // The extremes of what is a number: a NaN among the samples says nothing.
-            How::Min => r.result = r.result.min(value(0).to_number()),
-            How::Max => r.result = r.result.max(value(0).to_number()),
+            How::Previous => {
+                let x = value(0).to_number();
+                let x = if lacks.replace(false) { f64::NAN } else { x };
+                (r.result, r.previous, r.done) = (r.previous, x, true);
+            }
+            How::Min => r.result = least(r.result, value(0).to_number()),
+            How::Max => r.result = -least(-r.result, -value(0).to_number()),
             How::Mean => {
                 r.trail.add_area(time, value(0).to_number());
                 r.result = r.trail.mean();
@@ -290,6 +370,7 @@ impl<'a> Running<'a> {
             How::Last => {
                 if value(0).truthy() {
                     r.result = time;
+                    decided = !lacks.get();
                 }
             }
             How::Count => {
@@ -305,6 +386,7 @@ impl<'a> Running<'a> {
             How::Settles => {
                 let [x, target, band] = [0, 1, 2].map(|i| value(i).to_number());
                 let inside = (x - target).abs() <= band;
+                decided = !inside && !lacks.get();
                 r.result = if !inside {
                     f64::NAN
                 } else if r.result.is_nan() {
@@ -320,9 +402,12 @@ impl<'a> Running<'a> {
                 }
             }
             How::Holds => {
-                if !value(0).truthy() {
+                if !value(0).truthy() && !lacks.get() {
                     r.result = 0.0;
                 }
+                // Once it has failed, nothing that comes makes it hold.
+                decided = r.result == 0.0;
+                lacks.set(lacks.get() && !decided);
             }
             How::Rate => {
                 r.trail.line.add(time, value(0).to_number());
@@ -338,7 +423,21 @@ impl<'a> Running<'a> {
                 r.result = r.trail.mean().sqrt();
             }
         }
+        if decided {
+            r.gaps = Gaps::default();
+        }
+        if lacks.get() && !first {
+            if r.gaps.count == 0 {
+                r.gaps.first = time;
+            }
+            r.gaps.count += 1;
+        }
     }
+}
+
+/// The smaller of the extreme so far, NaN before there is one, and a number.
+fn least(so_far: f64, x: f64) -> f64 {
+    if so_far.is_nan() || x < so_far { x } else { so_far }
 }
 
 /// The aggregates of one measure.
@@ -347,25 +446,52 @@ pub(super) struct Measure<'a> {
     program: &'a Program,
     text: &'a Text,
     running: Vec<Running<'a>>,
+    samples: usize,
+    /// Watches its own programs, and no others.
+    watch: Option<Box<Watch>>,
 }
 
 impl<'a> Measure<'a> {
     /// A measure before the first sample.
     pub(super) fn new(program: &'a Program, text: &'a Text) -> Measure<'a> {
-        Measure { program, text, running: Running::all(program) }
+        let watch = Some(Box::new(Watch::losses()));
+        Measure { program, text, running: Running::all(program), samples: 0, watch }
     }
 
     /// Looks at the current sample.
     pub(super) fn sample(&mut self, session: &mut Session<'_>) {
+        self.samples += 1;
+        session.context.watch(self.watch.take());
         self.running.iter_mut().for_each(|r| r.sample(session, self.text));
+        self.watch = session.context.watch(None);
     }
 
     /// The measure, when the run is over.
-    pub(super) fn finish(self, session: &mut Session<'_>) -> f64 {
+    pub(super) fn finish(mut self, session: &mut Session<'_>) -> Sampled {
         for r in &self.running {
-            session.context.set_aggregate(r.slot, r.result);
+            session.context.set_aggregate(r.slot, r.known());
         }
-        session.evaluate(self.program, self.text).map_or(f64::NAN, |v| v.to_number())
+        session.context.watch(self.watch.take());
+        let value = session.evaluate(self.program, self.text).map_or(f64::NAN, |v| v.to_number());
+        let lost = session.context.watch(None).and_then(|watch| watch.lost);
+        let part = |start: usize, end: usize| {
+            self.text.value.get(start..end).unwrap_or(&self.text.value).to_string()
+        };
+        let open = self.running.iter().zip(self.program.aggregates()).find(|(r, _)| r.gaps.count > 0);
+        let doubt = match (open, lost) {
+            (Some((r, aggregate)), _) => Some(Doubt {
+                part: part(aggregate.span.start, aggregate.span.end),
+                gaps: r.gaps.count,
+                samples: self.samples,
+                first: r.gaps.first,
+            }),
+            (None, Some(span)) => {
+                Some(Doubt { part: part(span.start, span.end), gaps: 0, samples: 0, first: 0.0 })
+            }
+            (None, None) => None,
+        };
+        let parts = self.running.iter().map(Running::known).collect();
+        Sampled { value: if doubt.is_some() { f64::NAN } else { value }, parts, doubt }
     }
 }
 

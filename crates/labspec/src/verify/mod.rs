@@ -6,7 +6,9 @@
 //! | runs and measures, bound to their labs | `bound` |
 //! | one run, with what is measured in it | `perform`, `measure`, `reads` |
 //! | values that are searched for | `search` |
-//! | what conditions read | `outcome` |
+//! | what conditions read | `outcome`, at the places of `layout` |
+//! | an expression over measures, compiled once | `claim` |
+//! | whether it could have come out otherwise | `evidence` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
 //! | numbers and words in the text | `says`, `quote` |
@@ -18,11 +20,14 @@
 
 mod answer;
 mod bound;
+mod claim;
 mod column;
 mod condition;
 mod curves;
+mod evidence;
 mod exact;
 pub(crate) mod judge;
+mod layout;
 mod measure;
 mod outcome;
 mod over;
@@ -47,6 +52,7 @@ pub use says::Quote;
 pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
+use crate::ledger::Evidence;
 use crate::rules;
 use crate::run::Numerics;
 use crate::source::Text;
@@ -263,9 +269,23 @@ fn measures(outcomes: &Outcomes) -> Vec<Measured> {
     list.map(|(i, (name, value))| Measured { name, value, halved: at(i, value) }).collect()
 }
 
-/// The value of an expression that a claim may rest on: it has one, it is no bare constant, and the runs that it reads did
-/// not break. Otherwise why not, which is reported.
+/// The value of an expression that a claim may rest on: it has one, it depends on what was measured if it reads that, no NaN
+/// decides it, and the runs that it reads did not break. Otherwise why not, which is reported.
 fn grounded(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    text: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<bound::Found, String> {
+    let found = decided(bound, outcome, text, findings)?;
+    if found.evidence == Evidence::Simulated && !bound.could_differ(&found, None) {
+        return Err(empty(text, findings));
+    }
+    Ok(found)
+}
+
+/// The same for numerics other than the lesson's own, with which a claim is not tried again.
+fn decided(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
     text: &Text,
@@ -281,10 +301,38 @@ fn grounded(
         return Err(message);
     }
     let found = bound.find(outcome, text, findings).ok_or("the expression cannot be evaluated")?;
-    match &found.broke {
-        Some(broke) => Err(broke.clone()),
+    if let Some(broke) = &found.broke {
+        return Err(broke.clone());
+    }
+    match &found.undecided {
+        Some(undecided) => Err(undecided_by_nan(text, undecided, findings)),
         None => Ok(found),
     }
+}
+
+/// An expression whose value is the same whatever was measured.
+fn empty(text: &Text, findings: &mut Vec<Finding>) -> String {
+    let message =
+        format!("`{}` is the same whatever the runs give: evidence of nothing", shorten(text.value.trim()));
+    findings.push(
+        Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
+            .why("other values were tried in place of what was measured, and none of them changed it")
+            .help("compare what a run measures with something that it could fail to reach"),
+    );
+    message
+}
+
+/// An expression that a NaN decides.
+fn undecided_by_nan(text: &Text, undecided: &bound::Undecided, findings: &mut Vec<Finding>) -> String {
+    let part = &undecided.part;
+    let because = undecided.because.as_deref();
+    let why = because.unwrap_or("a measure is NaN when its event never happens in the run").to_string();
+    findings.push(
+        Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares NaN"))
+            .why(format!("what follows from NaN says nothing about the claim: {why}"))
+            .help("make the run longer, correct the measure, or ask for it: `isNaN(x)`"),
+    );
+    format!("`{part}` compares NaN")
 }
 
 /// A number with six significant digits, without trailing zeros.

@@ -4,7 +4,7 @@
 //! from where the answer is nearest to turning over, a step in each direction of each slider, half as long when none comes nearer
 //! (R. Hooke and T. A. Jeeves 1961). Every value is one that a student can reach.
 
-use super::answer::{self, Answer, Verdict};
+use super::answer::{self, Answer, Same, Verdict};
 use super::{BoundVerify, significant};
 use crate::covering;
 use crate::finding::Finding;
@@ -14,7 +14,7 @@ use crate::run::{Numerics, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_expr::Value;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// All corners are run when there are no more than this.
@@ -64,17 +64,22 @@ pub(super) fn hold(
             return;
         }
     };
-    // A run that sets a slider keeps its own value: where all do, the range is never tried.
+    // A run that sets a slider keeps its own value: where all that the conditions read do, the range is never tried.
+    let read = bound.runs_read(&verify.options);
     let own = |label: &Text| {
-        let sets = |run: &Run| run.set.iter().any(|(set, _)| set.value == label.value);
-        !verify.runs.is_empty() && verify.runs.iter().all(sets)
+        let sets = |run: &&Run| run.set.iter().any(|(set, _)| set.value == label.value);
+        let mut runs = verify.runs.iter().filter(|run| read.contains(run.name.value.as_str()));
+        !verify.runs.is_empty() && runs.all(|run| sets(&run))
     };
     if let Some((label, _)) = verify.over.iter().find(|(label, _)| own(label)) {
         findings.push(
             Finding::error(
                 rules::RUN_IMPOSSIBLE,
                 label.span(),
-                format!("every run sets \"{}\" itself, so that no other value of it is tried", label.value),
+                format!(
+                    "every run that the conditions read sets \"{}\" itself, so that no other value is tried",
+                    label.value
+                ),
             )
             .why("a run keeps what it sets, and the answer would be claimed over values that nobody has seen")
             .help("leave it out of `set` in the runs that it is to be tried in"),
@@ -82,7 +87,14 @@ pub(super) fn hold(
         *answer = Answer::failed("the space that it is claimed over is not tried");
         return;
     }
-    let mut space = Space { bound, verify, axes, weights: answer.weights.clone(), tried: BTreeMap::new() };
+    let mut space = Space {
+        bound,
+        verify,
+        axes,
+        weights: answer.weights.clone(),
+        tried: BTreeMap::new(),
+        seen: BTreeSet::new(),
+    };
     match space.search(findings) {
         None => *answer = Answer::failed("a run of the space that it is claimed over cannot be made"),
         Some(Some((setting, how))) => {
@@ -96,7 +108,25 @@ pub(super) fn hold(
         }
         Some(None) => {
             let count = space.tried.len();
-            let also = format!("it holds in {count} settings over its range as well");
+            if let Some(axis) =
+                space.axes.iter().find(|axis| !bound.moves_anything(axis.label, axis.at(0.0), axis.at(1.0)))
+            {
+                let label = &axis.label.value;
+                findings.push(
+                    Finding::error(
+                        rules::RUN_IMPOSSIBLE,
+                        axis.label.span(),
+                        format!("\"{label}\" changes nothing in the runs that the conditions read"),
+                    )
+                    .why("the answer would be claimed over a range that makes no difference to what is measured")
+                    .help("name a slider that these runs depend on, or leave it out of `over`"),
+                );
+                *answer = Answer::failed("the range that it is claimed over is not that of what was read");
+                return;
+            }
+            let same =
+                if space.seen.len() == 1 { ", and what it reads is the same in all of them" } else { "" };
+            let also = format!("it holds in {count} settings over its range as well{same}");
             answer.reason = match answer.reason.as_str() {
                 "" => also,
                 reason => format!("{reason}; {also}"),
@@ -146,6 +176,8 @@ struct Space<'b, 's, 'v> {
     weights: Vec<answer::Weight>,
     /// By the bits of the values: how far the answer is from turning over there.
     tried: BTreeMap<Vec<u64>, f64>,
+    /// What the conditions read in each setting, by its bits.
+    seen: BTreeSet<Vec<u64>>,
 }
 
 /// A setting in words, and what does not hold there.
@@ -211,18 +243,34 @@ impl Space<'_, '_, '_> {
         let labs = if self.verify.runs.is_empty() { vec![base.clone().into_iter().collect()] } else { labs };
         let again = BoundVerify::new(&verify, base.as_ref(), &labs, stage, findings)?;
         let outcome = again.outcome(Numerics::NOMINAL, findings)?;
-        let (turned, margin) = answer::same(&again, &outcome, &verify, &self.weights);
+        let same = answer::same(&again, &outcome, &verify, &self.weights);
         // What ends because the work of a check is spent says nothing of the answer.
-        if turned.is_some() && stage.left() == 0 {
+        if !matches!(same, Same::Yes(_)) && stage.left() == 0 {
             findings.push(answer::too_much(self.verify.span.clone(), "everywhere in its range"));
             return None;
         }
-        self.tried.insert(key, margin);
-        let setting = || {
-            let one = |(axis, x): (&Axis<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
-            self.axes.iter().zip(&values).map(one).collect::<Vec<_>>().join(", ")
-        };
-        Some((turned.map(|how| (setting(), how)), margin))
+        let one = |(axis, x): (&Axis<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
+        let setting = self.axes.iter().zip(&values).map(one).collect::<Vec<_>>().join(", ");
+        self.seen.insert(again.read_by(&outcome, &self.verify.options));
+        match same {
+            Same::Yes(margin) => {
+                self.tried.insert(key, margin);
+                Some((None, margin))
+            }
+            Same::No(how) => Some((Some((setting, how)), f64::NEG_INFINITY)),
+            Same::Open(why) => {
+                findings.push(
+                    Finding::error(
+                        rules::RUN_IMPOSSIBLE,
+                        self.verify.span.clone(),
+                        format!("whether the answer holds with {setting} is not known: {why}"),
+                    )
+                    .why("it is claimed over a range, and nothing decides it here")
+                    .help("narrow the range under `over`, or measure what has a value everywhere in it"),
+                );
+                None
+            }
+        }
     }
 
     /// The object with these values: a run that sets a slider itself keeps its own.

@@ -1,7 +1,7 @@
 //! One run of a `verify` object: the order of events of its lab, then its own controls and setup, and what is measured in it.
 
 use super::bound::{BoundRun, BoundScene, Named};
-use super::measure::Measure;
+use super::measure::{Measure, Sampled};
 use super::reads;
 use super::stage::Stage;
 use crate::bind::{include, scalar};
@@ -30,7 +30,7 @@ pub(super) struct Asked<'r, 'a> {
 /// What came of one run.
 #[derive(Clone, Debug)]
 pub(crate) struct Made {
-    pub(super) values: Vec<f64>,
+    pub(super) values: Vec<Sampled>,
     /// Number of warnings of the engine.
     pub(super) warnings: usize,
     /// What broke in it.

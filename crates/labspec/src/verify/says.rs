@@ -3,7 +3,7 @@
 use super::bound::Found;
 use super::outcome::Outcome;
 use super::quote::{self, Other, QuoteState};
-use super::{BoundVerify, Outcomes, ShownText, answer, column, grounded, units};
+use super::{BoundVerify, Outcomes, ShownText, column, grounded, units};
 use crate::finding::Finding;
 use crate::ledger::Evidence;
 use crate::rules;
@@ -146,12 +146,6 @@ impl Given {
     ) -> Result<Given, String> {
         let Court { bound, outcomes, .. } = court;
         let found = grounded(bound, &outcomes.nominal, expr, findings)?;
-        if let Value::Boolean(holds) = found.value
-            && let Some(part) = bound.weigh(&outcomes.nominal, expr, holds).without_number
-        {
-            findings.push(answer::no_number(expr, &part));
-            return Err(format!("`{part}` compares with what is no number"));
-        }
         let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
         let back = "with a start moved by -1e-14";
         let mut start: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();

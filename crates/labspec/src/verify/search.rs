@@ -1,7 +1,9 @@
 //! The largest or the smallest value with which a condition holds, found by running.
 //!
-//! The two ends are run first, then a few values between them: a condition that changes more than once has no one limit. Then the
-//! part in which it changes is halved until it is as short as is asked for.
+//! The two ends are run first, then a few values between them: a condition that changes more than once has no one limit. Where the
+//! condition comes near to turning over between two of these, its nearest place is looked for (golden section), so that a thin
+//! band is seen. Then the part in which the condition changes is halved until it is as short as is asked for, and both sides of
+//! the limit are looked at.
 
 use super::bound::BoundVerify;
 use super::perform::TIMESTEP;
@@ -14,8 +16,11 @@ use crate::source::Text;
 use crate::spec::{Find, Run, Verify};
 use labspec_core::xml::Patch;
 
-/// Values that are looked at between the ends.
-const PROBES: usize = 6;
+/// Values that are looked at between the ends, and of the search for a place that is near to turning over.
+const PROBES: usize = 12;
+const NEARER: usize = 8;
+/// Where both sides of a limit are looked at, as parts of the range.
+const BESIDE: [f64; 2] = [0.004, 0.02];
 /// Most halvings: more are finer than numbers are.
 const HALVINGS: usize = 60;
 
@@ -27,13 +32,29 @@ pub(super) struct Case<'c> {
     pub(super) scene: &'c Scene<'c>,
 }
 
-/// Makes the search; `None` when a run cannot be made, NaN when there is no one limit. Both are reported.
+/// What was found with a value.
+#[derive(Clone, Debug)]
+struct Tried {
+    holds: bool,
+    /// How far the condition is from turning over; `None` where nothing is compared, or the run broke.
+    margin: Option<f64>,
+}
+
+/// A search that came to its end.
+pub(super) struct Limit {
+    /// NaN when there is no one limit.
+    pub(super) value: f64,
+    /// Where it looked, in words.
+    pub(super) looked: String,
+}
+
+/// Makes the search; `None` when a run cannot be made, a value of NaN when there is no one limit. Both are reported.
 pub(super) fn search(
     case: &Case<'_>,
     stage: &Stage<'_>,
     numerics: Numerics,
     findings: &mut Vec<Finding>,
-) -> Option<f64> {
+) -> Option<Limit> {
     let find = case.find;
     let known = case.scene.lab.control(&find.what.value).is_some() || find.what.value == "timestep";
     if let Some(unknown) = misspelt(&case.scene.lab, &find.what).filter(|_| !known) {
@@ -41,19 +62,47 @@ pub(super) fn search(
         return None;
     }
     let mut refused = Vec::new();
-    let mut try_at = |x: f64| holds(case, stage, x, numerics, &mut refused);
-    let found = halve(find, &mut try_at);
-    match found {
-        Some(Ok(x)) => Some(x),
-        Some(Err((message, help))) => {
-            findings.push(
-                Finding::error(rules::CLAIM_WITHOUT_NUMBER, find.holds.span(), message)
-                    .why("the search has no value, and what reads it cannot be checked")
-                    .help(help),
-            );
-            Some(f64::NAN)
+    let mut open = None;
+    let mut tried: Vec<(f64, Tried)> = Vec::new();
+    let mut try_at = |x: f64| -> Option<Tried> {
+        if let Some((_, known)) = tried.iter().find(|(at, _)| *at == x) {
+            return Some(known.clone());
         }
-        None => {
+        match holds(case, stage, x, numerics, &mut refused)? {
+            Ok(found) => {
+                tried.push((x, found.clone()));
+                Some(found)
+            }
+            Err(part) => {
+                open.get_or_insert((x, part));
+                None
+            }
+        }
+    };
+    let found = halve(find, &mut try_at);
+    let count = tried.len();
+    let [from, to] = find.range.map(significant);
+    let looked = format!("`{}` was looked for at {count} values from {from} to {to}", find.name.value);
+    let mut none = |message: String, help: &str| {
+        findings.push(
+            Finding::error(rules::CLAIM_WITHOUT_NUMBER, find.holds.span(), message)
+                .why(format!("the search has no value, and what reads it cannot be checked: {looked}"))
+                .help(help),
+        );
+    };
+    match (found, open) {
+        (Some(Ok(value)), _) => Some(Limit { value, looked }),
+        (Some(Err((message, help))), _) => {
+            none(message, help);
+            Some(Limit { value: f64::NAN, looked })
+        }
+        (None, Some((x, part))) => {
+            let message =
+                format!("with {} nothing decides whether this holds: `{part}` compares NaN", significant(x));
+            none(message, "search where the measure has a value, or ask for it: `isNaN(x)`");
+            Some(Limit { value: f64::NAN, looked })
+        }
+        (None, None) => {
             findings.extend(refused.into_iter().take(1));
             None
         }
@@ -64,38 +113,93 @@ pub(super) fn search(
 type NoLimit = (String, &'static str);
 
 /// The limit, or why there is none; `None` when a run cannot be made.
-fn halve(find: &Find, holds: &mut dyn FnMut(f64) -> Option<bool>) -> Option<Result<f64, NoLimit>> {
+fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Result<f64, NoLimit>> {
     let [from, to] = find.range;
     let part = |i: usize| from + (to - from) * i as f64 / (PROBES + 1) as f64;
     // The ends first: where nothing changes, nothing more is run.
-    let ends = [holds(from)?, holds(to)?];
+    let ends = [try_at(from)?.holds, try_at(to)?.holds];
     if let Some(none) = no_limit(find, ends) {
         return Some(Err(none));
     }
-    let mut tried = vec![(from, ends[0])];
-    for i in 1..=PROBES {
-        tried.push((part(i), holds(part(i))?));
+    let mut tried = Vec::new();
+    for x in [from].into_iter().chain((1..=PROBES).map(part)).chain([to]) {
+        tried.push((x, try_at(x)?));
     }
-    tried.push((to, ends[1]));
-    let pairs = tried.iter().zip(tried.iter().skip(1));
-    let changes: Vec<[f64; 2]> = pairs.filter(|(a, b)| a.1 != b.1).map(|(a, b)| [a.0, b.0]).collect();
-    let [[mut low, mut high]] = changes[..] else {
-        let place = |[a, b]: &[f64; 2]| format!("{} and {}", significant(*a), significant(*b));
-        let places: Vec<String> = changes.iter().map(place).collect();
-        return Some(Err((
-            format!("this changes more than once: between {}", places.join(", between ")),
-            "there is no one limit: search where it changes once",
-        )));
-    };
+    let near: Vec<(f64, Tried)> =
+        tried.windows(3).map(|t| nearer(t, try_at)).collect::<Option<Vec<_>>>()?.concat();
+    tried.extend(near);
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let changes = changes(&tried);
+    let [[mut low, mut high]] = changes[..] else { return Some(Err(several(&changes))) };
     for _ in 0..HALVINGS {
         let middle = low + (high - low) / 2.0;
         if high - low <= find.tol.value || middle <= low || middle >= high {
             break;
         }
-        if holds(middle)? == find.largest { low = middle } else { high = middle }
+        let now = try_at(middle)?;
+        if now.holds == find.largest {
+            low = middle
+        } else {
+            high = middle
+        }
+        tried.push((middle, now));
+    }
+    for x in BESIDE.iter().flat_map(|part| [low - part * (to - from), high + part * (to - from)]) {
+        if x > from && x < to {
+            tried.push((x, try_at(x)?));
+        }
+    }
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let changes = self::changes(&tried);
+    if changes.len() != 1 {
+        return Some(Err(several(&changes)));
     }
     // The value with which it was seen to hold.
     Some(Ok(if find.largest { low } else { high }))
+}
+
+/// Between which values the condition changes.
+fn changes(tried: &[(f64, Tried)]) -> Vec<[f64; 2]> {
+    let pairs = tried.iter().zip(tried.iter().skip(1));
+    pairs.filter(|(a, b)| a.1.holds != b.1.holds).map(|(a, b)| [a.0, b.0]).collect()
+}
+
+fn several(changes: &[[f64; 2]]) -> NoLimit {
+    let place = |[a, b]: &[f64; 2]| format!("{} and {}", significant(*a), significant(*b));
+    let places: Vec<String> = changes.iter().map(place).collect();
+    let message = format!("this changes more than once: between {}", places.join(", between "));
+    (message, "there is no one limit: search where it changes once")
+}
+
+/// Looks between three neighbours for the place where the condition is nearest to turning over, where that lies between them.
+fn nearer(three: &[(f64, Tried)], try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Vec<(f64, Tried)>> {
+    let [(a, at_a), (_, at_m), (b, at_b)] = three else { return Some(Vec::new()) };
+    let size = |t: &Tried| t.margin.map(f64::abs);
+    let same = at_a.holds == at_m.holds && at_m.holds == at_b.holds;
+    let (Some(da), Some(dm), Some(db)) = (size(at_a), size(at_m), size(at_b)) else {
+        return Some(Vec::new());
+    };
+    if !same || dm >= da || dm >= db {
+        return Some(Vec::new());
+    }
+    let (mut low, mut high) = (*a, *b);
+    let mut found = Vec::new();
+    for _ in 0..NEARER / 2 {
+        let [x, y] = [high - 0.618_034 * (high - low), low + 0.618_034 * (high - low)];
+        let (at_x, at_y) = (try_at(x)?, try_at(y)?);
+        let (dx, dy) = (size(&at_x), size(&at_y));
+        let turned = at_x.holds != at_m.holds || at_y.holds != at_m.holds;
+        found.extend([(x, at_x), (y, at_y)]);
+        if turned {
+            break;
+        }
+        match dx.zip(dy) {
+            Some((dx, dy)) if dx < dy => high = y,
+            Some(_) => low = x,
+            None => break,
+        }
+    }
+    Some(found)
 }
 
 /// What the two ends say, where there is no limit between them or it is one of the other kind.
@@ -134,14 +238,14 @@ fn path(case: &Case<'_>) -> Option<String> {
     }
 }
 
-/// Whether the condition holds with this value. In a run that breaks it does not.
+/// Whether the condition holds with this value; in a run that breaks it does not. The part that compares NaN, where nothing decides.
 fn holds(
     case: &Case<'_>,
     stage: &Stage<'_>,
     x: f64,
     numerics: Numerics,
     findings: &mut Vec<Finding>,
-) -> Option<bool> {
+) -> Option<Result<Tried, String>> {
     let find = case.find;
     let path = path(case);
     let patch =
@@ -156,5 +260,12 @@ fn holds(
     }
     let outcome = bound.outcome(numerics, findings)?;
     let found = bound.find(&outcome, &find.holds, findings)?;
-    Some(found.broke.is_none() && found.value.truthy())
+    if found.broke.is_some() {
+        return Some(Ok(Tried { holds: false, margin: None }));
+    }
+    if let Some(undecided) = found.undecided {
+        return Some(Err(undecided.part));
+    }
+    let weighed = bound.weigh_found(&found);
+    Some(Ok(Tried { holds: weighed.holds, margin: weighed.margin }))
 }

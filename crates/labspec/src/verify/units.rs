@@ -26,8 +26,8 @@ impl Known {
 
 /// What a claim measures; `None` where that is not certain.
 pub(super) fn of_claim(bound: &BoundVerify<'_>, text: &Text) -> Option<Dimension> {
-    let (base, known, outcome) = (bound.base()?, bound.units()?, bound.blank());
-    let names = OutcomeNames::new(&outcome, base.names(Scope::Measure)).measuring(&known.runs);
+    let (base, known) = (bound.base()?, bound.units()?);
+    let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&known.runs);
     let mut globals = base.globals.clone();
     let compiled = Compiler::new(&names, &mut globals).measuring(&known.given).expression(&text.value);
     match compiled.measured?.value {

@@ -1,0 +1,362 @@
+//! Whether a claim could have come out otherwise. What was measured is replaced by other values of its kind: where none of
+//! them changes what the claim says, it says nothing about the simulation, however it is written.
+
+use super::bound::Named;
+use super::claim::Inputs;
+use super::measure::How;
+use crate::bind::World;
+use labspec_core::reflect::{Elem, FieldId, Object};
+use labspec_expr::{Aggregate, Comparison, Context, FieldKey, FunctionId, Heap, Host, Program, Value};
+
+/// Which values a measure can have at all.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Kind {
+    /// It is never below zero.
+    pub(super) positive: bool,
+    /// It is a whole number.
+    pub(super) whole: bool,
+    /// It is never above one.
+    pub(super) truth: bool,
+    /// It may have no value, as the time of an event that never happens.
+    pub(super) event: bool,
+}
+
+impl Kind {
+    pub(super) const ANY: Kind = Kind { positive: false, whole: false, truth: false, event: false };
+    pub(super) const COUNT: Kind = Kind { positive: true, whole: true, ..Kind::ANY };
+    const TIME: Kind = Kind { positive: true, event: true, ..Kind::ANY };
+    const TRUTH: Kind = Kind { truth: true, ..Kind::COUNT };
+
+    /// Whether it can have this value.
+    fn has(self, x: f64) -> bool {
+        (!self.positive || x >= 0.0)
+            && (!self.whole || x.fract() == 0.0)
+            && (!self.truth || x <= 1.0)
+            && x.is_finite()
+    }
+
+    /// The nearest value that it can have.
+    fn nearest(self, x: f64) -> f64 {
+        let x = if self.positive { x.abs() } else { x };
+        let x = if self.whole { x.round() } else { x };
+        if self.truth { x.min(1.0) } else { x }
+    }
+
+    /// What a list of tried values shows.
+    fn of(values: &[f64], event: bool) -> Kind {
+        let some = values.iter().filter(|x| !x.is_nan());
+        if some.clone().count() == 0 {
+            return Kind { event, ..Kind::ANY };
+        }
+        let all = |f: fn(f64) -> bool| some.clone().all(|x| f(*x));
+        let (positive, whole) = (all(|x| x >= 0.0), all(|x| x.fract() == 0.0));
+        Kind { positive, whole, truth: positive && whole && all(|x| x <= 1.0), event }
+    }
+}
+
+/// Values that are tried of a program to see of which kind it is.
+const DRAWS: usize = 48;
+
+/// A sequence of numbers that look drawn by chance, the same everywhere (Knuth, MMIX).
+#[derive(Clone, Debug)]
+pub(super) struct Draws(u64);
+
+impl Draws {
+    pub(super) fn new(seed: u64) -> Draws {
+        Draws(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
+    }
+
+    /// From 0 to 1.
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Of any size from 1e-3 to 1e3, either sign.
+    fn any(&mut self) -> f64 {
+        let size = 10f64.powf(6.0 * self.unit() - 3.0);
+        if self.unit() < 0.5 { -size } else { size }
+    }
+}
+
+/// A simulation in which everything has some value: whatever is read of the data is drawn.
+struct Anything<'w> {
+    world: &'w World,
+    seed: u64,
+}
+
+impl Host for Anything<'_> {
+    fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
+        let known = self.world.get(field, index);
+        let Some(info) = FieldId::new(field.0 as usize).map(|f| f.info()) else { return known };
+        if info.object != Object::Data || known.is_none() && index > 4096 {
+            return known;
+        }
+        let mut draws = Draws::new(self.seed ^ (u64::from(field.0) << 32) ^ index as u64);
+        draws.unit();
+        let x = draws.any();
+        let kinetic = info.name == "energy" && index == 1;
+        Some(if info.elem != Elem::F64 {
+            x.abs().round()
+        } else if info.name == "time" || kinetic {
+            x.abs()
+        } else {
+            x
+        })
+    }
+
+    fn set(&mut self, _: FieldKey, _: usize, _: f64) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn len(&self, field: FieldKey) -> usize {
+        self.world.len(field)
+    }
+
+    fn call(&mut self, _: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String> {
+        if crate::bind::functions::name(function) == Some("abs") {
+            return Ok(Value::Number(args.first().map_or(f64::NAN, Value::to_number).abs()));
+        }
+        let of = args.iter().fold(u64::from(function.0), |h, a| h.wrapping_mul(31) ^ a.to_number().to_bits());
+        let mut draws = Draws::new(self.seed ^ of);
+        draws.unit();
+        Ok(match crate::bind::functions::name(function) {
+            Some("contact") => Value::Boolean(draws.any() > 0.0),
+            _ => Value::Number(draws.any()),
+        })
+    }
+
+    fn identity(&self) -> u64 {
+        self.world.identity()
+    }
+}
+
+/// The kind of a measure: what its program gives where everything that it looks at has any value.
+pub(super) fn kind_of(measure: &Named<'_>, world: &World, context: &Context) -> Kind {
+    kind(&measure.program, world, &mut context.clone())
+}
+
+/// The kinds of the aggregates of a program, in order.
+pub(super) fn kinds_of(program: &Program, world: &World, context: &Context) -> Vec<Kind> {
+    let mut context = context.clone();
+    program.aggregates().iter().map(|a| of_aggregate(a, world, &mut context)).collect()
+}
+
+fn kind(program: &Program, world: &World, context: &mut Context) -> Kind {
+    let kinds: Vec<Kind> = program.aggregates().iter().map(|a| of_aggregate(a, world, context)).collect();
+    // A measure that is one aggregate, and nothing besides, is of its kind.
+    let mut values = Vec::new();
+    let mut draws = Draws::new(1);
+    for seed in 0..DRAWS as u64 {
+        for (a, kind) in program.aggregates().iter().zip(&kinds) {
+            context.set_aggregate(a.slot, kind.nearest(draws.any()));
+        }
+        let mut host = Anything { world, seed };
+        context.allow(100_000);
+        if let Ok(value) = program.run(&mut host, context, None) {
+            values.push(value.to_number());
+        }
+    }
+    Kind::of(&values, kinds.iter().any(|k| k.event))
+}
+
+fn of_aggregate(a: &Aggregate, world: &World, context: &mut Context) -> Kind {
+    let mut of = |i: usize| a.args.get(i).map_or(Kind::ANY, |p| kind(p, world, context));
+    match How::of(a) {
+        Some(How::First | How::Last | How::Peak | How::Crossing | How::Period | How::Settles) => Kind::TIME,
+        Some(How::Count | How::Crossings) => Kind::COUNT,
+        Some(How::Holds) => Kind::TRUTH,
+        Some(How::At | How::Before) => Kind { event: true, ..of(1) },
+        Some(How::Initial | How::Final | How::Previous | How::Min | How::Max) => of(0),
+        Some(How::Mean | How::Integral) => Kind { whole: false, truth: false, ..of(0) },
+        Some(How::Rms) => Kind { positive: true, ..Kind::ANY },
+        Some(How::Rate) | None => Kind::ANY,
+    }
+}
+
+/// What a claim says with some numbers: `None` where it says nothing.
+pub(super) type Says<'s> = dyn FnMut(&Inputs) -> Option<(Outlook, Vec<Comparison>)> + 's;
+
+/// What a claim says: the truth of a condition, or a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Outlook {
+    Holds(bool),
+    Number(f64),
+}
+
+impl Outlook {
+    /// Whether two are different claims. Of a number, a part in a hundred is another one.
+    fn differs(self, other: Outlook) -> bool {
+        match (self, other) {
+            (Outlook::Holds(a), Outlook::Holds(b)) => a != b,
+            (Outlook::Number(a), Outlook::Number(b)) => {
+                (a - b).abs() > 0.01 * a.abs() || (a == 0.0 && b.abs() > 1e-12)
+            }
+            _ => true,
+        }
+    }
+}
+
+/// Factors by which a measured value is replaced.
+const FACTORS: [f64; 14] =
+    [0.0, 0.5, 2.0, -1.0, 0.9, 1.1, 0.99, 1.01, 0.999_999, 1.000_001, 0.1, 10.0, 0.001, 1000.0];
+/// Joint draws, and halvings of a search.
+const JOINT: usize = 4000;
+const HALVINGS: usize = 60;
+
+/// Whether other values of what was measured change what a claim says. `places` are those of the numbers, and then of the
+/// parts; `kinds` are theirs.
+pub(super) fn could_differ(
+    nominal: &Inputs,
+    places: &[usize],
+    kinds: &[Kind],
+    constants: &[f64],
+    says: &mut Says<'_>,
+) -> bool {
+    let Some((now, compared)) = says(nominal) else { return false };
+    let at = |inputs: &Inputs, place: usize| match place.checked_sub(inputs.numbers.len()) {
+        None => inputs.numbers.get(place).copied(),
+        Some(part) => inputs.parts.get(part).copied(),
+    };
+    let put = |inputs: &mut Inputs, place: usize, x: f64| {
+        let count = inputs.numbers.len();
+        let number = match place.checked_sub(count) {
+            None => inputs.numbers.get_mut(place),
+            Some(part) => inputs.parts.get_mut(part),
+        };
+        if let Some(number) = number {
+            *number = x;
+        }
+    };
+    let values: Vec<f64> = places.iter().filter_map(|p| at(nominal, *p)).collect();
+    let sides = compared.iter().flat_map(|c| [c.left, c.right]);
+    let others: Vec<f64> = values
+        .iter()
+        .copied()
+        .chain(constants.iter().copied())
+        .chain(sides)
+        .filter(|x| x.is_finite())
+        .take(40)
+        .collect();
+    let list = |i: usize, kind: &Kind| -> Vec<f64> {
+        let own = values.get(i).copied().filter(|x| x.is_finite()).unwrap_or(1.0);
+        let mut list: Vec<f64> = FACTORS.iter().map(|f| f * own).collect();
+        list.extend([own + 1.0, own - 1.0, 0.0, 1.0, 2.0]);
+        list.extend(others.iter().flat_map(|x| [*x, x * 1.000_001, x * 0.999_999, x + 1.0, x - 1.0, -x]));
+        list.extend(others.iter().flat_map(|x| [x + own, own - x, 0.5 * x, 1.5 * x]));
+        list.retain(|x| kind.has(*x));
+        list.sort_by(f64::total_cmp);
+        list.dedup();
+        list
+    };
+    let lists: Vec<Vec<f64>> = kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect();
+    for ((&place, kind), list) in places.iter().zip(kinds).zip(&lists) {
+        let mut known: Vec<(f64, Vec<Comparison>)> = Vec::new();
+        for x in list.iter().copied().chain(kind.event.then_some(f64::NAN)) {
+            let mut inputs = nominal.clone();
+            put(&mut inputs, place, x);
+            if let Some((then, compared)) = says(&inputs) {
+                if then.differs(now) {
+                    return true;
+                }
+                known.push((x, compared));
+            }
+        }
+        // Where a comparison turns between two values, or comes near to that, the value is looked for.
+        if !kind.whole
+            && turns(&known, now, &mut |x| {
+                let mut inputs = nominal.clone();
+                put(&mut inputs, place, x);
+                says(&inputs)
+            })
+        {
+            return true;
+        }
+    }
+    together(nominal, places, kinds, &lists, now, says, &put)
+}
+
+/// Changes several numbers at once: each stays, is one of its values, or that of another number.
+fn together(
+    nominal: &Inputs,
+    places: &[usize],
+    kinds: &[Kind],
+    lists: &[Vec<f64>],
+    now: Outlook,
+    says: &mut Says<'_>,
+    put: &dyn Fn(&mut Inputs, usize, f64),
+) -> bool {
+    if places.len() < 2 {
+        return false;
+    }
+    let mut draws = Draws::new(7);
+    for _ in 0..JOINT {
+        let mut inputs = nominal.clone();
+        let mut last = None;
+        for ((&place, kind), list) in places.iter().zip(kinds).zip(lists) {
+            let (choice, at) = (draws.unit(), draws.unit());
+            let x = match last {
+                _ if choice < 0.3 => None,
+                Some(x) if choice < 0.5 => Some(x),
+                _ => list.get((at * list.len() as f64) as usize).copied(),
+            };
+            if let Some(x) = x.filter(|x| kind.has(*x)) {
+                put(&mut inputs, place, x);
+                last = Some(x);
+            }
+        }
+        if says(&inputs).is_some_and(|(then, _)| then.differs(now)) {
+            return true;
+        }
+    }
+    false
+}
+
+/// Looks for a value between known ones with which a claim says something else, by the comparisons that it makes.
+fn turns(
+    known: &[(f64, Vec<Comparison>)],
+    now: Outlook,
+    says: &mut dyn FnMut(f64) -> Option<(Outlook, Vec<Comparison>)>,
+) -> bool {
+    let difference = |list: &[Comparison], k: usize| list.get(k).map(|c| c.left - c.right);
+    let count = known.iter().map(|(_, list)| list.len()).min().unwrap_or(0).min(8);
+    for k in 0..count {
+        for pair in known.windows(2) {
+            let [(a, at_a), (b, at_b)] = pair else { continue };
+            let (Some(da), Some(db)) = (difference(at_a, k), difference(at_b, k)) else { continue };
+            if !(da * db < 0.0) {
+                continue;
+            }
+            let (mut low, mut high, low_side) = (*a, *b, da);
+            for _ in 0..HALVINGS {
+                let middle = low + (high - low) / 2.0;
+                let Some((then, list)) = says(middle) else { break };
+                if then.differs(now) {
+                    return true;
+                }
+                let Some(d) = difference(&list, k) else { break };
+                if d * low_side > 0.0 { low = middle } else { high = middle }
+            }
+        }
+        // The smallest distance between the sides, where it lies between two values (golden section).
+        for triple in known.windows(3) {
+            let [(a, at_a), (_, at_m), (b, at_b)] = triple else { continue };
+            let all = [at_a, at_m, at_b].map(|list| difference(list, k).map(f64::abs));
+            let [Some(da), Some(dm), Some(db)] = all else { continue };
+            if dm > da || dm > db {
+                continue;
+            }
+            let (mut low, mut high) = (*a, *b);
+            for _ in 0..HALVINGS {
+                let [x, y] = [high - 0.618_034 * (high - low), low + 0.618_034 * (high - low)];
+                let (Some((at_x, lx)), Some((at_y, ly))) = (says(x), says(y)) else { break };
+                if at_x.differs(now) || at_y.differs(now) {
+                    return true;
+                }
+                let (Some(dx), Some(dy)) = (difference(&lx, k), difference(&ly, k)) else { break };
+                if dx.abs() < dy.abs() { high = y } else { low = x }
+            }
+        }
+    }
+    false
+}

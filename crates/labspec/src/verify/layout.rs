@@ -1,0 +1,132 @@
+//! Where the numbers that claims read have their places: the measures of every run, its warnings, the values of sweeps, and values
+//! that were searched for. The layout is known before anything runs, so that a claim is compiled once and evaluated with the
+//! numbers of every numerics.
+
+use super::outcome::{Outcome, Units};
+use labspec_expr::dimension::Measure;
+
+/// What stands at a place of the numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Slot {
+    /// A measure of a run, both by their places.
+    Measure(usize, usize),
+    /// The number of warnings of a run.
+    Warnings(usize),
+    /// The value of a sweep in a run.
+    Swept(usize),
+    /// A value that was searched for.
+    Found(usize),
+    /// Nothing: a member of a sweep lacks the measure.
+    Missing,
+}
+
+/// A run, as claims name it.
+#[derive(Clone, Debug)]
+pub(super) struct LayoutRun {
+    pub(super) name: String,
+    /// The number of values of the sweep that begins with it.
+    pub(super) list: Option<usize>,
+    /// What can be read of it, and where that begins.
+    pub(super) at: Vec<(String, usize)>,
+}
+
+impl LayoutRun {
+    /// What can be read of it.
+    pub(super) fn names(&self) -> impl Iterator<Item = String> + '_ {
+        self.at.iter().map(|(name, _)| name.clone())
+    }
+}
+
+/// A run before it is laid out: its name, its place and value in a sweep, and the names of its measures.
+pub(super) type Bare = (String, Option<(usize, f64)>, Vec<String>);
+
+/// The places of all numbers.
+#[derive(Debug, Default)]
+pub(super) struct Layout {
+    pub(super) runs: Vec<LayoutRun>,
+    pub(super) found: Vec<(String, usize)>,
+    pub(super) slots: Vec<Slot>,
+}
+
+/// What the value of a sweep and the warnings of a run are called.
+const VALUE: &str = "value";
+const WARNINGS: &str = "warnings";
+
+impl Layout {
+    /// Of the runs in their order, and the names of what is searched for.
+    pub(super) fn of(runs: &[Bare], found: impl Iterator<Item = String>) -> Layout {
+        let mut layout = Layout::default();
+        for (place, (name, swept, measures)) in runs.iter().enumerate() {
+            let mut run = LayoutRun { name: name.clone(), list: None, at: Vec::new() };
+            match swept {
+                None => {
+                    for (i, measure) in measures.iter().enumerate() {
+                        run.at.push((measure.clone(), layout.slots.len()));
+                        layout.slots.push(Slot::Measure(place, i));
+                    }
+                    run.at.push((WARNINGS.to_string(), layout.slots.len()));
+                    layout.slots.push(Slot::Warnings(place));
+                }
+                // The first member has the lists; the values of the sweep stand before the numbers of each.
+                Some((0, _)) => {
+                    let rest = runs.iter().enumerate().skip(place + 1);
+                    let others =
+                        rest.take_while(|(_, (.., swept, _))| matches!(swept, Some((n, _)) if *n > 0));
+                    let members: Vec<usize> = [place].into_iter().chain(others.map(|(i, _)| i)).collect();
+                    run.list = Some(members.len());
+                    let names = measures.iter().map(String::as_str).chain([VALUE, WARNINGS]);
+                    for name in names {
+                        layout.slots.extend(members.iter().map(|i| Slot::Swept(*i)));
+                        run.at.push((name.to_string(), layout.slots.len()));
+                        let slot = |i: &usize| match name {
+                            VALUE => Slot::Swept(*i),
+                            WARNINGS => Slot::Warnings(*i),
+                            _ => {
+                                let own = runs.get(*i).map_or(&[][..], |(.., measures)| measures);
+                                own.iter()
+                                    .position(|m| m == name)
+                                    .map_or(Slot::Missing, |m| Slot::Measure(*i, m))
+                            }
+                        };
+                        layout.slots.extend(members.iter().map(slot));
+                    }
+                }
+                Some(_) => {}
+            }
+            layout.runs.push(run);
+        }
+        for (i, name) in found.enumerate() {
+            layout.found.push((name, layout.slots.len()));
+            layout.slots.push(Slot::Found(i));
+        }
+        layout
+    }
+
+    /// Whether a run has lists.
+    pub(super) fn has_lists(&self) -> bool {
+        self.runs.iter().any(|run| run.list.is_some())
+    }
+
+    /// The numbers of an outcome.
+    pub(super) fn numbers(&self, outcome: &Outcome) -> Vec<f64> {
+        let run = |i: usize| outcome.runs.get(i);
+        let number = |slot: &Slot| match *slot {
+            Slot::Measure(i, m) => run(i).and_then(|run| run.measures.get(m)).map(|(_, x)| *x),
+            Slot::Warnings(i) => run(i).map(|run| run.warnings as f64),
+            Slot::Swept(i) => run(i).and_then(|run| run.swept).map(|(_, x)| x),
+            Slot::Found(i) => outcome.found.get(i).map(|(_, x)| *x),
+            Slot::Missing => None,
+        };
+        self.slots.iter().map(|slot| number(slot).unwrap_or(f64::NAN)).collect()
+    }
+
+    /// What the number at a place measures.
+    pub(super) fn unit_of(&self, place: usize, units: &Units) -> Measure {
+        match self.slots.get(place) {
+            Some(Slot::Measure(run, m)) => {
+                units.get(*run).and_then(|own| own.get(*m)).map_or(Measure::Unknown, |(_, measure)| *measure)
+            }
+            _ => Measure::Unknown,
+        }
+    }
+}
