@@ -4,7 +4,9 @@
 use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
-use super::{BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, over, shorten, significant};
+use super::{
+    BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, option_numbers, over, quote, shorten, significant, units,
+};
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
 use crate::rules;
@@ -222,6 +224,11 @@ fn options(
     let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
 
+    let holds: Vec<Option<bool>> = weights.iter().map(|w| w.holds).collect();
+    let texts = option_numbers::check(bound, &outcomes.nominal, options, &verify.options, &holds, findings);
+    if let Some(reason) = texts {
+        return done(Verdict::Failed, reason);
+    }
     if open.contains(&answer) {
         return done(Verdict::Failed, format!("answer {} is the one that is not decided", name(answer)));
     }
@@ -397,7 +404,17 @@ fn value(
         Ok(found) => found,
         Err(reason) => return Answer::failed(reason),
     };
-    let computed = found.value.to_number();
+    let asked = match &question.kind {
+        QuestionKind::Numeric { unit, .. } => unit.as_ref(),
+        _ => None,
+    };
+    let unit = quote::answer_unit(asked.map(|u| u.as_str()), asked.and_then(|_| units::of_claim(bound, text)));
+    if let quote::AnswerUnit::Wrong(asked_in, gives) = &unit {
+        let message = format!("the question asks in {asked_in}, the expression gives {gives}");
+        findings.push(wrong_unit(keyed.span.clone(), text, &message));
+        return Answer { verdict: Verdict::Refuted, reason: message, weights: Vec::new() };
+    }
+    let computed = unit.factor() * found.value.to_number();
     if !computed.is_finite() {
         findings.push(no_value(text, computed));
         return Answer::failed("the simulation gives no number");
@@ -429,7 +446,7 @@ fn value(
         let Some(taken) = bound.find(&outcomes.nominal, mistake, findings) else {
             return done(Verdict::Failed, "a wrong value cannot be evaluated".into());
         };
-        let taken = taken.value.to_number();
+        let taken = unit.factor() * taken.value.to_number();
         if right(taken) {
             let message = format!(
                 "the tolerance takes {} for right, which is what a mistake gives",
@@ -450,7 +467,7 @@ fn value(
     let mut weights = weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = grounded(bound, outcome, text, &mut Vec::new());
-        let what = match again.map(|f| f.value.to_number()) {
+        let what = match again.map(|f| unit.factor() * f.value.to_number()) {
             Err(reason) => reason,
             Ok(x) if right(x) => {
                 weights.iter_mut().for_each(|w| w.widen(Some(margin(x))));
@@ -467,6 +484,14 @@ fn value(
         return done(verdict, reason);
     }
     Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights }
+}
+
+/// The unit of a question that is not that of its value.
+fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
+    Finding::error(rules::ANSWER_REFUTED, span, message)
+        .why("a student who answers in this unit is told that they are wrong")
+        .help("correct the unit of the question, or convert the expression to it")
+        .related(text.span(), "the expression")
 }
 
 /// An expression that gives no number where one is claimed.

@@ -9,6 +9,7 @@
 //! | what conditions read | `outcome` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
+//! | numbers in the texts of options | `option_numbers` |
 //! | numbers and words in the text | `says`, `quote` |
 //! | columns of tables | `column` |
 //! | what their numbers measure | `units` |
@@ -24,6 +25,7 @@ mod curves;
 mod exact;
 pub(crate) mod judge;
 mod measure;
+mod option_numbers;
 mod outcome;
 mod over;
 mod perform;
