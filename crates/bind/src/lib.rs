@@ -16,6 +16,7 @@ mod names;
 mod own;
 pub mod rules;
 mod shown;
+mod unit_table;
 pub mod units;
 mod words;
 mod world;

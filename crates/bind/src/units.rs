@@ -1,151 +1,283 @@
 //! Units: what their names mean, and how a dimension is written.
 
+pub use crate::unit_table::PREFIXES;
+use crate::unit_table::{A, K, KG, M, S, is_other, symbol};
 use labspec_expr::dimension::{ANGLE, BASES, Dimension};
 use std::f64::consts::PI;
-
-const KG: usize = 1;
-const M: usize = 2;
-const S: usize = 3;
-const K: usize = 4;
-const A: usize = 5;
 
 /// The base units, by their places in a [`Dimension`]; the order in which they are written is another.
 const NAMES: [&str; BASES] = ["rad", "kg", "m", "s", "K", "A"];
 const WRITTEN: [usize; BASES] = [KG, M, S, K, A, ANGLE];
 
-/// Prefixes of units, as powers of ten.
-pub const PREFIXES: [(&str, i32); 13] = [
-    ("", 0),
-    ("p", -12),
-    ("n", -9),
-    ("μ", -6),
-    ("u", -6),
-    ("m", -3),
-    ("c", -2),
-    ("d", -1),
-    ("h", 2),
-    ("k", 3),
-    ("M", 6),
-    ("G", 9),
-    ("T", 12),
-];
-
-/// A unit: how large it is, the powers of base units that it is made of, and whether it takes prefixes.
-struct Row(&'static str, f64, &'static [(usize, i32)], bool);
-
-const UNITS: [Row; 33] = [
-    Row("rad", 1.0, &[(ANGLE, 1)], true),
-    Row("radian", 1.0, &[(ANGLE, 1)], false),
-    Row("radians", 1.0, &[(ANGLE, 1)], false),
-    Row("deg", PI / 180.0, &[(ANGLE, 1)], false),
-    Row("degree", PI / 180.0, &[(ANGLE, 1)], false),
-    Row("degrees", PI / 180.0, &[(ANGLE, 1)], false),
-    Row("°", PI / 180.0, &[(ANGLE, 1)], false),
-    Row("m", 1.0, &[(M, 1)], true),
-    Row("metre", 1.0, &[(M, 1)], false),
-    Row("metres", 1.0, &[(M, 1)], false),
-    Row("meter", 1.0, &[(M, 1)], false),
-    Row("meters", 1.0, &[(M, 1)], false),
-    Row("s", 1.0, &[(S, 1)], true),
-    Row("second", 1.0, &[(S, 1)], false),
-    Row("seconds", 1.0, &[(S, 1)], false),
-    Row("min", 60.0, &[(S, 1)], false),
-    Row("h", 3600.0, &[(S, 1)], false),
-    Row("g", 1e-3, &[(KG, 1)], true),
-    Row("K", 1.0, &[(K, 1)], true),
-    Row("A", 1.0, &[(A, 1)], true),
-    Row("N", 1.0, &[(KG, 1), (M, 1), (S, -2)], true),
-    Row("newton", 1.0, &[(KG, 1), (M, 1), (S, -2)], false),
-    Row("newtons", 1.0, &[(KG, 1), (M, 1), (S, -2)], false),
-    Row("Nm", 1.0, &[(KG, 1), (M, 2), (S, -2)], true),
-    Row("Ns", 1.0, &[(KG, 1), (M, 1), (S, -1)], true),
-    Row("J", 1.0, &[(KG, 1), (M, 2), (S, -2)], true),
-    Row("joule", 1.0, &[(KG, 1), (M, 2), (S, -2)], false),
-    Row("joules", 1.0, &[(KG, 1), (M, 2), (S, -2)], false),
-    Row("W", 1.0, &[(KG, 1), (M, 2), (S, -3)], true),
-    Row("Pa", 1.0, &[(KG, 1), (M, -1), (S, -2)], true),
-    Row("Hz", 1.0, &[(S, -1)], true),
-    Row("V", 1.0, &[(KG, 1), (M, 2), (S, -3), (A, -1)], true),
-    Row("T", 1.0, &[(KG, 1), (S, -2), (A, -1)], true),
-];
-
-/// How a unit without its powers is written: its size and its dimension.
-fn symbol(word: &str) -> Option<Dimension> {
-    let row = |name: &str| UNITS.iter().find(|row| row.0 == name);
-    let (row, size) = match row(word) {
-        Some(row) => (row, 1.0),
-        None => PREFIXES.iter().filter(|(prefix, _)| !prefix.is_empty()).find_map(|(prefix, power)| {
-            let found = row(word.strip_prefix(prefix)?).filter(|row| row.3)?;
-            Some((found, 10f64.powi(*power)))
-        })?,
-    };
-    let powers = row.2.iter().map(|(base, n)| Dimension::base(*base).power(f64::from(*n)));
-    let dimension = powers.into_iter().try_fold(Dimension::NUMBER, |all, one| all.product(one?))?;
-    // A larger unit has smaller numbers.
-    Some(dimension.times(1.0 / (row.1 * size)))
+/// A unit expression at the beginning of a text.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitText {
+    /// Its length in bytes.
+    pub length: usize,
+    /// What it means; `None` where it is a unit of something else (`dB`), or can be read in two ways (`N m/rad s`).
+    pub dimension: Option<Dimension>,
 }
 
 /// What a unit means: `m/s^2`, `N m s/rad`, `kg·m²`, `1/(kg m^2)`, `m s⁻¹`; `None` for what is no unit.
 pub fn parse(text: &str) -> Option<Dimension> {
-    let text = plain(text);
-    let (above, below) = match text.split_once('/') {
-        Some((above, below)) => (above, Some(below)),
-        None => (text.as_str(), None),
-    };
-    let mut all = product(above)?;
-    // What stands behind a stroke is one unit, or in brackets, or every one has a stroke of its own.
-    for part in below.into_iter().flat_map(|b| b.split('/')) {
-        let part = part.trim();
-        let inner = part.strip_prefix('(').and_then(|p| p.strip_suffix(')'));
-        let divisor = match inner {
-            Some(inner) => product(inner)?,
-            None if part.split_whitespace().count() == 1 => product(part)?,
-            None => return None,
-        };
-        all = all.product(divisor.power(-1.0)?)?;
-    }
-    Some(all)
+    let text = text.trim();
+    let found = read(text)?;
+    found.dimension.filter(|_| found.length == text.len())
 }
 
-/// Units beside each other.
-fn product(text: &str) -> Option<Dimension> {
-    let mut words = text.split_whitespace().peekable();
-    words.peek()?;
-    words.try_fold(Dimension::NUMBER, |all, word| {
-        let (name, power) = match word.split_once('^') {
-            Some((name, power)) => (name, power.parse::<i8>().ok()?),
-            None => (word, 1),
-        };
-        let one = match name {
-            "1" => Dimension::NUMBER,
-            "%" => Dimension::NUMBER.times(100.0),
-            _ => symbol(name)?,
-        };
-        all.product(one.power(f64::from(power))?)
-    })
+/// Reads the longest unit expression that a text begins with.
+///
+/// ```text
+/// unit   = factor { [ "/" | "per" | "·" | "*" | "×" | " " | "" ] factor }
+/// factor = ( symbol | name | "%" | "1" | "(" unit ")" ) [ power ]
+/// power  = [ "^" | "**" ] integer | raised digits | "squared" | "cubed"
+/// ```
+pub fn read(text: &str) -> Option<UnitText> {
+    let mut reader = Reader { text, at: 0, depth: 0 };
+    let first = reader.product()?;
+    // A `1` alone is a number; before a stroke it is a part of a unit.
+    let consumed = text.get(..reader.at)?;
+    (consumed != "1" || consumed.len() == text.len())
+        .then_some(UnitText { length: reader.at, dimension: first.dimension() })
 }
 
-/// The same with raised digits behind `^`, and spaces for points.
-fn plain(text: &str) -> String {
-    const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-    let mut out = String::new();
-    let mut raised = false;
-    for c in text.trim().chars() {
-        let digit = RAISED.chars().position(|r| r == c);
-        let exponent = digit.is_some() || c == '⁻';
-        if exponent && !raised {
-            out.push('^');
-        }
-        raised = exponent;
-        match (digit, c) {
-            (Some(n), _) => out.push_str(&n.to_string()),
-            (None, '⁻') => out.push('-'),
-            (None, '·' | '⋅' | '*' | '×') => out.push(' '),
-            (None, 'µ') => out.push('μ'),
-            (None, c) => out.push(c),
+/// What was read so far.
+#[derive(Clone, Copy)]
+enum Part {
+    Known(Dimension),
+    /// A unit that is none of ours, or one that may be read in two ways.
+    Other,
+}
+
+impl Part {
+    fn dimension(self) -> Option<Dimension> {
+        match self {
+            Part::Known(dimension) => Some(dimension),
+            Part::Other => None,
         }
     }
-    out
+
+    fn with(self, other: Part, power: f64) -> Part {
+        match (self, other) {
+            (Part::Known(a), Part::Known(b)) => {
+                b.power(power).and_then(|b| a.product(b)).map_or(Part::Other, Part::Known)
+            }
+            _ => Part::Other,
+        }
+    }
+}
+
+struct Reader<'t> {
+    text: &'t str,
+    at: usize,
+    depth: usize,
+}
+
+/// Brackets within brackets, factors of one unit, and bytes of a word.
+const DEEP: usize = 4;
+const MANY: usize = 8;
+const WORD: usize = 40;
+
+impl<'t> Reader<'t> {
+    fn rest(&self) -> &'t str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    fn product(&mut self) -> Option<Part> {
+        let mut all = self.factor()?;
+        let mut divided = false;
+        for _ in 1..MANY {
+            let was = self.at;
+            let (link, sign) = self.link();
+            self.at += link;
+            let Some(next) = self.factor() else {
+                self.at = was;
+                break;
+            };
+            all = match sign {
+                '/' => all.with(next, -1.0),
+                // What stands behind a stroke is one unit, or in brackets, or every one has a stroke of its own.
+                ' ' if divided => Part::Other,
+                _ if divided => Part::Other,
+                _ => all.with(next, 1.0),
+            };
+            divided |= sign == '/';
+        }
+        Some(all)
+    }
+
+    /// How two factors are joined: the length of what stands between them, and `/` or a space.
+    fn link(&self) -> (usize, char) {
+        let rest = self.rest();
+        let trimmed = rest.trim_start_matches(' ');
+        let space = rest.len() - trimmed.len();
+        if space > 1 {
+            return (0, ' ');
+        }
+        let spaced = |length: usize| {
+            let tail = trimmed.get(length..).unwrap_or("");
+            space + length + (tail.len() - tail.trim_start_matches(' ').len())
+        };
+        let per = ["per ", "pro ", "par ", "por "].iter().find(|w| space > 0 && trimmed.starts_with(**w));
+        if let Some(per) = per {
+            return (space + per.len(), '/');
+        }
+        match trimmed.chars().next() {
+            Some(c @ ('/' | '⁄' | '÷' | '∕' | '每' | '毎')) => (spaced(c.len_utf8()), '/'),
+            Some(c @ ('·' | '⋅' | '*' | '×' | '∙' | '•')) => (spaced(c.len_utf8()), ' '),
+            // `m.s^-1`: a point parts factors where the next one has a power.
+            Some('.') if space == 0 && dotted(trimmed.get(1..).unwrap_or("")) => (1, ' '),
+            _ => (space, ' '),
+        }
+    }
+
+    fn factor(&mut self) -> Option<Part> {
+        let rest = self.rest();
+        let c = rest.chars().next()?;
+        let found = match c {
+            '(' if self.depth < DEEP => {
+                let was = self.at;
+                self.at += 1;
+                self.depth += 1;
+                let inner = self.product();
+                self.depth -= 1;
+                let Some(inner) = inner.filter(|_| self.rest().starts_with(')')) else {
+                    self.at = was;
+                    return None;
+                };
+                self.at += 1;
+                inner
+            }
+            '%' | '‰' => {
+                self.at += c.len_utf8();
+                Part::Known(Dimension::NUMBER.times(if c == '%' { 100.0 } else { 1000.0 }))
+            }
+            '1' => {
+                let next = rest.get(1..).unwrap_or("").trim_start_matches(' ');
+                // Of `1/s` a part; in `m 1` it is a number.
+                if !(next.starts_with('/') || rest.len() == 1) || self.at > 0 && self.depth == 0 {
+                    return None;
+                }
+                self.at += 1;
+                Part::Known(Dimension::NUMBER)
+            }
+            _ => self.word()?,
+        };
+        Some(match self.power() {
+            Some(power) => Part::Known(Dimension::NUMBER).with(found, power),
+            None => found,
+        })
+    }
+
+    /// A symbol or a name: letters up to the next character that is none.
+    fn word(&mut self) -> Option<Part> {
+        let rest = self.rest();
+        let wide = rest.chars().next().is_some_and(is_wide);
+        let letter = |c: &char| {
+            c.is_alphabetic() && is_wide(*c) == wide && !raised(*c) || matches!(c, '°' | 'µ' | '℃' | '℉')
+        };
+        let mut ends: Vec<usize> = rest
+            .chars()
+            .take_while(letter)
+            .scan(0, |at, c| {
+                *at += c.len_utf8();
+                Some(*at)
+            })
+            .take(WORD)
+            .collect();
+        // `square metre`
+        for (square, power) in [("square ", 2.0), ("cubic ", 3.0)] {
+            if let Some(tail) = rest.strip_prefix(square) {
+                let length = tail.chars().take_while(char::is_ascii_alphabetic).count();
+                let found = tail.get(..length).and_then(symbol)?;
+                self.at += square.len() + length;
+                return Some(Part::Known(Dimension::NUMBER).with(Part::Known(found), power));
+            }
+        }
+        // Where words are not parted by spaces, the longest beginning that is a unit; `°C` and `°/s` else.
+        if !wide {
+            let last = ends.pop()?;
+            ends = vec![last];
+        }
+        ends.into_iter().rev().find_map(|end| {
+            let text = rest.get(..end)?;
+            let found =
+                if is_other(text) { Part::Other } else { Part::Known(symbol(&text.replace('µ', "μ"))?) };
+            self.at += end;
+            Some(found)
+        })
+    }
+
+    /// The power behind a symbol.
+    fn power(&mut self) -> Option<f64> {
+        let rest = self.rest();
+        for (word, power) in [(" squared", 2.0), (" cubed", 3.0), ("平方", 2.0)] {
+            if rest.strip_prefix(word).is_some_and(|tail| !tail.starts_with(char::is_alphanumeric)) {
+                self.at += word.len();
+                return Some(power);
+            }
+        }
+        let marked = rest.strip_prefix("**").or_else(|| rest.strip_prefix('^'));
+        let mut plain = String::new();
+        let body = marked.unwrap_or(rest);
+        let open = marked.is_some() && body.starts_with(['(', '{']);
+        let body = if open { body.get(1..)? } else { body };
+        let mut used = 0;
+        for c in body.chars() {
+            let digit = RAISED.chars().position(|r| r == c).and_then(|n| char::from_digit(n as u32, 10));
+            match (digit, c) {
+                (Some(d), _) => plain.push(d),
+                (None, '⁻' | '-' | '−' | '–') if plain.is_empty() => plain.push('-'),
+                (None, '⁺' | '+') if plain.is_empty() && (marked.is_some() || c == '⁺') => {}
+                (None, '0'..='9') => plain.push(c),
+                _ => break,
+            }
+            used += c.len_utf8();
+        }
+        let tail = body.get(used..)?;
+        let close = usize::from(open && tail.starts_with([')', '}']));
+        let digits = plain.trim_start_matches('-');
+        let decimal =
+            tail.strip_prefix(['.', ',']).is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()));
+        // `s-1` is a power, `s-0.5 s` and `s-12` are none.
+        let bare = marked.is_none()
+            && rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '–'));
+        if digits.is_empty() || decimal || open && close == 0 || bare && !bare_power(digits, tail) {
+            return None;
+        }
+        let power = plain.parse::<i8>().ok()?;
+        self.at += rest.len() - tail.len() + close;
+        Some(f64::from(power))
+    }
+}
+
+/// Whether a factor with a power begins here: of `m.s^-1` the second.
+fn dotted(text: &str) -> bool {
+    let letters =
+        text.chars().take_while(|c| c.is_alphabetic() && !raised(*c)).map(char::len_utf8).sum::<usize>();
+    letters > 0
+        && text.get(..letters).and_then(symbol).is_some()
+        && text
+            .get(letters..)
+            .is_some_and(|t| t.starts_with(|c: char| c == '^' || c == '-' || raised(c) || c.is_ascii_digit()))
+}
+
+/// Whether digits behind a symbol without a sign for it are its power: one from 1 to 6, and no number that goes on.
+fn bare_power(digits: &str, tail: &str) -> bool {
+    let goes_on = tail.starts_with(|c: char| c.is_alphanumeric() && !is_wide(c))
+        || tail.strip_prefix(' ').and_then(read).is_some();
+    matches!(digits, "1" | "2" | "3" | "4" | "5" | "6") && !goes_on
+}
+
+const RAISED: &str = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+fn raised(c: char) -> bool {
+    RAISED.contains(c) || matches!(c, '⁻' | '⁺')
+}
+
+/// Letters of scripts that write words without spaces between them.
+pub fn is_wide(c: char) -> bool {
+    matches!(c, '\u{3005}'..='\u{30ff}' | '\u{3400}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{ff66}'..='\u{ff9f}')
 }
 
 /// Units that are written for the powers that they stand for.
@@ -235,6 +367,16 @@ mod tests {
             ("g", "kg, times 1000"),
             ("cm^2", "m^2, times 10000"),
             ("kN", "kN"),
+            ("s-1", "1/s"),
+            ("m per second squared", "m/s^2"),
+            ("metres per second", "m/s"),
+            ("Kilometer", "km"),
+            ("毫秒", "ms"),
+            ("米/秒", "m/s"),
+            ("キログラム", "kg"),
+            ("ミリメートル", "mm"),
+            ("千克", "kg"),
+            ("rpm", "rad/s, times 9.549"),
         ] {
             let d = parse(text).unwrap_or_else(|| panic!("{text}"));
             assert_eq!(written(&d), shown, "{text}");
@@ -251,8 +393,30 @@ mod tests {
             "1/",
             "mmin",
             "degree or m",
+            "dB",
+            "s-12",
+            "m.",
         ] {
             assert_eq!(parse(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn the_longest_unit_is_read() {
+        let of = |text: &str| read(text).map(|u| (u.length, u.dimension.map(|d| written(&d))));
+        let known = |length, unit: &str| Some((length, Some(unit.to_string())));
+        assert_eq!(of("s, and"), known(1, "s"));
+        assert_eq!(of("N m at"), known(3, "N m"));
+        assert_eq!(of("s / m high"), known(5, "s/m"));
+        assert_eq!(of("s per m"), known(7, "s/m"));
+        assert_eq!(of("s m"), known(3, "m s"));
+        assert_eq!(of("s-1."), known(3, "1/s"));
+        assert_eq!(of("s-0.5 s"), known(1, "s"));
+        assert_eq!(of("s 2 m"), known(1, "s"));
+        assert_eq!(of("秒的时间"), known(3, "s"));
+        assert_eq!(of("千克"), known(6, "kg"));
+        assert_eq!(of("°C"), Some((3, None)));
+        assert_eq!(of("N m/rad s"), Some((9, None)));
+        assert_eq!(of("balls"), None);
     }
 }

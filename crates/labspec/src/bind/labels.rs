@@ -4,7 +4,7 @@ use labspec_bind::units::parse;
 use labspec_expr::dimension::Dimension;
 
 /// Letters that mean more than a unit when they stand alone: an area, a mass, a temperature, a length.
-const DOUBTFUL: [&str; 9] = ["A", "C", "K", "L", "V", "T", "g", "h", "1"];
+const DOUBTFUL: [&str; 14] = ["A", "C", "K", "L", "V", "T", "g", "h", "l", "1", "ft", "lb", "bar", "rev"];
 
 /// What the unit of a control means.
 pub(crate) fn unit(text: &str) -> Option<Dimension> {
@@ -31,6 +31,45 @@ pub(crate) fn of_label(label: &str) -> Option<(&str, Dimension)> {
     Some((text, unit(text)?))
 }
 
+/// The unit of the heading of a column: `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `ms`; with what it means.
+pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
+    let head = head.trim();
+    let whole = |text: &str| parse(text).filter(|_| !text.is_empty() && text != "1");
+    let close = head.chars().next_back()?;
+    if let Some(open) =
+        [(')', '('), (']', '['), ('）', '（')].iter().find(|(c, _)| *c == close).map(|(_, o)| *o)
+    {
+        let inner = head.strip_suffix(close)?;
+        let mut depth = 1;
+        let start = inner.char_indices().rev().find(|(_, c)| {
+            depth += i32::from(*c == close) - i32::from(*c == open);
+            depth == 0
+        });
+        let text = inner.get(start?.0..)?.strip_prefix(open)?.trim();
+        if let Some(found) = whole(text) {
+            return Some((text, found));
+        }
+    }
+    for sign in [" in ", ", ", " - ", " – ", ": "] {
+        if let Some((_, text)) = head.rsplit_once(sign)
+            && let Some(found) = whole(text.trim())
+        {
+            return Some((text.trim(), found));
+        }
+    }
+    // `x / mm` is a quantity over its unit; `m/s`, and the ratio `M / m`, are none.
+    for (at, _) in head.match_indices('/') {
+        let (left, text) = (head.get(..at)?.trim(), head.get(at + 1..)?.trim());
+        let ratio =
+            left.to_lowercase() == text.to_lowercase() || !left.contains(' ') && whole(head).is_some();
+        if let Some(found) = whole(text).filter(|_| !ratio && !left.is_empty()) {
+            return Some((text, found));
+        }
+    }
+    let plain = head.chars().count() > 1 && !["min", "mil", "bar", "day", "year"].contains(&head);
+    whole(head).filter(|_| plain).map(|found| (head, found))
+}
+
 /// Whether numbers of a dimension are for sure not those of a unit. A number of the text that is a factor may have a unit of its own,
 /// so it excuses a different dimension; beside the same dimension it is a number, and a power of ten too many.
 pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
@@ -51,12 +90,17 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
     }
     // Degrees are of angles: a number without a unit may be something else.
     if found.is_exact() {
-        return found.has_angle() || is_power_of_ten(unit.factor);
+        return found.has_angle() || is_power_of_ten(unit.factor) || is_of_time(unit);
     }
     let converted = is_power_of_ten(factor) || found.has_angle() && is_degrees(factor);
     let wanted = is_power_of_ten(unit.factor) || is_degrees(unit.factor.abs());
     let pure = (0.1..=10.0).contains(&factor) && !(0.01..=100.0).contains(&ratio);
     converted && wanted || pure
+}
+
+/// Minutes, hours, days: times that are no power of ten of a second.
+fn is_of_time(unit: &Dimension) -> bool {
+    parse("s").is_some_and(|second| second.agrees(unit)) && unit.factor.abs() < 0.9
 }
 
 /// 0.001, 100, 1000, and 1.
@@ -95,10 +139,38 @@ mod tests {
     }
 
     #[test]
+    fn headings_have_units_in_many_forms() {
+        for (head, unit) in [
+            ("error (mm)", Some("mm")),
+            ("error(mm)", Some("mm")),
+            ("t [ms]", Some("ms")),
+            ("x / mm", Some("mm")),
+            ("v / (m/s)", Some("m/s")),
+            ("v / m/s", Some("m/s")),
+            ("t/ms", Some("ms")),
+            ("time in ms", Some("ms")),
+            ("depth, mm", Some("mm")),
+            ("v, m/s", Some("m/s")),
+            ("ms", Some("ms")),
+            ("m/s", Some("m/s")),
+            ("時間（秒）", Some("秒")),
+            ("M / m", None),
+            ("height", None),
+            ("x", None),
+            ("run in all", None),
+            ("", None),
+        ] {
+            assert_eq!(of_heading(head).map(|(text, _)| text), unit, "{head}");
+        }
+    }
+
+    #[test]
     fn only_what_is_certain_contradicts() {
         let d = |text: &str, factor: f64| parse(text).unwrap().times(factor);
         for (found, unit, certain) in [
             (d("m", 1.0), "mm", true),
+            (d("s", 1.0), "min", true),
+            (d("s", 1.0 / 60.0), "min", false),
             (d("m", 1000.0), "mm", false),
             (d("m", 1000.0), "m", true),
             (d("1", 1000.0), "mm", true),

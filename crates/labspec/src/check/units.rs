@@ -84,6 +84,10 @@ fn wrong_label(labels: &[&Text], model: &Model, bound: &Bound, found: &Dimension
     if super::named::names(model).any(|name| name == text) {
         return None;
     }
+    // The smallest of something is no time.
+    if text == "min" && !found.agrees(&wanted) {
+        return None;
+    }
     // A turn is not a radian.
     let turns = text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(&wanted);
     if !contradicts(found, &wanted) && !turns {

@@ -5,8 +5,8 @@ use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
 use super::{
-    BoundVerify, CLOSER, Outcomes, PERTURBED, decided, empty, grounded, over, shorten, significant,
-    undecided_by_nan,
+    BoundVerify, CLOSER, Outcomes, PERTURBED, decided, empty, grounded, option_numbers, over, quote, shorten,
+    significant, undecided_by_nan, units,
 };
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
@@ -240,6 +240,11 @@ fn options(
     let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
 
+    let holds: Vec<Option<bool>> = weights.iter().map(|w| w.holds).collect();
+    let texts = option_numbers::check(bound, &outcomes.nominal, options, &verify.options, &holds, findings);
+    if let Some(reason) = texts {
+        return done(Verdict::Failed, reason);
+    }
     if open.contains(&answer) {
         return done(Verdict::Failed, format!("answer {} is the one that is not decided", name(answer)));
     }
@@ -436,14 +441,25 @@ fn value(
         findings.push(no_quantity(text, &found.value));
         return Answer::failed("the expression gives no number");
     }
-    let computed = found.value.to_number();
+    let asked = match &question.kind {
+        QuestionKind::Numeric { unit, .. } => unit.as_ref(),
+        _ => None,
+    };
+    let unit =
+        quote::answer_unit(asked.map(|u| u.as_str()), asked.and_then(|_| units::of_claim(bound, text)));
+    if let quote::AnswerUnit::Wrong(asked_in, gives) = &unit {
+        let message = format!("the question asks in {asked_in}, the expression gives {gives}");
+        findings.push(wrong_unit(keyed.span.clone(), text, &message));
+        return Answer { verdict: Verdict::Refuted, reason: message, weights: Vec::new() };
+    }
+    let computed = unit.factor() * found.value.to_number();
     if !computed.is_finite() {
         findings.push(no_value(text, computed));
         return Answer::failed("the simulation gives no number");
     }
     let margin = |x: f64| tol - (x - answer).abs();
     let right = |x: f64| margin(x) >= 0.0;
-    let says = |value: &Value| right(value.to_number());
+    let says = |value: &Value| right(unit.factor() * value.to_number());
     if found.evidence == Evidence::Simulated && !bound.could_differ(&found, Some(&says)) {
         return Answer::failed(empty(text, findings));
     }
@@ -473,6 +489,7 @@ fn value(
             Ok(taken) => taken,
             Err(reason) => return done(Verdict::Failed, format!("a wrong value is not known: {reason}")),
         };
+        let taken = unit.factor() * taken;
         if right(taken) {
             let message = format!(
                 "the tolerance takes {} for right, which is what a mistake gives",
@@ -493,7 +510,7 @@ fn value(
     let mut weights = weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
         let again = decided(bound, outcome, text, &mut Vec::new());
-        let what = match again.map(|f| f.value.to_number()) {
+        let what = match again.map(|f| unit.factor() * f.value.to_number()) {
             Err(reason) => reason,
             Ok(x) if right(x) => {
                 weights.iter_mut().for_each(|w| w.widen(Some(margin(x))));
@@ -553,6 +570,14 @@ fn no_quantity(text: &Text, value: &Value) -> Finding {
     )
     .why("a condition counts as 1 or 0: an answer of 1 would be right whenever it holds")
     .help("write the number that the answer states: `final(speed)`")
+}
+
+/// The unit of a question that is not that of its value.
+fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
+    Finding::error(rules::ANSWER_REFUTED, span, message)
+        .why("a student who answers in this unit is told that they are wrong")
+        .help("correct the unit of the question, or convert the expression to it")
+        .related(text.span(), "the expression")
 }
 
 /// An expression that gives no number where one is claimed.

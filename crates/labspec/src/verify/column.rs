@@ -2,12 +2,12 @@
 
 use super::grounded;
 use super::quote;
-use super::says::{self, Court, Given, Place, Quote};
+use super::says::{self, Court, Given, Quote};
+use super::units;
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Stands};
-use labspec_expr::dimension::Dimension;
 
 /// The work of looking at a cell.
 const LOOK: u64 = 1000;
@@ -45,12 +45,30 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
         Ok(values) => values,
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
+    let swept = units::of_claim(court.bound, &part(list, "[0]"));
+    let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
     let mut all = Vec::new();
     for [key, text] in cells {
-        let read = quote::quoted(&key.value).ok();
-        let member = read.and_then(|read| values.iter().position(|x| read.is(*x)));
+        let read = quote::reading(&key.value).ok();
+        let unit_of_key = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| key_head.clone());
+        // Cells in millimetres beside values in metres are converted; another dimension is nobody's value.
+        let held =
+            unit_of_key.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, swept.as_ref()));
+        let wanted = unit_of_key.as_ref().and_then(|unit| unit.dimension);
+        let converted = wanted.zip(swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
+        let factor = match (held, converted) {
+            (_, Some(factor)) => Some(factor),
+            (quote::Held::Wrong, None) => None,
+            _ => Some(1.0),
+        };
+        let is_key =
+            |x: f64| read.as_ref().zip(factor).is_some_and(|(read, factor)| read.number().is(factor * x));
+        let member = values.iter().position(|x| is_key(*x));
         let Some(member) = member else {
-            let message = format!("nothing was run for the row \"{}\"", key.value);
+            let other = unit_of_key.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
+                format!(": the column is in {}, and the values are in another unit", unit.text)
+            });
+            let message = format!("nothing was run for the row \"{}\"{other}", key.value);
             let told = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
                 .why("the number in this row was compared with nothing")
                 .help("run the sweep with this value, too, or correct the row")
@@ -68,7 +86,7 @@ fn cell(
     court: Court<'_, '_>,
     text: &Text,
     is: &Stands,
-    unit: &Option<(String, Dimension)>,
+    unit: &Option<quote::Unit>,
     member: &str,
     findings: &mut Vec<Finding>,
 ) -> Quote {
@@ -76,10 +94,11 @@ fn cell(
         Stands::Words(words) => words,
         Stands::Number(expr) => {
             let expr = part(expr, member);
-            let place = Place { at: vec![text.span()], unit: unit.clone() };
+            let places = vec![quote::Place { at: text.span(), unit: unit.clone() }];
             let claim = quote::Claim { quote: text, part: text.as_str(), expr: &expr };
+            let part = quote::whole(text.as_str());
             return match Given::of(court, &expr, findings) {
-                Ok(given) => says::number(court, &claim, given, place, findings),
+                Ok(given) => says::number(court, &claim, &part, given, places, findings),
                 Err(reason) => Quote::unclear(text, &reason),
             };
         }
@@ -99,7 +118,7 @@ fn cell(
             .help("claim its cells one by one, with `row`");
         return refused(text, told, findings);
     }
-    if !quote::parts(text.as_str()).is_empty() {
+    if !quote::parts(text.as_str(), 0).is_empty() {
         let message = format!("\"{}\" holds a number, which no condition checks", text.value);
         let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("whatever the number says, the cell would be called right")

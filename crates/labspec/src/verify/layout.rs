@@ -126,6 +126,10 @@ impl Layout {
             Some(Slot::Measure(run, m)) => {
                 units.get(*run).and_then(|own| own.get(*m)).map_or(Measure::Unknown, |(_, measure)| *measure)
             }
+            Some(Slot::Swept(run)) => {
+                let own = units.get(*run).and_then(|own| own.iter().find(|(name, _)| name == VALUE));
+                own.map_or(Measure::Unknown, |(_, measure)| *measure)
+            }
             _ => Measure::Unknown,
         }
     }

@@ -11,6 +11,7 @@
 //! | whether it could have come out otherwise | `evidence` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
+//! | numbers in the texts of options | `option_numbers` |
 //! | numbers and words in the text | `says`, `quote` |
 //! | columns of tables | `column` |
 //! | what their numbers measure | `units` |
@@ -29,6 +30,7 @@ mod exact;
 pub(crate) mod judge;
 mod layout;
 mod measure;
+mod option_numbers;
 mod outcome;
 mod over;
 mod perform;

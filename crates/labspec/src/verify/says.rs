@@ -10,7 +10,6 @@ use crate::rules;
 use crate::source::Text;
 use crate::spec::{Question, Said, Verify};
 use labspec_expr::Value;
-use labspec_expr::dimension::Dimension;
 use std::ops::Range;
 
 /// A number that is quoted, or words.
@@ -62,12 +61,6 @@ pub(super) struct Court<'c, 'b> {
     pub(super) shown: &'c ShownText,
 }
 
-/// Where a quote stands, and the unit of its number.
-pub(super) struct Place {
-    pub(super) at: Vec<Range<usize>>,
-    pub(super) unit: Option<(String, Dimension)>,
-}
-
 /// What becomes of everything that a `verify` object says is said. `question` is what carries it, unless a lab does.
 pub(super) fn check(
     court: Court<'_, '_>,
@@ -103,8 +96,8 @@ fn line(
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // Of one expression the number is the one that the quote states; words beside numbers leave none of these unchecked.
     let parts = match said.exprs.as_slice() {
-        [_] if numbers == 1 => vec![said.quote.value.clone()],
-        _ => quote::parts(said.quote.as_str()),
+        [_] if numbers == 1 => vec![quote::whole(said.quote.as_str())],
+        _ => quote::parts(said.quote.as_str(), numbers),
     };
     if parts.len() != numbers {
         let message = format!("the quote holds {} numbers, and {numbers} expressions give one", parts.len());
@@ -120,11 +113,13 @@ fn line(
     for (expr, given) in given {
         let claim = |part| quote::Claim { quote: &said.quote, part, expr };
         all.push(match given.is_condition() {
-            true => words(court, &claim(""), &given, &at, findings),
+            true => {
+                let at: Vec<Range<usize>> = at.iter().map(|place| place.at.clone()).collect();
+                words(court, &claim(""), &given, &at, findings)
+            }
             false => {
-                let part = parts.next().unwrap_or_default();
-                let place = Place { at: at.clone(), unit: quote::unit_of_quote(&part) };
-                number(court, &claim(&part), given, place, findings)
+                let part = parts.next().unwrap_or_else(|| quote::whole(""));
+                number(court, &claim(&part.text), &part, given, at.clone(), findings)
             }
         });
     }
@@ -172,14 +167,15 @@ fn value_of(bound: &BoundVerify<'_>, outcome: &Outcome, expr: &Text, how: &'stat
 pub(super) fn number(
     court: Court<'_, '_>,
     claim: &quote::Claim<'_>,
+    part: &quote::Part,
     given: Given,
-    place: Place,
+    places: Vec<quote::Place>,
     findings: &mut Vec<Finding>,
 ) -> Quote {
     let unit = &|| units::of_claim(court.bound, claim.expr);
     let computed = given.found.value.to_number();
     let value = quote::Value { computed, timestep: &given.timestep, start: &given.start, unit };
-    let o = quote::check(claim, place.at, place.unit, &value, court.shown, findings);
+    let o = quote::check(claim, &part.reading, places, &value, court.shown, findings);
     let text = claim.part.trim().to_string();
     let (state, evidence, reason) = (o.state, given.found.evidence, o.reason);
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }

@@ -20,7 +20,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let value = Value { computed, timestep: &half, start: &starts, unit: &|| None };
     let claim = Claim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
     let places = places(&said.quote, None, &shown);
-    let outcome = check(&claim, places, unit_of_quote(quote), &value, &shown, &mut findings);
+    let outcome = check(&claim, &reading(quote), places, &value, &shown, &mut findings);
     (outcome, findings)
 }
 

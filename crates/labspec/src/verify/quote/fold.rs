@@ -2,6 +2,7 @@
 //! as the source or as the page has it.
 
 use super::html::APART;
+use super::siunitx;
 use crate::source::SourceMap;
 use std::ops::Range;
 
@@ -24,6 +25,25 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             continue;
         }
         let c = rest.chars().next().unwrap_or(' ');
+        if c == '\\'
+            && let Some((shown, length)) = siunitx::command(rest)
+        {
+            out.whole(&shown, at..at + length);
+            at += length;
+            continue;
+        }
+        if c == '\\'
+            && let Some(length) = unseen(rest)
+        {
+            at += length;
+            continue;
+        }
+        // The arguments of a command are apart: `\frac{0.5}{2}` is no 0.52.
+        if rest.starts_with("}{") {
+            out.push('⁄', at..at + 2, text);
+            at += 2;
+            continue;
+        }
         let (what, length) = if c == '\\' { command(rest) } else { (meaning(c, flat), c.len_utf8()) };
         let range = at..at + length;
         match what {
@@ -79,12 +99,19 @@ fn meaning(c: char, flat: bool) -> Meaning {
         '$' | '{' | '}' | '\u{200b}'..='\u{200d}' | '\u{2060}' | '\u{feff}' | '\u{ad}' => Meaning::Nothing,
         '~' | '∼' => Meaning::Tilde,
         '−' | '‐' | '‑' => Meaning::Letter('-'),
-        '‒' | '–' | '—' => Meaning::Letter(if flat { '-' } else { '–' }),
+        '‒' | '–' => Meaning::Letter(if flat { '-' } else { '–' }),
+        '—' => Meaning::Letter(if flat { '-' } else { '—' }),
         '×' | '✕' => Meaning::Operator('×'),
         '·' | '⋅' | '∙' => Meaning::Operator('·'),
         '±' => Meaning::Operator('±'),
         '≈' | '≃' | '≅' => Meaning::Letter('≈'),
         'µ' => Meaning::Letter('μ'),
+        // Full width, as Chinese and Japanese print figures.
+        '\u{ff01}'..='\u{ff5e}' => {
+            let plain = char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c);
+            return if plain == '~' { Meaning::Tilde } else { Meaning::Letter(plain) };
+        }
+        '〜' => Meaning::Tilde,
         '\u{2126}' => Meaning::Letter('Ω'),
         '’' => Meaning::Letter('\''),
         '⁺' => Meaning::Script('^', '+'),
@@ -101,6 +128,26 @@ fn meaning(c: char, flat: bool) -> Meaning {
 
 fn digit(c: char, zero: char) -> char {
     char::from_digit(u32::from(c).wrapping_sub(u32::from(zero)), 10).unwrap_or(c)
+}
+
+/// The length of a command that shows nothing, with its argument: `\phantom{0.5}`.
+fn unseen(text: &str) -> Option<usize> {
+    let name: String = text.chars().skip(1).take_while(char::is_ascii_alphabetic).collect();
+    if !["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"]
+        .contains(&name.as_str())
+    {
+        return None;
+    }
+    let from = 1 + name.len();
+    let inside = text.get(from..)?.strip_prefix('{')?;
+    let mut depth = 1;
+    for (i, c) in inside.char_indices() {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        if depth == 0 {
+            return Some(from + 1 + i + 1);
+        }
+    }
+    None
 }
 
 /// The TeX command that `text` begins with, and its length with the spaces behind its name.
@@ -122,7 +169,9 @@ fn command(text: &str) -> (Meaning, usize) {
         "pm" => Meaning::Operator('±'),
         "approx" | "simeq" | "cong" => Meaning::Letter('≈'),
         "sim" => Meaning::Letter('~'),
-        "to" | "rightarrow" => Meaning::Letter('→'),
+        "to" | "rightarrow" | "longrightarrow" | "Rightarrow" | "implies" | "longmapsto" | "mapsto" => {
+            Meaning::Letter('→')
+        }
         "le" | "leq" => Meaning::Letter('≤'),
         "ge" | "geq" => Meaning::Letter('≥'),
         "lt" => Meaning::Letter('<'),
@@ -134,7 +183,10 @@ fn command(text: &str) -> (Meaning, usize) {
         "ldots" | "dots" => Meaning::Letter('…'),
         "quad" | "qquad" => Meaning::Space,
         "mathrm" | "mathit" | "mathbf" | "mathsf" | "text" | "textrm" | "textbf" | "operatorname" | "rm"
-        | "bf" | "left" | "right" | "displaystyle" | "big" | "Big" => Meaning::Nothing,
+        | "bf" | "left" | "right" | "displaystyle" | "big" | "Big" | "bigl" | "bigr" | "Bigl" | "Bigr"
+        | "boxed" | "mbox" | "hbox" | "textit" | "emph" | "mathbin" | "mathord" | "ensuremath" => {
+            Meaning::Nothing
+        }
         _ => return (Meaning::Verbatim, 1 + letters),
     };
     let spaces = text.bytes().skip(1 + letters).take_while(|&b| b == b' ').count();
@@ -186,6 +238,13 @@ impl Out {
         }
     }
 
+    /// What stands for all of a command.
+    fn whole(&mut self, shown: &str, range: Range<usize>) {
+        self.settle();
+        self.text.push_str(shown);
+        self.map.push_whole(shown.len(), range);
+    }
+
     /// A raised or lowered digit: the first of a row gets the mark.
     fn script(&mut self, mark: char, digit: char, range: Range<usize>, source: &str) {
         if self.row != Some(mark) || self.space.is_some() {
@@ -222,7 +281,8 @@ mod tests {
         assert_eq!(f("0.4–0.5, \u{2212}2, m², x₁₂, 1{,}500"), "0.4-0.5, -2, m^2, x_12, 1,500");
         assert_eq!(fold("0.4–0.5", false).0, "0.4–0.5");
         assert_eq!(f("a\u{1} \u{1}b"), "a\nb");
-        assert_eq!(f("\\frac{1}{2} \\"), "\\frac12 \\");
+        assert_eq!(f("\\frac{1}{2} \\"), "\\frac1⁄2 \\");
+        assert_eq!(f("$\\SI{0.5}{s}$, \\phantom{3 m}０．５秒"), "0.5 s, 0.5秒");
     }
 
     #[test]

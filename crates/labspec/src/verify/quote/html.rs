@@ -1,5 +1,6 @@
-//! HTML as a reader sees it: without tags and comments, entities decoded.
+//! HTML as a reader sees it: without tags, comments and what is hidden, entities decoded.
 
+use super::hidden::Hidden;
 use crate::source::SourceMap;
 use std::ops::Range;
 
@@ -10,23 +11,32 @@ pub(super) const APART: char = '\u{1}';
 pub(super) fn strip(html: &str) -> (String, SourceMap) {
     let (mut shown, mut map) = (String::with_capacity(html.len()), SourceMap::default());
     let mut at = 0;
+    let mut hidden = Hidden::default();
     while let Some(rest) = html.get(at..).filter(|rest| !rest.is_empty()) {
         let plain = rest.find(['<', '&']).unwrap_or(rest.len());
         if plain > 0 {
-            shown.push_str(rest.get(..plain).unwrap_or(""));
-            map.push_verbatim(at..at + plain);
+            if !hidden.is_on() {
+                shown.push_str(rest.get(..plain).unwrap_or(""));
+                map.push_verbatim(at..at + plain);
+            }
             at += plain;
             continue;
         }
         let decoded = if rest.starts_with('&') { entity(rest).map(|(c, n)| (Some(c), n)) } else { tag(rest) };
         let Some((c, length)) = decoded else {
             // A lone `<` or `&` is shown as it stands.
-            shown.push_str(rest.get(..1).unwrap_or(""));
-            map.push_verbatim(at..at + 1);
+            if !hidden.is_on() {
+                shown.push_str(rest.get(..1).unwrap_or(""));
+                map.push_verbatim(at..at + 1);
+            }
             at += 1;
             continue;
         };
-        if let Some(c) = c {
+        let unseen = match rest.starts_with('<') {
+            true => hidden.tag(rest.get(..tag_end(rest)).unwrap_or("")),
+            false => hidden.is_on(),
+        };
+        if let Some(c) = c.filter(|_| !unseen) {
             shown.push(c);
             map.push_whole(c.len_utf8(), at..at + length);
         }
@@ -69,104 +79,8 @@ pub(super) fn tag(text: &str) -> Option<(Option<char>, usize)> {
     })
 }
 
-/// An element that a page does not show (`hidden`, `display: none`), from its start tag to its end tag.
-#[derive(Default)]
-pub(super) struct Hidden {
-    /// The name of the element, and how many of this name are open; none are when everything is shown.
-    name: String,
-    open: usize,
-}
-
-/// Elements without an end tag.
-const VOID: [&str; 8] = ["area", "br", "hr", "img", "input", "link", "meta", "wbr"];
-
-impl Hidden {
-    /// Whether what follows is hidden.
-    pub(super) fn is_on(&self) -> bool {
-        self.open > 0
-    }
-
-    /// Everything is shown again.
-    pub(super) fn end(&mut self) {
-        self.open = 0;
-    }
-
-    /// Takes in a tag; whether it, too, belongs to what is hidden.
-    pub(super) fn tag(&mut self, tag: &str) -> bool {
-        let inside = tag.strip_prefix('<').unwrap_or("");
-        let (closing, inside) = inside.strip_prefix('/').map_or((false, inside), |rest| (true, rest));
-        let length = inside.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(inside.len());
-        let (name, rest) =
-            (inside.get(..length).unwrap_or("").to_ascii_lowercase(), inside.get(length..).unwrap_or(""));
-        let was = self.is_on();
-        if was && name == self.name && !name.is_empty() {
-            self.open = if closing { self.open - 1 } else { self.open + 1 };
-        } else if !was
-            && !closing
-            && !name.is_empty()
-            && hides(rest)
-            && !rest.ends_with("/>")
-            && !VOID.contains(&name.as_str())
-        {
-            (self.name, self.open) = (name, 1);
-        }
-        was || self.is_on()
-    }
-
-    /// The parts of a piece of HTML that are shown.
-    pub(super) fn shown(&mut self, html: &str) -> Vec<Range<usize>> {
-        let (mut shown, mut at, mut from) = (Vec::new(), 0, 0);
-        while let Some(next) = html.get(at..).and_then(|rest| rest.find('<')).map(|i| at + i) {
-            let rest = html.get(next..).unwrap_or("");
-            let was = self.is_on();
-            // Comments and scripts hold no tags; a lone `<` is none.
-            let Some((_, length)) = tag(rest) else {
-                at = next + 1;
-                continue;
-            };
-            self.tag(rest.get(..tag_end(rest)).unwrap_or(""));
-            at = next + length;
-            match (was, self.is_on()) {
-                (false, true) => shown.push(from..next),
-                (true, false) => from = at,
-                _ => {}
-            }
-        }
-        if !self.is_on() {
-            shown.push(from..html.len());
-        }
-        shown
-    }
-}
-
-/// Whether the attributes of a tag say that its element is not shown.
-fn hides(attributes: &str) -> bool {
-    let mut plain = String::new();
-    let (mut quote, mut value) = (None, String::new());
-    let mut styles = Vec::new();
-    for c in attributes.chars() {
-        match (quote, c) {
-            (None, '"' | '\'') => quote = Some(c),
-            (None, c) => plain.push(c.to_ascii_lowercase()),
-            (Some(open), c) if c == open => {
-                quote = None;
-                let style = plain.trim_end().trim_end_matches('=').trim_end().ends_with("style");
-                let value = std::mem::take(&mut value);
-                if style {
-                    styles.push(value);
-                }
-                plain.push(' ');
-            }
-            (Some(_), c) if !c.is_whitespace() => value.push(c.to_ascii_lowercase()),
-            (Some(_), _) => {}
-        }
-    }
-    let word = |w: &str| w.trim_end_matches(['>', '/']) == "hidden" || w.starts_with("hidden=");
-    plain.split_whitespace().any(word) || styles.iter().any(|s| s.contains("display:none"))
-}
-
 /// Length of the tag that `text` begins with; a `>` inside of quotes does not end it.
-fn tag_end(text: &str) -> usize {
+pub(super) fn tag_end(text: &str) -> usize {
     let mut quote = None;
     for (i, c) in text.char_indices() {
         match (quote, c) {
@@ -271,26 +185,11 @@ mod tests {
         assert_eq!(shown("x<!-- 0.442 s -->y<script>0.442</script>z"), "xy\u{1}\u{1}z");
         assert_eq!(shown("10<sup>&minus;3</sup> m<sub>1</sub><br>"), "10^\u{2212}3 m_1 ");
         assert_eq!(shown("&#x2212;1&#8239;m &unknown; &amp;lt;"), "\u{2212}1\u{202f}m &unknown; &lt;");
+        assert_eq!(shown("0.5<span hidden> m</span> s<template>3</template>"), "0.5 s");
         assert_eq!(shown("<table><td>1</td><td>2"), "\u{1}\u{1}1\u{1}\u{1}2");
         for broken in ["<", "<a", "<!--", "</", "&", "&#;", "<script>", "<a href='", "&#x110000;", "<é>"] {
             shown(broken);
         }
-    }
-
-    #[test]
-    fn what_is_hidden_is_not_shown() {
-        let visible = |html: &str| {
-            let mut hidden = Hidden::default();
-            hidden.shown(html).iter().map(|r| html[r.clone()].to_string()).collect::<String>()
-        };
-        assert_eq!(visible("a<div hidden>b<div>c</div>d</div>e"), "ae");
-        assert_eq!(visible("a<span style=\"color: red; Display: none\">b</span>c"), "ac");
-        assert_eq!(visible("a<p hidden=''>b</p>c<p title='hidden'>d</p>"), "ac<p title='hidden'>d</p>");
-        assert_eq!(visible("a<br hidden>b<!-- <p hidden> -->c < d"), "a<br hidden>b<!-- <p hidden> -->c < d");
-        assert_eq!(visible("a<p hidden>b"), "a");
-        assert_eq!(visible("a<script hidden>'<p hidden>'</script>b"), "ab");
-        // Walked once, not once for each.
-        assert_eq!(visible(&"<script>".repeat(200_000)).len(), 1_600_000);
     }
 
     #[test]

@@ -1,29 +1,39 @@
 //! Numbers quoted in the text: found where a reader sees them, read, and compared with what the simulation gives at
 //! the precision that they are printed with.
 
+mod answer_unit;
+mod context;
 mod fold;
+mod hidden;
 mod html;
 mod number;
 mod numeral;
+mod option_text;
 mod places;
 mod prose;
+mod quantity;
 mod read;
 mod shown;
+mod siunitx;
 mod stated;
 mod table;
 mod told;
 mod unit;
+mod unit_check;
+mod unit_text;
 mod words;
 
+pub(super) use answer_unit::{AnswerUnit, answer_unit};
 pub use number::{Form, Quoted, Style};
-pub(super) use read::parts;
+pub(super) use option_text::option_text;
+pub(super) use read::{Part, parts, reading, whole};
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
-pub(super) use stated::{unit_of_head, unit_of_quote};
+pub(super) use unit_check::{Held, conversion, hold};
+pub(super) use unit_text::{Unit, unit_of_head};
 pub(super) use words::{Condition, check_words};
 
-use crate::bind::{contradicts, unit as is_unit};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::source::{SourceMap, Text};
@@ -100,27 +110,63 @@ pub(super) struct Claim<'c> {
     pub(super) expr: &'c Text,
 }
 
+/// A place where a quote stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Place {
+    /// Bytes of the file.
+    pub(super) at: Range<usize>,
+    /// The unit that the text has behind the last number of the quote, or over its column, where the quote has none.
+    pub(super) unit: Option<Unit>,
+}
+
 /// Where a quote stands: in the question that claims it first.
-pub(super) fn places(quote: &Text, question: Option<&Question>, shown: &ShownText) -> Vec<Range<usize>> {
-    own_first(shown.places(quote.as_str()), question)
+pub(super) fn places(quote: &Text, question: Option<&Question>, shown: &ShownText) -> Vec<Place> {
+    let own = |p: &&Place| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);
+    let (own, others): (Vec<_>, Vec<_>) = shown.found(quote.as_str()).iter().partition(own);
+    own.into_iter().chain(others).cloned().collect()
+}
+
+/// The unit of a number at the places where it stands, with what the expression measures. Places where the unit is another one for
+/// sure are no places, unless there are no others.
+fn unit_at(
+    reading: &read::Reading,
+    places: &mut Vec<Place>,
+    found: Option<&Dimension>,
+) -> Option<(Unit, Held)> {
+    let unit = |place: &Place| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
+    let held = |place: &Place| unit(place).map(|unit| (hold(&unit, found), unit));
+    let best = places.iter().filter_map(|p| Some((held(p).map_or(Held::Fits, |(held, _)| held), p)));
+    let rank = |held: Held| match held {
+        Held::Fits => 0,
+        Held::Unknown => 1,
+        Held::Unsure => 2,
+        Held::Wrong => 3,
+    };
+    let chosen = best.min_by_key(|(held, _)| rank(*held)).map(|(_, p)| unit(p));
+    match chosen {
+        None => reading.unit.clone().map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held)),
+        Some(chosen) => {
+            places.retain(|p| unit(p).map(|u| u.text) == chosen.as_ref().map(|u| u.text.clone()));
+            chosen.map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held))
+        }
+    }
 }
 
 /// Compares a quoted number with what its expression gives, at every place where it stands; with its unit, where it has one.
 pub(super) fn check(
     said: &Claim<'_>,
-    places: Vec<Range<usize>>,
-    unit: Option<(String, Dimension)>,
+    reading: &Result<read::Reading, Unread>,
+    mut places: Vec<Place>,
     value: &Value<'_>,
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
-    let Value { computed, timestep: timestep_others, start: start_others, .. } = *value;
     let mut outcome = QuoteOutcome {
         state: QuoteState::Unclear,
         reason: String::new(),
         read: None,
-        computed,
-        places,
+        computed: value.computed,
+        places: places.iter().map(|p| p.at.clone()).collect(),
         moved: Vec::new(),
     };
     let unclear = |mut outcome: QuoteOutcome, reason: &str, finding: Finding, findings: &mut Vec<Finding>| {
@@ -128,7 +174,7 @@ pub(super) fn check(
         findings.push(finding);
         outcome
     };
-    let reading = match read::reading(said.part) {
+    let reading = match reading {
         Ok(reading) => reading,
         Err(Unread::NoNumber) => {
             return unclear(outcome, "the quote holds no number", told::no_number(said), findings);
@@ -138,6 +184,23 @@ pub(super) fn check(
             return unclear(outcome, &reason, told::unread(said, form), findings);
         }
     };
+    let measured = match reading.unit.is_some() || places.iter().any(|p| p.unit.is_some()) {
+        true => (value.unit)(),
+        false => None,
+    };
+    let unit = unit_at(reading, &mut places, measured.as_ref());
+    outcome.places = places.into_iter().map(|p| p.at).collect();
+    // Minutes and degrees are converted; a power of ten too many is told.
+    let wanted = unit.as_ref().and_then(|(unit, _)| unit.dimension);
+    let factor = wanted.zip(measured).and_then(|(wanted, found)| conversion(&wanted, &found));
+    let factor = factor.filter(|f| !unit_check::is_power_of_ten(*f)).filter(|_| reading.share.is_none());
+    let scale = |x: f64| factor.map_or(x, |f| x * f);
+    let computed = scale(value.computed);
+    let others = |list: &[Other]| -> Vec<Other> {
+        list.iter().map(|o| Other { value: scale(o.value), ..*o }).collect()
+    };
+    let (timestep_others, start_others) = (others(value.timestep), others(value.start));
+    outcome.computed = computed;
     let fits = [Some(reading.read), reading.share].into_iter().flatten().find(|q| q.is(computed));
     let read = fits.unwrap_or(reading.read);
     outcome.read = Some(read);
@@ -152,7 +215,7 @@ pub(super) fn check(
         let differs = others.iter().filter(|o| read.differ(computed, o.value));
         differs.map(|o| (o.how, told::printed(&read, o.value))).collect()
     };
-    let chaotic = moved(start_others);
+    let chaotic = moved(&start_others);
     let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
     let readings =
         [Some(read), reading.share].into_iter().flatten().chain(reading.doubts.iter().map(|(q, _)| *q));
@@ -169,20 +232,25 @@ pub(super) fn check(
         findings.push(told::far(said, &outcome, &read, &values));
         return outcome;
     }
-    outcome.moved = moved(timestep_others);
+    outcome.moved = moved(&timestep_others);
     if let Some(fits) = fits {
-        // Of a fraction that is told in percent the number is right in any unit.
-        let unit = unit.filter(|_| fits == reading.read);
-        if let Some((text, wanted)) = unit
-            && let Some(found) = (value.unit)().filter(|found| contradicts(found, &wanted))
-            // A `g` may be more than grams; beside a mass it is not.
-            && (is_unit(&text).is_some() || found.agrees(&wanted))
-        {
-            let gives = written(&found);
-            outcome.reason = format!("the text says {text}, the expression gives {gives}");
-            outcome.state = QuoteState::Wrong;
-            findings.push(told::wrong_unit(said, &outcome, &text, &gives));
-            return outcome;
+        // Of a fraction that is told in percent the number is right in any unit, and a converted one is in that unit.
+        let unit = unit.filter(|_| fits == reading.read && factor.is_none());
+        match (unit, measured) {
+            (Some((unit, Held::Wrong)), Some(found)) => {
+                let gives = written(&found);
+                outcome.reason = format!("the text says {}, the expression gives {gives}", unit.text);
+                outcome.state = QuoteState::Wrong;
+                findings.push(told::wrong_unit(said, &outcome, &unit.text, &gives));
+                return outcome;
+            }
+            (Some((unit, Held::Unsure)), Some(found)) => {
+                let gives = written(&found);
+                let reason = format!("{} may be a unit or a symbol", unit.text);
+                let finding = told::unsure_unit(said, &outcome, &unit.text, &gives);
+                return unclear(outcome, &reason, finding, findings);
+            }
+            _ => {}
         }
         if !outcome.moved.is_empty() {
             findings.push(told::of_timestep(said, &outcome, &read));
@@ -198,7 +266,8 @@ pub(super) fn check(
         let finding = told::doubtful(said, &outcome, &read, why, None);
         return unclear(outcome, "the quote can be read in two ways", finding, findings);
     }
-    if let Some(shift) = unit::shift(&read, &reading.unit, computed) {
+    let text = reading.unit.as_ref().map_or("", |unit| unit.text.as_str());
+    if let Some(shift) = unit::shift(&read, text, computed) {
         let finding = told::other_unit(said, &outcome, &read, &shift);
         return unclear(outcome, "text and expression differ by a power of ten", finding, findings);
     }
@@ -269,13 +338,6 @@ pub(super) fn cells(claim: &Column, shown: &ShownText) -> Result<Vec<[Text; 2]>,
 /// Whether a reader sees the same in both.
 pub(super) fn same(a: &str, b: &str) -> bool {
     table::shown(a) == table::shown(b)
-}
-
-/// The places of a question itself, then the others.
-fn own_first(places: &[Range<usize>], question: Option<&Question>) -> Vec<Range<usize>> {
-    let own = |p: &&Range<usize>| question.is_some_and(|q| q.span.start <= p.start && p.end <= q.span.end);
-    let (own, others): (Vec<_>, Vec<_>) = places.iter().partition(own);
-    own.into_iter().chain(others).cloned().collect()
 }
 
 #[cfg(test)]

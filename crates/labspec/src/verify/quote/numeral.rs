@@ -1,6 +1,7 @@
 //! Digits with their separators, decimals and power of ten, at one place of a text.
 
 use super::number::{Form, Quoted, Style, ten};
+use labspec_bind::units::is_wide;
 
 /// A number and where it stands, in characters.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,9 +62,9 @@ impl Chars<'_> {
         self.at(i).is_some_and(|c| c.is_ascii_digit())
     }
 
-    /// Behind the spaces that begin at `i`.
-    pub(super) fn skip_spaces(&self, mut i: usize) -> usize {
-        while self.at(i).is_some_and(char::is_whitespace) {
+    /// Behind the spaces that begin at `i`; what is shown apart stands in another line.
+    pub(super) fn skip_blanks(&self, mut i: usize) -> usize {
+        while self.at(i) == Some(' ') {
             i += 1;
         }
         i
@@ -75,15 +76,15 @@ impl Chars<'_> {
     }
 
     /// Behind the digits that begin at `i`.
-    fn digits(&self, mut i: usize) -> usize {
+    pub(super) fn digits(&self, mut i: usize) -> usize {
         while self.digit(i) {
             i += 1;
         }
         i
     }
 
-    fn text(&self, from: usize, to: usize) -> String {
-        self.0.get(from..to).unwrap_or_default().iter().collect()
+    pub(super) fn text(&self, from: usize, to: usize) -> String {
+        self.0.get(from..to.min(self.0.len())).unwrap_or_default().iter().collect()
     }
 
     /// Behind a separator at `i` and exactly three digits.
@@ -160,7 +161,7 @@ pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral 
 
     let mut form = Form::Plain(style);
     let mut extra = 0.0;
-    let mark = if first.is_empty() { end } else { chars.skip_spaces(end) };
+    let mark = if first.is_empty() { end } else { chars.skip_blanks(end) };
     if let Some(x) = chars.at(mark).and_then(fraction)
         && decimals == 0
         && style.group.is_none()
@@ -178,6 +179,17 @@ pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral 
         end = behind;
         style.times = times;
         form = Form::Plain(style);
+    }
+    if let Some((power, behind)) = factor(chars, end) {
+        if form == Form::Fraction {
+            refused = Some("a fraction of a word for a power of ten");
+        } else {
+            exponent += power;
+            style.times = true;
+            form = Form::Plain(style);
+        }
+        doubts.clear();
+        end = behind;
     }
     let count = digits.bytes().filter(u8::is_ascii_digit).count();
     if count > MAX_DIGITS || exponent.abs() > MAX_EXPONENT {
@@ -202,18 +214,20 @@ fn power(chars: Chars<'_>, at: usize, digits: &str) -> Option<(i32, usize, bool)
         let n: i32 = chars.text(from, end).parse().ok().filter(|_| end > from && end - from < 9)?;
         Some((if negative { -n } else { n }, end))
     };
-    if matches!(chars.at(at), Some('e' | 'E'))
-        && let Some((n, end)) = signed(at + 1)
+    // `0.5e3`, and `0.5 e3`
+    let letter = if chars.at(at) == Some(' ') { at + 1 } else { at };
+    if matches!(chars.at(letter), Some('e' | 'E'))
+        && let Some((n, end)) = signed(letter + 1)
         && !chars.at(end).is_some_and(char::is_alphanumeric)
     {
         return Some((n, end, false));
     }
     // The base, with its sign of multiplication unless it is all there is.
-    let mark = chars.skip_spaces(at);
+    let mark = chars.skip_blanks(at);
     let base = if digits == "10" && chars.at(at) == Some('^') {
         at
     } else {
-        let from = chars.skip_spaces(mark + 1);
+        let from = chars.skip_blanks(mark + 1);
         let times = matches!(chars.at(mark), Some('×' | '·' | '*' | 'x' | 'X'));
         if !(times && chars.has(from, "10")) {
             return None;
@@ -226,4 +240,102 @@ fn power(chars: Chars<'_>, at: usize, digits: &str) -> Option<(i32, usize, bool)
     }
     let (n, end) = signed(raised)?;
     Some((n, end, true))
+}
+
+/// Words for powers of ten.
+const FACTORS: [(&str, i32); 25] = [
+    ("hundred", 2),
+    ("thousand", 3),
+    ("million", 6),
+    ("millions", 6),
+    ("billion", 9),
+    ("trillion", 12),
+    ("hundert", 2),
+    ("tausend", 3),
+    ("Millionen", 6),
+    ("Milliarden", 9),
+    ("mille", 3),
+    ("milliards", 9),
+    ("mil", 3),
+    ("hundredths", -2),
+    ("thousandths", -3),
+    ("millionths", -6),
+    ("hundredth", -2),
+    ("thousandth", -3),
+    ("millionth", -6),
+    ("万", 4),
+    ("萬", 4),
+    ("億", 8),
+    ("亿", 8),
+    ("百万", 6),
+    ("千万", 7),
+];
+
+/// The words for powers of ten that follow at `at`, and where they end: `0.5 thousand`, `2 hundred million`, `3万`.
+fn factor(chars: Chars<'_>, at: usize) -> Option<(i32, usize)> {
+    let (mut power, mut end) = (0, at);
+    for _ in 0..3 {
+        let from = chars.skip_blanks(end);
+        let found = FACTORS.iter().find_map(|(word, n)| {
+            let stop = from + word.chars().count();
+            let wide = word.chars().all(is_wide);
+            let whole = wide || from > end && !chars.at(stop).is_some_and(char::is_alphanumeric);
+            (chars.has(from, word) && whole).then_some((*n, stop))
+        });
+        let Some((n, stop)) = found else { break };
+        (power, end) = (power + n, stop);
+    }
+    (end > at).then_some((power, end))
+}
+
+/// All numbers of a text, each with its first digit. Digits of words, indexes and exponents (`H2O`, `x_1`, `L^2`, `3D`, `2nd`) are none.
+pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
+    let mut all: Vec<(Numeral, usize)> = Vec::new();
+    let mut i = 0;
+    while let Some(c) = chars.at(i) {
+        let point = c == '.' && chars.digit(i + 1) && chars.before(i) != Some('.');
+        if !(c.is_ascii_digit() || point || fraction(c).is_some()) {
+            i += 1;
+            continue;
+        }
+        let sign = chars.before(i).filter(|c| matches!(c, '-' | '–' | '+'));
+        let word = |c: char| c.is_alphabetic() && !is_wide(c) || matches!(c, '_' | '^' | '#');
+        let front = i - usize::from(sign.is_some());
+        if chars.before(front).is_some_and(word) {
+            let part = |c: char| c.is_alphanumeric() && !is_wide(c) || matches!(c, '_' | '^' | '.');
+            while chars.at(i).is_some_and(part) {
+                i += 1;
+            }
+            continue;
+        }
+        let adjacent = chars.before(front).is_some_and(|c| c.is_ascii_digit() || c == ')');
+        let mut negative = matches!(sign, Some('-' | '–')) && !adjacent;
+        let mut start = if adjacent { i } else { front };
+        // `= - 0.5`, `-\,0.5`
+        if sign.is_none() && chars.before(i) == Some(' ') && matches!(chars.before(i - 1), Some('-' | '–'))
+        {
+            let edge = i.saturating_sub(2);
+            let opens = |c: char| matches!(c, '=' | '≈' | '(' | ':' | '\n');
+            let before = (0..edge).rev().find_map(|k| chars.at(k).filter(|c| *c != ' '));
+            if before.is_none_or(opens) {
+                (negative, start) = (true, edge);
+            }
+        }
+        let mut found = numeral(chars, i, negative);
+        found.start = start;
+        let next = found.end.max(i + 1);
+        if !is_word(chars, &found, i) {
+            all.push((found, i));
+        }
+        i = next;
+    }
+    all
+}
+
+/// `2nd`, `3D`: digits that count and do not measure.
+fn is_word(chars: Chars<'_>, number: &Numeral, first_digit: usize) -> bool {
+    let whole = (first_digit..number.end).all(|i| chars.digit(i));
+    let letters: String =
+        (number.end..).map_while(|i| chars.at(i)).take_while(|c| c.is_alphabetic()).take(3).collect();
+    whole && matches!(letters.as_str(), "st" | "nd" | "rd" | "th" | "D")
 }

@@ -1,7 +1,10 @@
 //! Where texts stand as numbers of their own: all quotes are looked for at once, in one walk through the text.
 
-use super::numeral::fraction;
+use super::numeral::{Chars, fraction};
+use super::quantity::{Quantity, quantities};
+use super::unit_text::Unit;
 use super::{fold, html};
+use labspec_bind::units::is_wide;
 use std::ops::Range;
 
 /// Most places that are told of one quote.
@@ -16,7 +19,9 @@ struct Needle {
     folded: String,
     /// Where its first digit stands: the search begins at numbers.
     digit: usize,
-    found: Vec<Range<usize>>,
+    /// What it states when it stands alone.
+    quantities: Vec<Quantity>,
+    found: Vec<Found>,
 }
 
 /// A tree of the needles' bytes from their first digits on.
@@ -68,7 +73,9 @@ impl Search {
         {
             n.ends.push(number as u32);
         }
-        self.needles.push(Needle { folded, digit: digit.unwrap_or(0), found: Vec::new() });
+        let chars: Vec<char> = fold::fold(&shown, false).0.trim_matches('\n').chars().collect();
+        let quantities = if digit.is_some() { quantities(Chars(&chars)) } else { Vec::new() };
+        self.needles.push(Needle { folded, digit: digit.unwrap_or(0), quantities, found: Vec::new() });
         number
     }
 
@@ -76,9 +83,9 @@ impl Search {
         self.nodes.get(node)?.next.iter().find(|(c, _)| *c == b).map(|(_, next)| *next as usize)
     }
 
-    /// Looks through a folded text. `joined` tells of a space whether it was meant to hold digits together.
-    pub(super) fn walk(&mut self, text: &str, joined: impl Fn(usize) -> bool) {
-        let bytes = text.as_bytes();
+    /// Looks through a text.
+    pub(super) fn walk(&mut self, text: &Readable) {
+        let bytes = text.flat.as_bytes();
         let mut previous = b' ';
         for (start, &first) in bytes.iter().enumerate() {
             let goes_on = first.is_ascii_digit() && previous.is_ascii_digit();
@@ -93,36 +100,25 @@ impl Search {
                 let Some(next) = self.child(node, b) else { break };
                 node = next;
                 for i in 0..self.nodes.get(node).map_or(0, |n| n.ends.len()) {
-                    self.note(node, i, start, at + 1, text, &joined);
+                    self.note(node, i, start, at + 1, text);
                 }
             }
         }
     }
 
     /// Takes a needle in whose tail has been found.
-    fn note(
-        &mut self,
-        node: usize,
-        i: usize,
-        start: usize,
-        end: usize,
-        text: &str,
-        joined: &impl Fn(usize) -> bool,
-    ) {
+    fn note(&mut self, node: usize, i: usize, start: usize, end: usize, text: &Readable) {
         let Some(&number) = self.nodes.get(node).and_then(|n| n.ends.get(i)) else { return };
         let Some(needle) = self.needles.get_mut(number as usize) else { return };
         let Some(begin) = start.checked_sub(needle.digit) else { return };
         let head = needle.folded.get(..needle.digit);
-        if needle.found.len() < MAX_PLACES
-            && text.get(begin..start) == head
-            && is_own(text, begin..end, joined)
-        {
-            needle.found.push(begin..end);
+        if needle.found.len() < MAX_PLACES && text.flat.get(begin..start) == head {
+            needle.found.extend(text.says(&(begin..end), &needle.quantities));
         }
     }
 
     /// Where a quote stands.
-    pub(super) fn found(&self, number: usize) -> &[Range<usize>] {
+    pub(super) fn found(&self, number: usize) -> &[Found] {
         self.needles.get(number).map_or(&[], |n| &n.found)
     }
 }
@@ -131,87 +127,97 @@ fn is_anchor(c: char) -> bool {
     c.is_ascii_digit() || fraction(c).is_some()
 }
 
-/// Whether what stands at a range is a number of its own, with its whole unit: `0.44` is not said by `0.442` or
-/// `-0.44`, `1.5` not by `21.5` or `1.5e-3`, `3 m` not by `3 mm` or `3 m/s`.
-fn is_own(text: &str, range: Range<usize>, joined: &impl Fn(usize) -> bool) -> bool {
+/// Whether the words at the ends of a range are whole ones.
+fn whole_words(text: &str, range: &Range<usize>) -> bool {
     let Some(quote) = text.get(range.clone()) else { return false };
-    begins(text, &range, quote, joined) && ends(text, &range, quote, joined)
+    let letter = |c: Option<char>| c.filter(|c| c.is_alphanumeric() && !is_wide(*c));
+    let before = letter(text.get(..range.start).and_then(|t| t.chars().next_back()));
+    let after = letter(text.get(range.end..).and_then(|t| t.chars().next()));
+    !(before.is_some() && letter(quote.chars().next()).is_some())
+        && !(after.is_some() && letter(quote.chars().next_back()).is_some_and(|c| !c.is_numeric()))
 }
 
-fn begins(text: &str, range: &Range<usize>, quote: &str, joined: &impl Fn(usize) -> bool) -> bool {
-    let mut before = text.get(..range.start).unwrap_or("").chars().rev();
-    let (last, second) = (before.next(), before.next());
-    let Some(last) = last else { return true };
-    let first = quote.chars().next().unwrap_or(' ');
-    let digit_before = second.is_some_and(|c| c.is_ascii_digit());
-    if is_anchor(first) || first == '.' {
-        return match last {
-            // A sign belongs to the number, unless it parts two.
-            '-' if matches!(second, Some('e' | 'E')) => !is_digit(before.next()),
-            '-' => second.is_some_and(|c| c.is_alphanumeric() || c == ')'),
-            '.' | ',' | '\'' => !digit_before,
-            ' ' => !(digit_before && joined(range.start - 1)),
-            c => !(c.is_alphanumeric() || matches!(c, '^' | '_' | '#')),
-        };
+/// A place of a quote.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Found {
+    /// Bytes of the text that was searched.
+    pub(super) bytes: Range<usize>,
+    /// The unit that the text has behind the last number of the quote, where the quote ends with that number.
+    pub(super) unit: Option<Unit>,
+}
+
+/// A text with its quantities.
+pub(super) struct Readable {
+    /// The folded text, dashes alike.
+    pub(super) flat: String,
+    /// For each byte of it the character that it belongs to.
+    character: Vec<u32>,
+    quantities: Vec<Quantity>,
+}
+
+impl Readable {
+    /// `chars` are those of `flat`, with dashes told apart.
+    pub(super) fn new(flat: String, chars: &[char]) -> Readable {
+        let mut character = Vec::with_capacity(flat.len() + 1);
+        for (i, c) in flat.chars().enumerate() {
+            character.extend(std::iter::repeat_n(i as u32, c.len_utf8()));
+        }
+        character.push(chars.len() as u32);
+        Readable { flat, character, quantities: quantities(Chars(chars)) }
     }
-    let word = first.is_alphanumeric() && last.is_alphanumeric();
-    let exponent = matches!(first, '-' | '+') && matches!(last, '^' | 'e' | 'E') && is_digit(second);
-    !(word || exponent)
-}
 
-/// The `e` of 1e-3, or the `^` of 10^-3, stands behind a digit.
-fn is_digit(c: Option<char>) -> bool {
-    c.is_some_and(|c| c.is_ascii_digit())
-}
-
-fn ends(text: &str, range: &Range<usize>, quote: &str, joined: &impl Fn(usize) -> bool) -> bool {
-    let rest = text.get(range.end..).unwrap_or("");
-    let mut after = rest.chars();
-    let (next, second) = (after.next(), after.next());
-    let (Some(next), last) = (next, quote.chars().next_back().unwrap_or(' ')) else { return true };
-    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
-    if last.is_ascii_digit() {
-        return match next {
-            '.' | ',' | '\'' => !digit(second),
-            ' ' => !(digit(second) && joined(range.end) || power(rest.trim_start())),
-            'e' | 'E' => !exponent(rest),
-            '(' => !digit(second),
-            '×' | '·' | '*' | 'x' => !power(rest),
-            c => !(c.is_ascii_digit() || c == '^' || c == '_' || fraction(c).is_some()),
-        };
+    /// Whether what stands at a range says what the quote says when it stands alone: the same numbers, with the same signs, factors
+    /// and units, and none of them a part of something else.
+    fn says(&self, bytes: &Range<usize>, own: &[Quantity]) -> Option<Found> {
+        if !whole_words(&self.flat, bytes) {
+            return None;
+        }
+        let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
+        let (start, end) = (at(bytes.start)?, at(bytes.end)?);
+        let first = self.quantities.partition_point(|q| q.whole.end <= start);
+        let mut here = self.quantities.get(first..)?.iter().take_while(|q| q.whole.start < end);
+        let mut unit = None;
+        for (i, mine) in own.iter().enumerate() {
+            let theirs = here.next()?;
+            let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
+            // A plus before it changes nothing.
+            let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
+            // What a quote cannot be read as is told when it is read.
+            let clear = mine.refused.is_some() || theirs.refused.is_none();
+            if !(inside && begins && clear && mine.says(theirs)) {
+                return None;
+            }
+            let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
+            if text(mine) == text(theirs) {
+                if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| !u.shared) {
+                    return None;
+                }
+                continue;
+            }
+            let last = i + 1 == own.len();
+            if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.shared) || !last {
+                return None;
+            }
+            unit = theirs.unit.clone();
+        }
+        here.next().is_none().then(|| Found { bytes: bytes.clone(), unit })
     }
-    if last.is_alphabetic() || last == '°' {
-        let goes_on =
-            matches!(next, '/' | '·' | '^') && second.is_some_and(|c| c.is_alphanumeric() || c == '-');
-        return !(next.is_alphanumeric() || next == '_' || goes_on);
-    }
-    true
-}
-
-/// Whether a power of ten follows.
-fn power(rest: &str) -> bool {
-    let rest = rest.strip_prefix(['×', '·', '*', 'x']).map(str::trim_start);
-    rest.and_then(|r| r.strip_prefix("10")).is_some_and(|r| r.starts_with('^') || r.starts_with("**"))
-}
-
-/// Whether an exponent follows: `e-3`, `e5`.
-fn exponent(rest: &str) -> bool {
-    let rest = rest.get(1..).unwrap_or("");
-    let digits = rest.strip_prefix(['-', '+']).unwrap_or(rest);
-    let length = digits.bytes().take_while(u8::is_ascii_digit).count();
-    length > 0 && !digits.get(length..).unwrap_or("").starts_with(char::is_alphanumeric)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn readable(text: &str) -> Readable {
+        let chars: Vec<char> = fold::fold(text, false).0.chars().collect();
+        Readable::new(fold::fold(text, true).0, &chars)
+    }
+
     fn at(text: &str, quote: &str) -> Vec<usize> {
-        let (folded, _) = fold::fold(text, true);
         let mut search = Search::new();
         let n = search.add(quote);
-        search.walk(&folded, |at| !folded[at..].starts_with(' ') || text.contains('\u{2009}'));
-        search.found(n).iter().map(|r| r.start).collect()
+        search.walk(&readable(text));
+        search.found(n).iter().map(|r| r.bytes.start).collect()
     }
 
     #[test]
@@ -221,13 +227,20 @@ mod tests {
             ("21.5 and 1.5", "1.5", vec![9]),
             ("x -0.7357 y", "-0.7357", vec![2]),
             ("x \u{2212}0.7357 y", "-0.7357", vec![2]),
-            ("0.4–0.5", "0.5", vec![4]),
             ("0.442 s, 0.442 s", "0.442 s", vec![0, 9]),
             ("$2.4\\times10^{-4}$", "2.4×10⁻⁴", vec![0]),
             ("it takes about 29 mm", "about 29 mm", vec![9]),
-            ("a - 5 m", "5 m", vec![4]),
+            ("a ball — 5 m", "5 m", vec![9]),
+            ("下落需要0.5秒。", "0.5秒", vec![12]),
+            ("下落需要0.5秒。", "0.5", vec![12]),
+            ("it takes +0.5 s", "0.5 s", vec![10]),
+            ("(0.5 s)", "0.5 s", vec![1]),
+            ("from 0.3 s to 0.5 s", "0.5 s", vec![14]),
+            ("from 2.31 to 3.73 N m", "2.31", vec![5]),
+            ("0.5 thousand s", "0.5 thousand s", vec![0]),
+            ("a 0.5-second fall", "0.5", vec![2]),
+            ("0.7 mm per step", "0.7 mm per step", vec![0]),
             ("½ m", "½ m", vec![0]),
-            ("run 2 500 N", "500 N", vec![6]),
             ("3 m, 3 m.", "3 m", vec![0, 5]),
         ] {
             assert_eq!(at(text, quote), found, "{quote} in {text}");
@@ -251,6 +264,8 @@ mod tests {
             ("0.442(3)", "0.442"),
             ("1½", "½"),
             ("0.5 m\u{1}s", "0.5 ms"),
+            ("0.4–0.5", "0.5"),
+            ("run 2 500 N", "500 N"),
         ] {
             assert_eq!(at(text, quote), Vec::<usize>::new(), "{quote} in {text}");
         }
@@ -262,7 +277,7 @@ mod tests {
         let text = "0.442 s and 0.4421 s; ".repeat(50_000);
         let mut search = Search::new();
         let all: Vec<usize> = (0..400).map(|i| search.add(&format!("0.442{i} s"))).collect();
-        search.walk(&text, |_| false);
+        search.walk(&readable(&text));
         assert_eq!(search.found(all[1]).len(), MAX_PLACES);
         assert!(search.found(all[2]).is_empty());
         assert!(search.work < 2 * text.len(), "{} steps for {} bytes", search.work, text.len());

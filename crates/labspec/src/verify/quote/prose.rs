@@ -1,12 +1,14 @@
 //! The prose of a Markdown lesson, paragraph by paragraph, cell by cell: what is left when labs, quizzes, listings
 //! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
 
+use super::hidden::Hidden;
 use super::html;
 use super::shown::Piece;
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lesson, Problem};
 use pulldown_cmark::{CodeBlockKind, Event, Options, Parser, Tag, TagEnd};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 /// Languages of a fence whose text is what a program printed.
@@ -18,6 +20,7 @@ const MAX_REREAD: usize = 64 << 20;
 /// What a page may show that plain CommonMark does not know.
 const OPTIONS: Options = Options::ENABLE_TABLES
     .union(Options::ENABLE_FOOTNOTES)
+    .union(Options::ENABLE_STRIKETHROUGH)
     .union(Options::ENABLE_MATH)
     .union(Options::ENABLE_YAML_STYLE_METADATA_BLOCKS);
 
@@ -38,8 +41,10 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
         pieces: Vec::new(),
         open: empty(),
         html: false,
-        hidden: html::Hidden::default(),
+        hidden: Hidden::default(),
         inline: false,
+        unseen: 0,
+        notes: notes(text),
     };
     let (mut from, mut read) = (0, text.len());
     while let Some(resume) = reader.pass(from).filter(|&at| at > from && read < MAX_REREAD) {
@@ -53,6 +58,32 @@ fn empty() -> Text {
     Text { value: String::new(), map: SourceMap::default() }
 }
 
+/// The footnotes that the text refers to, or another footnote that it refers to: a page shows no others.
+fn notes(text: &str) -> BTreeSet<String> {
+    if !text.contains("[^") {
+        return BTreeSet::new();
+    }
+    let mut inside: Option<String> = None;
+    let mut refers: BTreeMap<Option<String>, Vec<String>> = BTreeMap::new();
+    for event in Parser::new_ext(text, OPTIONS) {
+        match event {
+            Event::Start(Tag::FootnoteDefinition(name)) => inside = Some(name.to_string()),
+            Event::End(TagEnd::FootnoteDefinition) => inside = None,
+            Event::FootnoteReference(name) => {
+                refers.entry(inside.clone()).or_default().push(name.to_string())
+            }
+            _ => {}
+        }
+    }
+    let mut used = BTreeSet::new();
+    let mut open = refers.remove(&None).unwrap_or_default();
+    while let Some(name) = open.pop() {
+        open.extend(refers.remove(&Some(name.clone())).unwrap_or_default());
+        used.insert(name);
+    }
+    used
+}
+
 struct Reader<'t> {
     text: &'t str,
     blocks: &'t [Block],
@@ -60,7 +91,11 @@ struct Reader<'t> {
     /// The piece that is being read.
     open: Text,
     html: bool,
-    hidden: html::Hidden,
+    hidden: Hidden,
+    /// Within a footnote that nothing refers to, or words that are struck out.
+    unseen: usize,
+    /// The footnotes that something refers to.
+    notes: BTreeSet<String>,
     /// What is hidden began within the paragraph that is being read.
     inline: bool,
 }
@@ -71,6 +106,7 @@ impl Reader<'_> {
         // In a fence: whether its text is shown. In what stands before the lesson (its metadata): not.
         let mut fence: Option<bool> = None;
         self.hidden.end();
+        self.unseen = 0;
         for (event, range) in Parser::new_ext(self.text.get(from..)?, OPTIONS).into_offset_iter() {
             let range = range.start + from..range.end + from;
             match event {
@@ -91,6 +127,16 @@ impl Reader<'_> {
                     self.close();
                     self.html = true;
                 }
+                Event::Start(Tag::FootnoteDefinition(ref name)) => {
+                    self.close();
+                    self.unseen += usize::from(!self.notes.contains(name.as_ref()));
+                }
+                Event::End(TagEnd::FootnoteDefinition) => {
+                    self.close();
+                    self.unseen = 0;
+                }
+                Event::Start(Tag::Strikethrough) => self.strike(&range, range.start, 1),
+                Event::End(TagEnd::Strikethrough) => self.strike(&range, range.end.saturating_sub(1), -1),
                 Event::Start(ref tag) if is_inline(tag) => {}
                 Event::End(ref tag) if is_inline_end(tag) => {}
                 Event::Start(_) | Event::End(_) | Event::Rule => {
@@ -99,7 +145,7 @@ impl Reader<'_> {
                     }
                     self.close();
                 }
-                _ if fence == Some(false) || self.is_taken(&range) => {}
+                _ if fence == Some(false) || self.unseen > 0 || self.is_taken(&range) => {}
                 Event::Html(part) => {
                     for shown in self.hidden.shown(&part) {
                         let bytes = range.start + shown.start..range.start + shown.end;
@@ -151,6 +197,15 @@ impl Reader<'_> {
         let i = self.blocks.partition_point(|b| b.span.start <= range.start);
         let before = i.checked_sub(1).and_then(|i| self.blocks.get(i));
         before.is_some_and(|b| !matches!(b.kind, BlockKind::Code { .. }) && range.start < b.span.end)
+    }
+
+    /// Words between double tildes are struck out; single tildes are letters.
+    fn strike(&mut self, range: &Range<usize>, at: usize, by: isize) {
+        if self.text.get(range.clone()).is_some_and(|text| text.starts_with("~~")) {
+            self.unseen = self.unseen.saturating_add_signed(by);
+        } else if self.unseen == 0 && !self.hidden.is_on() {
+            self.whole(Some('~'), at..at + 1);
+        }
     }
 
     fn close(&mut self) {
@@ -208,25 +263,9 @@ fn is_output(language: &str) -> bool {
 
 /// Tags within a line, which part nothing.
 fn is_inline(tag: &Tag<'_>) -> bool {
-    matches!(
-        tag,
-        Tag::Emphasis
-            | Tag::Strong
-            | Tag::Strikethrough
-            | Tag::Link { .. }
-            | Tag::Superscript
-            | Tag::Subscript
-    )
+    matches!(tag, Tag::Emphasis | Tag::Strong | Tag::Link { .. } | Tag::Superscript | Tag::Subscript)
 }
 
 fn is_inline_end(tag: &TagEnd) -> bool {
-    matches!(
-        tag,
-        TagEnd::Emphasis
-            | TagEnd::Strong
-            | TagEnd::Strikethrough
-            | TagEnd::Link
-            | TagEnd::Superscript
-            | TagEnd::Subscript
-    )
+    matches!(tag, TagEnd::Emphasis | TagEnd::Strong | TagEnd::Link | TagEnd::Superscript | TagEnd::Subscript)
 }

@@ -47,6 +47,14 @@ fn numbers_are_read_as_printed() {
         ("1'500", 1500.0, 0.5),
         ("0.000 833 m", 0.000833, 0.5e-6),
         ("1.5×10³", 1500.0, 50.0),
+        ("1.5 million", 1.5e6, 5e4),
+        ("0.5 thousand s", 500.0, 50.0),
+        ("0.5 e3 s", 500.0, 50.0),
+        ("3万", 3e4, 5e3),
+        ("０．５秒", 0.5, 0.05),
+        ("下落需要0.5秒", 0.5, 0.05),
+        ("$\\SI{0.5}{\\second}$", 0.5, 0.05),
+        ("$\\num{1.5e-3}$", 1.5e-3, 5e-5),
         ("1.5 x 10^3", 1500.0, 50.0),
         ("1.5*10**3", 1500.0, 50.0),
         ("$3.0\\times10^{-3}$", 3e-3, 0.5e-4),
@@ -159,7 +167,6 @@ fn other_forms_are_refused_by_name() {
         ("0.5 + 0.1", "a sum"),
         ("0.5 - 0.1", "a difference or a range"),
         ("0.5-0.1", "a difference or a range"),
-        ("1.5 million", "a number with a word for its power of ten"),
         ("less than 1 mm", "a bound and not a number"),
         ("$v \\le 3$", "a bound and not a number"),
         ("v >= 3", "a bound and not a number"),
@@ -189,7 +196,7 @@ fn units_are_seen() {
         ("7", ""),
         ("7, that is", ""),
     ] {
-        assert_eq!(read(text).unit, unit, "{text}");
+        assert_eq!(read(text).unit.map_or(String::new(), |u| u.text), unit, "{text}");
     }
 }
 

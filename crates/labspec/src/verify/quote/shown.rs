@@ -1,9 +1,9 @@
 //! The text of a lesson that a reader sees: prose, headings, cells, captions, printed output, and the shown texts of
 //! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
 
-use super::places::{MAX_PLACES, Search};
+use super::places::{MAX_PLACES, Readable, Search};
 use super::table::{self, Table};
-use super::{fold, html, prose};
+use super::{Place, fold, html, prose, stated};
 use crate::run::Cell;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind, Verify};
@@ -13,7 +13,7 @@ use std::ops::Range;
 /// Where the quotes of a lesson stand in what is shown of it. Made once for a lesson.
 #[derive(Debug, Default)]
 pub struct ShownText {
-    places: BTreeMap<String, Vec<Range<usize>>>,
+    places: BTreeMap<String, Vec<Place>>,
     /// Where a quote stands that no reader sees: in code, a key, a listing.
     hidden: BTreeMap<String, Range<usize>>,
     /// The tables, where something is claimed of one.
@@ -54,20 +54,23 @@ impl ShownText {
         }
         let wordy: Vec<&str> = numbers.keys().copied().filter(|q| !has_number(q)).take(MAX_WORDS).collect();
         let (text, map) = join(pieces(lesson), !wordy.is_empty());
-        let plain = |origin: &str| {
-            let rest = origin.trim_matches([' ', '\n', '\r', '\t']);
-            rest.is_empty() || matches!(rest, "\\n" | "\\t" | "\\r")
-        };
-        search.walk(&text, |at| !plain(file.get(map.span(at..at + 1)).unwrap_or("")));
+        search.walk(&text);
         let sliders = at_sliders(lesson, &numbers);
         for (&quote, &number) in &numbers {
-            let words = if wordy.contains(&quote) { words(&text, quote) } else { Vec::new() };
-            let found = search.found(number).iter().cloned().chain(words);
-            let mut places: Vec<_> = found.map(|r| lesson.file.snap(&map.span(r))).collect();
+            let words = if wordy.contains(&quote) { words(&text.flat, quote) } else { Vec::new() };
+            let found = search.found(number).iter().map(|f| (f.bytes.clone(), f.unit.clone()));
+            let place = |(bytes, unit)| {
+                let at = lesson.file.snap(&map.span(bytes));
+                // A number in a cell has the unit of its column.
+                let of_column = || stated::unit_of_column(file, at.start);
+                let unit = if has_number(quote) { Option::or_else(unit, of_column) } else { None };
+                Place { at, unit }
+            };
+            let mut places: Vec<_> = found.chain(words.into_iter().map(|at| (at, None))).map(place).collect();
             if places.is_empty() {
-                places.extend(sliders.get(quote).cloned());
+                places.extend(sliders.get(quote).map(|at| Place { at: at.clone(), unit: None }));
             }
-            places.sort_by_key(|r| (r.start, r.end));
+            places.sort_by_key(|p| (p.at.start, p.at.end));
             places.dedup();
             if places.is_empty() && shown.hidden.len() < MAX_HIDDEN {
                 let place = unseen(quote, file, lesson);
@@ -79,7 +82,12 @@ impl ShownText {
     }
 
     /// The bytes of the file at which a quote stands as a number of its own.
-    pub fn places(&self, quote: &str) -> &[Range<usize>] {
+    pub fn places(&self, quote: &str) -> Vec<Range<usize>> {
+        self.found(quote).iter().map(|p| p.at.clone()).collect()
+    }
+
+    /// The same with the units that the text has there.
+    pub(in crate::verify) fn found(&self, quote: &str) -> &[Place] {
         self.places.get(quote).map_or(&[], Vec::as_slice)
     }
 
@@ -88,7 +96,7 @@ impl ShownText {
         let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
         let places = verify.says.iter().map(|said| {
             let quote = said.quote.as_str();
-            (quote.to_string(), self.places(quote).iter().filter(inside).cloned().collect())
+            (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.at)).cloned().collect())
         });
         let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
         let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
@@ -172,8 +180,8 @@ fn words(text: &str, quote: &str) -> Vec<Range<usize>> {
 
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
 /// number; `words` takes them, too.
-fn join(pieces: Vec<Piece>, words: bool) -> (String, SourceMap) {
-    let (mut all, mut map) = (String::new(), SourceMap::default());
+fn join(pieces: Vec<Piece>, words: bool) -> (Readable, SourceMap) {
+    let (mut all, mut chars, mut map) = (String::new(), Vec::new(), SourceMap::default());
     for piece in pieces {
         if !words && !has_number(&piece.text.value) {
             continue;
@@ -187,6 +195,8 @@ fn join(pieces: Vec<Piece>, words: bool) -> (String, SourceMap) {
         let (folded, inner) = fold::fold(&text, true);
         let at = back.span(0..0).start;
         all.push_str(&folded);
+        chars.extend(fold::fold(&text, false).0.chars());
+        chars.push('\n');
         for part in inner.then(&back).pieces() {
             if part.verbatim {
                 map.push_verbatim(part.origin.clone());
@@ -197,7 +207,7 @@ fn join(pieces: Vec<Piece>, words: bool) -> (String, SourceMap) {
         all.push('\n');
         map.push_whole(1, at..at);
     }
-    (all, map)
+    (Readable::new(all, &chars), map)
 }
 
 pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {

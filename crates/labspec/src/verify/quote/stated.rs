@@ -1,7 +1,10 @@
 //! The numbers that a lesson states: every one that a reader sees, with its unit and the words around it.
 
+use super::context::BOUND;
 use super::numeral::Chars;
-use super::{Quoted, fold, html, read};
+use super::quantity::quantities;
+use super::unit_text::{Unit, unit_of_head};
+use super::{Quoted, fold, html};
 use crate::source::Text;
 use crate::spec::{Lesson, QuestionKind, Quiz};
 use labspec_bind::units::parse;
@@ -38,8 +41,6 @@ pub struct Stated {
 
 /// Most numbers of one lesson.
 const MOST: usize = 1000;
-/// Most words of a unit: `N m s/rad`.
-const WORDS: usize = 3;
 
 /// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
@@ -89,7 +90,7 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     for (verify, block) in lesson.scoped() {
         let narrow = block.map(|block| shown.within(block, verify));
         let shown = narrow.as_ref().unwrap_or(&shown);
-        all.extend(verify.says.iter().flat_map(|said| shown.places(said.quote.as_str()).to_vec()));
+        all.extend(verify.says.iter().flat_map(|said| shown.places(said.quote.as_str())));
         let cells = verify.table.iter().filter_map(|claim| super::cells(claim, shown).ok());
         all.extend(cells.flatten().flatten().map(|cell| cell.span()));
     }
@@ -130,89 +131,43 @@ fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let (folded, map) = fold::fold(&text.value, false);
     let chars: Vec<char> = folded.chars().collect();
     let bytes: Vec<usize> = folded.char_indices().map(|(at, _)| at).chain([folded.len()]).collect();
-    // Of `2.31 to 3.73 N m` the first number has the unit of the second.
-    let mut next: Option<(usize, String, Dimension)> = None;
-    for number in read::numbers(Chars(&chars)).into_iter().rev() {
-        let (Some(&start), Some(&end)) = (bytes.get(number.start), bytes.get(number.end)) else { continue };
+    let found = quantities(Chars(&chars));
+    for q in found.into_iter().rev() {
+        let byte = |i: usize| bytes.get(i).copied();
+        let (Some(start), Some(end)) = (byte(q.whole.start), byte(q.whole.end)) else { continue };
+        let Some(number_end) = byte(q.number_end) else { continue };
         if all.len() > MOST {
             return;
         }
-        if number.refused.is_some() || !number.quoted.value.is_finite() {
-            next = None;
+        let bound = q.refused == Some(BOUND);
+        if q.refused.is_some() && !bound || !q.quoted.value.is_finite() {
             continue;
         }
-        let origin = map.span(start..end);
+        let origin = map.span(start..number_end);
         let at = text.map.span(origin.clone());
         let cell = Cell::of(lesson.file.text(), at.start);
-        let rest = folded.get(end..).unwrap_or("");
-        let shared = next.take().filter(|(to, ..)| {
-            let gap = folded.get(end..*to).unwrap_or("").trim();
-            ["to", "and", "or", ",", "–", "-"].contains(&gap)
-        });
-        let (unit, dimension, length) = match (own_unit(rest), shared) {
-            (Some(found), _) => found,
-            (None, Some((_, unit, dimension))) => (unit, dimension, 0),
-            (None, None) => match cell.as_ref().and_then(|cell| unit_of_head(&cell.head)) {
-                Some((unit, dimension)) => (unit, dimension, 0),
-                None => continue,
-            },
-        };
-        next = Some((start, unit.clone(), dimension));
+        let of_head = || cell.as_ref().and_then(|cell| unit_of_head(&cell.head));
+        let Some(unit) = q.unit.or_else(of_head) else { continue };
+        let Some(dimension) = unit.dimension else { continue };
         all.push(Stated {
-            quote: folded.get(start..end + length).unwrap_or("").to_string(),
-            span: at.start..text.map.span(map.span(start..end + length)).end,
-            read: number.quoted,
-            unit,
+            quote: folded.get(start..end).unwrap_or("").to_string(),
+            span: at.start..text.map.span(map.span(start..end)).end,
+            read: q.quoted,
+            unit: unit.text,
             dimension,
             context: cell.as_ref().map_or_else(|| sentence(&folded, start).to_string(), |c| c.row.clone()),
             column: cell.map_or(String::new(), |c| c.head),
             paragraph: paragraph.clone(),
             at: origin.start,
-            bound: read::is_bound(Chars(&chars), &number),
+            bound,
             answer: false,
         });
     }
 }
 
-/// The unit behind a number: what it is, what it means, and its bytes with the space before it.
-fn own_unit(rest: &str) -> Option<(String, Dimension, usize)> {
-    let trimmed = rest.trim_start_matches(' ');
-    let space = rest.len() - trimmed.len();
-    let mut ends = vec![];
-    for (at, c) in trimmed.char_indices().chain([(trimmed.len(), ' ')]) {
-        let part = c.is_alphanumeric() || matches!(c, '%' | '°' | '/' | '·' | '^' | '-' | 'µ' | 'μ');
-        if !part {
-            ends.push(at);
-            if c != ' ' || ends.len() >= WORDS {
-                break;
-            }
-        }
-    }
-    ends.into_iter().rev().find_map(|end| {
-        let unit = trimmed
-            .get(..end)
-            .filter(|unit| !unit.is_empty() && !unit.starts_with(['-', '1']) && !unit.ends_with(' '))?;
-        let known = unit.replace('µ', "μ");
-        Some((unit.to_string(), parse(&known)?, space + end))
-    })
-}
-
-/// The unit behind the number that a quote states, if it has one.
-pub(in crate::verify) fn unit_of_quote(quote: &str) -> Option<(String, Dimension)> {
-    let (shown, _) = html::strip(quote);
-    let (folded, _) = fold::fold(&shown, false);
-    let chars: Vec<char> = folded.chars().collect();
-    let number = read::stated(Chars(&chars))?;
-    let rest: String = chars.get(number.end..)?.iter().collect();
-    let (unit, dimension, _) = own_unit(&rest)?;
-    Some((unit, dimension))
-}
-
-/// The unit in the brackets of a head: `error (mm)`.
-pub(in crate::verify) fn unit_of_head(head: &str) -> Option<(String, Dimension)> {
-    let inner = head.trim().strip_suffix(')')?;
-    let (_, unit) = inner.rsplit_once('(')?;
-    Some((unit.to_string(), parse(unit)?))
+/// The unit over the column of a cell.
+pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
+    unit_of_head(&super::table::shown(&Cell::of(file, at)?.head))
 }
 
 /// The sentence around a place: from the last full stop to the next one.
@@ -268,18 +223,6 @@ impl Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn units_are_as_long_as_they_can_be() {
-        let unit = |rest: &str| own_unit(rest).map(|(unit, _, length)| (unit, length));
-        assert_eq!(unit(" s, and"), Some(("s".into(), 2)));
-        assert_eq!(unit(" N m at"), Some(("N m".into(), 4)));
-        assert_eq!(unit(" m/s^2 down"), Some(("m/s^2".into(), 6)));
-        assert_eq!(unit(" mm at 2 ms"), Some(("mm".into(), 3)));
-        assert_eq!(unit(" balls"), None);
-        assert_eq!(unit(""), None);
-        assert_eq!(unit_of_head("error (mm)").map(|(unit, _)| unit), Some("mm".into()));
-    }
 
     #[test]
     fn a_unit_is_shared() {

@@ -118,6 +118,13 @@ pub(super) fn wrong_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, g
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
+pub(super) fn unsure_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
+    let message = format!("{text} may be a unit or a symbol here, and the expression gives {gives}");
+    at_places(rules::QUOTE_UNCLEAR, Severity::Error, said, outcome, message)
+        .why("nothing is called right that can be read in two ways")
+        .help("write the unit out, or quote the number where its unit is plain")
+}
+
 pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let right = printed(read, outcome.computed);
     let within = match read.form {

@@ -1,0 +1,268 @@
+//! The names of units: symbols with their prefixes, and words of several languages.
+
+use labspec_expr::dimension::{ANGLE, Dimension};
+use std::f64::consts::PI;
+
+pub(crate) const KG: usize = 1;
+pub(crate) const M: usize = 2;
+pub(crate) const S: usize = 3;
+pub(crate) const K: usize = 4;
+pub(crate) const A: usize = 5;
+
+/// Prefixes of units, as powers of ten.
+pub const PREFIXES: [(&str, i32); 13] = [
+    ("", 0),
+    ("p", -12),
+    ("n", -9),
+    ("μ", -6),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("d", -1),
+    ("h", 2),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+];
+
+/// A unit: how large it is, the powers of base units that it is made of, and whether it takes prefixes.
+struct Row(&'static str, f64, &'static [(usize, i32)], bool);
+
+const ANGLES: &[(usize, i32)] = &[(ANGLE, 1)];
+const LENGTH: &[(usize, i32)] = &[(M, 1)];
+const TIME: &[(usize, i32)] = &[(S, 1)];
+const MASS: &[(usize, i32)] = &[(KG, 1)];
+const FORCE: &[(usize, i32)] = &[(KG, 1), (M, 1), (S, -2)];
+const ENERGY: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -2)];
+const POWER: &[(usize, i32)] = &[(KG, 1), (M, 2), (S, -3)];
+const PRESSURE: &[(usize, i32)] = &[(KG, 1), (M, -1), (S, -2)];
+
+/// Symbols of units, as they stand, and names in scripts without capitals.
+const UNITS: [Row; 49] = [
+    Row("rad", 1.0, ANGLES, true),
+    Row("deg", PI / 180.0, ANGLES, false),
+    Row("°", PI / 180.0, ANGLES, false),
+    Row("rev", 2.0 * PI, ANGLES, false),
+    Row("m", 1.0, LENGTH, true),
+    Row("ft", 0.3048, LENGTH, false),
+    Row("s", 1.0, TIME, true),
+    Row("min", 60.0, TIME, false),
+    Row("h", 3600.0, TIME, false),
+    Row("g", 1e-3, MASS, true),
+    Row("lb", 0.453_592_37, MASS, false),
+    Row("lbs", 0.453_592_37, MASS, false),
+    Row("K", 1.0, &[(K, 1)], true),
+    Row("A", 1.0, &[(A, 1)], true),
+    Row("C", 1.0, &[(A, 1), (S, 1)], true),
+    Row("N", 1.0, FORCE, true),
+    Row("Nm", 1.0, ENERGY, true),
+    Row("Ns", 1.0, &[(KG, 1), (M, 1), (S, -1)], true),
+    Row("J", 1.0, ENERGY, true),
+    Row("W", 1.0, POWER, true),
+    Row("Pa", 1.0, PRESSURE, true),
+    Row("bar", 1e5, PRESSURE, true),
+    Row("Hz", 1.0, &[(S, -1)], true),
+    Row("rpm", 2.0 * PI / 60.0, &[(ANGLE, 1), (S, -1)], false),
+    Row("mph", 0.447_04, &[(M, 1), (S, -1)], false),
+    Row("kph", 1.0 / 3.6, &[(M, 1), (S, -1)], false),
+    Row("V", 1.0, &[(KG, 1), (M, 2), (S, -3), (A, -1)], true),
+    Row("T", 1.0, &[(KG, 1), (S, -2), (A, -1)], true),
+    Row("L", 1e-3, &[(M, 3)], true),
+    Row("l", 1e-3, &[(M, 3)], true),
+    Row("秒", 1.0, TIME, true),
+    Row("秒钟", 1.0, TIME, false),
+    Row("秒鐘", 1.0, TIME, false),
+    Row("分", 60.0, TIME, false),
+    Row("分钟", 60.0, TIME, false),
+    Row("分鐘", 60.0, TIME, false),
+    Row("小时", 3600.0, TIME, false),
+    Row("小時", 3600.0, TIME, false),
+    Row("時間", 3600.0, TIME, false),
+    Row("米", 1.0, LENGTH, true),
+    Row("公里", 1e3, LENGTH, false),
+    Row("公分", 1e-2, LENGTH, false),
+    Row("メートル", 1.0, LENGTH, true),
+    Row("克", 1e-3, MASS, true),
+    Row("公斤", 1.0, MASS, false),
+    Row("グラム", 1e-3, MASS, true),
+    Row("度", PI / 180.0, ANGLES, false),
+    Row("弧度", 1.0, ANGLES, false),
+    Row("ラジアン", 1.0, ANGLES, true),
+];
+
+/// Further names of that kind.
+const NAMED: [Row; 8] = [
+    Row("牛", 1.0, FORCE, true),
+    Row("牛顿", 1.0, FORCE, true),
+    Row("牛頓", 1.0, FORCE, true),
+    Row("ニュートン", 1.0, FORCE, true),
+    Row("焦耳", 1.0, ENERGY, true),
+    Row("ジュール", 1.0, ENERGY, true),
+    Row("瓦", 1.0, POWER, true),
+    Row("赫兹", 1.0, &[(S, -1)], true),
+];
+
+/// Names of units without an `s` behind them, in lower case: how large they are in the unit of a symbol, and that.
+const WORDS: [(&str, f64, &str); 54] = [
+    ("radian", 1.0, "rad"),
+    ("degree", 1.0, "°"),
+    ("grad", 1.0, "°"),
+    ("grado", 1.0, "°"),
+    ("degré", 1.0, "°"),
+    ("turn", 1.0, "rev"),
+    ("revolution", 1.0, "rev"),
+    ("metre", 1.0, "m"),
+    ("meter", 1.0, "m"),
+    ("mètre", 1.0, "m"),
+    ("metro", 1.0, "m"),
+    ("micron", 1e-6, "m"),
+    ("inch", 0.0254, "m"),
+    ("inche", 0.0254, "m"),
+    ("foot", 0.3048, "m"),
+    ("feet", 0.3048, "m"),
+    ("yard", 0.9144, "m"),
+    ("mile", 1609.344, "m"),
+    ("second", 1.0, "s"),
+    ("seconde", 1.0, "s"),
+    ("segundo", 1.0, "s"),
+    ("secondo", 1.0, "s"),
+    ("sekunde", 1.0, "s"),
+    ("sekunden", 1.0, "s"),
+    ("sec", 1.0, "s"),
+    ("msec", 1e-3, "s"),
+    ("minute", 60.0, "s"),
+    ("minuten", 60.0, "s"),
+    ("minuto", 60.0, "s"),
+    ("min", 60.0, "s"),
+    ("hour", 3600.0, "s"),
+    ("hr", 3600.0, "s"),
+    ("heure", 3600.0, "s"),
+    ("hora", 3600.0, "s"),
+    ("stunde", 3600.0, "s"),
+    ("stunden", 3600.0, "s"),
+    ("day", 86400.0, "s"),
+    ("week", 604_800.0, "s"),
+    ("year", 31_557_600.0, "s"),
+    ("gram", 1.0, "g"),
+    ("gramm", 1.0, "g"),
+    ("gramme", 1.0, "g"),
+    ("kilo", 1000.0, "g"),
+    ("tonne", 1e6, "g"),
+    ("pound", 453.592_37, "g"),
+    ("ounce", 28.349_523, "g"),
+    ("kelvin", 1.0, "K"),
+    ("newton", 1.0, "N"),
+    ("joule", 1.0, "J"),
+    ("watt", 1.0, "W"),
+    ("volt", 1.0, "V"),
+    ("pascal", 1.0, "Pa"),
+    ("hertz", 1.0, "Hz"),
+    ("litre", 1.0, "L"),
+];
+
+/// Prefixes of names.
+const NAMED_PREFIXES: [(&str, i32); 20] = [
+    ("pico", -12),
+    ("nano", -9),
+    ("micro", -6),
+    ("mikro", -6),
+    ("milli", -3),
+    ("centi", -2),
+    ("zenti", -2),
+    ("deci", -1),
+    ("kilo", 3),
+    ("mega", 6),
+    ("giga", 9),
+    ("毫", -3),
+    ("微", -6),
+    ("厘", -2),
+    ("分", -1),
+    ("千", 3),
+    ("ミリ", -3),
+    ("マイクロ", -6),
+    ("センチ", -2),
+    ("キロ", 3),
+];
+
+/// Units of what lessons of mechanics do not compute, or that differ by more than a factor: they are units, and none of ours.
+const OTHER: [&str; 31] = [
+    "°C",
+    "°F",
+    "℃",
+    "℉",
+    "degC",
+    "degF",
+    "mol",
+    "cd",
+    "lm",
+    "lx",
+    "dB",
+    "px",
+    "pt",
+    "eV",
+    "keV",
+    "MeV",
+    "kcal",
+    "cal",
+    "Ω",
+    "ohm",
+    "ohms",
+    "mT",
+    "Wb",
+    "ppm",
+    "bit",
+    "bits",
+    "byte",
+    "bytes",
+    "kWh",
+    "celsius",
+    "fahrenheit",
+];
+
+/// What a unit without its power is: its size and its dimension.
+pub(crate) fn symbol(word: &str) -> Option<Dimension> {
+    let row = |name: &str| UNITS.iter().chain(&NAMED).find(|row| row.0 == name);
+    let lower = word.to_lowercase();
+    let named = || {
+        let (size, of) = named(&lower)?;
+        Some((row(of)?, size))
+    };
+    let (row, size) = match row(word) {
+        Some(row) => (row, 1.0),
+        None => {
+            let prefixes = PREFIXES
+                .iter()
+                .chain(NAMED_PREFIXES.iter().filter(|(p, _)| !p.is_ascii()))
+                .filter(|(p, _)| !p.is_empty());
+            let mut short = prefixes.filter_map(|(prefix, power)| {
+                let found = row(word.strip_prefix(prefix)?).filter(|row| row.3)?;
+                Some((found, 10f64.powi(*power)))
+            });
+            short.next().or_else(named)?
+        }
+    };
+    let powers = row.2.iter().map(|(base, n)| Dimension::base(*base).power(f64::from(*n)));
+    let dimension = powers.into_iter().try_fold(Dimension::NUMBER, |all, one| all.product(one?))?;
+    // A larger unit has smaller numbers.
+    Some(dimension.times(1.0 / (row.1 * size)))
+}
+
+/// A unit by its name in lower case: how large it is, and in which unit.
+fn named(word: &str) -> Option<(f64, &'static str)> {
+    let one = |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, of)| (*size, *of));
+    let any = |word: &str| one(word).or_else(|| one(word.strip_suffix('s')?));
+    any(word).or_else(|| {
+        let mut prefixed =
+            NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
+                let (size, of) = any(word.strip_prefix(prefix)?)?;
+                Some((size * 10f64.powi(*power), of))
+            });
+        prefixed.next()
+    })
+}
+
+/// Whether this is a unit of something else.
+pub(crate) fn is_other(word: &str) -> bool {
+    OTHER.contains(&word) || word.len() > 3 && OTHER.contains(&word.to_lowercase().as_str())
+}

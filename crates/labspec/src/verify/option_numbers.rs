@@ -1,0 +1,216 @@
+//! The number in the text of an option beside its condition: "about 7 m" cannot be right where the condition asks for 1.23 m.
+
+use super::bound::BoundVerify;
+use super::outcome::Outcome;
+use super::quote::{Held, conversion, hold, option_text};
+use super::{significant, units};
+use crate::finding::Finding;
+use crate::rules;
+use crate::source::{SourceMap, Text};
+use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
+use labspec_expr::{parse_expression, print};
+
+/// What a condition asks of the one quantity that it compares with numbers.
+#[derive(Clone, Debug, PartialEq)]
+struct Asked {
+    quantity: String,
+    low: f64,
+    high: f64,
+}
+
+/// Holds the numbers of all options to their conditions. `held` says which of them hold. Gives a reason where one contradicts.
+pub(super) fn check(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    options: &[Text],
+    conditions: &[Text],
+    held: &[Option<bool>],
+    findings: &mut Vec<Finding>,
+) -> Option<String> {
+    let mut reason = None;
+    for ((option, condition), held) in options.iter().zip(conditions).zip(held) {
+        let Some(message) = contradiction(bound, outcome, option, condition, *held == Some(true)) else {
+            continue;
+        };
+        findings.push(
+            Finding::error(rules::QUOTE_WRONG, option.span(), message.clone())
+                .why("the option says one number, and what decides about it asks for another")
+                .help("correct the number in the option, or its condition")
+                .related(condition.span(), "the condition of this option"),
+        );
+        reason = reason.or(Some(message));
+    }
+    reason
+}
+
+fn contradiction(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    option: &Text,
+    condition: &Text,
+    holds: bool,
+) -> Option<String> {
+    let said = option_text(&option.value)?;
+    let asked = asked(&parse_expression(&condition.value).tree)?;
+    let text =
+        Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
+    let found = units::of_claim(bound, &text)?;
+    let wanted = said.unit.dimension?;
+    if !found.agrees(&wanted) {
+        return None;
+    }
+    let factor = match conversion(&wanted, &found) {
+        Some(factor) => factor,
+        None if hold(&said.unit, Some(&found)) == Held::Fits
+            && (wanted.factor / found.factor - 1.0).abs() < 1e-3 =>
+        {
+            1.0
+        }
+        None => return None,
+    };
+    let (low, high) = (asked.low * factor, asked.high * factor);
+    let slack = 1e-9 * said.low.abs().max(said.high.abs()).min(f64::MAX);
+    let slack = if slack.is_finite() { slack } else { 0.0 };
+    if said.high < low - slack || said.low > high + slack {
+        return Some(format!("the option says {}, and its condition {}", said.text, range(low, high)));
+    }
+    // A number that the condition itself compares with is what the option means.
+    let named = |x: f64| x.is_finite() && said.low <= x && x <= said.high;
+    if !holds || named(low) || named(high) || !(said.low.is_finite() && said.high.is_finite()) {
+        return None;
+    }
+    let x = bound.find(outcome, &text, &mut Vec::new())?.value.to_number() * factor;
+    let off = x.is_finite() && (x < said.low - slack || x > said.high + slack);
+    off.then(|| {
+        format!("the option says {}, and what its condition compares is {}", said.text, significant(x))
+    })
+}
+
+/// `asks for 1.13 to 1.33`
+fn range(low: f64, high: f64) -> String {
+    match (low.is_finite(), high.is_finite()) {
+        (true, true) => format!("asks for {} to {}", significant(low), significant(high)),
+        (true, false) => format!("asks for more than {}", significant(low)),
+        _ => format!("asks for less than {}", significant(high)),
+    }
+}
+
+/// What a condition asks of one quantity; `None` where it is about several, or about something else.
+fn asked(e: &Expr) -> Option<Asked> {
+    match &e.kind {
+        ExprKind::Logical { op: LogicalOp::And, left, right } => {
+            let (a, b) = (asked(left)?, asked(right)?);
+            let same = a.quantity == b.quantity;
+            same.then(|| Asked { low: a.low.max(b.low), high: a.high.min(b.high), ..a })
+        }
+        ExprKind::Binary { op, left, right } => {
+            let (quantity, number, flipped) = match (constant(left), constant(right)) {
+                (None, Some(number)) => (left, number, false),
+                (Some(number), None) => (right, number, true),
+                _ => return None,
+            };
+            let below = match op {
+                BinaryOp::Less | BinaryOp::LessEqual => !flipped,
+                BinaryOp::Greater | BinaryOp::GreaterEqual => flipped,
+                _ => return None,
+            };
+            if let Some(inner) = magnitude(quantity) {
+                return if below { around(inner, number) } else { None };
+            }
+            let quantity = single(quantity).then(|| print(quantity))?;
+            let (low, high) = if below { (f64::NEG_INFINITY, number) } else { (number, f64::INFINITY) };
+            Some(Asked { quantity, low, high })
+        }
+        _ => None,
+    }
+}
+
+/// What stands in `abs(…)`.
+fn magnitude(e: &Expr) -> Option<&Expr> {
+    let ExprKind::Call { callee, args, .. } = &e.kind else { return None };
+    let named = match &callee.kind {
+        ExprKind::Name(name) => name == "abs",
+        ExprKind::Member { object, name, .. } => {
+            name.text == "abs" && matches!(&object.kind, ExprKind::Name(object) if object == "Math")
+        }
+        _ => false,
+    };
+    args.first().filter(|_| named && args.len() == 1)
+}
+
+/// `abs(x - c) < d`, `abs(x / c - 1) < d`
+fn around(inner: &Expr, off: f64) -> Option<Asked> {
+    let ExprKind::Binary { op: BinaryOp::Subtract, left, right } = &inner.kind else { return None };
+    let (quantity, centre) = match (constant(left), constant(right)) {
+        (None, Some(centre)) => (left, centre),
+        (Some(centre), None) => (right, centre),
+        _ => return None,
+    };
+    if let ExprKind::Binary { op: BinaryOp::Divide, left, right } = &quantity.kind
+        && let Some(unit) = constant(right).filter(|c| *c > 0.0)
+    {
+        return single(left).then(|| Asked {
+            quantity: print(left),
+            low: unit * (centre - off),
+            high: unit * (centre + off),
+        });
+    }
+    single(quantity).then(|| Asked { quantity: print(quantity), low: centre - off, high: centre + off })
+}
+
+/// The number that an expression of numbers alone is.
+fn constant(e: &Expr) -> Option<f64> {
+    match &e.kind {
+        ExprKind::Number(x) => Some(*x),
+        ExprKind::Unary { op: UnaryOp::Minus, operand } => constant(operand).map(|x| -x),
+        ExprKind::Binary { op, left, right } => {
+            let (a, b) = (constant(left)?, constant(right)?);
+            match op {
+                BinaryOp::Add => Some(a + b),
+                BinaryOp::Subtract => Some(a - b),
+                BinaryOp::Multiply => Some(a * b),
+                BinaryOp::Divide => Some(a / b),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Whether an expression is one measured quantity, perhaps times a number.
+fn single(e: &Expr) -> bool {
+    match &e.kind {
+        ExprKind::Name(_) => true,
+        ExprKind::Member { object, .. } => single(object),
+        ExprKind::Index { object, index, .. } => single(object) && constant(index).is_some(),
+        ExprKind::Binary { op: BinaryOp::Multiply, left, right } => {
+            constant(left).is_some() && single(right) || single(left) && constant(right).is_some()
+        }
+        ExprKind::Binary { op: BinaryOp::Divide, left, right } => single(left) && constant(right).is_some(),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_condition_asks_is_an_interval() {
+        let of = |text: &str| asked(&parse_expression(text).tree).map(|a| (a.quantity, a.low, a.high));
+        for (text, quantity, low, high) in [
+            ("abs(m - 1.25) < 0.25", "m", 1.0, 1.5),
+            ("Math.abs(1.25 - fall.m) <= 0.25", "fall.m", 1.0, 1.5),
+            ("m > 1 && m < 2", "m", 1.0, 2.0),
+            ("1 < 1000 * m", "1000 * m", 1.0, f64::INFINITY),
+            ("abs(m / 2 - 1) < 0.5", "m", 1.0, 3.0),
+        ] {
+            assert_eq!(of(text), Some((quantity.to_string(), low, high)), "{text}");
+        }
+        for text in
+            ["a < b", "abs(a - b) < 1", "a > 1 && b < 2", "a - b > 1", "a > 1 || a < 0", "true", "abs(m) > 1"]
+        {
+            assert_eq!(of(text), None, "{text}");
+        }
+    }
+}

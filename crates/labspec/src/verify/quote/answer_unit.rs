@@ -1,0 +1,83 @@
+//! The unit of a numeric question beside what its `value` measures.
+
+use super::unit_check::{Held, conversion, hold};
+use super::unit_text::Unit;
+use labspec_bind::units::{self, written};
+use labspec_expr::dimension::Dimension;
+
+/// What the unit of a question is to the numbers of its `value`.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::verify) enum AnswerUnit {
+    /// It is theirs, once they are multiplied with this: 1, or 1000 where the question asks for millimetres and the value is in metres.
+    Equal(f64),
+    /// It is another one: the unit of the question, and what the value is in.
+    Wrong(String, String),
+    /// What the value measures is not certain, or there is no unit: the numbers are compared as they are.
+    Unknown,
+}
+
+impl AnswerUnit {
+    /// What the numbers of the value are multiplied with.
+    pub(in crate::verify) fn factor(&self) -> f64 {
+        match self {
+            AnswerUnit::Equal(factor) => *factor,
+            AnswerUnit::Wrong(..) | AnswerUnit::Unknown => 1.0,
+        }
+    }
+}
+
+/// Holds the unit of a question to what its value measures.
+pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension>) -> AnswerUnit {
+    let shown = text.map(super::table::shown).unwrap_or_default();
+    let (Some(found), Some(read)) = (found, units::read(&shown).filter(|u| u.length == shown.len())) else {
+        return AnswerUnit::Unknown;
+    };
+    // The g of an acceleration is none of a mass.
+    if shown == "g" && !found.agrees(&Dimension::base(1)) {
+        return AnswerUnit::Unknown;
+    }
+    if let Some(factor) = read.dimension.and_then(|wanted| conversion(&wanted, &found)) {
+        return AnswerUnit::Equal(factor);
+    }
+    let unit = Unit { text: shown, dimension: read.dimension, shared: true };
+    match hold(&unit, Some(&found)) {
+        Held::Fits => AnswerUnit::Equal(1.0),
+        Held::Wrong | Held::Unsure => AnswerUnit::Wrong(unit.text, written(&found)),
+        Held::Unknown => AnswerUnit::Unknown,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_of_answers_are_converted_or_wrong() {
+        let d = |text: &str| units::parse(text);
+        let of = |unit: &str, found: &str| answer_unit(Some(unit), d(found));
+        for (unit, found, factor) in [
+            ("s", "s", 1.0),
+            ("ms", "s", 1000.0),
+            ("min", "s", 1.0 / 60.0),
+            ("h", "s", 1.0 / 3600.0),
+            ("mm", "m", 1000.0),
+            ("%", "1", 100.0),
+        ] {
+            let AnswerUnit::Equal(found) = of(unit, found) else { panic!("{unit} {found}") };
+            assert!((found / factor - 1.0).abs() < 1e-12, "{unit}: {found}");
+        }
+        for (unit, found) in
+            [("kg", "s"), ("ms", "m"), ("m/s", "m"), ("dB", "s"), ("A", "s"), ("h", "m"), ("°C", "s")]
+        {
+            assert!(matches!(of(unit, found), AnswerUnit::Wrong(..)), "{unit} {found}");
+        }
+        assert_eq!(answer_unit(Some("ms"), None), AnswerUnit::Unknown);
+        assert_eq!(answer_unit(None, d("s")), AnswerUnit::Unknown);
+        assert_eq!(of("bounces", "s"), AnswerUnit::Unknown);
+        // A number of the text that is a factor may have a unit of its own.
+        assert_eq!(answer_unit(Some("m/s"), d("s").map(|s| s.times(9.81))), AnswerUnit::Equal(1.0));
+        // In milliseconds already.
+        assert_eq!(answer_unit(Some("ms"), d("ms")), AnswerUnit::Equal(1.0));
+        assert!(matches!(answer_unit(Some("s"), d("ms")), AnswerUnit::Wrong(..)));
+    }
+}

@@ -1,0 +1,415 @@
+//! What stands beside a quantity and makes it a part of something else. What is not understood is refused: a number is quoted only
+//! where it is sure that the text states it.
+
+use super::numeral::{Chars, fraction};
+use labspec_bind::units::is_wide;
+
+pub(super) const BOUND: &str = "a bound and not a number";
+const FORMULA: &str = "a formula";
+const DIFFERENCE: &str = "a difference or a range";
+const ODD: &str = "a number with something before it that is not understood";
+const LETTERS: &str = "a number with letters behind it";
+
+/// Characters that are looked at on either side.
+const NEAR: usize = 40;
+
+/// Words before a number that make it a bound.
+const BOUNDS: [&str; 34] = [
+    "less than",
+    "more than",
+    "fewer than",
+    "greater than",
+    "smaller than",
+    "larger than",
+    "longer than",
+    "shorter than",
+    "higher than",
+    "lower than",
+    "slower than",
+    "faster than",
+    "other than",
+    "different from",
+    "at most",
+    "at least",
+    "below",
+    "above",
+    "under",
+    "over",
+    "up to",
+    "exceeds",
+    "exceed",
+    "exceeding",
+    "no more than",
+    "maximum of",
+    "minimum of",
+    "weniger als",
+    "mehr als",
+    "mindestens",
+    "höchstens",
+    "moins de",
+    "plus de",
+    "beyond",
+];
+
+/// Words before a number that change it.
+const CHANGES: [&str; 62] = [
+    "minus",
+    "negative",
+    "plus",
+    "times",
+    "half",
+    "half of",
+    "half the",
+    "half a",
+    "twice",
+    "twice the",
+    "thrice",
+    "double",
+    "double the",
+    "triple",
+    "triple the",
+    "quadruple",
+    "third of",
+    "thirds of",
+    "quarter of",
+    "quarters of",
+    "fifth of",
+    "tenth of",
+    "hundredth of",
+    "thousandth of",
+    "square of",
+    "cube of",
+    "root of",
+    "root",
+    "inverse of",
+    "reciprocal of",
+    "logarithm of",
+    "log",
+    "ln",
+    "lg",
+    "exp",
+    "sin",
+    "cos",
+    "tan",
+    "sqrt",
+    "one over",
+    "divided by",
+    "multiplied by",
+    "percent of",
+    "fraction of",
+    "power of",
+    "power",
+    "multiple of",
+    "multiples of",
+    "opposite of",
+    "not",
+    "never",
+    "nor",
+    "moins",
+    "meno",
+    "menos",
+    "halb",
+    "halbe",
+    "doppelt",
+    "mal",
+    "fois",
+    "per",
+    "hardly",
+];
+
+/// The same in scripts without spaces: `负0.5秒`, `每秒0.5米`.
+const WIDE: [&str; 49] = [
+    "负",
+    "負",
+    "减",
+    "減",
+    "减去",
+    "マイナス",
+    "零下",
+    "第",
+    "每",
+    "毎",
+    "每秒",
+    "毎秒",
+    "每分",
+    "毎分",
+    "每米",
+    "每小时",
+    "秒速",
+    "时速",
+    "時速",
+    "分速",
+    "半",
+    "倍",
+    "大于",
+    "大於",
+    "小于",
+    "小於",
+    "超过",
+    "超過",
+    "不到",
+    "不足",
+    "至少",
+    "至多",
+    "最多",
+    "最少",
+    "低于",
+    "低於",
+    "高于",
+    "高於",
+    "以上",
+    "以下",
+    "加",
+    "乘",
+    "乘以",
+    "除以",
+    "一半",
+    "不是",
+    "并非",
+    "点",
+    "點",
+];
+
+/// Figures of these scripts.
+const FIGURES: &str = "零〇一二三四五六七八九十百千万萬亿億兆两";
+
+/// What stands before a number, or its sign, and changes what it says.
+pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
+    let (mut at, mut attached, mut within) = (start, true, false);
+    let c = loop {
+        let c = chars.before(at).filter(|c| *c != '\n')?;
+        match c {
+            ' ' => attached = false,
+            '(' | '[' => {
+                let outer = at.checked_sub(1).and_then(|k| chars.before(k));
+                if outer.is_some_and(|c| c.is_alphanumeric() && !is_wide(c) || matches!(c, '^' | '_' | '√'))
+                {
+                    return Some(FORMULA);
+                }
+                (attached, within) = (false, true);
+            }
+            '"' | '“' | '”' | '\'' | '‘' | '«' | '»' | '„' | '「' | '『' | '‹' | '›' => {}
+            c => break c,
+        }
+        at -= 1;
+        if start - at > NEAR {
+            return Some(ODD);
+        }
+    };
+    let previous = at.checked_sub(1).and_then(|k| chars.before(k));
+    let digit_before = previous.is_some_and(|c| c.is_numeric());
+    match c {
+        '<' | '>' if matches!(previous, Some('-' | '=')) && c == '>' => None,
+        '<' | '>' | '≤' | '≥' | '≪' | '≫' | '≲' | '≳' => Some(BOUND),
+        '=' if matches!(previous, Some('<' | '>' | '!' | '≠' | '+' | '-' | '*' | '/')) => Some(BOUND),
+        '±' | '∓' => Some("a plus-minus without its number"),
+        '/' if previous == Some('+') => Some("a plus-minus without its number"),
+        '-' | '–' => Some(DIFFERENCE),
+        '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
+        | '¬' | '#' | '@' | '!'
+            if !(c == '|' && !attached) && !(c == '!' && !attached) =>
+        {
+            Some(FORMULA)
+        }
+        ':' if attached && digit_before => Some("a ratio or a time of day"),
+        '—' | ',' | '.' | '…' if attached && digit_before => Some(ODD),
+        '.' if attached && matches!(previous, Some('.')) => Some(DIFFERENCE),
+        '…' if attached => Some(DIFFERENCE),
+        ')' | ']' if attached && !within => Some(FORMULA),
+        ')' if matches!(previous, Some('-' | '–' | '+' | '±')) => Some(FORMULA),
+        c if is_wide(c) => wide_before(chars, at),
+        c if c.is_alphanumeric() && attached => Some(ODD),
+        c if c.is_alphanumeric() => words_before(chars, at),
+        '%' => None,
+        '\u{2200}'..='\u{22ff}' | '\u{2a00}'..='\u{2aff}'
+            if !matches!(c, '≈' | '≃' | '≅' | '∼' | '≡' | '⇒' | '∴') =>
+        {
+            Some(FORMULA)
+        }
+        '=' | '≈' | '~' | ':' | ';' | ',' | '.' | '?' | '!' | '…' | '—' | '→' | '⇒' | '|' | '•' | ')'
+        | ']' | '、' | '。' | '，' | '：' | '；' | '」' | '』' | '≡' | '∴' | '≃' | '≅' | '∼' => {
+            None
+        }
+        c if attached || c.is_alphanumeric() => Some(ODD),
+        _ => None,
+    }
+}
+
+fn wide_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let near = chars.text(at.saturating_sub(8), at);
+    let figure = near.chars().next_back().is_some_and(|c| FIGURES.contains(c));
+    (figure || WIDE.into_iter().any(|w| near.ends_with(w))).then_some(ODD)
+}
+
+/// The words that end at a character.
+fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let near = chars.text(at.saturating_sub(NEAR), at);
+    let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
+    let ends =
+        |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
+    if BOUNDS.into_iter().any(ends) {
+        return Some(BOUND);
+    }
+    if CHANGES.into_iter().any(ends)
+        || line.ends_with("n't")
+        || line.ends_with("% of")
+        || line.ends_with("½ of")
+    {
+        return Some("a number that the words before it change");
+    }
+    let last = line.rsplit(' ').next().unwrap_or("");
+    // A command of TeX, or a symbol of a formula.
+    let command = last.starts_with('\\') || last.contains('\\');
+    let mut letters = last.chars();
+    let symbol = match (letters.next(), letters.next()) {
+        (Some(c), None) => {
+            c.is_alphabetic() && !matches!(c, 'a' | 'i' | 'à' | 'y' | 'e' | 'o' | 'u' | 's' | 'm')
+        }
+        _ => false,
+    };
+    (command || symbol).then_some(FORMULA)
+}
+
+/// Words behind a number that change it.
+const BEHIND: [&str; 20] = [
+    "or more",
+    "or less",
+    "or longer",
+    "or higher",
+    "or above",
+    "or below",
+    "or lower",
+    "and more",
+    "and above",
+    "squared",
+    "cubed",
+    "to the power",
+    "dozen",
+    "score",
+    "times ten",
+    "at most",
+    "at least",
+    "and a half",
+    "oder mehr",
+    "ou plus",
+];
+
+const WIDE_BEHIND: [&str; 19] = [
+    "以上", "以下", "以内", "以內", "未満", "未满", "不到", "多", "余", "餘", "半", "平方", "立方", "次方",
+    "乗", "之", "分之", "分の", "割",
+];
+
+/// What follows a quantity and makes it a part of something else.
+pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'static str> {
+    let c = chars.at(end)?;
+    let next = chars.skip_blanks(end);
+    let apart = next > end;
+    let number_at = |i: usize| {
+        let i = chars.skip_blanks(i);
+        chars.digit(i)
+            || chars.at(i) == Some('.') && chars.digit(i + 1)
+            || chars.at(i).is_some_and(|c| fraction(c).is_some())
+    };
+    if !apart {
+        match c {
+            '^' => return Some("a power"),
+            '_' | '′' | '″' | '\\' | '#' | '@' | '$' | '&' => return Some(FORMULA),
+            '(' | '[' if chars.digit(end + 1) => return Some("an uncertainty in brackets"),
+            '(' if !has_unit => return Some(FORMULA),
+            ':' if chars.digit(end + 1) => return Some("a ratio or a time of day"),
+            '.' | ',' | '\'' if chars.digit(end + 1) => return Some("digits with several points"),
+            ')' | ']' => return behind_bracket(chars, end + 1),
+            c if is_wide(c) => return wide_after(chars, end),
+            c if c.is_alphanumeric() || combines(c) => return Some(LETTERS),
+            '-' | '–' | '—' if number_at(end + 1) => return Some(DIFFERENCE),
+            '/' => return Some(if number_at(end + 1) { "a fraction with a slash" } else { "a quotient" }),
+            _ => {}
+        }
+    }
+    let c = chars.at(next).filter(|c| *c != '\n')?;
+    let then = number_at(next + 1);
+    match c {
+        '-' if chars.at(next + 1) == Some('>') => None,
+        '^' | 'π' | '√' | '\\' | '÷' | '∙' | '⁄' | '∕' | '∓' | '±' | '%' | '‰' | '≠' => {
+            Some(FORMULA)
+        }
+        '×' | '·' | '*' => Some(if then { "a product" } else { FORMULA }),
+        '/' => Some(if then { "a fraction with a slash" } else { "a quotient" }),
+        'x' | 'X' if then => Some("a product"),
+        '+' => Some(if then { "a sum" } else { FORMULA }),
+        '-' | '–' if then => Some(DIFFERENCE),
+        '<' | '>' | '≤' | '≥' | '≪' | '≫' => Some(BOUND),
+        '(' if matches!(chars.at(next + 1), Some('-' | '–' | '+')) && chars.at(next + 2) == Some(')') => {
+            Some(FORMULA)
+        }
+        c if fraction(c).is_some() => Some("a product"),
+        // `0.5 10^3`
+        c if c.is_ascii_digit() => {
+            let end = chars.digits(next);
+            (chars.at(end) == Some('^') || chars.has(end, "**")).then_some("a product")
+        }
+        c if is_wide(c) => wide_after(chars, next),
+        '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
+        c if c.is_alphabetic() => words_after(chars, next),
+        _ => None,
+    }
+}
+
+/// Marks that change the character before them.
+fn combines(c: char) -> bool {
+    matches!(c, '\u{300}'..='\u{36f}' | '\u{20d0}'..='\u{20ff}' | '\u{1ab0}'..='\u{1aff}' | '\u{fe20}'..='\u{fe2f}')
+}
+
+/// Behind the bracket that closes right behind a quantity.
+fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
+    while matches!(chars.at(at), Some(')' | ']')) {
+        at += 1;
+    }
+    let next = chars.skip_blanks(at);
+    match chars.at(next) {
+        Some('^' | '×' | '·' | '*' | '÷' | '/' | '⁄' | '∕' | '∙' | '√' | '²' | '³') => {
+            Some(FORMULA)
+        }
+        Some(c) if next == at && (c.is_alphanumeric() && !is_wide(c) || c == '(' || c == '\\') => {
+            Some(FORMULA)
+        }
+        Some('+') => Some(FORMULA),
+        Some('-' | '–') if chars.digit(chars.skip_blanks(next + 1)) => Some(FORMULA),
+        _ => None,
+    }
+}
+
+fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let near = chars.text(at, at + 4);
+    let figure = near.chars().next().is_some_and(|c| FIGURES.contains(c) || c == '每' || c == '毎');
+    let fraction = near
+        .strip_prefix('の')
+        .is_some_and(|t| t.starts_with(|c: char| c.is_numeric() || FIGURES.contains(c)));
+    (figure || fraction || WIDE_BEHIND.into_iter().any(|w| near.starts_with(w))).then_some(ODD_BEHIND)
+}
+
+const ODD_BEHIND: &str = "a number that the words behind it change";
+
+fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let near = chars.text(at, at + NEAR);
+    let line = near.split('\n').next().unwrap_or("").to_lowercase();
+    let begins =
+        |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
+    if BEHIND.into_iter().any(begins) {
+        return Some(ODD_BEHIND);
+    }
+    letter(chars, at)
+}
+
+/// A single letter is a symbol of a formula, unless it is a word.
+fn letter(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let alone = !chars.at(at + 1).is_some_and(|c| c.is_alphanumeric() || c == '\'' || c == '-' || c == '.');
+    let c = chars.at(at)?;
+    let digits = matches!(c, 'e' | 'E') && chars.digit(at + 1);
+    let symbol = c.is_alphabetic()
+        && !is_wide(c)
+        && alone
+        && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'o' | 'u' | 'A' | 'i');
+    let indexed = c.is_alphabetic() && matches!(chars.at(at + 1), Some('_' | '^' | '('));
+    (symbol || digits || indexed).then_some(FORMULA)
+}

@@ -1,0 +1,210 @@
+//! The one reader of quantities: sign, number, factor, unit and what they stand beside, with the exact place of each. The grammar is
+//! in `docs/quantities.md`.
+
+use super::context::{after, before};
+use super::number::{Form, Quoted, ten};
+use super::numeral::{Chars, Numeral, numbers};
+use super::unit_text::{Unit, unit_behind};
+use std::ops::Range;
+
+/// A quantity and where it stands, in characters.
+#[derive(Clone, Debug)]
+pub(super) struct Quantity {
+    /// Its number, with sign, power of ten and factor; of a range both ends.
+    pub(super) quoted: Quoted,
+    /// What else the number could mean.
+    pub(super) doubts: Vec<f64>,
+    /// Why it should not be called wrong.
+    pub(super) unsure: Option<&'static str>,
+    /// All of it, sign and unit included.
+    pub(super) whole: Range<usize>,
+    /// Its first digit.
+    pub(super) digits: usize,
+    /// Behind the number and before the unit.
+    pub(super) number_end: usize,
+    /// Its unit, if it has one.
+    pub(super) unit: Option<Unit>,
+    /// Why it is no number of its own: it is a part of something, or changed by what stands around it.
+    pub(super) refused: Option<&'static str>,
+    /// Only as a quote: it begins a change from one number to another.
+    pub(super) change: bool,
+}
+
+impl Quantity {
+    /// Whether both say the same, their units left aside.
+    pub(super) fn says(&self, other: &Quantity) -> bool {
+        let (a, b) = (&self.quoted, &other.quoted);
+        a.value.to_bits() == b.value.to_bits() && a.half_unit == b.half_unit && a.form == b.form
+    }
+}
+
+/// All quantities of a text, in order; pairs that say one thing (`0.4 to 0.5 s`, `0.44 ± 0.01 s`) are one.
+pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
+    let singles = singles(chars);
+    let mut all: Vec<Quantity> = Vec::with_capacity(singles.len());
+    let mut rest = singles.into_iter().peekable();
+    while let Some(mut first) = rest.next() {
+        match rest.peek().map(|second| pair(chars, &first, second)) {
+            Some(Pair::One(one)) => {
+                rest.next();
+                all.push(one);
+            }
+            Some(Pair::Refused(form)) => {
+                first.refused = Some(form);
+                if let Some(second) = rest.peek_mut() {
+                    second.refused = Some(form);
+                }
+                all.push(first);
+            }
+            Some(Pair::Change) => {
+                first.change = true;
+                all.push(first);
+            }
+            Some(Pair::Two) | None => all.push(first),
+        }
+    }
+    for q in &mut all {
+        q.refused = q
+            .refused
+            .or_else(|| before(chars, q.whole.start))
+            .or_else(|| after(chars, q.whole.end, q.unit.is_some()));
+    }
+    share(chars, &mut all);
+    all
+}
+
+/// The numbers of a text with their units, each for itself.
+pub(super) fn singles(chars: Chars<'_>) -> Vec<Quantity> {
+    let one = |(number, digits): (Numeral, usize)| {
+        let unit = unit_behind(chars, number.end);
+        let end = unit.as_ref().map_or(number.end, |(_, end)| *end);
+        Quantity {
+            quoted: number.quoted,
+            doubts: number.doubts,
+            unsure: number.unsure,
+            whole: number.start..end,
+            digits,
+            number_end: number.end,
+            unit: unit.map(|(unit, _)| unit),
+            refused: number.refused,
+            change: false,
+        }
+    };
+    numbers(chars).into_iter().map(one).collect()
+}
+
+/// Of `2.31 to 3.73 N m` and `0.1, 0.2 and 0.3 s` the first numbers have the unit of the last.
+fn share(chars: Chars<'_>, all: &mut [Quantity]) {
+    let mut next: Option<(usize, Option<Unit>)> = None;
+    for q in all.iter_mut().rev() {
+        if q.unit.is_none()
+            && let Some((start, Some(unit))) = &next
+        {
+            let gap = chars.text(q.whole.end, *start);
+            if ["to", "and", "or", ",", "–", "-", "→", "->", "、", "到", "至", "和"].contains(&gap.trim())
+            {
+                q.unit = Some(Unit { shared: true, ..unit.clone() });
+            }
+        }
+        next = Some((q.whole.start, q.unit.clone()));
+    }
+}
+
+/// What two numbers beside each other are.
+enum Pair {
+    Two,
+    One(Quantity),
+    /// A change from the one to the other.
+    Change,
+    Refused(&'static str),
+}
+
+/// A plus-minus or a range, if two numbers are one.
+fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
+    if second.whole.start < first.number_end || second.whole.start - first.number_end > 60 {
+        return Pair::Two;
+    }
+    let gap = chars.text(first.number_end, second.whole.start);
+    let own = |q: &Quantity| chars.text(q.number_end, q.whole.end).trim().to_string();
+    let (first_unit, second_unit) = (own(first), own(second));
+    let (a, b) = (first.quoted, second.quoted);
+    let tight = gap.trim();
+    let refused = first.refused.or(second.refused);
+    let one = |form: Form, value: f64, unit: Option<Unit>, end: usize| {
+        Pair::One(Quantity {
+            quoted: Quoted { form, value, ..a },
+            doubts: Vec::new(),
+            unsure: first.unsure.or(second.unsure),
+            whole: first.whole.start..end,
+            number_end: if unit.is_some() && first.unit.is_some() {
+                first.number_end
+            } else {
+                second.number_end
+            },
+            unit,
+            refused,
+            ..first.clone()
+        })
+    };
+    let part = |sign: &str| tight.strip_suffix(sign).map(str::trim);
+    if let Some(left) = part("±").or(part("+/-")).or(part("+/")) {
+        let relative = !left.is_empty() && !left.starts_with('%') && second_unit == "%";
+        let one_unit = left == first_unit && (left.is_empty() || left == second_unit || relative);
+        if !one_unit || left.is_empty() && second_unit == "%" {
+            return Pair::Refused("a plus-minus whose unit is not clear");
+        }
+        if chars.at(second.whole.end) == Some(')') || a.exponent != b.exponent && a.exponent == 0 {
+            return Pair::Refused("a plus-minus whose power of ten is not clear");
+        }
+        let about = if relative { a.value * b.value / 100.0 } else { b.value }.abs();
+        let unit = if relative { first.unit.clone() } else { second.unit.clone() };
+        return one(Form::PlusMinus(a.value - about, a.value + about), a.value, unit, second.whole.end);
+    }
+    let link = tight.strip_prefix(first_unit.as_str()).unwrap_or(tight).trim();
+    let dash = matches!(link, "-" | "–" | "—" | "~");
+    let spaced = gap.starts_with(' ');
+    let preceded = |word: &str| word_before(chars, first.whole.start, word);
+    let between = link == "and" && preceded("between");
+    let to = matches!(link, "to" | "bis" | "到" | "至" | "から");
+    let is_range = between || to || link == "…" || link == "..." || dash && (link != "-" || !spaced);
+    if !is_range {
+        return Pair::Two;
+    }
+    if to && preceded("from") || matches!(link, "から") || preceded("从") {
+        return Pair::Change;
+    }
+    let one_unit = first_unit.is_empty() || first_unit == second_unit;
+    if !one_unit || a.exponent != b.exponent && a.exponent == 0 {
+        return Pair::Refused("a range whose ends have different units or powers of ten");
+    }
+    if dash && a.value > b.value {
+        return Pair::Refused("a difference or a range");
+    }
+    let form = Form::Range(a.value.min(b.value), a.value.max(b.value));
+    one(form, (a.value + b.value) / 2.0, second.unit.clone(), second.whole.end)
+}
+
+fn word_before(chars: Chars<'_>, at: usize, word: &str) -> bool {
+    let near = chars.text(at.saturating_sub(20), at).to_lowercase();
+    near.trim_end()
+        .strip_suffix(word)
+        .is_some_and(|rest| !rest.ends_with(char::is_alphanumeric) || !word.is_ascii())
+}
+
+/// A number of percent as the fraction of one that an expression may give; `None` for other units.
+pub(super) fn as_share(q: &Quoted, unit: &Unit) -> Option<Quoted> {
+    let power = unit.share()?;
+    let scale = |x: f64| x * ten(power);
+    let form = match q.form {
+        Form::PlusMinus(a, b) => Form::PlusMinus(scale(a), scale(b)),
+        Form::Range(a, b) => Form::Range(scale(a), scale(b)),
+        _ => Form::Share,
+    };
+    Some(Quoted {
+        value: scale(q.value),
+        half_unit: scale(q.half_unit),
+        decimals: (q.decimals as i32 - q.exponent - power).max(0) as usize,
+        exponent: 0,
+        form,
+    })
+}
