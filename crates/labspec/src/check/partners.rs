@@ -14,8 +14,9 @@ use crate::json::read::named;
 use crate::ledger::State;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Lab, Lesson, Question, Verify};
+use crate::spec::{Lab, Lesson, Question, Run, Verify};
 use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage, Verdict, significant};
+use std::cell::OnceCell;
 use std::ops::Range;
 
 /// A part of a measure by which another order of operations may change it.
@@ -23,13 +24,13 @@ const ROUNDING: f64 = 1e-6;
 
 /// A program that writes a parameter which others belong to.
 #[derive(Clone)]
-struct Candidate {
+struct Candidate<'a> {
     text: Text,
     /// What it is called.
     who: String,
     pairs: PairSet,
-    /// The lab, by its place; the setup of a run has none.
-    lab: Option<(Range<usize>, u64)>,
+    /// The lab; the setup of a run has none.
+    lab: Option<&'a Lab>,
     /// It stands in this lesson.
     own: bool,
 }
@@ -39,8 +40,9 @@ pub(super) struct Partners<'a> {
     lesson: &'a Lesson,
     models: &'a Models,
     labs: &'a [Ready<'a>],
-    candidates: Vec<Candidate>,
-    corrected: Vec<Ready<'a>>,
+    candidates: Vec<Candidate<'a>>,
+    /// Made when they are asked for: most lessons change no parameter that another belongs to.
+    corrected: OnceCell<Vec<Ready<'a>>>,
     stage: Stage<'a>,
 }
 
@@ -71,14 +73,19 @@ impl<'a> Partners<'a> {
                 let written = PairSet::written_by(&bound.program);
                 let pairs = written.without(coupled::chosen_apart(programs, bound, written));
                 let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
-                let lab = Some((ready.lab.span.clone(), ready.model.identity()));
-                candidates.push(Candidate { text: bound.text.clone(), who, pairs, lab, own });
+                candidates.push(Candidate { text: bound.text.clone(), who, pairs, lab: Some(ready.lab), own });
             }
         }
         candidates.retain(|c| !c.pairs.is_empty());
-        let programs: Vec<_> = candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
-        let corrected = corrected(labs, &Coupled { programs, others: PairSet::ALL, refresh: false });
-        Partners { lesson, models, labs, candidates, corrected, stage: Stage::new(models) }
+        Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
+    }
+
+    /// All labs of the lesson with every partner corrected.
+    fn corrected(&self) -> &[Ready<'a>] {
+        self.corrected.get_or_init(|| {
+            let programs = self.candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
+            corrected(self.labs, &Coupled { programs, others: PairSet::ALL, refresh: false })
+        })
     }
 
     /// Judges a `verify` object with partners corrected. What then is not true any more is not true of its subject: the judgement
@@ -97,7 +104,7 @@ impl<'a> Partners<'a> {
         if candidates.is_empty() {
             return;
         }
-        let Some(second) = self.judge(case, &self.corrected, &self.stage) else { return };
+        let Some(second) = self.judge(case, self.corrected(), &self.stage) else { return };
         if !differs(judgement, &second) || self.contrasted(case, judgement, &second) {
             return;
         }
@@ -126,21 +133,17 @@ impl<'a> Partners<'a> {
     }
 
     /// The programs of the labs of an object, and the setups of its runs.
-    fn involved(&self, case: Case<'_>) -> Vec<Candidate> {
-        let mut ignored = Vec::new();
-        let stage = Stage::new(self.models);
-        let Some(Cast { base, runs }) = cast(self.lesson, self.labs, case.verify, case.own, &stage, &mut ignored)
-        else {
-            return Vec::new();
-        };
-        let scenes: Vec<_> = base.iter().chain(runs.iter().flatten()).collect();
-        let of = |c: &&Candidate| {
-            scenes.iter().any(|s| c.lab.as_ref().is_some_and(|(span, _)| *span == s.lab.span))
-        };
-        let mut all: Vec<Candidate> = self.candidates.iter().filter(of).cloned().collect();
-        for (run, scene) in case.verify.runs.iter().zip(&runs) {
-            let (Some(text), Some(scene)) = (&run.setup, scene.first()) else { continue };
-            let bench = refresh::Bench::new(&scene.lab, &scene.model, &scene.programs);
+    fn involved(&self, case: Case<'_>) -> Vec<Candidate<'a>> {
+        let Case { verify, own, .. } = case;
+        let base = verify.lab.as_ref().map_or(own, |named| self.lesson.named(named));
+        let of_run = |run| lab_of(self.lesson, base, run);
+        let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
+        let of = |c: &&Candidate<'_>| labs.iter().any(|lab| c.lab.is_some_and(|own| std::ptr::eq(own, *lab)));
+        let mut all: Vec<Candidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
+        for run in &verify.runs {
+            let lab = of_run(run).and_then(|lab| self.labs.iter().find(|r| std::ptr::eq(r.lab, lab)));
+            let (Some(text), Some(ready)) = (&run.setup, lab) else { continue };
+            let bench = refresh::Bench::new(ready.lab, &ready.model, &ready.programs);
             let Some(bound) = bench.compile(text, &text.value, None) else { continue };
             let pairs = PairSet::written_by(&bound.program);
             let pairs = pairs.without(allowed(self.lesson, text, pairs));
@@ -163,7 +166,7 @@ impl<'a> Partners<'a> {
 
     /// Whether every run that the correction changes has the corrected one beside it: then the author shows the difference on purpose.
     fn contrasted(&self, case: Case<'_>, first: &Judgement, second: &Judgement) -> bool {
-        let [as_is, corrected] = [self.labs, &self.corrected].map(|labs| {
+        let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
             let begun = claims::begun(self.lesson, labs, case.verify, case.own, &stage);
             begun.map_or(Vec::new(), |begun| begun.runs)
@@ -181,8 +184,8 @@ impl<'a> Partners<'a> {
     }
 
     /// The programs, and the pairs of each, that make the difference when they alone are corrected.
-    fn causes(&self, case: Case<'_>, candidates: &[Candidate], first: &Judgement) -> Vec<Candidate> {
-        let single = |c: &Candidate| c.pairs.pairs().count() == 1;
+    fn causes(&self, case: Case<'_>, candidates: &[Candidate<'a>], first: &Judgement) -> Vec<Candidate<'a>> {
+        let single = |c: &Candidate<'_>| c.pairs.pairs().count() == 1;
         if candidates.len() == 1 && candidates.iter().all(single) {
             return candidates.to_vec();
         }
@@ -204,6 +207,11 @@ impl<'a> Partners<'a> {
         }
         if causes.is_empty() { candidates.to_vec() } else { causes }
     }
+}
+
+/// The lab that a run is of.
+fn lab_of<'c>(lesson: &'c Lesson, base: Option<&'c Lab>, run: &'c Run) -> Option<&'c Lab> {
+    run.lab.as_ref().map_or(base, |named| lesson.named(named))
 }
 
 /// Labs whose partners are corrected.
@@ -265,7 +273,7 @@ fn evidence(first: &Judgement, second: &Judgement) -> String {
     format!("{run}`{}` is {}, and {}", a.name, significant(a.value), significant(b.value))
 }
 
-fn corrected_words(causes: &[Candidate]) -> String {
+fn corrected_words(causes: &[Candidate<'_>]) -> String {
     let mut all: Vec<&str> = Vec::new();
     for (_, pair) in causes.iter().flat_map(|c| c.pairs.pairs()) {
         if !all.contains(&pair.corrected) {
@@ -275,7 +283,7 @@ fn corrected_words(causes: &[Candidate]) -> String {
     all.join(" and ")
 }
 
-fn codes(causes: &[Candidate]) -> String {
+fn codes(causes: &[Candidate<'_>]) -> String {
     let mut all: Vec<&str> = causes.iter().flat_map(|c| c.pairs.pairs()).map(|(_, p)| p.rule.code).collect();
     all.dedup();
     all.join("`, `")

@@ -113,7 +113,7 @@ fn behind(s: &Suspect<'_>, advice: Advice) -> String {
             let source = super::advice::source(s);
             instead(s, &format!("{source}{}", advice.tail(&source)))
         }
-        false => format!("add `{}`", advice.tail(text).replace('\n', " ").trim_start_matches([';', ' '])),
+        false => format!("add `{}`", advice.tail(text).replace('\n', " ").trim()),
     }
 }
 
