@@ -36,6 +36,7 @@ mod needs;
 mod no_run;
 mod numbers;
 mod parity;
+mod partners;
 mod plan;
 mod player;
 mod precision;

@@ -70,6 +70,8 @@ pub struct Programs {
     pub functions: Functions,
     /// The model that they were compiled for ([`Model::identity`]).
     pub model: u64,
+    /// What is corrected behind them, where somebody tries that.
+    pub(crate) coupled: Option<super::coupled::Coupled>,
 }
 
 impl Programs {
@@ -124,6 +126,7 @@ impl Programs {
             demand,
             functions,
             model: model.identity(),
+            coupled: None,
         };
         let mut demand = programs.demand;
         for bound in programs.bound() {

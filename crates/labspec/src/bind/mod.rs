@@ -2,6 +2,7 @@
 //! business of the crate `labspec-bind`, which knows no labs.
 
 mod compile;
+pub(crate) mod coupled;
 mod dimension;
 mod labels;
 pub mod parts;

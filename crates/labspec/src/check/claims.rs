@@ -1,5 +1,6 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
+use super::partners::Partners;
 use super::{Ready, refresh};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
@@ -125,13 +126,13 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
 }
 
 /// The labs of a `verify` object: its own, and that of each of its runs.
-struct Cast<'r> {
-    base: Option<Scene<'r>>,
-    runs: Vec<Vec<Scene<'r>>>,
+pub(super) struct Cast<'r> {
+    pub(super) base: Option<Scene<'r>>,
+    pub(super) runs: Vec<Vec<Scene<'r>>>,
 }
 
 /// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
-fn cast<'r>(
+pub(super) fn cast<'r>(
     lesson: &'r Lesson,
     ready: &'r [Ready<'r>],
     verify: &'r Verify,
@@ -244,7 +245,8 @@ pub(super) fn check(
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
     let shown = ShownText::of(lesson);
-    let mut court = Court { lesson, ready, shown, stage: Stage::new(models), list: Vec::new() };
+    let partners = Partners::new(lesson, ready, models);
+    let mut court = Court { lesson, ready, shown, stage: Stage::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {
             Owner::Lab(lab) => court.judge_lab(name, lab, findings),
@@ -260,6 +262,7 @@ struct Court<'a> {
     ready: &'a [Ready<'a>],
     shown: ShownText,
     stage: Stage<'a>,
+    partners: Partners<'a>,
     list: Vec<Claim>,
 }
 
@@ -313,7 +316,11 @@ impl Court<'_> {
             }
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
-            Some(bound) => verify::check(&bound, verify, question, shown, findings),
+            Some(bound) => {
+                let mut judgement = verify::check(&bound, verify, question, shown, findings);
+                self.partners.settle(verify, own, question, shown, &mut judgement, findings);
+                judgement
+            }
             None => verify::unmade(verify, question, "its runs or measures have mistakes"),
         }
     }

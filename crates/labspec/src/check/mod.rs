@@ -8,9 +8,9 @@ mod entries;
 mod expect;
 mod judge;
 mod left_out;
-mod mass_alone;
 mod named;
 mod params;
+mod partners;
 mod programs;
 mod refresh;
 mod reproduce;
@@ -136,7 +136,6 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
-        ready.iter().for_each(|r| mass_alone::check(r, &mut findings));
         ready.iter().for_each(|r| contact_time::check(r, &mut findings));
     }
     let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };

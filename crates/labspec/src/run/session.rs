@@ -532,10 +532,16 @@ impl<'p> Session<'p> {
             return false;
         }
         let time = self.world.data.time();
+        let coupled = self.programs.coupled.as_ref().and_then(|c| c.behind(program, text));
+        let before = coupled.map(|pairs| (pairs, self.world.model.clone()));
         let result = program.run(&mut self.world, &mut self.context, value);
         let good = result.is_ok();
         if let Err(e) = result {
             self.threw(e, text, time);
+        }
+        if let (Some((pairs, before)), Some(coupled)) = (before, &self.programs.coupled) {
+            let done = coupled.follow(pairs, &before, program, &mut self.world);
+            self.refused(done);
         }
         if !self.settle(time) {
             return good;

@@ -165,7 +165,10 @@ impl<'a> Stage<'a> {
         let model =
             if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
         let mut told = Vec::new();
-        let programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut told);
+        let mut programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut told);
+        if let Some(coupled) = &base.programs.coupled {
+            coupled.clone().install(&mut programs, &model);
+        }
         // What is wrong with the rest of the lab has been told.
         let own = |f: &Finding| controller.is_some_and(|c| inside(&f.span, &c.span()));
         let before = findings.len();

@@ -1,10 +1,11 @@
 //! Runs of a lab as it is, and with other statements behind a program: what is tried, and what is sampled.
 
 use super::difference::Columns;
-use super::{Advice, Place, Suspect};
+use super::{Place, Suspect};
+use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::programs::choices;
-use crate::run::{self, Breakdown, Cell, Play, Session, settings};
+use crate::run::{self, Breakdown, Cell, Numerics, Play, Session, settings};
 use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
@@ -54,8 +55,19 @@ impl<'a> Bench<'a> {
     }
 
     /// What the samples of its runs are.
-    pub(super) fn columns(&self) -> Columns<'a> {
-        Columns { lab: self.lab, programs: self.programs }
+    pub(super) fn columns(&self, s: &Suspect<'_>) -> Columns<'a> {
+        let whole = matches!(s.place, Place::Run(_)) || self.programs.probes.is_empty();
+        Columns { whole, lab: self.lab, programs: self.programs }
+    }
+
+    /// The model of the lab.
+    pub(super) fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// The programs of the lab.
+    pub(super) fn programs(&self) -> &'a Programs {
+        self.programs
     }
 
     /// Number of steps of the lab, or of the run of a question, within bounds.
@@ -145,13 +157,25 @@ impl<'a> Bench<'a> {
         trial: &Trial,
         steps: usize,
     ) -> Record {
+        self.record_under(s, amended, trial, steps, Numerics::NOMINAL)
+    }
+
+    /// The same under other numerics: half the timestep, or a moved start.
+    pub(super) fn record_under(
+        &mut self,
+        s: &Suspect<'_>,
+        amended: Option<&Amended>,
+        trial: &Trial,
+        steps: usize,
+        numerics: Numerics,
+    ) -> Record {
         let programs = amended.map_or(self.programs, |a| &a.programs);
         let setup = match s.place {
             Place::Run(_) => Some(amended.map_or(s.bound, |a| &a.bound)),
             _ => None,
         };
-        let whole = matches!(s.place, Place::Run(_)) || programs.probes.is_empty();
-        self.perform(programs, setup, whole, trial, steps)
+        let whole = self.columns(s).whole || !s.pairs.is_empty();
+        self.perform(programs, setup, whole, trial, steps, numerics)
     }
 
     /// Makes a run with these programs; `whole` samples all coordinates too.
@@ -162,13 +186,17 @@ impl<'a> Bench<'a> {
         whole: bool,
         trial: &Trial,
         steps: usize,
+        numerics: Numerics,
     ) -> Record {
+        // Twice the steps of half the length: what happens, happens at the same time.
+        let finer = if numerics.timestep < 1.0 { 2 } else { 1 };
+        let steps = steps * finer;
         let mut demand = programs.demand;
         setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
         let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
         let sets = |m: &Move| matches!(m, Move::Set(..));
         let width = 1 + programs.probes.len() + if whole { self.model.nq } else { 0 };
-        let every = (steps + 1).saturating_mul(width).div_ceil(CELLS).max(1);
+        let every = (steps / finer + 1).saturating_mul(width).div_ceil(CELLS).max(1) * finer;
         let mut rows = Vec::new();
         let mut too_long = false;
         run::play(&mut session, &Play::steps(steps), |session, step| {
@@ -181,13 +209,18 @@ impl<'a> Bench<'a> {
                 };
                 self.work_left = left;
             }
-            let due = trial.moves.iter().filter(|(at, _)| *at == step).map(|(_, m)| m);
+            let due = trial.moves.iter().filter(|(at, _)| *at * finer == step).map(|(_, m)| m);
             let (set, press): (Vec<&Move>, Vec<&Move>) = due.partition(|m| sets(m));
+            let moved = step == 0 || !set.is_empty() || !press.is_empty();
             set.into_iter().for_each(|m| act(session, m));
             if let Some(bound) = setup.filter(|_| step == 0) {
                 session.run_statements(&bound.program, &bound.text);
             }
             press.into_iter().for_each(|m| act(session, m));
+            if moved && numerics != Numerics::NOMINAL {
+                // A control that resets the lab takes a moved start back.
+                session.perturb(numerics, step > 0);
+            }
             if step % every == 0 || step == steps {
                 let mut row: Vec<Cell> = session.sample().into_iter().map(short).collect();
                 if whole {
@@ -211,29 +244,66 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Whether another run of the same object is what this one would be with its constants computed anew: then the
+    /// Whether another run of the same object is what this one would be when it is corrected: then the
     /// author shows the difference on purpose.
-    pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify) -> bool {
-        let (Place::Run(own), Some(refreshed)) = (s.place, self.amended(s, Advice::Keep)) else {
-            return false;
-        };
+    pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify, anew: &Amended) -> bool {
+        let Place::Run(own) = s.place else { return false };
         let Ok(steps) = self.steps(s) else { return false };
         let trial = self.as_asked(own);
-        let Ok(anew) = self.record(s, Some(&refreshed), &trial, steps) else { return false };
+        let Ok(anew) = self.record(s, Some(anew), &trial, steps) else { return false };
         verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
             let setup = run.setup.as_ref().map(|text| self.compile(text, &text.value, None));
             let Some(setup) = setup.map_or(Some(None), |bound| bound.map(Some)) else { return false };
             let trial = self.as_asked(run);
-            let other = self.perform(self.programs, setup.as_ref(), true, &trial, steps);
-            other.is_ok_and(|other| self.columns().difference(&anew, &other).is_none())
+            let other = self.perform(self.programs, setup.as_ref(), true, &trial, steps, Numerics::NOMINAL);
+            other.is_ok_and(|other| self.columns(s).difference(&anew, &other).is_none())
         })
     }
 
-    /// The lab with what is advised behind the statements.
-    pub(super) fn amended(&self, s: &Suspect<'_>, advice: Advice) -> Option<Amended> {
-        let text = &s.bound.text.value;
-        let source = if s.target { format!("{text} = value") } else { text.clone() };
-        let bound = self.compile(&s.bound.text, &format!("{source}{}", advice.tail(&source)), s.given)?;
+    /// Whether another run of the same object begins with the parameters and the partners that this one has when it is corrected:
+    /// then the author shows the difference on purpose.
+    pub(super) fn paired(&self, s: &Suspect<'_>, verify: &Verify) -> bool {
+        let Place::Run(own) = s.place else { return false };
+        let right = self.corrected(s, s.pairs);
+        let right = self.begun(&right.programs, Some(&right.bound), own);
+        if coupled::agree(&self.begun(self.programs, Some(s.bound), own), &right) {
+            return false;
+        }
+        verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
+            let setup = run.setup.as_ref().and_then(|text| self.compile(text, &text.value, None));
+            coupled::agree(&self.begun(self.programs, setup.as_ref(), run), &right)
+        })
+    }
+
+    /// The model as a run begins.
+    fn begun(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
+        let mut demand = programs.demand;
+        setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
+        let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
+        let trial = self.as_asked(run);
+        let sets = trial.moves.iter().filter(|(_, m)| matches!(m, Move::Set(..)));
+        sets.for_each(|(_, m)| act(&mut session, m));
+        if let Some(bound) = setup {
+            session.run_statements(&bound.program, &bound.text);
+        }
+        session.world.model
+    }
+
+    /// The lab with these partners corrected behind the program, and with constants computed anew where that is missing.
+    pub(super) fn corrected(&self, s: &Suspect<'_>, pairs: PairSet) -> Amended {
+        let mut programs = self.programs.clone();
+        let coupled = Coupled {
+            programs: vec![(s.bound.text.clone(), pairs)],
+            others: PairSet::NONE,
+            refresh: s.inertial.is_some(),
+        };
+        coupled.install(&mut programs, self.model);
+        Amended { programs, bound: s.bound.clone() }
+    }
+
+    /// The lab with other statements in place of the program.
+    pub(super) fn amended(&self, s: &Suspect<'_>, statements: &str) -> Option<Amended> {
+        let bound = self.compile(&s.bound.text, statements, s.given)?;
         let mut programs = self.programs.clone();
         match s.place {
             Place::Setup => programs.setup = Some(bound.clone()),

@@ -1,0 +1,85 @@
+//! Shapes of geoms: bounding radius and inertia of one kilogram, as a model that is compiled for it has them, and the geom that
+//! carries the mass of a body.
+
+use labspec_core::math::{Mat3, mat_mul, norm, quat_to_mat, rows, sub};
+use labspec_core::{Model, geom};
+
+/// Part of a moment by which a body may differ from the shape of its geom.
+const SAME: f64 = 1e-6;
+
+/// What is known of a shape.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    /// Of the bounding sphere, m.
+    pub(super) radius: f64,
+    /// Inertia tensor of one kilogram in the geom's frame, m².
+    tensor: Mat3,
+}
+
+/// The kinds of shapes that sizes describe: the word for a model, and the number of sizes.
+const KINDS: [(i32, &str, usize); 5] = [
+    (geom::SPHERE, "sphere", 1),
+    (geom::CAPSULE, "capsule", 2),
+    (geom::ELLIPSOID, "ellipsoid", 3),
+    (geom::CYLINDER, "cylinder", 2),
+    (geom::BOX, "box", 3),
+];
+
+/// The shape of a geom; `None` for planes, fields and meshes, and for sizes that no geom has.
+pub(super) fn of(m: &Model, g: usize) -> Option<Shape> {
+    let kind = m.geom_type.get(g)?;
+    let (_, word, sizes) = KINDS.iter().find(|(k, ..)| k == kind)?;
+    let size = rows::<3>(&m.geom_size).get(g)?;
+    let size: Vec<String> = size.iter().take(*sizes).map(|x| format!("{x:?}")).collect();
+    let xml = format!(
+        "<mujoco><worldbody><body><geom type='{word}' size='{}' mass='1'/></body></worldbody></mujoco>",
+        size.join(" ")
+    );
+    let alone = Model::from_xml(&xml).ok()?;
+    let tensor = tensor(*rows::<3>(&alone.body_inertia).get(1)?, &quat_to_mat(*rows::<4>(&alone.body_iquat).get(1)?));
+    Some(Shape { radius: *alone.geom_rbound.first()?, tensor })
+}
+
+/// R diag Rᵀ.
+fn tensor(diagonal: [f64; 3], r: &Mat3) -> Mat3 {
+    let [a, b, c] = diagonal;
+    turned(&[a, 0.0, 0.0, 0.0, b, 0.0, 0.0, 0.0, c], r)
+}
+
+/// R M Rᵀ.
+fn turned(m: &Mat3, r: &Mat3) -> Mat3 {
+    mat_mul(&mat_mul(r, m), &transposed(r))
+}
+
+fn transposed([a, b, c, d, e, f, g, h, i]: &Mat3) -> Mat3 {
+    [*a, *d, *g, *b, *e, *h, *c, *f, *i]
+}
+
+/// The rotation from a geom's frame to the principal axes of its body.
+pub(super) fn to_axes(m: &Model, g: usize, body: usize) -> Option<Mat3> {
+    let of_geom = quat_to_mat(*rows::<4>(&m.geom_quat).get(g)?);
+    let of_axes = quat_to_mat(*rows::<4>(&m.body_iquat).get(body)?);
+    Some(mat_mul(&transposed(&of_axes), &of_geom))
+}
+
+/// Moments of one kilogram of a geom's shape about the principal axes of its body; `None` where these are not its own.
+pub(super) fn moments(m: &Model, g: usize, body: usize) -> Option<[f64; 3]> {
+    let [a, ab, ac, _, b, bc, _, _, c] = turned(&of(m, g)?.tensor, &to_axes(m, g, body)?);
+    let aside = ab.abs().max(ac.abs()).max(bc.abs());
+    (aside <= SAME * (a + b + c)).then_some([a, b, c])
+}
+
+/// The body whose mass is all in this geom.
+pub(super) fn carried(m: &Model, g: usize) -> Option<usize> {
+    let body = *m.geom_bodyid.get(g)? as usize;
+    if body == 0 {
+        return None;
+    }
+    let (mass, own) = (*m.body_mass.get(body)?, rows::<3>(&m.body_inertia).get(body)?);
+    let [place, centre] =
+        [rows::<3>(&m.geom_pos).get(g)?, rows::<3>(&m.body_ipos).get(body)?];
+    let close = |(a, b): (&f64, f64)| (a - mass * b).abs() <= SAME * a.abs();
+    let here = norm(sub(*place, *centre)) <= SAME * m.geom_rbound.get(g)?;
+    let moments = moments(m, g, body)?;
+    (mass > 0.0 && here && own.iter().zip(moments).all(close)).then_some(body)
+}

@@ -1,0 +1,360 @@
+//! Claims that rest on a body, or a servo, that does not exist: a run in which a program changes a parameter and leaves its partner
+//! behind ([`coupled`](crate::bind::coupled)).
+//!
+//! Every `verify` object whose labs have such a program is judged a second time, with the partners corrected behind every program.
+//! A claim that holds in the lab alone, and not with the partners corrected, is not true of what the text speaks of.
+
+use super::claims::{self, Cast, cast};
+use super::{Ready, refresh};
+use crate::bind::ControlProgram;
+use crate::bind::coupled::{self, Coupled, PairSet};
+use crate::bind::scene::Models;
+use crate::finding::{Finding, Severity};
+use crate::json::read::named;
+use crate::ledger::State;
+use crate::rules;
+use crate::source::Text;
+use crate::spec::{Lab, Lesson, Question, Run, Verify};
+use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage, Verdict, significant};
+use std::cell::OnceCell;
+use std::ops::Range;
+
+/// A part of a measure by which another order of operations may change it.
+const ROUNDING: f64 = 1e-6;
+
+/// A program that writes a parameter which others belong to.
+#[derive(Clone)]
+struct Candidate<'a> {
+    text: Text,
+    /// What it is called.
+    who: String,
+    pairs: PairSet,
+    /// The lab; the setup of a run has none.
+    lab: Option<&'a Lab>,
+    /// It stands in this lesson.
+    own: bool,
+}
+
+/// The labs of a lesson with partners corrected, and what came of their runs.
+pub(super) struct Partners<'a> {
+    lesson: &'a Lesson,
+    models: &'a Models,
+    labs: &'a [Ready<'a>],
+    candidates: Vec<Candidate<'a>>,
+    /// Made when they are asked for: most lessons change no parameter that another belongs to.
+    corrected: OnceCell<Vec<Ready<'a>>>,
+    stage: Stage<'a>,
+}
+
+/// Who judges, and what.
+#[derive(Clone, Copy)]
+struct Case<'c> {
+    verify: &'c Verify,
+    own: Option<&'c Lab>,
+    question: Option<&'c Question>,
+    shown: &'c ShownText,
+}
+
+impl<'a> Partners<'a> {
+    pub(super) fn new(lesson: &'a Lesson, labs: &'a [Ready<'a>], models: &'a Models) -> Partners<'a> {
+        let all = lesson.all_labs();
+        let mut candidates = Vec::new();
+        for ready in labs {
+            let programs = &ready.programs;
+            let own = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
+            let of_lab = [("the setup", &programs.setup), ("the controller", &programs.controller)];
+            let named = of_lab.into_iter().map(|(who, bound)| (who.to_string(), bound.as_ref()));
+            let controls = programs.controls.iter().map(|(label, program)| match program {
+                ControlProgram::Change(_, action) => (format!("\"{label}\""), action.run.as_ref()),
+                ControlProgram::Press(run) => (format!("\"{label}\""), run.as_ref()),
+            });
+            for (who, bound) in named.chain(controls) {
+                let Some(bound) = bound else { continue };
+                let written = PairSet::written_by(&bound.program);
+                let pairs = written.without(coupled::chosen_apart(programs, bound, written));
+                let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
+                candidates.push(Candidate { text: bound.text.clone(), who, pairs, lab: Some(ready.lab), own });
+            }
+        }
+        candidates.retain(|c| !c.pairs.is_empty());
+        Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
+    }
+
+    /// All labs of the lesson with every partner corrected.
+    fn corrected(&self) -> &[Ready<'a>] {
+        self.corrected.get_or_init(|| {
+            let programs = self.candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
+            corrected(self.labs, &Coupled { programs, others: PairSet::ALL, refresh: false })
+        })
+    }
+
+    /// Judges a `verify` object with partners corrected. What then is not true any more is not true of its subject: the judgement
+    /// says so, and so do findings at the claim and at the program.
+    pub(super) fn settle(
+        &self,
+        verify: &Verify,
+        own: Option<&Lab>,
+        question: Option<&Question>,
+        shown: &ShownText,
+        judgement: &mut Judgement,
+        findings: &mut Vec<Finding>,
+    ) {
+        let case = Case { verify, own, question, shown };
+        let candidates = self.involved(case);
+        if candidates.is_empty() {
+            return;
+        }
+        let Some(second) = self.judge(case, self.corrected(), &self.stage) else { return };
+        if !differs(judgement, &second) || self.contrasted(case, judgement, &second) {
+            return;
+        }
+        let causes = self.causes(case, &candidates, judgement);
+        let evidence = evidence(judgement, &second);
+        let who: Vec<&str> = causes.iter().map(|c| c.who.as_str()).collect();
+        let rests = Rests {
+            who: who.join(" and "),
+            corrected: corrected_words(&causes),
+            evidence: evidence.clone(),
+            codes: codes(&causes),
+        };
+        rests.apply(case, judgement, second, findings);
+        for cause in causes.iter().filter(|c| c.own) {
+            for (rule, pairs) in refresh::by_rule(cause.pairs) {
+                let span = cause.text.span();
+                if findings.iter().any(|f| f.code == rule.code && f.span == span) {
+                    continue;
+                }
+                let with: Vec<&str> = pairs.iter().map(|p| p.corrected).collect();
+                let why = format!("{evidence} with {}", with.join(" and "));
+                let finding = refresh::left(rule, span, &cause.who, &pairs, Severity::Warning);
+                findings.push(if evidence.is_empty() { finding } else { finding.why(why) });
+            }
+        }
+    }
+
+    /// The programs of the labs of an object, and the setups of its runs.
+    fn involved(&self, case: Case<'_>) -> Vec<Candidate<'a>> {
+        let Case { verify, own, .. } = case;
+        let base = verify.lab.as_ref().map_or(own, |named| self.lesson.named(named));
+        let of_run = |run| lab_of(self.lesson, base, run);
+        let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
+        let of = |c: &&Candidate<'_>| labs.iter().any(|lab| c.lab.is_some_and(|own| std::ptr::eq(own, *lab)));
+        let mut all: Vec<Candidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
+        for run in &verify.runs {
+            let lab = of_run(run).and_then(|lab| self.labs.iter().find(|r| std::ptr::eq(r.lab, lab)));
+            let (Some(text), Some(ready)) = (&run.setup, lab) else { continue };
+            let bench = refresh::Bench::new(ready.lab, &ready.model, &ready.programs);
+            let Some(bound) = bench.compile(text, &text.value, None) else { continue };
+            let pairs = PairSet::written_by(&bound.program);
+            let pairs = pairs.without(allowed(self.lesson, text, pairs));
+            let who = format!("the setup of the run {}", named(&run.name.value));
+            if !pairs.is_empty() {
+                all.push(Candidate { text: text.clone(), who, pairs, lab: None, own: true });
+            }
+        }
+        all
+    }
+
+    /// Judges with these labs.
+    fn judge(&self, case: Case<'_>, labs: &[Ready<'_>], stage: &Stage<'_>) -> Option<Judgement> {
+        let mut ignored = Vec::new();
+        let Case { verify, own, question, shown } = case;
+        let Cast { base, runs } = cast(self.lesson, labs, verify, own, stage, &mut ignored)?;
+        let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut ignored)?;
+        Some(verify::check(&bound, verify, question, shown, &mut ignored))
+    }
+
+    /// Whether every run that the correction changes has the corrected one beside it: then the author shows the difference on purpose.
+    fn contrasted(&self, case: Case<'_>, first: &Judgement, second: &Judgement) -> bool {
+        let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
+            let stage = Stage::new(self.models);
+            let begun = claims::begun(self.lesson, labs, case.verify, case.own, &stage);
+            begun.map_or(Vec::new(), |begun| begun.runs)
+        });
+        let changed = |run: &str| {
+            let own = |m: &Measured| m.name.split_once('.').is_some_and(|(name, _)| name == run);
+            pairs(first, second).any(|(a, b)| own(a) && moved(a, b))
+        };
+        let mut changed = corrected.iter().filter(|(run, _)| changed(run)).peekable();
+        changed.peek().is_some()
+            && changed.all(|(run, model)| {
+                let others = as_is.iter().filter(|(other, _)| other != run).filter_map(|(_, m)| m.as_ref());
+                model.as_ref().is_some_and(|model| others.into_iter().any(|m| coupled::agree(m, model)))
+            })
+    }
+
+    /// The programs, and the pairs of each, that make the difference when they alone are corrected.
+    fn causes(&self, case: Case<'_>, candidates: &[Candidate<'a>], first: &Judgement) -> Vec<Candidate<'a>> {
+        let single = |c: &Candidate<'_>| c.pairs.pairs().count() == 1;
+        if candidates.len() == 1 && candidates.iter().all(single) {
+            return candidates.to_vec();
+        }
+        let mut causes = Vec::new();
+        for candidate in candidates {
+            let matters = |(one, _)| {
+                let alone = Coupled {
+                    programs: vec![(candidate.text.clone(), one)],
+                    others: PairSet::NONE,
+                    refresh: false,
+                };
+                let second = self.judge(case, &corrected(self.labs, &alone), &Stage::new(self.models))?;
+                differs(first, &second).then_some(one)
+            };
+            let pairs: PairSet = candidate.pairs.pairs().filter_map(matters).collect();
+            if !pairs.is_empty() {
+                causes.push(Candidate { pairs, ..candidate.clone() });
+            }
+        }
+        if causes.is_empty() { candidates.to_vec() } else { causes }
+    }
+}
+
+/// The lab that a run is of.
+fn lab_of<'c>(lesson: &'c Lesson, base: Option<&'c Lab>, run: &'c Run) -> Option<&'c Lab> {
+    run.lab.as_ref().map_or(base, |named| lesson.named(named))
+}
+
+/// Labs whose partners are corrected.
+fn corrected<'a>(labs: &[Ready<'a>], coupled: &Coupled) -> Vec<Ready<'a>> {
+    let one = |ready: &Ready<'a>| {
+        let mut programs = ready.programs.clone();
+        coupled.clone().install(&mut programs, &ready.model);
+        Ready { lab: ready.lab, model: ready.model.clone(), programs, mistakes: ready.mistakes }
+    };
+    labs.iter().map(one).collect()
+}
+
+/// The pairs that the author has looked at and left as they are, at this place.
+fn allowed(lesson: &Lesson, text: &Text, pairs: PairSet) -> PairSet {
+    let at = text.span().start;
+    let allowances = lesson.allowances();
+    let here = allowances.iter().filter(|a| !a.why.is_empty() && a.over.start <= at && at <= a.over.end);
+    let codes: Vec<&str> = here.flat_map(|a| &a.codes).map(|(code, _)| code.as_str()).collect();
+    pairs.pairs().filter(|(_, pair)| codes.contains(&pair.rule.code)).map(|(one, _)| one).collect()
+}
+
+/// Whether a measure is another number, beyond what half the timestep changes.
+fn moved(a: &Measured, b: &Measured) -> bool {
+    if a.value.is_nan() || b.value.is_nan() {
+        return a.value.is_nan() != b.value.is_nan();
+    }
+    let apart = (a.value - b.value).abs();
+    let numerics = a.halved.map_or(0.0, |h| (h - a.value).abs());
+    apart > ROUNDING * a.value.abs().max(b.value.abs()) && !(apart <= numerics)
+}
+
+fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Measured, &'j Measured)> {
+    a.measures.iter().zip(&b.measures).filter(|(x, y)| x.name == y.name)
+}
+
+/// Whether the claims rest on what was corrected: a measure is another number, or what is true is not any more.
+fn differs(a: &Judgement, b: &Judgement) -> bool {
+    let held = |j: &Judgement| {
+        let answer = j.answer.iter().map(|a| matches!(a.verdict.state(), State::True(_)));
+        let quotes = j.quotes.iter().map(|q| q.state == QuoteState::Right);
+        let exact = j.exact.iter().map(|e| matches!(e.state, State::True(_)));
+        answer.chain(quotes).chain(exact).collect::<Vec<_>>()
+    };
+    held(a) != held(b) || pairs(a, b).any(|(x, y)| moved(x, y))
+}
+
+/// The measure that changes most, with both numbers.
+fn evidence(first: &Judgement, second: &Judgement) -> String {
+    let part = |(a, b): &(&Measured, &Measured)| {
+        let most = a.value.abs().max(b.value.abs());
+        if most > 0.0 { (a.value - b.value).abs() / most } else { 0.0 }
+    };
+    let changed = pairs(first, second).filter(|(a, b)| moved(a, b));
+    let Some((a, b)) = changed.max_by(|x, y| part(x).total_cmp(&part(y))) else { return String::new() };
+    let run = match a.name.split_once('.') {
+        Some((run, _)) => format!("in the run {}, ", named(run)),
+        None => String::new(),
+    };
+    format!("{run}`{}` is {}, and {}", a.name, significant(a.value), significant(b.value))
+}
+
+fn corrected_words(causes: &[Candidate<'_>]) -> String {
+    let mut all: Vec<&str> = Vec::new();
+    for (_, pair) in causes.iter().flat_map(|c| c.pairs.pairs()) {
+        if !all.contains(&pair.corrected) {
+            all.push(pair.corrected);
+        }
+    }
+    all.join(" and ")
+}
+
+fn codes(causes: &[Candidate<'_>]) -> String {
+    let mut all: Vec<&str> = causes.iter().flat_map(|c| c.pairs.pairs()).map(|(_, p)| p.rule.code).collect();
+    all.dedup();
+    all.join("`, `")
+}
+
+/// What claims rest on.
+struct Rests {
+    who: String,
+    corrected: String,
+    evidence: String,
+    codes: String,
+}
+
+impl Rests {
+    /// Puts the second verdict in place of the first where a claim is not true any more; one that stays true says that it was tried.
+    fn apply(&self, case: Case<'_>, first: &mut Judgement, second: Judgement, findings: &mut Vec<Finding>) {
+        let holds = |state: State| matches!(state, State::True(_));
+        let also = format!("it also holds with {} (`{}` at {})", self.corrected, self.codes, self.who);
+        let add = |reason: &mut String| {
+            let between = if reason.is_empty() { "" } else { "; " };
+            *reason = format!("{reason}{between}{also}");
+        };
+        if let (Some(a), Some(b)) = (&mut first.answer, second.answer) {
+            let margins = |answer: &verify::Answer| answer.weights.iter().map(|w| w.margin).collect::<Vec<_>>();
+            if holds(a.verdict.state()) && !holds(b.verdict.state()) {
+                let right = case.question.and_then(Question::right_option);
+                let option = right.and_then(|i| case.verify.options.get(i));
+                let place = case.verify.value.as_ref().or(option).map_or(case.verify.span.clone(), Text::span);
+                a.reason = self.reason(b.verdict.as_str());
+                a.verdict = if b.verdict == Verdict::Unverified { Verdict::Failed } else { b.verdict };
+                findings.push(self.finding(place, "this answer"));
+            } else if holds(a.verdict.state()) && margins(a) != margins(&b) {
+                add(&mut a.reason);
+            }
+        }
+        for (a, b) in first.quotes.iter_mut().zip(second.quotes) {
+            if a.state == QuoteState::Right && b.state != QuoteState::Right {
+                a.reason = self.reason(b.verdict());
+                (a.state, a.computed) = (b.state, b.computed);
+                findings.push(self.finding(a.span.clone(), "this quote"));
+            } else if a.state == QuoteState::Right && a.computed.to_bits() != b.computed.to_bits() {
+                add(&mut a.reason);
+            }
+        }
+        for (a, b) in first.exact.iter_mut().zip(second.exact) {
+            if holds(a.state) && !holds(b.state) {
+                (a.state, a.remark) = (b.state, self.reason(&b.remark));
+                findings.push(self.finding(a.span.clone(), "this closed form"));
+            } else if holds(a.state) && a.remark != b.remark {
+                add(&mut a.remark);
+            }
+        }
+    }
+
+    /// Why a claim is not true: the two numbers, and what it then is.
+    fn reason(&self, then: &str) -> String {
+        let numbers = match self.evidence.as_str() {
+            "" => format!("with {}", self.corrected),
+            evidence => format!("{evidence} with {}", self.corrected),
+        };
+        format!("{numbers}: {then}")
+    }
+
+    fn finding(&self, place: Range<usize>, what: &str) -> Finding {
+        let message = format!("{what} holds only while {} leaves a partner behind", self.who);
+        let why = match self.evidence.as_str() {
+            "" => format!("with {} it does not", self.corrected),
+            evidence => format!("{evidence} with {}: it then does not hold", self.corrected),
+        };
+        Finding::error(rules::CLAIM_OF_MISMATCH, place, message)
+            .why(why)
+            .help(format!("correct the program (`{}` says how), then what is claimed of it", self.codes))
+    }
+}

@@ -1,0 +1,160 @@
+//! A lab as it is, with its constants computed anew, and with the partners of what a program changes: what the runs show.
+
+use super::advice::{self, Advice};
+use super::bench::{Amended, Bench, Trial};
+use super::difference::{BEYOND, Difference};
+use super::Suspect;
+use crate::bind::coupled::{PairSet, Repair};
+use crate::run::{Cell, Numerics};
+use crate::verify::HALVED;
+
+/// A start that is moved by less than anybody can set.
+const MOVED: Numerics = Numerics { nudge: 1e-9, ..Numerics::NOMINAL };
+/// A part of the range by which a repaired run may differ from the corrected one: what the order of operations makes.
+const ROUNDED: f64 = 1e-6;
+
+type Rows = Vec<Vec<Cell>>;
+
+/// What the runs of a lab show of a program.
+pub(super) struct Compared {
+    /// What the constants change, in words.
+    pub(super) constants: Option<String>,
+    /// What the partners change, in words, and which of them do; nothing where none does.
+    pub(super) partners: Option<(String, PairSet)>,
+    /// What to write: how constants are computed anew, and the whole program where its partners are corrected too.
+    pub(super) advice: Advice,
+    pub(super) repaired: Option<String>,
+    /// Why it could not be tried what partners change.
+    pub(super) untried: Option<String>,
+}
+
+/// The runs of one trial.
+struct Runs<'t> {
+    trial: &'t Trial,
+    as_is: Rows,
+    /// With constants computed anew.
+    anew: Rows,
+    /// With partners corrected besides.
+    corrected: Rows,
+}
+
+impl Bench<'_> {
+    /// Runs everything. `Err` says why constants could not be tried.
+    pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
+        let steps = self.steps(s)?;
+        let trials = self.trials(s, steps);
+        let refreshed = s.inertial.is_some().then(|| self.corrected(s, PairSet::NONE));
+        let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
+        let (mut untried, mut uncoupled) = (None, None);
+        let mut all: Vec<Runs<'_>> = Vec::new();
+        for trial in &trials {
+            let made = self.record(s, None, trial, steps).and_then(|as_is| {
+                let anew = match &refreshed {
+                    Some(refreshed) => self.record(s, Some(refreshed), trial, steps)?,
+                    None => as_is.clone(),
+                };
+                Ok((as_is, anew))
+            });
+            let told = |reason: String| format!("{}, {reason}", trial.said);
+            match made {
+                Ok((as_is, anew)) => {
+                    let corrected = coupled.as_ref().map(|c| self.record(s, Some(c), trial, steps));
+                    let corrected = match corrected {
+                        Some(Ok(rows)) => rows,
+                        other => {
+                            uncoupled = uncoupled.or(other.and_then(Result::err).map(told));
+                            anew.clone()
+                        }
+                    };
+                    all.push(Runs { trial, as_is, anew, corrected });
+                }
+                Err(reason) => untried = untried.or(Some(told(reason))),
+            }
+        }
+        let constants = all.iter().find(|r| self.columns(s).difference(&r.as_is, &r.anew).is_some());
+        if let (None, Some(reason), true) = (constants, &untried, s.inertial.is_some()) {
+            return Err(reason.clone());
+        }
+        let partners = self.partners(s, &all, refreshed.as_ref(), steps);
+        let matter = partners.as_ref().map_or(PairSet::NONE, |(_, pairs)| *pairs);
+        if matter != s.pairs {
+            let exactly = if matter.is_empty() { None } else { Some(self.corrected(s, matter)) };
+            for runs in &mut all {
+                let again = exactly.as_ref().and_then(|e| self.record(s, Some(e), runs.trial, steps).ok());
+                runs.corrected = again.unwrap_or_else(|| runs.anew.clone());
+            }
+        }
+        let constants = all.iter().find_map(|r| {
+            let columns = self.columns(s);
+            let own = columns.difference(&r.as_is, &r.anew)?;
+            let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, &r.corrected)? };
+            let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
+            Some(shown.said(&r.trial.said, &format!("the constants computed anew{and}")))
+        });
+        let repair = Repair::of(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
+        let both = [Advice::Plain, Advice::Keep];
+        let (advice, repaired) = match &repair {
+            None => {
+                let source = advice::source(s);
+                let plain = format!("{source}{}", Advice::Plain.tail(&source));
+                let good = matter.is_empty() && constants.is_some() && self.gives(s, &plain, &all, steps, 0.0);
+                (if good { Advice::Plain } else { Advice::Keep }, None)
+            }
+            Some(repair) => {
+                let texts = both.map(|advice| (advice, advice::repaired(s, repair, advice)));
+                let good = texts.into_iter().find(|(_, text)| self.gives(s, text, &all, steps, ROUNDED));
+                good.map_or((Advice::Keep, None), |(advice, text)| (advice, Some(text)))
+            }
+        };
+        let partners = partners.map(|(difference, pairs)| (difference, pairs));
+        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+    }
+
+    /// Whether these statements in place of a program give the corrected runs, to this part of what is shown.
+    fn gives(&mut self, s: &Suspect<'_>, text: &str, all: &[Runs<'_>], steps: usize, part: f64) -> bool {
+        let Some(program) = self.amended(s, text) else { return false };
+        all.iter().all(|runs| {
+            let made = self.record(s, Some(&program), runs.trial, steps);
+            let columns = self.columns(s);
+            made.is_ok_and(|rows| match part > 0.0 {
+                true => columns.close(&runs.corrected, &rows, part),
+                false => columns.difference(&runs.corrected, &rows).is_none(),
+            })
+        })
+    }
+
+    /// What correcting the partners changes in the first trial in which it does, and which of them change it.
+    fn partners(
+        &mut self,
+        s: &Suspect<'_>,
+        all: &[Runs<'_>],
+        refreshed: Option<&Amended>,
+        steps: usize,
+    ) -> Option<(String, PairSet)> {
+        let columns = self.columns(s);
+        let (runs, found): (&Runs<'_>, Difference) = all.iter().find_map(|runs| {
+            let noise = || {
+                let moved = self.record_under(s, refreshed, runs.trial, steps, MOVED).ok()?;
+                let halved = self.record_under(s, refreshed, runs.trial, steps, HALVED).ok()?;
+                Some(vec![(moved, BEYOND), (halved, 1.0)])
+            };
+            Some((runs, columns.mismatch(&runs.anew, &runs.corrected, noise)?))
+        })?;
+        let mut matter: PairSet = s.pairs;
+        if s.pairs.pairs().count() > 1 {
+            let without = |(one, _)| {
+                let others = self.corrected(s, s.pairs.without(one));
+                let rows = self.record(s, Some(&others), runs.trial, steps).ok()?;
+                columns.mismatch(&rows, &runs.corrected, || Some(Vec::new())).map(|_| one)
+            };
+            let alone: PairSet = s.pairs.pairs().filter_map(without).collect();
+            matter = if alone.is_empty() { s.pairs } else { alone };
+        }
+        let trial = match refreshed {
+            Some(_) => format!("{} and the constants computed anew", runs.trial.said),
+            None => runs.trial.said.clone(),
+        };
+        let with: Vec<&str> = matter.pairs().map(|(_, pair)| pair.corrected).collect();
+        Some((found.said(&trial, &with.join(" and ")), matter))
+    }
+}

@@ -1,0 +1,334 @@
+//! Parameters of a model that belong together: a program that changes one and leaves its partner behind is told with the numbers of
+//! both runs, its repair was run, and a claim that rests on it is not verified.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::support::check_text;
+use labspec::finding::{Finding, Severity};
+use labspec::verify::Verdict;
+use serde_json::{Value as Json, json};
+
+/// A ball that rolls down a ramp of 30°.
+const RAMP: &str = "<mujoco><worldbody><geom type='plane' size='9 9 1' euler='0 30 0'/>
+  <body name='ball' pos='.05 0 .0866025'><freejoint/><geom size='.1' mass='1'/></body></worldbody></mujoco>";
+/// A cylinder on the same ramp.
+const CYLINDER: &str = "<mujoco><worldbody><geom type='plane' size='9 9 1' euler='0 30 0'/>
+  <body name='roller' pos='.05 0 .0866025'><freejoint/><geom type='cylinder' size='.1 .2' euler='90 0 0' mass='2'/></body></worldbody></mujoco>";
+/// A body of radius R on a massless rod of 1 m.
+const PENDULUM: &str = "<mujoco><worldbody><body pos='0 0 2'><joint axis='0 1 0'/>
+  <geom size='RADIUS' pos='.6 0 -.8' mass='1'/></body></worldbody></mujoco>";
+/// A rod that swings about its end.
+const ROD: &str = "<mujoco><worldbody><body pos='0 0 2'><joint axis='0 1 0'/>
+  <geom type='capsule' size='.02' fromto='0 0 0 .6 0 -.8' mass='1'/></body></worldbody></mujoco>";
+/// A ball above a floor that is no plane.
+const DROP: &str = "<mujoco><worldbody><geom type='box' size='.5 .5 .1' pos='0 0 -.1'/>
+  <body pos='0 0 1'><freejoint/><geom size='.05' mass='1'/></body></worldbody></mujoco>";
+/// A servo that holds an arm.
+const SERVO: &str = "<mujoco><option gravity='0 0 0'/><worldbody><body><joint name='hinge' axis='0 1 0' damping='1'/>
+  <geom type='capsule' size='.02' fromto='0 0 0 .5 0 0' mass='1'/></body></worldbody>
+  <actuator><position joint='hinge' kp='10'/></actuator></mujoco>";
+
+const MASS: &str = "model.body_mass[1] = value; mj.mj_setConst(model, data)";
+const BOTH: &str = "const f = value / model.body_mass[1]; model.body_mass[1] = value; \
+    for (let i = 3; i < 6; i++) model.body_inertia[i] *= f; mj.mj_setConst(model, data)";
+
+/// The rules about partners and constants.
+const RULES: [&str; 6] =
+    ["mass-alone", "inertia-alone", "shape-alone", "gain-alone", "missing-setconst", "claim-of-mismatch"];
+
+fn lab(xml: &str, controls: &Json, shown: &str) -> Json {
+    json!({"xml": xml, "stopAt": 1, "controls": controls, "readouts": [{"label": "shown (m/s)", "expr": shown, "digits": 3}]})
+}
+
+fn slider(range: [f64; 3], action: &Json) -> Json {
+    let mut control =
+        json!({"label": "x", "min": range[0], "max": range[1], "step": 0.05, "value": range[2], "reset": true});
+    control.as_object_mut().unwrap().extend(action.as_object().unwrap().clone());
+    json!([control])
+}
+
+/// What is found of these rules.
+fn found(lab: &Json) -> Vec<Finding> {
+    let mut all = check_text("lab.json", &lab.to_string()).findings;
+    all.retain(|f| RULES.contains(&f.code));
+    all
+}
+
+fn codes(lab: &Json) -> Vec<&'static str> {
+    found(lab).iter().map(|f| f.code).collect()
+}
+
+/// The numbers of both runs: those before and behind ", and ".
+fn numbers(why: &str) -> (f64, f64) {
+    let (before, after) = why.split_once(" is ").unwrap().1.split_once(", and ").unwrap();
+    let first = |text: &str| text.split(' ').next().unwrap().trim_end_matches(',').parse::<f64>().unwrap();
+    (first(before), first(after))
+}
+
+/// The only finding is a warning of this rule, its fix is one that has to be asked for, and behind it nothing is left to say.
+fn repaired(lab: &Json, code: &str) -> (f64, f64) {
+    let all = found(lab);
+    assert_eq!(all.iter().map(|f| f.code).collect::<Vec<_>>(), [code], "{all:#?}");
+    let finding = &all[0];
+    assert_eq!(finding.severity, Severity::Warning);
+    let help = finding.help.as_ref().unwrap();
+    assert!(help.contains("; tried, the lab then runs with "), "{help}");
+    let mut text = lab.to_string();
+    let fix = finding.fix.clone().unwrap_or_else(|| panic!("no fix: {finding:?}"));
+    assert_eq!(fix.applicability.as_str(), "unsafe");
+    text.replace_range(fix.span, &fix.text);
+    let after: Json = serde_json::from_str(&text).unwrap();
+    assert_eq!(found(&after), [], "{text}");
+    numbers(finding.why.as_ref().unwrap())
+}
+
+#[test]
+fn a_ball_of_ten_times_the_mass_rolls_as_any_ball() {
+    let lab_of = |apply: &str| {
+        let speed = "Math.hypot(data.qvel[0], data.qvel[2])";
+        lab(RAMP, &slider([1.0, 10.0, 1.0], &json!({"apply": apply})), speed)
+    };
+    let (alone, both) = repaired(&lab_of(MASS), "mass-alone");
+    // g sin 30° t / (1 + I / (m r²)), I of one kilogram beside that of ten.
+    let speed = |inertia: f64| 9.81 * 0.5 / (1.0 + inertia);
+    assert!((alone - speed(0.04)).abs() < 0.03 && (both - speed(0.4)).abs() < 0.03, "{alone} {both}");
+    assert_eq!(codes(&lab_of(BOTH)), Vec::<&str>::new());
+    // However the mass is written.
+    for apply in [
+        "model.body_mass.fill(value); mj.mj_setConst(model, data)",
+        "for (let b = 1; b < model.nbody; b++) { model.body_mass[b] = value } mj.mj_setConst(model, data)",
+        "const m = model.body_mass; m[1] = value; mj.mj_setConst(model, data);",
+        "model.body('ball').mass[0] = value; mj.mj_setConst(model, data)",
+        "if (value > 2) model.body_mass[1] = value; else model.body_mass[1] = 1; mj.mj_setConst(model, data)",
+        // One of three moments is no inertia of a ball.
+        "const f = value / model.body_mass[1]; model.body_mass[1] = value; model.body_inertia[3] *= f; mj.mj_setConst(model, data)",
+    ] {
+        assert!(codes(&lab_of(apply)).contains(&"mass-alone"), "{apply}: {:?}", found(&lab_of(apply)));
+    }
+}
+
+#[test]
+fn what_is_no_slider_is_held_to_the_same() {
+    let mut setup = lab(CYLINDER, &json!([]), "data.qvel[0]");
+    setup["setup"] = json!("model.body_mass[1] = 20; mj.mj_setConst(model, data)");
+    repaired(&setup, "mass-alone");
+    let button = json!([{"type": "button", "label": "Load", "run": "model.body_mass[1] = 20"}]);
+    let all = found(&lab(CYLINDER, &button, "data.qvel[0]"));
+    let told: Vec<&str> = all.iter().map(|f| f.code).collect();
+    assert_eq!(told, ["missing-setconst", "mass-alone"], "{all:#?}");
+    let mut choice = slider([0.0; 3], &json!({"apply": MASS, "type": "select", "options": [["light", 1], ["heavy", 10]], "value": 1}));
+    for key in ["min", "max", "step"] {
+        choice[0].as_object_mut().unwrap().remove(key);
+    }
+    repaired(&lab(RAMP, &choice, "data.qvel[0]"), "mass-alone");
+    let mut controller = lab(RAMP, &json!([]), "data.qvel[0]");
+    controller["controller"] = json!("model.body_mass[1] = 1 + 9 * data.time; mj.mj_setConst(model, data)");
+    assert!(codes(&controller).contains(&"mass-alone") || !found(&controller).is_empty(), "{:?}", found(&controller));
+}
+
+#[test]
+fn missing_setconst_shows_no_wrong_number_as_right() {
+    // Nothing that the constants change is as large as what the inertia does.
+    for xml in [RAMP, CYLINDER] {
+        let lab = lab(xml, &slider([1.0, 10.0, 1.0], &json!({"set": "model.body_mass[1]"})), "data.qvel[0]");
+        let all = found(&lab);
+        for finding in &all {
+            let help = finding.help.as_ref().unwrap();
+            assert!(help.contains("model.body_inertia[i] *= model.body_mass[1] / m"), "{help}");
+            assert!(finding.why.as_ref().unwrap().contains("the inertia that this mass has"), "{finding:?}");
+        }
+        assert!(all.iter().any(|f| f.code == "mass-alone"), "{all:#?}");
+        assert!(all.iter().any(|f| f.code == "missing-setconst"), "{all:#?}");
+    }
+    let apply = json!({"apply": "model.body_mass[1] = value // kg"});
+    let lab = lab(RAMP, &slider([1.0, 10.0, 1.0], &apply), "data.qvel[0]");
+    let fix = found(&lab)[0].fix.clone().unwrap();
+    let mut text = lab.to_string();
+    text.replace_range(fix.span, &fix.text);
+    assert_eq!(found(&serde_json::from_str(&text).unwrap()), [], "{text}");
+}
+
+#[test]
+fn a_body_that_does_not_turn_has_no_partner_to_miss() {
+    let mass = json!({"apply": MASS});
+    // It falls, flat; it spins where nothing touches it; its inertia is a thousandth of what swings.
+    assert_eq!(codes(&lab(DROP, &slider([1.0, 10.0, 1.0], &mass), "data.qpos[2]")), Vec::<&str>::new());
+    let mut thrown = lab(DROP, &slider([1.0, 10.0, 1.0], &mass), "data.qvel[3]");
+    thrown["stopAt"] = json!(0.3);
+    thrown["setup"] = json!("data.qvel[4] = 20; data.qvel[0] = 1");
+    assert_eq!(codes(&thrown), Vec::<&str>::new());
+    // Until it bounces: then the spin makes it swerve.
+    thrown["stopAt"] = json!(1);
+    thrown["readouts"][0]["expr"] = json!("data.qvel[0]");
+    repaired(&thrown, "mass-alone");
+    let pendulum = |radius: &str| {
+        let xml = PENDULUM.replace("RADIUS", radius);
+        lab(&xml, &slider([1.0, 10.0, 1.0], &mass), "data.qpos[0]")
+    };
+    assert_eq!(codes(&pendulum(".005")), Vec::<&str>::new());
+    repaired(&pendulum(".3"), "mass-alone");
+    repaired(&lab(ROD, &slider([1.0, 10.0, 1.0], &mass), "data.qpos[0]"), "mass-alone");
+}
+
+#[test]
+fn an_inertia_that_no_body_has() {
+    let of = |apply: &str, max: f64| {
+        let apply = json!({"apply": apply});
+        codes(&lab(RAMP, &slider([0.004, max, 0.004], &apply), "data.qvel[0]"))
+    };
+    let all = "for (let i = 3; i < 6; i++) model.body_inertia[i] = value; mj.mj_setConst(model, data)";
+    // A hollow ball has two thirds of m r², a hoop all of it, and nothing more.
+    assert_eq!(of(all, 0.0099), Vec::<&str>::new());
+    assert_eq!(codes(&lab(RAMP, &slider([0.004, 0.5, 0.004], &json!({"apply": all, "init": true})), "data.qvel[0]")), Vec::<&str>::new(), "what the mass does not change is not told");
+    // On a hinge with weight it is the mass that swings.
+    let swing = lab(ROD, &slider([0.1, 5.0, 0.1], &json!({"apply": all})), "data.qpos[0]");
+    assert_eq!(codes(&swing), ["inertia-alone"]);
+    // A mass and an inertia with a slider each are chosen apart.
+    let mut two = slider([1.0, 10.0, 1.0], &json!({"apply": MASS}));
+    let other = json!({"label": "inertia", "min": 0.004, "max": 0.009, "step": 0.001, "value": 0.004, "reset": true, "apply": all.replace("for (let i = 3; i < 6; i++) model.body_inertia[i] = value", "model.body_inertia[3] = value; model.body_inertia[4] = value; model.body_inertia[5] = value")});
+    two.as_array_mut().unwrap().push(other);
+    assert_eq!(codes(&lab(RAMP, &two, "data.qvel[0]")), Vec::<&str>::new());
+}
+
+#[test]
+fn a_size_takes_its_bounds_and_its_inertia_along() {
+    let size = |xml: &str, apply: &str, shown: &str| {
+        lab(xml, &slider([0.05, 0.3, 0.05], &json!({"apply": apply})), shown)
+    };
+    let finding = found(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]")).remove(0);
+    assert!(finding.message.contains("leaves `model.geom_rbound`"), "{finding:?}");
+    let (alone, both) = repaired(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]"), "shape-alone");
+    // The ball rests at its radius, or at what its bounds let it sink to.
+    assert!((both - 0.3).abs() < 0.01 && alone < 0.2, "{alone} {both}");
+    let right = "model.geom_size[3] = value; model.geom_rbound[1] = value";
+    assert_eq!(codes(&size(DROP, right, "data.qpos[2]")), Vec::<&str>::new());
+    // A roller of the same mass and another radius has another inertia.
+    let turned = DROP.replace("size='.05' mass='1'", "type='cylinder' size='.05 .1' euler='90 0 0' mass='1'");
+    let mut rolls = size(&turned, "model.geom_size[3] = value; model.geom_rbound[1] = Math.hypot(value, 0.1)", "data.qvel[4]");
+    rolls["setup"] = json!("data.qpos[2] = model.geom_size[3]; data.qvel[0] = 2");
+    rolls["stopAt"] = json!(0.2);
+    let finding = found(&rolls).remove(0);
+    assert!(finding.message.ends_with("leaves `model.body_inertia`"), "{finding:?}");
+    repaired(&rolls, "shape-alone");
+    // The bob of a pendulum takes the centre of mass along.
+    let bob = lab(&PENDULUM.replace("RADIUS", ".05"), &slider([0.3, 0.9, 0.6], &json!({"apply": "model.geom_pos[0] = value; mj.mj_setConst(model, data)"})), "data.qpos[0]");
+    let finding = found(&bob).remove(0);
+    assert!(finding.message.contains("leaves `model.body_ipos`"), "{finding:?}");
+    repaired(&bob, "shape-alone");
+}
+
+#[test]
+fn a_servo_goes_to_its_target_whatever_its_gain() {
+    let servo = |xml: &str, apply: &str| {
+        let mut lab = lab(xml, &slider([10.0, 30.0, 10.0], &json!({"apply": apply})), "data.qpos[0]");
+        lab["setup"] = json!("data.ctrl[0] = 0.5");
+        lab["stopAt"] = json!(2);
+        lab
+    };
+    let (alone, both) = repaired(&servo(SERVO, "model.actuator_gainprm[0] = value"), "gain-alone");
+    assert!((both - 0.5).abs() < 0.01 && alone > 1.0, "{alone} {both}");
+    repaired(&servo(SERVO, "model.actuator_biasprm[1] = -value"), "gain-alone");
+    let right = "model.actuator_gainprm[0] = value; model.actuator_biasprm[1] = -value";
+    assert_eq!(codes(&servo(SERVO, right)), Vec::<&str>::new());
+    // Damping is no partner of stiffness.
+    assert_eq!(codes(&servo(SERVO, "model.actuator_biasprm[2] = -value")), Vec::<&str>::new());
+    let velocity = SERVO.replace("position joint='hinge' kp='10'", "velocity joint='hinge' kv='10'");
+    repaired(&servo(&velocity, "model.actuator_gainprm[0] = value"), "gain-alone");
+    // A motor has no bias.
+    let motor = SERVO.replace("position joint='hinge' kp='10'", "motor joint='hinge'");
+    assert_eq!(codes(&servo(&motor, "model.actuator_gainprm[0] = value")), Vec::<&str>::new());
+}
+
+/// A lesson: a ball on a ramp, and what is claimed of it.
+fn lesson(apply: &str, lint: &str, verify: &str, question: &str) -> String {
+    let mut lab = lab(RAMP, &slider([1.0, 10.0, 1.0], &json!({"apply": apply})), "Math.hypot(data.qvel[0], data.qvel[2])");
+    if !lint.is_empty() {
+        lab["lint"] = json!({"allow": [lint], "why": "this lesson is about it"});
+    }
+    format!(
+        "The ball reaches 4.72 m/s.\n\n```lab simlab\n{lab}\n```\n\n```quiz\n{{\"id\": \"ramp\", \"title\": \"Ramp\", \"questions\": [{{{question}, \
+         \"explain\": \"It weighs more.\", \"verify\": {{\"lab\": \"#1\", {verify}}}}}]}}\n```\n"
+    )
+}
+
+const KEY: &str = r#""kind": "mcq", "q": "Which ball is faster after a second?", "options": ["The heavy one rolls faster", "Both are as fast"], "answer": 0"#;
+const RUNS: &str = r#""runs": {"light": {"set": {"x": 1}}, "heavy": {"set": {"x": 10}}}, "measure": {"v": "final(Math.hypot(data.qvel[0], data.qvel[2]))"}"#;
+const FASTER: &str = r#""options": ["heavy.v > 1.2 * light.v", "abs(heavy.v - light.v) < 0.05"]"#;
+
+/// The verdict of the question and the codes of what is found.
+fn judged(text: &str) -> (Verdict, Vec<&'static str>) {
+    let checked = check_text("lesson.md", text);
+    let mut codes: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
+    codes.retain(|code| RULES.contains(code) || *code == "answer-refuted");
+    let answers = checked.claims.iter().filter_map(|c| c.judgement.answer.as_ref());
+    (answers.map(|a| a.verdict).next().unwrap(), codes)
+}
+
+#[test]
+fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
+    let verify = format!("{RUNS}, {FASTER}");
+    let (verdict, codes) = judged(&lesson(MASS, "", &verify, KEY));
+    assert_eq!((verdict, codes), (Verdict::Refuted, vec!["mass-alone", "claim-of-mismatch"]));
+    let right = KEY.replace("\"answer\": 0", "\"answer\": 1");
+    assert_eq!(judged(&lesson(BOTH, "", &verify, &right)), (Verdict::Verified, vec![]));
+    assert_eq!(judged(&lesson(BOTH, "", &verify, KEY)).0, Verdict::Refuted);
+    // The finding says which run and which control, and both numbers.
+    let checked = check_text("lesson.md", &lesson(MASS, "", &verify, KEY));
+    let finding = checked.findings.iter().find(|f| f.code == "claim-of-mismatch").unwrap();
+    let why = finding.why.as_ref().unwrap();
+    assert!(finding.message.contains("\"x\"") && why.contains("in the run `heavy`") && why.contains("4.71"), "{finding:?}");
+    assert!(why.contains("3.50"), "{why}");
+    // A sweep of the control, and the setup of a run.
+    let swept = r#""runs": {"run": {"sweep": {"x": [1, 10]}}}, "measure": {"v": "final(data.qvel[0])"}, "options": ["run[1].v > 1.2 * run[0].v", "abs(run[1].v - run[0].v) < 0.05"]"#;
+    let (verdict, codes) = judged(&lesson(MASS, "", swept, KEY));
+    assert_eq!(verdict, Verdict::Refuted, "{codes:?}");
+    let own = verify.replace(r#""set": {"x": 10}"#, r#""setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)""#);
+    let (verdict, codes) = judged(&lesson(BOTH, "", &own, KEY));
+    assert_eq!((verdict, codes), (Verdict::Refuted, vec!["mass-alone", "claim-of-mismatch"]));
+}
+
+#[test]
+fn a_claim_that_holds_both_ways_says_so() {
+    let verify = format!("{RUNS}, {}", r#""options": ["heavy.v > 3", "heavy.v < 2"]"#);
+    let checked = check_text("lesson.md", &lesson(MASS, "", &verify, KEY));
+    let answer = checked.claims.iter().find_map(|c| c.judgement.answer.clone()).unwrap();
+    assert_eq!(answer.verdict, Verdict::Verified);
+    assert!(answer.reason.contains("also holds with the inertia that this mass has"), "{}", answer.reason);
+}
+
+#[test]
+fn quotes_and_closed_forms_are_judged_twice() {
+    let says = format!("{RUNS}, {}", r#""says": [["4.72 m/s", "heavy.v"]]"#);
+    let open = r#""kind": "open", "q": "How fast is it?""#;
+    let of = |apply: &str| {
+        let checked = check_text("lesson.md", &lesson(apply, "", &says, open));
+        checked.claims.iter().flat_map(|c| c.judgement.quotes.clone()).map(|q| q.verdict()).next().unwrap()
+    };
+    assert_eq!([of(MASS), of(BOTH)], ["refuted", "refuted"]);
+    let right = format!("{RUNS}, {}", r#""says": [["4.72 m/s", "heavy.v"]]"#);
+    let allowed = check_text("lesson.md", &lesson(MASS, "mass-alone", &right, open));
+    let quote = allowed.claims.iter().flat_map(|c| c.judgement.quotes.clone()).next().unwrap();
+    assert_eq!(quote.verdict(), "verified", "{}", quote.reason);
+    // A closed form of a lab whose setup makes the ball heavy.
+    let mut lab = lab(RAMP, &json!([]), "data.qvel[0]");
+    lab["setup"] = json!("model.body_mass[1] = 10; mj.mj_setConst(model, data)");
+    lab["plots"] = json!([{"traces": [{"label": "v", "expr": "data.qvel[0]"}]}]);
+    lab["verify"] = json!({"exact": [["v", "4.905 * Math.cos(Math.PI / 6) / 1.04 * t", 0.02]]});
+    let checked = check_text("lab.json", &lab.to_string());
+    let state = checked.claims[0].judgement.exact[0].clone();
+    assert!(checked.findings.iter().any(|f| f.code == "claim-of-mismatch"), "{state:?} {:#?}", checked.findings);
+}
+
+#[test]
+fn a_difference_that_is_shown_on_purpose_is_not_refuted() {
+    let text = "The heavy ball is another one.";
+    let runs = format!(
+        r#""runs": {{"forgotten": {{"setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)"}}, "right": {{"setup": "{}"}}}}, "measure": {{"v": "final(data.qvel[0])"}}, "options": ["forgotten.v > 1.2 * right.v", "abs(forgotten.v - right.v) < 0.05"]"#,
+        BOTH.replace("value", "10")
+    );
+    let (verdict, codes) = judged(&lesson(BOTH, "", &runs, KEY));
+    assert_eq!((verdict, codes), (Verdict::Verified, vec![]), "{text}");
+    // An author who has looked at it, and says so.
+    let verify = format!("{RUNS}, {FASTER}");
+    assert_eq!(judged(&lesson(MASS, "mass-alone", &verify, KEY)), (Verdict::Verified, vec![]));
+}
