@@ -131,7 +131,15 @@ fn closed_forms_are_judged_at_the_order_of_the_integrator() {
     };
     assert_eq!(exact("0.1 * Math.cos(Math.sqrt(10) * data.time)"), State::True(Evidence::Simulated));
     assert_eq!(exact("0.1 * Math.cos(Math.sqrt(10.0001) * data.time)"), State::False);
-    assert_eq!(exact("data.qpos[0]"), State::True(Evidence::Simulated));
+    // What the same run computes is no formula, however it gets there.
+    for form in [
+        "data.qpos[0]",
+        "data.time + 0 * data.qvel[0]",
+        "data.joint('s').qpos[0]",
+        "model.key_qpos[0] + data.energy[0]",
+    ] {
+        assert_eq!(exact(form), State::Unchecked, "{form}");
+    }
 }
 
 /// Line 3: only `says`: the numbers are verified, the answer is not, and the two are told apart.
@@ -284,8 +292,7 @@ fn claims_are_checked_within_a_budget() {
     assert!(codes(&checked).contains(&"run-breaks"), "{:?}", codes(&checked));
     assert!(entries(&checked, Subject::Run)[0].remark.contains("more work than a check may do"));
     // 400 quotes in a lesson of megabytes, each found where it stands.
-    let says: Vec<Json> =
-        (0..400).map(|i| json!([format!("{i}.25 m"), format!("{i}.25 + 0 * fall")])).collect();
+    let says: Vec<Json> = (0..400).map(|i| json!([format!("{i}.25 m"), format!("{i} + 0.25")])).collect();
     let verify = json!({"runs": {"run": {"until": 0.1}}, "measure": {"fall": "2 - final(data.qpos[2])"}, "says": says});
     let prose: String = (0..400)
         .map(|i| format!("It is {i}.25 m away. {}\n\n", "Words and no numbers. ".repeat(400)))

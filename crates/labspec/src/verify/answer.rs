@@ -441,6 +441,11 @@ fn value(
         findings.push(no_quantity(text, &found.value));
         return Answer::failed("the expression gives no number");
     }
+    let gives = found.value.to_number();
+    if !gives.is_finite() {
+        findings.push(no_value(text, gives));
+        return Answer::failed("the simulation gives no number");
+    }
     let asked = match &question.kind {
         QuestionKind::Numeric { unit, .. } => unit.as_ref(),
         _ => None,
@@ -459,10 +464,6 @@ fn value(
     }
     let margin = |x: f64| tol - (x - answer).abs();
     let right = |x: f64| margin(x) >= 0.0;
-    let says = |value: &Value| right(unit.factor() * value.to_number());
-    if found.evidence == Evidence::Simulated && !bound.could_differ(&found, Some(&says)) {
-        return Answer::failed(empty(text, findings));
-    }
     let weights = vec![Weight {
         option: None,
         holds: Some(right(computed)),
@@ -483,6 +484,10 @@ fn value(
                 .related(text.span(), format!("this is {}", significant(computed))),
         );
         return done(Verdict::Refuted, message);
+    }
+    let says = |value: &Value| right(unit.factor() * value.to_number());
+    if found.evidence == Evidence::Simulated && !bound.could_differ(&found, Some(&says)) {
+        return Answer::failed(empty(text, findings));
     }
     for mistake in wrong {
         let taken = match taken(bound, &outcomes.nominal, mistake, findings) {

@@ -97,6 +97,6 @@ mod tests {
 
     #[test]
     fn numbers_of_a_text() {
-        assert_eq!(numbers_in("abs(m2 - 1.23) < .5e-1"), [1.23, 0.5]);
+        assert_eq!(numbers_in("abs(m2 - 1.23) < .5e-1"), [1.23, 0.05]);
     }
 }

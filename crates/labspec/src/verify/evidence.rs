@@ -17,14 +17,12 @@ pub(super) struct Kind {
     pub(super) whole: bool,
     /// It is never above one.
     pub(super) truth: bool,
-    /// It may have no value, as the time of an event that never happens.
-    pub(super) event: bool,
 }
 
 impl Kind {
-    pub(super) const ANY: Kind = Kind { positive: false, whole: false, truth: false, event: false };
+    pub(super) const ANY: Kind = Kind { positive: false, whole: false, truth: false };
     pub(super) const COUNT: Kind = Kind { positive: true, whole: true, ..Kind::ANY };
-    const TIME: Kind = Kind { positive: true, event: true, ..Kind::ANY };
+    const TIME: Kind = Kind { positive: true, ..Kind::ANY };
     const TRUTH: Kind = Kind { truth: true, ..Kind::COUNT };
 
     /// Whether it can have this value.
@@ -43,14 +41,14 @@ impl Kind {
     }
 
     /// What a list of tried values shows.
-    fn of(values: &[f64], event: bool) -> Kind {
+    fn of(values: &[f64]) -> Kind {
         let some = values.iter().filter(|x| !x.is_nan());
         if some.clone().count() == 0 {
-            return Kind { event, ..Kind::ANY };
+            return Kind::ANY;
         }
         let all = |f: fn(f64) -> bool| some.clone().all(|x| f(*x));
         let (positive, whole) = (all(|x| x >= 0.0), all(|x| x.fract() == 0.0));
-        Kind { positive, whole, truth: positive && whole && all(|x| x <= 1.0), event }
+        Kind { positive, whole, truth: positive && whole && all(|x| x <= 1.0) }
     }
 }
 
@@ -157,7 +155,7 @@ fn kind(program: &Program, world: &World, context: &mut Context) -> Kind {
             values.push(value.to_number());
         }
     }
-    Kind::of(&values, kinds.iter().any(|k| k.event))
+    Kind::of(&values)
 }
 
 fn of_aggregate(a: &Aggregate, world: &World, context: &mut Context) -> Kind {
@@ -166,7 +164,7 @@ fn of_aggregate(a: &Aggregate, world: &World, context: &mut Context) -> Kind {
         Some(How::First | How::Last | How::Peak | How::Crossing | How::Period | How::Settles) => Kind::TIME,
         Some(How::Count | How::Crossings) => Kind::COUNT,
         Some(How::Holds) => Kind::TRUTH,
-        Some(How::At | How::Before) => Kind { event: true, ..of(1) },
+        Some(How::At | How::Before) => of(1),
         Some(How::Initial | How::Final | How::Previous | How::Min | How::Max) => of(0),
         Some(How::Mean | How::Integral) => Kind { whole: false, truth: false, ..of(0) },
         Some(How::Rms) => Kind { positive: true, ..Kind::ANY },
@@ -252,7 +250,8 @@ pub(super) fn could_differ(
     let lists: Vec<Vec<f64>> = kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect();
     for ((&place, kind), list) in places.iter().zip(kinds).zip(&lists) {
         let mut known: Vec<(f64, Vec<Comparison>)> = Vec::new();
-        for x in list.iter().copied().chain(kind.event.then_some(f64::NAN)) {
+        // Any measure may have no value: its event does not happen, or the run breaks.
+        for x in list.iter().copied().chain([f64::NAN]) {
             let mut inputs = nominal.clone();
             put(&mut inputs, place, x);
             if let Some((then, compared)) = says(&inputs) {
