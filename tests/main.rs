@@ -12,6 +12,7 @@ mod constrained;
 mod course;
 mod courses;
 mod dimensions;
+mod evidence;
 mod examples;
 mod files;
 mod fixes;

@@ -15,7 +15,15 @@ pub fn labels(lab: &Lab) -> Shown {
         (format!("{prefix}{}", t.label.value), unit(&[Some(&t.label), plot.ylabel.as_ref()]))
     };
     let own = lab.readouts.iter().map(|r| readout("", r));
-    let traces = lab.plots.iter().flat_map(|plot| plot.traces.iter().map(move |t| trace("", plot, t)));
+    // A label that several plots have for different things is read as that of its plot alone.
+    let several = |t: &Trace| {
+        lab.traces().any(|other| other.label.value == t.label.value && other.expr.value != t.expr.value)
+    };
+    let traces = lab.plots.iter().enumerate().flat_map(|(i, plot)| {
+        let prefix = format!("plot/{i}/");
+        let of = move |t| trace(if several(t) { &prefix } else { "" }, plot, t);
+        plot.traces.iter().map(of)
+    });
     let called = lab
         .plots
         .iter()

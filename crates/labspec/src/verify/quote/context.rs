@@ -320,6 +320,7 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
             '.' | ',' | '\'' if chars.digit(end + 1) => return Some("digits with several points"),
             ')' | ']' => return behind_bracket(chars, end + 1),
             c if is_wide(c) => return wide_after(chars, end),
+            'π' => return Some(FORMULA),
             c if c.is_alphanumeric() || combines(c) => return Some(LETTERS),
             '-' | '–' | '—' if number_at(end + 1) => return Some(DIFFERENCE),
             '/' => return Some(if number_at(end + 1) { "a fraction with a slash" } else { "a quotient" }),

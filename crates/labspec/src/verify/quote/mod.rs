@@ -343,3 +343,7 @@ pub(super) fn same(a: &str, b: &str) -> bool {
 #[cfg(test)]
 #[path = "check_tests.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "whole_tests.rs"]
+mod whole_tests;

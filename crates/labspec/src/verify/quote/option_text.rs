@@ -61,7 +61,7 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     // `7 m farther` is a change.
     let compares = words
         .any(|w| matches!(w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && w != "under");
-    if compares || ELSE.into_iter().any(ends) {
+    if compares || q.refused != Some(BOUND) && ELSE.into_iter().any(ends) {
         return None;
     }
     let is_about = [

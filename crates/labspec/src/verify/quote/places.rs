@@ -198,6 +198,10 @@ impl Readable {
             if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.shared) || !last {
                 return None;
             }
+            // Of `0.7 mm per step` the number alone says nothing.
+            if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none()) {
+                return None;
+            }
             unit = theirs.unit.clone();
         }
         here.next().is_none().then(|| Found { bytes: bytes.clone(), unit })
@@ -225,8 +229,8 @@ mod tests {
         for (text, quote, found) in [
             ("at 0.44.", "0.44", vec![3]),
             ("21.5 and 1.5", "1.5", vec![9]),
-            ("x -0.7357 y", "-0.7357", vec![2]),
-            ("x \u{2212}0.7357 y", "-0.7357", vec![2]),
+            ("at -0.7357 now", "-0.7357", vec![3]),
+            ("at \u{2212}0.7357 now", "-0.7357", vec![3]),
             ("0.442 s, 0.442 s", "0.442 s", vec![0, 9]),
             ("$2.4\\times10^{-4}$", "2.4×10⁻⁴", vec![0]),
             ("it takes about 29 mm", "about 29 mm", vec![9]),

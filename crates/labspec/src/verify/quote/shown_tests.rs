@@ -60,8 +60,8 @@ fn prose_is_shown_as_a_reader_sees_it() {
     }
     let twice = "0.442 s\n\n0.442 s";
     assert_eq!(places(twice, "0.442 s").len(), 2);
-    assert_eq!(places("x $2.4 \\times 10^{-4}$ m", "2.4×10⁻⁴ m"), ["2.4 \\times 10^{-4}$ m"]);
-    assert_eq!(places("y \u{2212}0.5 m", "-0.5 m"), ["\u{2212}0.5 m"]);
+    assert_eq!(places("at $2.4 \\times 10^{-4}$ m", "2.4×10⁻⁴ m"), ["2.4 \\times 10^{-4}$ m"]);
+    assert_eq!(places("at \u{2212}0.5 m", "-0.5 m"), ["\u{2212}0.5 m"]);
 }
 
 #[test]

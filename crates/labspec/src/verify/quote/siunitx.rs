@@ -130,7 +130,7 @@ fn units(text: &str) -> Option<String> {
             let c = rest.chars().next()?;
             match c {
                 '.' | '~' | '·' => out.push('·'),
-                '{' | '}' | ' ' => {}
+                '{' | '}' => {}
                 c => out.push(c),
             }
             after = false;

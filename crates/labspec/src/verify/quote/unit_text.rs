@@ -49,6 +49,8 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
     if from > 1 {
         return None;
     }
+    // The raised ring of TeX: `30^\circ`.
+    from += usize::from(trimmed.starts_with("^°"));
     // `a 0.5-second fall`
     if from == 0
         && let Some(tail) = line.strip_prefix('-')

@@ -1,0 +1,325 @@
+//! The whole number of the text is what is quoted: with its sign, factor and unit, and with what stands around it. True quantities in
+//! many forms are read as what they are; those that are changed in one respect are never right.
+
+use super::*;
+use crate::lint::{ModelFolder, load_lesson};
+use crate::source::SourceFile;
+use labspec_bind::units::parse;
+use proptest::prelude::*;
+
+/// What becomes of a quote in a lesson with this text, where the expression gives a number in a unit.
+fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
+    let lab = serde_json::json!({"xml": "<mujoco/>", "verify": {"says": [[quote, "x"]]}});
+    let lesson = load_lesson(
+        SourceFile::new("a.md", format!("{text}\n\n```lab simlab\n{lab}\n```\n")),
+        &ModelFolder::unknown(),
+    );
+    let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
+    let shown = ShownText::of(&lesson);
+    let dimension = parse(unit);
+    let value = Value { computed, timestep: &[], start: &[], unit: &|| dimension };
+    let claim = Claim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
+    let places = places(&said.quote, None, &shown);
+    let mut findings = Vec::new();
+    let outcome = check(&claim, &reading(quote), places, &value, &shown, &mut findings);
+    assert_eq!(
+        outcome.state == QuoteState::Right,
+        findings.iter().all(|f| !f.is_error() && f.code != "quote-not-found"),
+        "{text}: {findings:?}"
+    );
+    outcome.state
+}
+
+const RIGHT: QuoteState = QuoteState::Right;
+
+/// Other numbers than half a second, all with the characters of `0.5`.
+const OTHERS: [&str; 110] = [
+    "minus 0.5 s",
+    "- 0.5 s",
+    "-0.5 s",
+    "\u{2212}0.5 s",
+    "\u{2212} 0.5 s",
+    "–0.5 s",
+    "– 0.5 s",
+    "(−)0.5 s",
+    "negative 0.5 s",
+    "0.5 s / m",
+    "0.5 s/m",
+    "0.5 s per m",
+    "0.5 s m",
+    "0.5 s·m",
+    "0.5 s-1",
+    "0.5 s^-1",
+    "0.5 s⁻¹",
+    "0.5 s²",
+    "0.5 s squared",
+    "0.5 s per lap",
+    "0.5 s/lap",
+    "2·0.5 s",
+    "2 × 0.5 s",
+    "2 * 0.5 s",
+    "√0.5 s",
+    "√(0.5 s)",
+    "√ 0.5 s",
+    "1+0.5 s",
+    "1 + 0.5 s",
+    "1/0.5 s",
+    "1 / 0.5 s",
+    "0.5/2 s",
+    "0.5 / 2 s",
+    "3 ½ s or 0.5² s",
+    "0.5² s",
+    "0.5^2 s",
+    "10^0.5 s",
+    "x^0.5 s",
+    "x_0.5 s",
+    "(0.5 s)²",
+    "2(0.5 s)",
+    "sin(0.5 s)",
+    "log 0.5 s",
+    "ln 0.5 s",
+    "half of 0.5 s",
+    "twice 0.5 s",
+    "three times 0.5 s",
+    "a third of 0.5 s",
+    "the square root of 0.5 s",
+    "0.5 thousand s",
+    "0.5 million s",
+    "0.5 e3 s",
+    "0.5e3 s",
+    "0.5 E3 s",
+    "0.5 × 10³ s",
+    "0.5·10^3 s",
+    "0.5 x 10^3 s",
+    "0.5 10^3 s",
+    "0.5 ms",
+    "0.5 μs",
+    "0.5 ks",
+    "0.5 k s",
+    "0.5 %",
+    "0.5 ‰",
+    "0.5 percent",
+    "0.5 kg",
+    "0.5 min",
+    "0.5 h",
+    "0.5 minutes",
+    "0.5 hours",
+    "0.5 metres",
+    "0.5°",
+    "0.5 °C",
+    "0.5 ft",
+    "<0.5 s",
+    "> 0.5 s",
+    "≤ 0.5 s",
+    "less than 0.5 s",
+    "at most 0.5 s",
+    "over 0.5 s",
+    "not 0.5 s",
+    "0.5 s ± 0.3 s",
+    "0.5 ± 0.3 s",
+    "± 0.5 s",
+    "0.3–0.5 s",
+    "0.3 to 0.5 s",
+    "0.5 to 0.7 s",
+    "between 0.3 and 0.5 s",
+    "0.5 s or more",
+    "0.5 s + 0.1 s",
+    "0.5 - 0.1 s",
+    "0.51 s",
+    "10.5 s",
+    "0.5.1 s",
+    "0.5(3) s",
+    "0.5π s",
+    "0.5 π s",
+    "π·0.5 s",
+    "v0.5 s",
+    "1,0.5 s",
+    "0.5x s",
+    "3:0.5 s",
+    "$\\frac{0.5}{2}$ s",
+    "$\\frac{1}{0.5}$ s",
+    "$\\sqrt{0.5}$ s",
+    "$e^{0.5}$ s",
+    "$\\log 0.5$ s",
+    "负0.5秒",
+    "0.5秒以上",
+    "每秒0.5米",
+];
+
+#[test]
+fn other_numbers_are_not_right() {
+    let mut right = Vec::new();
+    for text in OTHERS {
+        for quote in ["0.5 s", "0.5", "0.5秒", "0.5 s."] {
+            for sentence in [format!("It takes {text}."), format!("It takes {text} here"), format!("{text}")]
+            {
+                // A list, and a quotation, of Markdown.
+                let marked = sentence.starts_with("- ") || sentence.starts_with("> ");
+                if !marked && state(&sentence, quote, 0.5, "s") == RIGHT {
+                    right.push(format!("{quote} in {sentence}"));
+                }
+            }
+        }
+    }
+    assert!(right.is_empty(), "{} are right: {right:#?}", right.len());
+}
+
+/// Half a second.
+#[test]
+fn the_same_number_is_right() {
+    for text in [
+        "0.5 s",
+        "0.5 s.",
+        "(0.5 s)",
+        "t = 0.5 s",
+        "about 0.5 s",
+        "~0.5 s",
+        "≈ 0.5 s",
+        "+0.5 s",
+        "after 0.5 s, then",
+        "0.5 s — and",
+        "t: 0.5 s",
+        "$t = 0.5$ s",
+        "$\\mathrm{0.5\\,s}$",
+        "**0.5** s",
+        "0.5&nbsp;s",
+        "\"0.5 s\"",
+        "0.5 s (half a second)",
+        "from 0.3 s to 0.5 s",
+        "$\\SI{0.5}{s}$",
+        "$\\SI{0.5}{\\second}$",
+        "$\\qty{0.5}{s}$",
+        "0.5 s = 500 ms",
+        "0.3 s → 0.5 s",
+        "It lasts 0.5 s!",
+        "x/y: 0.5 s",
+        "| t |\n|---|\n| 0.5 s |",
+    ] {
+        for quote in ["0.5 s", "0.5"] {
+            assert_eq!(state(text, quote, 0.5, "s"), RIGHT, "{quote} in {text}");
+        }
+    }
+    for (text, quote) in [
+        ("下落需要0.5秒。", "0.5秒"),
+        ("下落需要0.5秒。", "0.5"),
+        ("落下には０．５秒かかる", "0.5秒"),
+        ("落下には0.5秒かかる", "0.5"),
+        ("大约0.5 秒", "0.5 秒"),
+        ("a 0.5-second fall", "0.5"),
+        ("0.5 seconds", "0.5 seconds"),
+        ("0.5 Sekunden", "0.5"),
+        ("0.5 sec", "0.5"),
+        ("$\\num{0.5}$ s", "0.5 s"),
+        ("| t (s) |\n|---|\n| 0.5 |", "0.5"),
+        ("0,5 s", "0,5 s"),
+        ("½ s", "½ s"),
+        ("5e-1 s", "5e-1 s"),
+        ("500 thousandths s", "500 thousandths s"),
+    ] {
+        assert_eq!(state(text, quote, 0.5, "s"), RIGHT, "{quote} in {text}");
+    }
+    // The column says in which unit.
+    for head in ["t (ms)", "t [ms]", "t / ms", "t in ms", "t, ms"] {
+        assert_ne!(state(&format!("| {head} |\n|---|\n| 0.5 |"), "0.5", 0.5, "s"), RIGHT, "{head}");
+    }
+    // Minutes and degrees are converted.
+    assert_eq!(state("It takes 2.0 min.", "2.0 min", 120.0, "s"), RIGHT);
+    assert_ne!(state("It takes 2.0 min.", "2.0 min", 2.0, "s"), RIGHT);
+    assert_eq!(state("It turns by 45.0°.", "45.0°", 0.785398, "rad"), RIGHT);
+    assert_eq!(state("It is 0.5 s here, and 0.5 ms there.", "0.5", 0.5, "s"), RIGHT);
+}
+
+/// A unit, and the number of one of it in the unit of the expression.
+const UNITS: [(&str, &str); 9] = [
+    ("s", "s"),
+    ("ms", "ms"),
+    ("m", "m"),
+    ("mm", "mm"),
+    ("kg", "kg"),
+    ("m/s", "m/s"),
+    ("N m", "N m"),
+    ("m/s^2", "m/s^2"),
+    ("rad/s", "rad/s"),
+];
+
+/// What stands around a quantity and leaves it as it is.
+const PLAIN: [(&str, &str); 9] = [
+    ("It takes ", "."),
+    ("(", ")"),
+    ("x = ", ", then"),
+    ("about ", " here"),
+    ("≈ ", ""),
+    ("is **", "** there"),
+    ("`", "`"),
+    ("$t = ", "$"),
+    ("结果是", "。"),
+];
+
+/// What makes another number of it.
+const CHANGED: [(&str, &str); 25] = [
+    ("minus ", ""),
+    ("- ", ""),
+    ("-", ""),
+    ("\u{2212}", ""),
+    ("2·", ""),
+    ("2 × ", ""),
+    ("√", ""),
+    ("1+", ""),
+    ("1/", ""),
+    ("10^", ""),
+    ("1", ""),
+    ("half of ", ""),
+    ("twice ", ""),
+    ("< ", ""),
+    ("up to ", ""),
+    ("log ", ""),
+    ("", "²"),
+    ("", "/K"),
+    ("", " per A"),
+    ("", "·kg"),
+    ("", " ± 0.1"),
+    ("(", ")²"),
+    ("", " · 2"),
+    ("", " or more"),
+    ("ten thousand ", ""),
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+    #[test]
+    fn forms_are_read_and_changes_are_not_right(
+        n in 1u32..99999, decimals in 0usize..4, unit in 0..UNITS.len(), around in 0..PLAIN.len(), change in 0..CHANGED.len(),
+        form in 0usize..5, other in 0..UNITS.len(), alone in any::<bool>(),
+    ) {
+        let value = f64::from(n) / 10f64.powi(decimals as i32);
+        let digits = format!("{value:.decimals$}");
+        let (unit, dimension) = UNITS[unit];
+        let printed = match form {
+            0 => format!("{digits} {unit}"),
+            1 => format!("{digits}\u{a0}{unit}"),
+            2 => format!("{digits}&nbsp;{unit}"),
+            3 => format!("${digits}\\,\\mathrm{{{unit}}}$"),
+            _ => format!("$\\SI{{{digits}}}{{{unit}}}$"),
+        };
+        let (before, after) = PLAIN[around];
+        // Code shows its characters as they are.
+        prop_assume!(!(before == "`" || before.contains('$')) || form == 0);
+        let quote = if alone { digits.clone() } else { format!("{digits} {unit}") };
+        let text = format!("{before}{printed}{after}");
+        prop_assert_eq!(state(&text, &quote, value, dimension), RIGHT, "{} in {}", quote, text);
+
+        let (front, back) = CHANGED[change];
+        let changed = format!("It takes {front}{digits} {unit}{back} here.");
+        prop_assert_ne!(state(&changed, &quote, value, dimension), RIGHT, "{} in {}", quote, changed);
+        // Another unit, or another power of ten.
+        let (wrong, _) = UNITS[other];
+        if wrong != unit {
+            let changed = format!("It takes {digits} {wrong} here.");
+            prop_assert_ne!(state(&changed, &quote, value, dimension), RIGHT, "{} in {}", quote, changed);
+        }
+        for factor in ["thousand ", "%", "e3 ", "×10^3 ", "million ", "k "] {
+            let changed = format!("It takes {digits} {factor}{unit} here.");
+            prop_assert_ne!(state(&changed, &quote, value, dimension), RIGHT, "{} in {}", quote, changed);
+        }
+    }
+}
