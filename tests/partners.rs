@@ -24,7 +24,8 @@ const ROD: &str = "<mujoco><worldbody><body pos='0 0 2'><joint axis='0 1 0'/>
 const DROP: &str = "<mujoco><worldbody><geom type='plane' size='9 9 1'/>
   <body pos='0 0 1'><freejoint/><geom size='.05' mass='1'/></body></worldbody></mujoco>";
 /// A servo that holds an arm.
-const SERVO: &str = "<mujoco><option gravity='0 0 0'/><worldbody><body><joint name='hinge' axis='0 1 0' damping='3'/>
+const SERVO: &str =
+    "<mujoco><option gravity='0 0 0'/><worldbody><body><joint name='hinge' axis='0 1 0' damping='3'/>
   <geom type='capsule' size='.02' fromto='0 0 0 .5 0 0' mass='1'/></body></worldbody>
   <actuator><position joint='hinge' kp='10'/></actuator></mujoco>";
 
@@ -41,8 +42,7 @@ fn lab(xml: &str, controls: &Json, shown: &str) -> Json {
 }
 
 fn slider(range: [f64; 3], action: &Json) -> Json {
-    let mut control =
-        json!({"label": "x", "min": range[0], "max": range[1], "step": 0.05, "value": range[2], "reset": true});
+    let mut control = json!({"label": "x", "min": range[0], "max": range[1], "step": 0.05, "value": range[2], "reset": true});
     control.as_object_mut().unwrap().extend(action.as_object().unwrap().clone());
     json!([control])
 }
@@ -116,14 +116,21 @@ fn what_is_no_slider_is_held_to_the_same() {
     let all = found(&lab(CYLINDER, &button, "data.qvel[0]"));
     let told: Vec<&str> = all.iter().map(|f| f.code).collect();
     assert_eq!(told, ["mass-alone", "missing-setconst"], "{all:#?}");
-    let mut choice = slider([0.0; 3], &json!({"apply": MASS, "type": "select", "options": [["light", 1], ["heavy", 10]], "value": 1}));
+    let mut choice = slider(
+        [0.0; 3],
+        &json!({"apply": MASS, "type": "select", "options": [["light", 1], ["heavy", 10]], "value": 1}),
+    );
     for key in ["min", "max", "step"] {
         choice[0].as_object_mut().unwrap().remove(key);
     }
     repaired(&lab(RAMP, &choice, "data.qvel[0]"), "mass-alone");
     let mut controller = lab(RAMP, &json!([]), "data.qvel[0]");
     controller["controller"] = json!("model.body_mass[1] = 1 + 9 * data.time; mj.mj_setConst(model, data)");
-    assert!(codes(&controller).contains(&"mass-alone") || !found(&controller).is_empty(), "{:?}", found(&controller));
+    assert!(
+        codes(&controller).contains(&"mass-alone") || !found(&controller).is_empty(),
+        "{:?}",
+        found(&controller)
+    );
 }
 
 #[test]
@@ -171,6 +178,19 @@ fn a_body_that_does_not_turn_has_no_partner_to_miss() {
 }
 
 #[test]
+fn a_ramp_that_another_slider_tilts_is_tried() {
+    let tilt = json!({"label": "tilt", "min": 0, "max": 30, "step": 1, "value": 0, "reset": true,
+        "apply": "model.opt.gravity[0] = 9.81 * Math.sin(value * Math.PI / 180); model.opt.gravity[2] = -9.81 * Math.cos(value * Math.PI / 180)"});
+    let mut controls = slider([1.0, 10.0, 1.0], &json!({"apply": MASS}));
+    controls.as_array_mut().unwrap().push(tilt);
+    let xml = RAMP.replace(" euler='0 30 0'", "").replace("pos='.05 0 .0866025'", "pos='0 0 .1'");
+    let lab = lab(&xml, &controls, "data.qvel[0]");
+    let why = found(&lab)[0].why.clone().unwrap();
+    assert!(why.contains("with \"x\" at 10 and \"tilt\" at 30"), "{why}");
+    repaired(&lab, "mass-alone");
+}
+
+#[test]
 fn an_inertia_that_no_body_has() {
     let of = |apply: &str, max: f64| {
         let apply = json!({"apply": apply});
@@ -205,14 +225,22 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
     assert_eq!(codes(&size(DROP, right, "data.qpos[2]")), Vec::<&str>::new());
     // A roller of the same mass and another radius has another inertia.
     let turned = DROP.replace("size='.05' mass='1'", "type='cylinder' size='.05 .1' euler='90 0 0' mass='1'");
-    let mut rolls = size(&turned, "model.geom_size[3] = value; model.geom_rbound[1] = Math.hypot(value, 0.1)", "data.qvel[4]");
+    let mut rolls = size(
+        &turned,
+        "model.geom_size[3] = value; model.geom_rbound[1] = Math.hypot(value, 0.1)",
+        "data.qvel[4]",
+    );
     rolls["setup"] = json!("data.qpos[2] = model.geom_size[3]; data.qvel[0] = 2");
     rolls["stopAt"] = json!(0.2);
     let finding = found(&rolls).remove(0);
     assert!(finding.message.ends_with("leaves `model.body_inertia`"), "{finding:?}");
     repaired(&rolls, "shape-alone");
     // The bob of a pendulum takes the centre of mass along.
-    let bob = lab(&PENDULUM.replace("RADIUS", ".05"), &slider([0.3, 0.9, 0.6], &json!({"apply": "model.geom_pos[0] = value; mj.mj_setConst(model, data)"})), "data.qpos[0]");
+    let bob = lab(
+        &PENDULUM.replace("RADIUS", ".05"),
+        &slider([0.3, 0.9, 0.6], &json!({"apply": "model.geom_pos[0] = value; mj.mj_setConst(model, data)"})),
+        "data.qpos[0]",
+    );
     let finding = found(&bob).remove(0);
     assert!(finding.message.contains("leaves `model.body_ipos`"), "{finding:?}");
     repaired(&bob, "shape-alone");
@@ -242,7 +270,11 @@ fn a_servo_goes_to_its_target_whatever_its_gain() {
 
 /// A lesson: a ball on a ramp, and what is claimed of it.
 fn lesson(apply: &str, lint: &str, verify: &str, question: &str) -> String {
-    let mut lab = lab(RAMP, &slider([1.0, 10.0, 1.0], &json!({"apply": apply})), "Math.hypot(data.qvel[0], data.qvel[2])");
+    let mut lab = lab(
+        RAMP,
+        &slider([1.0, 10.0, 1.0], &json!({"apply": apply})),
+        "Math.hypot(data.qvel[0], data.qvel[2])",
+    );
     if !lint.is_empty() {
         lab["lint"] = json!({"allow": [lint], "why": "this lesson is about it"});
     }
@@ -277,13 +309,17 @@ fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
     let checked = check_text("lesson.md", &lesson(MASS, "", &verify, KEY));
     let finding = checked.findings.iter().find(|f| f.code == "claim-of-mismatch").unwrap();
     let why = finding.why.as_ref().unwrap();
-    assert!(finding.message.contains("\"x\"") && why.contains("in the run `heavy`") && why.contains("4.71"), "{finding:?}");
+    assert!(
+        finding.message.contains("\"x\"") && why.contains("in the run `heavy`") && why.contains("4.71"),
+        "{finding:?}"
+    );
     assert!(why.contains("3.50"), "{why}");
     // A sweep of the control, and the setup of a run.
-    let swept = r#""runs": {"run": {"each": {"x": [1, 10]}}}, "measure": {"v": "final(data.qvel[0])"}, "options": ["run[1].v > 1.2 * run[0].v", "abs(run[1].v - run[0].v) < 0.05"]"#;
+    let swept = r#""runs": {"run": {"sweep": {"x": [1, 10]}}}, "measure": {"v": "final(data.qvel[0])"}, "options": ["run.v[1] > 1.2 * run.v[0]", "abs(run.v[1] - run.v[0]) < 0.05"]"#;
     let (verdict, codes) = judged(&lesson(MASS, "", swept, KEY));
     assert_eq!(verdict, Verdict::Refuted, "{codes:?}");
-    let own = verify.replace(r#""set": {"x": 10}"#, r#""setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)""#);
+    let own = verify
+        .replace(r#""set": {"x": 10}"#, r#""setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)""#);
     let (verdict, codes) = judged(&lesson(BOTH, "", &own, KEY));
     assert_eq!((verdict, codes), (Verdict::Refuted, vec!["mass-alone", "claim-of-mismatch"]));
 }
@@ -314,10 +350,15 @@ fn quotes_and_closed_forms_are_judged_twice() {
     let mut lab = lab(RAMP, &json!([]), "data.qvel[0]");
     lab["setup"] = json!("model.body_mass[1] = 10; mj.mj_setConst(model, data)");
     lab["plots"] = json!([{"traces": [{"label": "v", "expr": "data.qvel[0]"}]}]);
-    lab["verify"] = json!({"exact": {"v": {"is": "4.905 * cos(pi / 6) / 1.04 * data.time", "tol": 0.03}}});
+    lab["verify"] =
+        json!({"exact": {"v": {"is": "4.905 * Math.cos(Math.PI / 6) / 1.04 * data.time", "tol": 0.03}}});
     let checked = check_text("lab.json", &lab.to_string());
     let state = checked.claims[0].judgement.exact[0].clone();
-    assert!(checked.findings.iter().any(|f| f.code == "claim-of-mismatch"), "{state:?} {:#?}", checked.findings);
+    assert!(
+        checked.findings.iter().any(|f| f.code == "claim-of-mismatch"),
+        "{state:?} {:#?}",
+        checked.findings
+    );
 }
 
 #[test]

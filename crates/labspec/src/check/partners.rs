@@ -15,7 +15,9 @@ use crate::ledger::State;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Lab, Lesson, Question, Run, Verify};
-use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage, Verdict, significant};
+use crate::verify::{
+    self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage, Verdict, significant,
+};
 use std::cell::OnceCell;
 use std::ops::Range;
 
@@ -73,7 +75,13 @@ impl<'a> Partners<'a> {
                 let written = PairSet::written_by(&bound.program);
                 let pairs = written.without(coupled::chosen_apart(programs, bound, written));
                 let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
-                candidates.push(Candidate { text: bound.text.clone(), who, pairs, lab: Some(ready.lab), own });
+                candidates.push(Candidate {
+                    text: bound.text.clone(),
+                    who,
+                    pairs,
+                    lab: Some(ready.lab),
+                    own,
+                });
             }
         }
         candidates.retain(|c| !c.pairs.is_empty());
@@ -307,11 +315,13 @@ impl Rests {
             *reason = format!("{reason}{between}{also}");
         };
         if let (Some(a), Some(b)) = (&mut first.answer, second.answer) {
-            let margins = |answer: &verify::Answer| answer.weights.iter().map(|w| w.margin).collect::<Vec<_>>();
+            let margins =
+                |answer: &verify::Answer| answer.weights.iter().map(|w| w.margin).collect::<Vec<_>>();
             if holds(a.verdict.state()) && !holds(b.verdict.state()) {
                 let right = case.question.and_then(Question::right_option);
                 let option = right.and_then(|i| case.verify.options.get(i));
-                let place = case.verify.value.as_ref().or(option).map_or(case.verify.span.clone(), Text::span);
+                let place =
+                    case.verify.value.as_ref().or(option).map_or(case.verify.span.clone(), Text::span);
                 a.reason = self.reason(b.verdict.as_str());
                 a.verdict = if b.verdict == Verdict::Unverified { Verdict::Failed } else { b.verdict };
                 findings.push(self.finding(place, "this answer"));

@@ -19,7 +19,7 @@ pub(crate) use table::Pair;
 
 use table::PAIRS;
 
-use super::{Bound, ModelNames, Programs, Scope, World, include};
+use super::{Bound, ModelNames, Programs, Scope, World, functions, include};
 use crate::source::Text;
 use labspec_core::reflect::{FieldId, Kind, Object, View, field};
 use labspec_core::{self as core, Error, Model};
@@ -127,6 +127,8 @@ impl Coupled {
             changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (partner, i, c)));
         }
         let mut constants = self.refresh && inertial(program);
+        // Where a program changes what constants follow from and leaves them, they stay: that is another omission.
+        let forgotten = inertial(program) && !calls_set_const(program);
         for (partner, index, change) in changes {
             let Some(old) = core::element(&world.model, &world.data, partner, index) else { continue };
             let new = match change {
@@ -135,7 +137,7 @@ impl Coupled {
                 Change::Becomes(x) => x,
             };
             core::view_mut(&mut world.model, &mut world.data, partner)?.set(index, new);
-            constants |= partner.info().kind == Kind::Inertial;
+            constants |= partner.info().kind == Kind::Inertial && !forgotten;
         }
         if constants {
             let qpos = world.data.fields().qpos.clone();
@@ -165,6 +167,11 @@ const ROUNDING: f64 = 1e-9;
 fn inertial(program: &Program) -> bool {
     let written = |f: FieldId| f.info().object == Object::Model && f.info().kind == Kind::Inertial;
     program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(written)
+}
+
+/// Whether a program computes constants anew.
+fn calls_set_const(program: &Program) -> bool {
+    program.effects().calls.iter().any(|f| functions::name(*f) == Some("mj_setConst"))
 }
 
 /// The pairs that some control of a lab leaves to the student on purpose: the partner has a control of its own, which does not

@@ -36,7 +36,8 @@ pub(super) fn of(m: &Model, g: usize) -> Option<Shape> {
         size.join(" ")
     );
     let alone = Model::from_xml(&xml).ok()?;
-    let tensor = tensor(*rows::<3>(&alone.body_inertia).get(1)?, &quat_to_mat(*rows::<4>(&alone.body_iquat).get(1)?));
+    let tensor =
+        tensor(*rows::<3>(&alone.body_inertia).get(1)?, &quat_to_mat(*rows::<4>(&alone.body_iquat).get(1)?));
     Some(Shape { radius: *alone.geom_rbound.first()?, tensor })
 }
 
@@ -76,8 +77,7 @@ pub(super) fn carried(m: &Model, g: usize) -> Option<usize> {
         return None;
     }
     let (mass, own) = (*m.body_mass.get(body)?, rows::<3>(&m.body_inertia).get(body)?);
-    let [place, centre] =
-        [rows::<3>(&m.geom_pos).get(g)?, rows::<3>(&m.body_ipos).get(body)?];
+    let [place, centre] = [rows::<3>(&m.geom_pos).get(g)?, rows::<3>(&m.body_ipos).get(body)?];
     let close = |(a, b): (&f64, f64)| (a - mass * b).abs() <= SAME * a.abs();
     let here = norm(sub(*place, *centre)) <= SAME * m.geom_rbound.get(g)?;
     let moments = moments(m, g, body)?;

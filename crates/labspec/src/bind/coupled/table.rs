@@ -176,7 +176,8 @@ fn reach(m: &Model, body: usize) -> Option<f64> {
 fn moments(before: &Model, now: &Model, body: usize) -> Option<([f64; 3], [f64; 3], f64)> {
     let [a, b] = [before, now].map(|m| rows::<3>(&m.body_inertia).get(body).copied());
     let (a, b) = (a?, b?);
-    let factors = a.iter().zip(&b).filter(|(x, y)| x.to_bits() != y.to_bits() && **x > 0.0).map(|(x, y)| y / x);
+    let factors =
+        a.iter().zip(&b).filter(|(x, y)| x.to_bits() != y.to_bits() && **x > 0.0).map(|(x, y)| y / x);
     let largest = factors.fold(f64::NAN, f64::max);
     (largest > 0.0 && largest.is_finite()).then_some((a, b, largest))
 }
@@ -216,7 +217,11 @@ fn other_moments(before: &Model, now: &Model) -> Changes {
 }
 
 /// The geoms whose size or place was changed.
-fn changed<'m>(before: &'m Model, now: &'m Model, of: fn(&Model) -> &[f64]) -> impl Iterator<Item = usize> + 'm {
+fn changed<'m>(
+    before: &'m Model,
+    now: &'m Model,
+    of: fn(&Model) -> &[f64],
+) -> impl Iterator<Item = usize> + 'm {
     let [a, b] = [before, now].map(of);
     (0..now.ngeom).filter(move |g| (3 * g..3 * g + 3).any(|i| !same((a, b), i)))
 }
@@ -299,8 +304,5 @@ fn gain_of_bias(before: &Model, now: &Model) -> Changes {
 }
 
 fn both_of_actuators<'m>(before: &'m Model, now: &'m Model) -> [Both<'m>; 2] {
-    [
-        (&*before.actuator_gainprm, &*now.actuator_gainprm),
-        (&*before.actuator_biasprm, &*now.actuator_biasprm),
-    ]
+    [(&*before.actuator_gainprm, &*now.actuator_gainprm), (&*before.actuator_biasprm, &*now.actuator_biasprm)]
 }

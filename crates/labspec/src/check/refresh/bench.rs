@@ -141,7 +141,9 @@ impl<'a> Bench<'a> {
         let moves = |index: usize, control: &Control| -> Vec<(Move, String)> {
             let label = control.label.as_str();
             match control.kind {
-                ControlKind::Button { .. } => vec![(Move::Press(index), format!("after \"{label}\" is pressed"))],
+                ControlKind::Button { .. } => {
+                    vec![(Move::Press(index), format!("after \"{label}\" is pressed"))]
+                }
                 _ => {
                     let of = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
                     choices(control).into_iter().map(of).collect()

@@ -1,9 +1,9 @@
 //! A lab as it is, with its constants computed anew, and with the partners of what a program changes: what the runs show.
 
+use super::Suspect;
 use super::advice::{self, Advice};
 use super::bench::{Amended, Bench, Trial};
 use super::difference::{BEYOND, Difference};
-use super::Suspect;
 use crate::bind::coupled::{PairSet, Repair};
 use crate::run::{Cell, Numerics};
 use crate::verify::HALVED;
@@ -98,7 +98,8 @@ impl Bench<'_> {
             None => {
                 let source = advice::source(s);
                 let plain = format!("{source}{}", Advice::Plain.tail(&source));
-                let good = matter.is_empty() && constants.is_some() && self.gives(s, &plain, &all, steps, 0.0);
+                let good =
+                    matter.is_empty() && constants.is_some() && self.gives(s, &plain, &all, steps, 0.0);
                 (if good { Advice::Plain } else { Advice::Keep }, None)
             }
             Some(repair) => {

@@ -28,11 +28,7 @@ impl Difference {
             }
             (x, y) => (x.shown(4), y.shown(4)),
         };
-        format!(
-            "{trial}, {} is {x} at t = {} s, and {y} with {anew}",
-            self.name,
-            digits(self.time, 6)
-        )
+        format!("{trial}, {} is {x} at t = {} s, and {y} with {anew}", self.name, digits(self.time, 6))
     }
 }
 
@@ -102,9 +98,10 @@ impl Columns<'_> {
         };
         let coordinate = |column: usize| column > self.programs.probes.len();
         let part = |d: &Apart| d.most / d.range;
-        let (column, d) = found.into_iter().filter(beyond).max_by(|(i, x), (j, y)| {
-            coordinate(*j).cmp(&coordinate(*i)).then(part(x).total_cmp(&part(y)))
-        })?;
+        let (column, d) = found
+            .into_iter()
+            .filter(beyond)
+            .max_by(|(i, x), (j, y)| coordinate(*j).cmp(&coordinate(*i)).then(part(x).total_cmp(&part(y))))?;
         let cells = d.cells.map(Cell::Number);
         Some(Difference { name: self.column(column), time: d.time, cells: cells.into() })
     }

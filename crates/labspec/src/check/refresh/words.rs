@@ -17,7 +17,8 @@ impl Bench<'_> {
         match self.compare(s) {
             Ok(compared) => {
                 let constants = missing(s, &compared);
-                let fix = replacement(s, &compared).filter(|_| constants.as_ref().is_none_or(|f| f.fix.is_none()));
+                let fix =
+                    replacement(s, &compared).filter(|_| constants.as_ref().is_none_or(|f| f.fix.is_none()));
                 let partners = self.left_behind(s, &compared, fix);
                 constants.into_iter().chain(partners).collect()
             }
