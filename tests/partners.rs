@@ -125,12 +125,13 @@ fn what_is_no_slider_is_held_to_the_same() {
     }
     repaired(&lab(RAMP, &choice, "data.qvel[0]"), "mass-alone");
     let mut controller = lab(RAMP, &json!([]), "data.qvel[0]");
-    controller["controller"] = json!("model.body_mass[1] = 1 + 9 * data.time; mj.mj_setConst(model, data)");
-    assert!(
-        codes(&controller).contains(&"mass-alone") || !found(&controller).is_empty(),
-        "{:?}",
-        found(&controller)
-    );
+    controller["controller"] = json!("model.body_mass[1] = 1 + 9 * data.time");
+    assert!(codes(&controller).contains(&"mass-alone"), "{:?}", found(&controller));
+    // A function that another program has stored.
+    let mut stored =
+        lab(RAMP, &json!([{"type": "button", "label": "Load", "run": "ctx.heavy(10)"}]), "data.qvel[0]");
+    stored["setup"] = json!("ctx.heavy = (m) => { model.body_mass[1] = m; }");
+    assert!(codes(&stored).contains(&"mass-alone"), "{:?}", found(&stored));
 }
 
 #[test]
@@ -322,6 +323,28 @@ fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
         .replace(r#""set": {"x": 10}"#, r#""setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)""#);
     let (verdict, codes) = judged(&lesson(BOTH, "", &own, KEY));
     assert_eq!((verdict, codes), (Verdict::Refuted, vec!["mass-alone", "claim-of-mismatch"]));
+}
+
+#[test]
+fn a_change_of_a_written_out_inertia_is_held_to_the_same() {
+    let xml = RAMP.replace(
+        "<geom size='.1' mass='1'/>",
+        "<inertial pos='0 0 0' mass='1' diaginertia='.004 .004 .004'/><geom size='.1'/>",
+    );
+    let of = |xml: &str, change: &str| {
+        let runs = format!(
+            r#""runs": {{"light": {{}}, "heavy": {{"model": {change}}}}}, "measure": {{"v": "final(data.qvel[0])"}}"#
+        );
+        let text = lesson(BOTH, "", &format!("{runs}, {FASTER}"), KEY);
+        judged(&text.replace(&serde_json::to_string(RAMP).unwrap(), &serde_json::to_string(xml).unwrap()))
+    };
+    let told = vec!["mass-alone", "claim-of-mismatch"];
+    assert_eq!(of(&xml, r#"{"inertial mass": 10}"#), (Verdict::Refuted, told));
+    // Where the mass of a geom changes, the inertia is computed from it.
+    let (verdict, codes) = of(RAMP, r#"{"body ball geom mass": 10}"#);
+    assert!(verdict != Verdict::Verified && !codes.contains(&"claim-of-mismatch"), "{codes:?}");
+    let both = r#"{"inertial mass": 10, "inertial diaginertia": "0.04 0.04 0.04"}"#;
+    assert_eq!(of(&xml, both), (Verdict::Refuted, vec!["answer-refuted"]));
 }
 
 #[test]

@@ -327,6 +327,7 @@ impl<'a> Bench<'a> {
         let coupled = Coupled {
             programs: vec![(s.bound.text.clone(), pairs)],
             others: PairSet::NONE,
+            changes: PairSet::NONE,
             refresh: s.inertial.is_some(),
         };
         coupled.install(&mut programs, self.model);
