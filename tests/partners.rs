@@ -20,12 +20,16 @@ const PENDULUM: &str = "<mujoco><worldbody><body pos='0 0 2'><joint axis='0 1 0'
 /// A rod that swings about its end.
 const ROD: &str = "<mujoco><worldbody><body pos='0 0 2'><joint axis='0 1 0'/>
   <geom type='capsule' size='.02' fromto='0 0 0 .6 0 -.8' mass='1'/></body></worldbody></mujoco>";
-/// A ball above a floor that is no plane.
-const DROP: &str = "<mujoco><worldbody><geom type='box' size='.5 .5 .1' pos='0 0 -.1'/>
+/// A ball above a floor.
+const DROP: &str = "<mujoco><worldbody><geom type='plane' size='9 9 1'/>
   <body pos='0 0 1'><freejoint/><geom size='.05' mass='1'/></body></worldbody></mujoco>";
 /// A servo that holds an arm.
 const SERVO: &str =
+<<<<<<< HEAD
     "<mujoco><option gravity='0 0 0'/><worldbody><body><joint name='hinge' axis='0 1 0' damping='1'/>
+=======
+    "<mujoco><option gravity='0 0 0'/><worldbody><body><joint name='hinge' axis='0 1 0' damping='3'/>
+>>>>>>> w-inertia
   <geom type='capsule' size='.02' fromto='0 0 0 .5 0 0' mass='1'/></body></worldbody>
   <actuator><position joint='hinge' kp='10'/></actuator></mujoco>";
 
@@ -115,7 +119,11 @@ fn what_is_no_slider_is_held_to_the_same() {
     let button = json!([{"type": "button", "label": "Load", "run": "model.body_mass[1] = 20"}]);
     let all = found(&lab(CYLINDER, &button, "data.qvel[0]"));
     let told: Vec<&str> = all.iter().map(|f| f.code).collect();
+<<<<<<< HEAD
     assert_eq!(told, ["missing-setconst", "mass-alone"], "{all:#?}");
+=======
+    assert_eq!(told, ["mass-alone", "missing-setconst"], "{all:#?}");
+>>>>>>> w-inertia
     let mut choice = slider(
         [0.0; 3],
         &json!({"apply": MASS, "type": "select", "options": [["light", 1], ["heavy", 10]], "value": 1}),
@@ -125,12 +133,22 @@ fn what_is_no_slider_is_held_to_the_same() {
     }
     repaired(&lab(RAMP, &choice, "data.qvel[0]"), "mass-alone");
     let mut controller = lab(RAMP, &json!([]), "data.qvel[0]");
+<<<<<<< HEAD
     controller["controller"] = json!("model.body_mass[1] = 1 + 9 * data.time; mj.mj_setConst(model, data)");
     assert!(
         codes(&controller).contains(&"mass-alone") || !found(&controller).is_empty(),
         "{:?}",
         found(&controller)
     );
+=======
+    controller["controller"] = json!("model.body_mass[1] = 1 + 9 * data.time");
+    assert!(codes(&controller).contains(&"mass-alone"), "{:?}", found(&controller));
+    // A function that another program has stored.
+    let mut stored =
+        lab(RAMP, &json!([{"type": "button", "label": "Load", "run": "ctx.heavy(10)"}]), "data.qvel[0]");
+    stored["setup"] = json!("ctx.heavy = (m) => { model.body_mass[1] = m; }");
+    assert!(codes(&stored).contains(&"mass-alone"), "{:?}", found(&stored));
+>>>>>>> w-inertia
 }
 
 #[test]
@@ -149,7 +167,7 @@ fn missing_setconst_shows_no_wrong_number_as_right() {
     }
     let apply = json!({"apply": "model.body_mass[1] = value // kg"});
     let lab = lab(RAMP, &slider([1.0, 10.0, 1.0], &apply), "data.qvel[0]");
-    let fix = found(&lab)[0].fix.clone().unwrap();
+    let fix = found(&lab).into_iter().find_map(|f| f.fix).unwrap();
     let mut text = lab.to_string();
     text.replace_range(fix.span, &fix.text);
     assert_eq!(found(&serde_json::from_str(&text).unwrap()), [], "{text}");
@@ -178,6 +196,19 @@ fn a_body_that_does_not_turn_has_no_partner_to_miss() {
 }
 
 #[test]
+fn a_ramp_that_another_slider_tilts_is_tried() {
+    let tilt = json!({"label": "tilt", "min": 0, "max": 30, "step": 1, "value": 0, "reset": true,
+        "apply": "model.opt.gravity[0] = 9.81 * Math.sin(value * Math.PI / 180); model.opt.gravity[2] = -9.81 * Math.cos(value * Math.PI / 180)"});
+    let mut controls = slider([1.0, 10.0, 1.0], &json!({"apply": MASS}));
+    controls.as_array_mut().unwrap().push(tilt);
+    let xml = RAMP.replace(" euler='0 30 0'", "").replace("pos='.05 0 .0866025'", "pos='0 0 .1'");
+    let lab = lab(&xml, &controls, "data.qvel[0]");
+    let why = found(&lab)[0].why.clone().unwrap();
+    assert!(why.contains("with \"x\" at 10 and \"tilt\" at 30"), "{why}");
+    repaired(&lab, "mass-alone");
+}
+
+#[test]
 fn an_inertia_that_no_body_has() {
     let of = |apply: &str, max: f64| {
         let apply = json!({"apply": apply});
@@ -186,11 +217,16 @@ fn an_inertia_that_no_body_has() {
     let all = "for (let i = 3; i < 6; i++) model.body_inertia[i] = value; mj.mj_setConst(model, data)";
     // A hollow ball has two thirds of m r², a hoop all of it, and nothing more.
     assert_eq!(of(all, 0.0099), Vec::<&str>::new());
+<<<<<<< HEAD
     assert_eq!(
         codes(&lab(RAMP, &slider([0.004, 0.5, 0.004], &json!({"apply": all, "init": true})), "data.qvel[0]")),
         Vec::<&str>::new(),
         "what the mass does not change is not told"
     );
+=======
+    // What rolls with more takes more mass to do so.
+    assert_eq!(of(all, 0.5), ["inertia-alone"]);
+>>>>>>> w-inertia
     // On a hinge with weight it is the mass that swings.
     let swing = lab(ROD, &slider([0.1, 5.0, 0.1], &json!({"apply": all})), "data.qpos[0]");
     assert_eq!(codes(&swing), ["inertia-alone"]);
@@ -210,7 +246,7 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
     assert!(finding.message.contains("leaves `model.geom_rbound`"), "{finding:?}");
     let (alone, both) = repaired(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]"), "shape-alone");
     // The ball rests at its radius, or at what its bounds let it sink to.
-    assert!((both - 0.3).abs() < 0.01 && alone < 0.2, "{alone} {both}");
+    assert!(both > 0.25 && alone < 0.2, "{alone} {both}");
     let right = "model.geom_size[3] = value; model.geom_rbound[1] = value";
     assert_eq!(codes(&size(DROP, right, "data.qpos[2]")), Vec::<&str>::new());
     // A roller of the same mass and another radius has another inertia.
@@ -305,13 +341,35 @@ fn a_claim_of_a_body_that_does_not_exist_is_refuted() {
     );
     assert!(why.contains("3.50"), "{why}");
     // A sweep of the control, and the setup of a run.
-    let swept = r#""runs": {"run": {"sweep": {"x": [1, 10]}}}, "measure": {"v": "final(data.qvel[0])"}, "options": ["run[1].v > 1.2 * run[0].v", "abs(run[1].v - run[0].v) < 0.05"]"#;
+    let swept = r#""runs": {"run": {"sweep": {"x": [1, 10]}}}, "measure": {"v": "final(data.qvel[0])"}, "options": ["run.v[1] > 1.2 * run.v[0]", "abs(run.v[1] - run.v[0]) < 0.05"]"#;
     let (verdict, codes) = judged(&lesson(MASS, "", swept, KEY));
     assert_eq!(verdict, Verdict::Refuted, "{codes:?}");
     let own = verify
         .replace(r#""set": {"x": 10}"#, r#""setup": "model.body_mass[1] = 10; mj.mj_setConst(model, data)""#);
     let (verdict, codes) = judged(&lesson(BOTH, "", &own, KEY));
     assert_eq!((verdict, codes), (Verdict::Refuted, vec!["mass-alone", "claim-of-mismatch"]));
+}
+
+#[test]
+fn a_change_of_a_written_out_inertia_is_held_to_the_same() {
+    let xml = RAMP.replace(
+        "<geom size='.1' mass='1'/>",
+        "<inertial pos='0 0 0' mass='1' diaginertia='.004 .004 .004'/><geom size='.1'/>",
+    );
+    let of = |xml: &str, change: &str| {
+        let runs = format!(
+            r#""runs": {{"light": {{}}, "heavy": {{"model": {change}}}}}, "measure": {{"v": "final(data.qvel[0])"}}"#
+        );
+        let text = lesson(BOTH, "", &format!("{runs}, {FASTER}"), KEY);
+        judged(&text.replace(&serde_json::to_string(RAMP).unwrap(), &serde_json::to_string(xml).unwrap()))
+    };
+    let told = vec!["mass-alone", "claim-of-mismatch"];
+    assert_eq!(of(&xml, r#"{"inertial mass": 10}"#), (Verdict::Refuted, told));
+    // Where the mass of a geom changes, the inertia is computed from it.
+    let (verdict, codes) = of(RAMP, r#"{"body ball geom mass": 10}"#);
+    assert!(verdict != Verdict::Verified && !codes.contains(&"claim-of-mismatch"), "{codes:?}");
+    let both = r#"{"inertial mass": 10, "inertial diaginertia": "0.04 0.04 0.04"}"#;
+    assert_eq!(of(&xml, both), (Verdict::Refuted, vec!["answer-refuted"]));
 }
 
 #[test]
@@ -340,7 +398,8 @@ fn quotes_and_closed_forms_are_judged_twice() {
     let mut lab = lab(RAMP, &json!([]), "data.qvel[0]");
     lab["setup"] = json!("model.body_mass[1] = 10; mj.mj_setConst(model, data)");
     lab["plots"] = json!([{"traces": [{"label": "v", "expr": "data.qvel[0]"}]}]);
-    lab["verify"] = json!({"exact": [["v", "4.905 * Math.cos(Math.PI / 6) / 1.04 * t", 0.02]]});
+    lab["verify"] =
+        json!({"exact": {"v": {"is": "4.905 * Math.cos(Math.PI / 6) / 1.04 * data.time", "tol": 0.03}}});
     let checked = check_text("lab.json", &lab.to_string());
     let state = checked.claims[0].judgement.exact[0].clone();
     assert!(

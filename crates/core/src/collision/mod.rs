@@ -152,9 +152,13 @@ fn narrow_mixed(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair) {
 #[inline(never)]
 fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
+    // A sphere whose size was written alone is looked for within its old bounds, as the library does.
+    let bounded = |g: usize| m.geom_rbound[g] == m.geom_size[3 * g];
     let touch = match (m.geom_type[g1], m.geom_type[g2]) {
-        (geom::PLANE, geom::SPHERE) => primitive::plane_sphere(m, d, g1, g2, params.reach),
-        (geom::SPHERE, geom::SPHERE) => primitive::sphere_sphere(m, d, g1, g2, params.reach),
+        (geom::PLANE, geom::SPHERE) if bounded(g2) => primitive::plane_sphere(m, d, g1, g2, params.reach),
+        (geom::SPHERE, geom::SPHERE) if bounded(g1) && bounded(g2) => {
+            primitive::sphere_sphere(m, d, g1, g2, params.reach)
+        }
         _ if sweep::far_apart(m, d, g1, g2, params.reach) || d.meter.over() => None,
         _ => return general(m, d, work, pair, params),
     };

@@ -35,6 +35,8 @@ struct Candidate<'a> {
     lab: Option<&'a Lab>,
     /// It stands in this lesson.
     own: bool,
+    /// It is a change of the model's text.
+    change: bool,
 }
 
 /// The labs of a lesson with partners corrected, and what came of their runs.
@@ -81,6 +83,10 @@ impl<'a> Partners<'a> {
                     pairs,
                     lab: Some(ready.lab),
                     own,
+<<<<<<< HEAD
+=======
+                    change: false,
+>>>>>>> w-inertia
                 });
             }
         }
@@ -92,7 +98,8 @@ impl<'a> Partners<'a> {
     fn corrected(&self) -> &[Ready<'a>] {
         self.corrected.get_or_init(|| {
             let programs = self.candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
-            corrected(self.labs, &Coupled { programs, others: PairSet::ALL, refresh: false })
+            let others = PairSet::ALL;
+            corrected(self.labs, &Coupled { programs, others, changes: others, refresh: false })
         })
     }
 
@@ -148,6 +155,11 @@ impl<'a> Partners<'a> {
         let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
         let of = |c: &&Candidate<'_>| labs.iter().any(|lab| c.lab.is_some_and(|own| std::ptr::eq(own, *lab)));
         let mut all: Vec<Candidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
+        for text in changes(verify) {
+            let pairs = PairSet::ALL.without(allowed(self.lesson, text, PairSet::ALL));
+            let who = format!("the change of `{}`", text.value);
+            all.push(Candidate { text: text.clone(), who, pairs, lab: None, own: true, change: true });
+        }
         for run in &verify.runs {
             let lab = of_run(run).and_then(|lab| self.labs.iter().find(|r| std::ptr::eq(r.lab, lab)));
             let (Some(text), Some(ready)) = (&run.setup, lab) else { continue };
@@ -157,7 +169,7 @@ impl<'a> Partners<'a> {
             let pairs = pairs.without(allowed(self.lesson, text, pairs));
             let who = format!("the setup of the run {}", named(&run.name.value));
             if !pairs.is_empty() {
-                all.push(Candidate { text: text.clone(), who, pairs, lab: None, own: true });
+                all.push(Candidate { text: text.clone(), who, pairs, lab: None, own: true, change: false });
             }
         }
         all
@@ -200,11 +212,9 @@ impl<'a> Partners<'a> {
         let mut causes = Vec::new();
         for candidate in candidates {
             let matters = |(one, _)| {
-                let alone = Coupled {
-                    programs: vec![(candidate.text.clone(), one)],
-                    others: PairSet::NONE,
-                    refresh: false,
-                };
+                let changes = if candidate.change { one } else { PairSet::NONE };
+                let programs = vec![(candidate.text.clone(), one)];
+                let alone = Coupled { programs, others: PairSet::NONE, changes, refresh: false };
                 let second = self.judge(case, &corrected(self.labs, &alone), &Stage::new(self.models))?;
                 differs(first, &second).then_some(one)
             };
@@ -215,6 +225,19 @@ impl<'a> Partners<'a> {
         }
         if causes.is_empty() { candidates.to_vec() } else { causes }
     }
+}
+
+/// Changes of a model's text in which a parameter has no partner that is compiled with it: inertias that are written out, gains and
+/// biases of general actuators.
+fn changes(verify: &Verify) -> impl Iterator<Item = &Text> {
+    let runs = verify.runs.iter();
+    let of_runs =
+        runs.flat_map(|run| run.model.iter().map(|c| &c.path).chain(run.sweep.as_ref().map(|s| &s.what)));
+    let alone = |text: &&Text| {
+        let mut words = text.value.split_whitespace();
+        words.any(|word| ["inertial", "gainprm", "biasprm"].contains(&word))
+    };
+    of_runs.chain(verify.find.iter().map(|find| &find.what)).filter(alone)
 }
 
 /// The lab that a run is of.

@@ -164,6 +164,14 @@ impl<'a> Stage<'a> {
         };
         let model =
             if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
+        let model = match &base.programs.coupled {
+            Some(coupled) => {
+                let mut corrected = (*model).clone();
+                coupled.changed(&base.model, &mut corrected);
+                Arc::new(corrected)
+            }
+            None => model,
+        };
         let mut told = Vec::new();
         let mut programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut told);
         if let Some(coupled) = &base.programs.coupled {

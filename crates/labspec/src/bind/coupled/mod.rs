@@ -19,10 +19,10 @@ pub(crate) use table::Pair;
 
 use table::PAIRS;
 
-use super::{Bound, ModelNames, Programs, Scope, World, include};
+use super::{Bound, ModelNames, Programs, Scope, World, functions, include};
 use crate::source::Text;
 use labspec_core::reflect::{FieldId, Kind, Object, View, field};
-use labspec_core::{self as core, Error, Model};
+use labspec_core::{self as core, Data, Demand, Error, Model, Plan};
 use labspec_expr::{Compiler, Globals, Program};
 
 /// Some of the pairs of the table.
@@ -65,6 +65,7 @@ fn writes(program: &Program, name: &str) -> bool {
     let effects = program.effects();
     let named = |f: FieldId| f.info().object == Object::Model && f.info().name == name;
     effects.writes_everything
+        || effects.calls_values
         || effects.writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(named)
 }
 
@@ -83,6 +84,8 @@ pub(crate) struct Coupled {
     pub(crate) programs: Vec<(Text, PairSet)>,
     /// Those of all other programs: the setups of the runs of a `verify` object.
     pub(crate) others: PairSet,
+    /// Those of changes of the model itself, which a run of a `verify` object may make.
+    pub(crate) changes: PairSet,
     /// Constants are computed anew besides (`mj_setConst`, with qpos kept) where a program changes what they follow from.
     pub(crate) refresh: bool,
 }
@@ -100,6 +103,23 @@ impl Coupled {
         let partners = PAIRS.iter().filter_map(|pair| field(Object::Model, pair.partner));
         partners.for_each(|f| programs.demand.writes.insert(f));
         programs.coupled = Some(self);
+    }
+
+    /// A model with changes of its text, corrected; `before` is the one without them.
+    pub(crate) fn changed(&self, before: &Model, now: &mut Model) {
+        let same =
+            before.nbody == now.nbody && before.ngeom == now.ngeom && before.nactuator == now.nactuator;
+        let mut world = World {
+            model: now.clone(),
+            data: Data::planned(now, Plan::new(now, &Demand::ANY)),
+            key: None,
+            own: super::Functions::new(),
+            shown: Vec::new(),
+            numbers: Vec::new(),
+        };
+        if same && correct(self.changes, before, &mut world).is_ok_and(|done| done.is_some()) {
+            *now = world.model;
+        }
     }
 
     /// What is corrected behind a program; `None` where nothing is.
@@ -121,29 +141,52 @@ impl Coupled {
         program: &Program,
         world: &mut World,
     ) -> Result<(), Error> {
-        let mut changes: Vec<(FieldId, usize, Change)> = Vec::new();
-        for (_, pair) in pairs.pairs() {
-            let Some(partner) = field(Object::Model, pair.partner) else { continue };
-            changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (partner, i, c)));
-        }
-        let mut constants = self.refresh && inertial(program);
-        for (partner, index, change) in changes {
-            let Some(old) = core::element(&world.model, &world.data, partner, index) else { continue };
-            let new = match change {
-                Change::Times(f) => old * f,
-                Change::Plus(x) => old + x,
-                Change::Becomes(x) => x,
-            };
-            core::view_mut(&mut world.model, &mut world.data, partner)?.set(index, new);
-            constants |= partner.info().kind == Kind::Inertial;
-        }
-        if constants {
-            let qpos = world.data.fields().qpos.clone();
-            core::set_const(&mut world.model, &mut world.data)?;
-            world.data.edit().qpos.copy_from_slice(&qpos);
+        // Where a program changes what constants follow from and leaves them, they stay: that is another omission.
+        let forgotten = inertial(program) && !calls_set_const(program);
+        let done = correct_fields(pairs, before, world)?;
+        if self.refresh && inertial(program) || done == Some(true) && !forgotten {
+            constants(world)?;
         }
         Ok(())
     }
+}
+
+/// Corrects partners, and the constants that follow from them; `None` where nothing was wrong.
+fn correct(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
+    let done = correct_fields(pairs, before, world)?;
+    if done == Some(true) {
+        constants(world)?;
+    }
+    Ok(done)
+}
+
+/// Corrects partners: `None` where nothing was wrong, `true` where constants follow from what was.
+fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
+    let mut changes: Vec<(FieldId, usize, Change)> = Vec::new();
+    for (_, pair) in pairs.pairs() {
+        let Some(partner) = field(Object::Model, pair.partner) else { continue };
+        changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (partner, i, c)));
+    }
+    let mut inertial = None;
+    for (partner, index, change) in changes {
+        let Some(old) = core::element(&world.model, &world.data, partner, index) else { continue };
+        let new = match change {
+            Change::Times(f) => old * f,
+            Change::Plus(x) => old + x,
+            Change::Becomes(x) => x,
+        };
+        core::view_mut(&mut world.model, &mut world.data, partner)?.set(index, new);
+        inertial = Some(inertial == Some(true) || partner.info().kind == Kind::Inertial);
+    }
+    Ok(inertial)
+}
+
+/// `mj_setConst`, with qpos kept.
+fn constants(world: &mut World) -> Result<(), Error> {
+    let qpos = world.data.fields().qpos.clone();
+    core::set_const(&mut world.model, &mut world.data)?;
+    world.data.edit().qpos.copy_from_slice(&qpos);
+    Ok(())
 }
 
 /// Whether two models have the same parameters and partners, to rounding.
@@ -165,6 +208,11 @@ const ROUNDING: f64 = 1e-9;
 fn inertial(program: &Program) -> bool {
     let written = |f: FieldId| f.info().object == Object::Model && f.info().kind == Kind::Inertial;
     program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(written)
+}
+
+/// Whether a program computes constants anew.
+fn calls_set_const(program: &Program) -> bool {
+    program.effects().calls.iter().any(|f| functions::name(*f) == Some("mj_setConst"))
 }
 
 /// The pairs that some control of a lab leaves to the student on purpose: the partner has a control of its own, which does not

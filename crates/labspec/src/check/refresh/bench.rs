@@ -7,7 +7,7 @@ use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::programs::choices;
 use crate::run::{self, Breakdown, Cell, Numerics, Play, Session, settings};
 use crate::source::Text;
-use crate::spec::{ControlKind, Lab, Run, Verify};
+use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Demand, Model};
 use labspec_expr::{Compiler, Type, Value};
@@ -24,6 +24,9 @@ const CELLS: usize = 200_000;
 const LONG: usize = 64;
 /// Most runs that show one program.
 const MOST_TRIALS: usize = 12;
+
+/// Most runs with another control moved besides.
+const MOST_COMBINED: usize = 24;
 
 /// What a student does at a step.
 #[derive(Clone)]
@@ -128,6 +131,35 @@ impl<'a> Bench<'a> {
             }
         }
         all.truncate(MOST_TRIALS);
+        all
+    }
+
+    /// Runs with another control at its ends besides: a ball may roll only when a ramp is tilted.
+    pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<Trial> {
+        let Place::Control(own) = s.place else { return Vec::new() };
+        let Some(control) = self.lab.controls.get(own) else { return Vec::new() };
+        let moves = |index: usize, control: &Control| -> Vec<(Move, String)> {
+            let label = control.label.as_str();
+            match control.kind {
+                ControlKind::Button { .. } => {
+                    vec![(Move::Press(index), format!("after \"{label}\" is pressed"))]
+                }
+                _ => {
+                    let of = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
+                    choices(control).into_iter().map(of).collect()
+                }
+            }
+        };
+        let mut all = Vec::new();
+        for (index, other) in self.lab.controls.iter().enumerate().filter(|(i, _)| *i != own) {
+            for (theirs, how) in moves(index, other) {
+                for (ours, said) in moves(own, control) {
+                    let said = format!("{said} and {}", how.trim_start_matches("with "));
+                    all.push(Trial { moves: vec![(0, theirs.clone()), (0, ours)], said });
+                }
+            }
+        }
+        all.truncate(MOST_COMBINED);
         all
     }
 
@@ -295,6 +327,7 @@ impl<'a> Bench<'a> {
         let coupled = Coupled {
             programs: vec![(s.bound.text.clone(), pairs)],
             others: PairSet::NONE,
+            changes: PairSet::NONE,
             refresh: s.inertial.is_some(),
         };
         coupled.install(&mut programs, self.model);

@@ -38,6 +38,15 @@ struct Runs<'t> {
     corrected: Rows,
 }
 
+/// The lab with what is missing.
+struct Variants {
+    /// With constants computed anew; `None` where they are.
+    refreshed: Option<Amended>,
+    /// With all partners corrected besides.
+    coupled: Option<Amended>,
+    steps: usize,
+}
+
 impl Bench<'_> {
     /// Runs everything. `Err` says why constants could not be tried.
     pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
@@ -45,37 +54,29 @@ impl Bench<'_> {
         let trials = self.trials(s, steps);
         let refreshed = s.inertial.is_some().then(|| self.corrected(s, PairSet::NONE));
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
+        let variants = Variants { refreshed, coupled, steps };
         let (mut untried, mut uncoupled) = (None, None);
         let mut all: Vec<Runs<'_>> = Vec::new();
         for trial in &trials {
-            let made = self.record(s, None, trial, steps).and_then(|as_is| {
-                let anew = match &refreshed {
-                    Some(refreshed) => self.record(s, Some(refreshed), trial, steps)?,
-                    None => as_is.clone(),
-                };
-                Ok((as_is, anew))
-            });
-            let told = |reason: String| format!("{}, {reason}", trial.said);
-            match made {
-                Ok((as_is, anew)) => {
-                    let corrected = coupled.as_ref().map(|c| self.record(s, Some(c), trial, steps));
-                    let corrected = match corrected {
-                        Some(Ok(rows)) => rows,
-                        other => {
-                            uncoupled = uncoupled.or(other.and_then(Result::err).map(told));
-                            anew.clone()
-                        }
-                    };
-                    all.push(Runs { trial, as_is, anew, corrected });
-                }
-                Err(reason) => untried = untried.or(Some(told(reason))),
+            match self.runs(s, &variants, trial, &mut uncoupled) {
+                Ok(runs) => all.push(runs),
+                Err(reason) => untried = untried.or(Some(reason)),
             }
         }
         let constants = all.iter().find(|r| self.columns(s).difference(&r.as_is, &r.anew).is_some());
         if let (None, Some(reason), true) = (constants, &untried, s.inertial.is_some()) {
             return Err(reason.clone());
         }
-        let partners = self.partners(s, &all, refreshed.as_ref(), steps);
+        let mut partners = self.partners(s, &all, &variants);
+        let others = if partners.is_none() && !s.pairs.is_empty() { self.combined(s) } else { Vec::new() };
+        for trial in &others {
+            let Ok(runs) = self.runs(s, &variants, trial, &mut None) else { continue };
+            partners = self.partners(s, std::slice::from_ref(&runs), &variants);
+            if partners.is_some() {
+                all.push(runs);
+                break;
+            }
+        }
         let matter = partners.as_ref().map_or(PairSet::NONE, |(_, pairs)| *pairs);
         if matter != s.pairs {
             let exactly = if matter.is_empty() { None } else { Some(self.corrected(s, matter)) };
@@ -107,8 +108,32 @@ impl Bench<'_> {
                 good.map_or((Advice::Keep, None), |(advice, text)| (advice, Some(text)))
             }
         };
-        let partners = partners.map(|(difference, pairs)| (difference, pairs));
         Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+    }
+
+    /// The runs of one trial; why partners could not be corrected in it goes to `uncoupled`.
+    fn runs<'t>(
+        &mut self,
+        s: &Suspect<'_>,
+        variants: &Variants,
+        trial: &'t Trial,
+        uncoupled: &mut Option<String>,
+    ) -> Result<Runs<'t>, String> {
+        let told = |reason: String| format!("{}, {reason}", trial.said);
+        let steps = variants.steps;
+        let as_is = self.record(s, None, trial, steps).map_err(told)?;
+        let anew = match &variants.refreshed {
+            Some(refreshed) => self.record(s, Some(refreshed), trial, steps).map_err(told)?,
+            None => as_is.clone(),
+        };
+        let corrected = match variants.coupled.as_ref().map(|c| self.record(s, Some(c), trial, steps)) {
+            Some(Ok(rows)) => rows,
+            other => {
+                *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(told));
+                anew.clone()
+            }
+        };
+        Ok(Runs { trial, as_is, anew, corrected })
     }
 
     /// Whether these statements in place of a program give the corrected runs, to this part of what is shown.
@@ -129,10 +154,10 @@ impl Bench<'_> {
         &mut self,
         s: &Suspect<'_>,
         all: &[Runs<'_>],
-        refreshed: Option<&Amended>,
-        steps: usize,
+        variants: &Variants,
     ) -> Option<(String, PairSet)> {
         let columns = self.columns(s);
+        let (refreshed, steps) = (variants.refreshed.as_ref(), variants.steps);
         let (runs, found): (&Runs<'_>, Difference) = all.iter().find_map(|runs| {
             let noise = || {
                 let moved = self.record_under(s, refreshed, runs.trial, steps, MOVED).ok()?;
