@@ -83,10 +83,7 @@ impl<'a> Partners<'a> {
                     pairs,
                     lab: Some(ready.lab),
                     own,
-<<<<<<< HEAD
-=======
                     change: false,
->>>>>>> w-inertia
                 });
             }
         }
