@@ -14,7 +14,7 @@ fn lab() -> Json {
     json!({
         "xml": BALL, "stopAt": 1,
         "controls": [
-            {"label": "height", "set": "data.qpos[2]", "min": 0.5, "max": 2, "step": 0.1, "value": 1, "reset": true}
+            {"label": "g", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 0.01, "value": -9.81, "reset": true}
         ],
         "plots": [{"ylabel": "height (m)", "traces": [{"label": "height (m)", "expr": "data.qpos[2]"}]}],
     })
@@ -51,7 +51,7 @@ fn choice(condition: &str, more: &Json) -> Checked {
         verify[key] = value.clone();
     }
     checked(
-        &json!({"kind": "predict", "q": "What happens?", "options": ["this", "that"], "answer": 0, "explain": "So.", "verify": verify}),
+        &json!({"kind": "mcq", "q": "What happens?", "options": ["this", "that"], "answer": 0, "explain": "So.", "verify": verify}),
     )
 }
 
@@ -133,7 +133,7 @@ fn a_measure_without_numbers_says_how_many_are_missing() {
     let checked = choice("root < 1", &measure);
     let finding = checked.findings.iter().find(|f| f.code == "compares-nan").unwrap();
     let why = format!("{:?}", finding);
-    assert!(why.contains("samples have no number, the first at t = 0.202 s"), "{why}");
+    assert!(why.contains("samples have no number, the first at t = 0.2 s"), "{why}");
 }
 
 #[test]
@@ -169,12 +169,12 @@ fn a_range_is_that_of_what_was_read() {
         choice("run.z < 0.4", &json!({"over": range, "runs": runs, "options": ["run.z < 0.4", "run.z > 5"]}))
     };
     let runs = || json!({"run": {"until": 1.5}});
-    let held = over(json!({"height": [0.5, 1.5]}), runs());
+    let held = over(json!({"g": [-12, -5]}), runs());
     assert!(matches!(verdict(&held), Verdict::Verified | Verdict::Refuted), "{:?}", codes(&held));
     // A slider that the run sets itself, in the only run that is read.
     let pinned = over(
-        json!({"height": [0.5, 1.5]}),
-        json!({"run": {"until": 1.5, "set": {"height": 1}}, "free": {"until": 0.1}}),
+        json!({"g": [-12, -5]}),
+        json!({"run": {"until": 1.5, "set": {"g": -9.81}}, "free": {"until": 0.1}}),
     );
     assert_eq!(verdict(&pinned), Verdict::Failed, "{:?}", codes(&pinned));
     // A slider that changes nothing.
@@ -183,7 +183,7 @@ fn a_range_is_that_of_what_was_read() {
     let verify = json!({"lab": "#1", "runs": runs(), "measure": measures(), "over": {"idle": [0, 1]}, "options": ["run.z < 0.4", "run.z > 5"]});
     let idle = checked_with(
         &with_idle,
-        &json!({"kind": "predict", "q": "What?", "options": ["this", "that"], "answer": 0, "explain": "So.", "verify": verify}),
+        &json!({"kind": "mcq", "q": "What?", "options": ["this", "that"], "answer": 0, "explain": "So.", "verify": verify}),
     );
     assert_eq!(verdict(&idle), Verdict::Failed, "{:?}", codes(&idle));
     assert!(codes(&idle).contains(&"run-impossible"), "{:?}", codes(&idle));
@@ -193,14 +193,19 @@ fn a_range_is_that_of_what_was_read() {
 fn a_search_sees_a_thin_band_and_says_where_it_looked() {
     // The condition fails in a band of a hundredth of the range, between two of the values that are looked at first.
     let find = |condition: &str| {
-        json!({"find": {"limit": {"largest": "height", "from": 0.5, "to": 2, "while": condition, "tol": 1e-3}},
-            "options": ["abs(limit - 1.5) < 0.01", "limit > 1.7"]})
+        json!({"find": {"limit": {"largest": "g", "from": -20, "to": -1, "while": condition, "tol": 1e-3}},
+            "options": ["abs(limit + 9) < 0.1", "limit > -7"]})
     };
-    let clean = choice("", &find("initial(data.qpos[2]) <= 1.5"));
+    let clean = choice("", &find("initial(model.opt.gravity[2]) <= -9 && final(data.time) > 0"));
     assert_eq!(verdict(&clean), Verdict::Verified, "{:?}", codes(&clean));
     let answer = checked_reason(&clean);
-    assert!(answer.contains("`limit` was looked for at") && answer.contains("from 0.5 to 2"), "{answer}");
-    let band = choice("", &find("initial(data.qpos[2]) <= 1.5 && abs(initial(data.qpos[2]) - 0.9) > 0.007"));
+    assert!(answer.contains("`limit` was looked for at") && answer.contains("from -20 to -1"), "{answer}");
+    let band = choice(
+        "",
+        &find(
+            "initial(model.opt.gravity[2]) <= -9 && abs(initial(model.opt.gravity[2]) + 15) > 0.08 && final(data.time) > 0",
+        ),
+    );
     assert_eq!(verdict(&band), Verdict::Failed, "{:?}", codes(&band));
 }
 
@@ -242,7 +247,7 @@ fn a_label_of_several_plots_is_none_of_them() {
     for (label, fine) in [("x", false), ("plot/0/x", true), ("plot/1/x", true)] {
         let verify = json!({"lab": two, "measure": {"m": format!("initial(shown('{label}'))")}, "options": ["m > -50 && m < 50", "m > 50"]});
         let checked = checked(
-            &json!({"kind": "predict", "q": "What?", "options": ["this", "that"], "answer": 0, "explain": "So.", "verify": verify}),
+            &json!({"kind": "mcq", "q": "What?", "options": ["this", "that"], "answer": 0, "explain": "So.", "verify": verify}),
         );
         assert_eq!(verdict(&checked) == Verdict::Verified, fine, "{label}: {:?}", codes(&checked));
     }

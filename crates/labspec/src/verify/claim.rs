@@ -60,7 +60,7 @@ impl Claim {
             }
             reads.sort_unstable();
             reads.dedup();
-            outside = looks(effects);
+            outside = looks(effects) || effects.any_ctx || !effects.ctx_reads.is_empty();
         }
         let constants = super::condition::numbers_in(text);
         Some(Claim {
@@ -125,8 +125,6 @@ pub(super) fn looks(e: &Effects) -> bool {
     e.reads_everything
         || e.calls.iter().any(|&f| functions::reads(f))
         || e.calls_values
-        || e.any_ctx
-        || !e.ctx_reads.is_empty()
         || e.reads.iter().any(data)
 }
 

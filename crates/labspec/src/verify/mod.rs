@@ -280,7 +280,9 @@ fn grounded(
     findings: &mut Vec<Finding>,
 ) -> Result<bound::Found, String> {
     let found = decided(bound, outcome, text, findings)?;
-    if found.evidence == Evidence::Simulated && !bound.could_differ(&found, None) {
+    // What has no finite value is told as that.
+    let some = !matches!(found.value, labspec_expr::Value::Number(x) if !x.is_finite());
+    if some && found.evidence == Evidence::Simulated && !bound.could_differ(&found, None) {
         return Err(empty(text, findings));
     }
     Ok(found)

@@ -11,7 +11,7 @@ use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Numerics, Play, RunError, Session};
 use labspec_core::Model;
 use labspec_core::reflect::{self, Object};
-use labspec_expr::{Effects, Program, Value};
+use labspec_expr::{Effects, Program, Value, Watch};
 use std::ops::{ControlFlow, Range};
 
 /// Most steps of one run of a `verify` object.
@@ -82,6 +82,8 @@ pub(super) struct Ready<'r> {
     pub(super) press: Vec<(usize, f64)>,
     /// Number of steps.
     pub(super) count: usize,
+    /// The time (s) at which a NaN decided whether it stops: it ended there, and nobody knows where it should have.
+    pub(super) open: Option<f64>,
 }
 
 /// Sets a run up: its controls, its setup, its length. What cannot be goes to `findings`.
@@ -130,7 +132,7 @@ pub(super) fn ready<'r>(
         )));
         return None;
     }
-    Some(Ready { session, press, count })
+    Some(Ready { session, press, count, open: None })
 }
 
 /// Plays a run to its end; `sample` sees its start and every step, with the number of steps made.
@@ -142,14 +144,28 @@ pub(super) fn play<'r>(
     let Asked { scene: bound, run, .. } = asked;
     let (lab, programs, shown) = (&*bound.scene.lab, &*bound.scene.programs, bound.shown.asked());
     let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
+    let mut watch = Some(Box::new(Watch::losses()));
+    let mut open = None;
     run::play(&mut ready.session, &played, |session, made| {
         reads::show(&shown, lab, programs, session);
         sample(session, made);
-        match run.stop.as_ref().and_then(|stop| session.evaluate(&stop.program, stop.text)) {
-            Some(holds) if holds.truthy() => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
+        let Some(stop) = run.stop.as_ref() else { return ControlFlow::Continue(()) };
+        session.context.watch(watch.take());
+        let holds = session.evaluate(&stop.program, stop.text);
+        watch = session.context.watch(None);
+        let nan =
+            matches!(holds, Some(Value::Undefined)) || matches!(holds, Some(Value::Number(x)) if x.is_nan());
+        if nan || watch.as_ref().is_some_and(|watch| watch.lost.is_some()) {
+            open = Some(session.world.data.time());
+            return ControlFlow::Break(());
+        }
+        if holds.is_some_and(|holds| holds.truthy()) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
         }
     });
+    ready.open = open;
 }
 
 fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
@@ -157,6 +173,7 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
     let mut ready = ready(asked, stage, findings)?;
     let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
     play(asked, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
+    let open = ready.open;
     let mut session = ready.session;
     stage.spend(session.spent());
     let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
@@ -164,7 +181,11 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
         let message = format!("{} (in the run {}, at t = {} s)", t.message, named(run.name), t.time);
         findings.push(Finding::error(t.rule, t.text.span_of(t.span.clone()), message));
     }
-    Some(Made { values, warnings: session.warnings.iter().map(|w| w.number).sum(), broke: broke(&session) })
+    Some(Made {
+        values,
+        warnings: session.warnings.iter().map(|w| w.number).sum(),
+        broke: broke(&session).or_else(|| open.map(undecided_stop)),
+    })
 }
 
 /// Sets the controls of a run. What cannot be set comes back with its place.
@@ -220,6 +241,10 @@ fn demand(asked: &Asked<'_, '_>) -> labspec_core::Demand {
         }
     }
     demand
+}
+
+fn undecided_stop(time: f64) -> String {
+    format!("its `stop` compares NaN at t = {} s", run::time(time))
 }
 
 /// What broke in a run, in one clause.

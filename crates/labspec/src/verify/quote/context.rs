@@ -13,8 +13,8 @@ const LETTERS: &str = "a number with letters behind it";
 /// Characters that are looked at on either side.
 const NEAR: usize = 40;
 
-/// Words before a number that make it a bound.
-const BOUNDS: [&str; 34] = [
+/// Words before a number that make it a bound which it does not reach. "Up to 27 mm" and "at least 2 s" state the number itself.
+const BOUNDS: [&str; 26] = [
     "less than",
     "more than",
     "fewer than",
@@ -29,23 +29,15 @@ const BOUNDS: [&str; 34] = [
     "faster than",
     "other than",
     "different from",
-    "at most",
-    "at least",
     "below",
     "above",
     "under",
     "over",
-    "up to",
     "exceeds",
     "exceed",
     "exceeding",
-    "no more than",
-    "maximum of",
-    "minimum of",
     "weniger als",
     "mehr als",
-    "mindestens",
-    "höchstens",
     "moins de",
     "plus de",
     "beyond",
@@ -271,7 +263,7 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
 }
 
 /// Words behind a number that change it.
-const BEHIND: [&str; 20] = [
+const BEHIND: [&str; 18] = [
     "or more",
     "or less",
     "or longer",
@@ -287,8 +279,6 @@ const BEHIND: [&str; 20] = [
     "dozen",
     "score",
     "times ten",
-    "at most",
-    "at least",
     "and a half",
     "oder mehr",
     "ou plus",
