@@ -6,7 +6,6 @@
 use super::Failure;
 use super::output::write_file;
 use crate::finding::Finding;
-use crate::ledger::{Entry, Ledger, State, Subject};
 use crate::report::{self, printable_path};
 use crate::source::{SourceFile, read_text};
 use serde_json::{Value, json};
@@ -24,19 +23,14 @@ type Mark = [String; 4];
 pub(super) struct Baseline {
     folder: PathBuf,
     known: BTreeMap<Mark, usize>,
-    /// Claims that are false or could not be checked, with what came of them.
-    claims: BTreeMap<ClaimMark, usize>,
 }
-
-/// What a claim is known by: its file, who claims what, and what came of it.
-type ClaimMark = [String; 3];
 
 impl Baseline {
     /// Nothing is known; files are named from the folder of a file.
     pub(super) fn new(path: &Path) -> Baseline {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-        Baseline { folder, known: BTreeMap::new(), claims: BTreeMap::new() }
+        Baseline { folder, known: BTreeMap::new() }
     }
 
     /// # Errors
@@ -60,26 +54,7 @@ impl Baseline {
             let count = entry["count"].as_u64().unwrap_or(1) as usize;
             *all.known.entry([file, code, message, line]).or_default() += count;
         }
-        for entry in value["claims"].as_array().into_iter().flatten() {
-            let text = |key: &str| entry[key].as_str().map(String::from);
-            let mark = [text("file"), text("claim"), text("outcome")];
-            let [Some(file), Some(claim), Some(outcome)] = mark else {
-                return Err(no("one of its claims is not whole"));
-            };
-            *all.claims.entry([file, claim, outcome]).or_default() += 1;
-        }
         Ok(all)
-    }
-
-    /// Whether a claim is as the baseline has it: the same claim, false or unchecked in the same way. What is claimed now, and what
-    /// came of it, are a part of that: another key or another number is another claim.
-    pub(super) fn knows(&self, entry: &Entry) -> bool {
-        self.claims.contains_key(&self.claim_mark(entry))
-    }
-
-    fn claim_mark(&self, e: &Entry) -> ClaimMark {
-        let claim = format!("{}: {} {}", e.subject.as_str(), e.owner, e.what);
-        [self.name(&e.path), claim.trim_end().to_string(), format!("{}: {}", e.word, e.remark)]
     }
 
     /// Takes out what is known.
@@ -108,44 +83,27 @@ impl Baseline {
         path: &Path,
         findings: &[Finding],
         files: &[&SourceFile],
-        ledger: &Ledger,
     ) -> Result<(), Failure> {
         for f in findings {
             *self.known.entry(self.mark(f, files)).or_default() += 1;
         }
         let one = |([file, code, message, line], count): (&Mark, &usize)| json!({"file": file, "code": code, "message": message, "line": line, "count": count});
         let list: Vec<Value> = self.known.iter().map(one).collect();
-        for entry in ledger.entries().iter().filter(|e| is_bad(e)) {
-            *self.claims.entry(self.claim_mark(entry)).or_default() += 1;
-        }
-        let one =
-            |[file, claim, outcome]: &ClaimMark| json!({"file": file, "claim": claim, "outcome": outcome});
-        let claims: Vec<Value> = self.claims.keys().map(one).collect();
-        let value = report::report("baseline", json!({"findings": list, "claims": claims}));
+        let value = report::report("baseline", json!({"findings": list}));
         let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
         write_file(path, &(text + "\n"))
     }
 
     fn mark(&self, f: &Finding, files: &[&SourceFile]) -> Mark {
-        let file = files.iter().find(|file| *file.path() == f.path);
-        let line = file.map_or("", |file| line(file.text(), f.span.start));
-        [self.name(&f.path), f.code.to_string(), f.message.clone(), line.to_string()]
-    }
-
-    /// A file, named from the folder of the baseline.
-    fn name(&self, path: &str) -> String {
-        let path = Path::new(path);
+        let path = Path::new(&*f.path);
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let name = whole.strip_prefix(&self.folder).unwrap_or(&whole);
         let name: Vec<String> =
             name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
-        name.join("/")
+        let file = files.iter().find(|file| *file.path() == f.path);
+        let line = file.map_or("", |file| line(file.text(), f.span.start));
+        [name.join("/"), f.code.to_string(), f.message.clone(), line.to_string()]
     }
-}
-
-/// Whether a claim is false or could not be checked. A file is so by its findings alone.
-pub(super) fn is_bad(entry: &Entry) -> bool {
-    entry.subject != Subject::File && matches!(entry.state, State::False | State::Unchecked)
 }
 
 /// The line that holds a place, without the space around it.
@@ -173,7 +131,7 @@ mod tests {
             places.map(|(at, _)| Finding::new(rules::UNKNOWN_KEY, at..at + 1, "odd").at(file)).collect()
         };
         let old = file("one\n  odd here\nodd there\n");
-        Baseline::new(&path).write(&path, &found(&old, "odd"), &[&old], &Ledger::default()).unwrap();
+        Baseline::new(&path).write(&path, &found(&old, "odd"), &[&old]).unwrap();
         let new = file("one\n\n\nodd there\nodd here\n odd here\n");
         let mut findings = found(&new, "odd");
         let known = Baseline::read(&path).unwrap().apply(&mut findings, &[&new]);

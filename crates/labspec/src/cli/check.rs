@@ -161,7 +161,6 @@ fn work(
         ("--record", records.write),
         ("--html", records.html),
         ("--judge-request", a.judge_request.as_deref()),
-        ("--baseline", a.baseline.as_deref().filter(|_| a.update_baseline)),
     ];
     let outputs: Vec<Wanted> = outputs
         .into_iter()
@@ -233,7 +232,7 @@ fn report(
     let mut sources: Vec<&SourceFile> = course.checked.iter().map(|c| &c.lesson.file).collect();
     sources.extend(&course.sources);
     if let (Some(file), true) = (&a.baseline, a.update_baseline) {
-        Baseline::new(file).write(file, &course.findings, &sources, &course.ledger)?;
+        Baseline::new(file).write(file, &course.findings, &sources)?;
     }
     if let Some(file) = records.write.filter(|_| !interrupted()) {
         reproduction::write(file, &reproduction::now(file, course))?;
@@ -399,23 +398,11 @@ fn last_line(course: &Course) -> String {
         (0, ledger::Outcome::Clean) => "nothing to complain about".into(),
         (0, ledger::Outcome::Nothing) => "nothing to check".into(),
         (0, ledger::Outcome::Partial) => "nothing wrong in what was checked, but not everything was".into(),
-        (0, ledger::Outcome::Findings) => claims_that_fail(&course.ledger),
+        (0, ledger::Outcome::Findings) => "not everything could be checked".into(),
         (0, ledger::Outcome::Known) => "nothing that is not in the baseline".into(),
         _ => found.to_string(),
     };
     format!("{}: {judgement}{}", course.ledger.summary(), put_aside(course))
-}
-
-/// `1 claim is false, 2 claims could not be checked`
-fn claims_that_fail(ledger: &ledger::Ledger) -> String {
-    let of = |state: State| ledger.entries().iter().filter(|e| e.state == state).count();
-    let (wrong, open) = (of(State::False), of(State::Unchecked));
-    let false_ones = if wrong == 1 { "is false" } else { "are false" };
-    let parts = [
-        (wrong, format!("{} {false_ones}", many(wrong, "claim"))),
-        (open, format!("{} could not be checked", many(open, "claim"))),
-    ];
-    parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect::<Vec<_>>().join(", ")
 }
 
 /// What was found and not told, in numbers.

@@ -2,7 +2,7 @@
 //!
 //! What came of a file does not depend on the thread that checked it, and is put together in the order of the files.
 
-use super::baseline::{Baseline, is_bad};
+use super::baseline::Baseline;
 use super::cache::Cache;
 use super::digest;
 use super::policy::{Policies, Policy, PolicyOptions};
@@ -132,11 +132,10 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
-            let mut found = guarded(|| one(plan, cache, task, path, *named, &by_folder));
+            let mut found = one(plan, cache, task, path, *named, &by_folder);
             if let (Done::Lesson(c, aside, ..), Some(policy)) = (&mut found, of_files.get(i)) {
                 let c = &mut **c;
                 put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
-                tell_new_claims(plan, c, aside);
                 aside.allowed = std::mem::take(&mut c.allowed);
             }
             if let Some(colour) = plan.told {
@@ -150,10 +149,11 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         }
     };
     let mut done = std::thread::scope(|scope| {
-        // Every file is checked on a thread of the same stack, a single one too. Where the system gives no thread, this one works.
+        let others = 1..plan.jobs.min(files.len());
+        // Where the system gives no thread, those that there are do all the work.
         let thread = || std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok();
-        let threads: Vec<_> = (0..plan.jobs.min(files.len())).map_while(|_| thread()).collect();
-        let mut done = if threads.is_empty() { work() } else { Vec::new() };
+        let threads: Vec<_> = others.map_while(|_| thread()).collect();
+        let mut done = work();
         for thread in threads {
             match thread.join() {
                 Ok(more) => done.extend(more),
@@ -236,22 +236,10 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         let path = c.lesson.file.path();
         page.insert(path.clone(), policies.of(Path::new(&**path))?.widgets);
     }
-    course.read.extend(policies.files());
     let known = |path: &Arc<str>, name: &str| page.get(path).is_some_and(|all| all.iter().any(|w| w == name));
     course.ledger.accept_widgets(known);
-    settle(&mut course, plan.baseline);
+    settle(&mut course);
     Ok(course)
-}
-
-/// Does the work on a file. A mistake of this program that ends it is told of this file, and the others are checked.
-fn guarded(work: impl FnOnce() -> Done) -> Done {
-    std::panic::catch_unwind(std::panic::AssertUnwindSafe(work)).unwrap_or_else(|panic| {
-        let what = panic.downcast_ref::<String>().map(String::as_str);
-        let what = what.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no message");
-        Done::Refused(format!(
-            "labspec itself failed while it checked this file: {what}; please report it with the file"
-        ))
-    })
 }
 
 /// Takes what is not to be told out of the findings of a file.
@@ -268,27 +256,6 @@ fn put_aside(
     }
 }
 
-/// What is known about a claim that came out otherwise than the baseline says is told again: a claim and its findings are new
-/// together.
-fn tell_new_claims(plan: &Plan<'_>, c: &mut Checked, aside: &mut Aside) {
-    let Some(baseline) = plan.baseline.filter(|_| !aside.known.is_empty()) else { return };
-    let ledger = check::ledger(std::slice::from_ref(c), &c.findings);
-    let new: Vec<&Entry> = ledger.entries().iter().filter(|e| is_bad(e) && !baseline.knows(e)).collect();
-    let (told, known) =
-        std::mem::take(&mut aside.known).into_iter().partition(|f| new.iter().any(|e| meets(e, f)));
-    aside.known = known;
-    let told: Vec<Finding> = told;
-    if !told.is_empty() {
-        c.findings.extend(told);
-        finding::sort(&mut c.findings);
-    }
-}
-
-/// Whether a finding stands where a claim does.
-fn meets(e: &Entry, f: &Finding) -> bool {
-    e.span.is_empty() || f.span.start <= e.span.end && e.span.start <= f.span.end
-}
-
 fn by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Finding>> {
     let mut by_path: BTreeMap<Arc<str>, Vec<Finding>> = BTreeMap::new();
     for f in findings {
@@ -299,19 +266,16 @@ fn by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Finding>> {
 
 /// What is not told is no reason to say that all is well: an error that is ignored is left out of the check, and what the
 /// baseline knows is known.
-fn settle(course: &mut Course, baseline: Option<&Baseline>) {
+fn settle(course: &mut Course) {
     let known =
         by_path(course.aside.known.iter().filter(|f| f.severity != Severity::Note).cloned().collect());
     let told = by_path(course.findings.iter().filter(|f| f.severity != Severity::Note).cloned().collect());
-    let any = |e: &Entry, findings: Option<&Vec<Finding>>| {
-        findings.is_some_and(|all| all.iter().any(|f| meets(e, f)))
+    let meets = |e: &Entry, findings: Option<&Vec<Finding>>| {
+        let whole = e.span.is_empty();
+        let inside = |f: &Finding| f.span.start <= e.span.end && e.span.start <= f.span.end;
+        findings.is_some_and(|all| all.iter().any(|f| whole || inside(f)))
     };
-    let as_before = |e: &Entry| match (e.subject, baseline) {
-        (_, None) => false,
-        (Subject::File, Some(_)) => any(e, known.get(&e.path)),
-        (_, Some(baseline)) => baseline.knows(e),
-    };
-    course.ledger.know(|e| as_before(e) && !any(e, told.get(&e.path)));
+    course.ledger.know(|e| meets(e, known.get(&e.path)) && !meets(e, told.get(&e.path)));
     let ignored = course.aside.ignored.iter().filter(|f| f.is_error()).cloned().collect();
     for (path, all) in by_path(ignored) {
         course.ledger.add(Entry {
@@ -536,9 +500,6 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
             Ok(_) => files.push((path.clone(), true)),
         }
     }
-    // A file that is given twice, by another path or through a link, is one file: the first name counts.
-    let mut seen = BTreeSet::new();
-    files.retain(|(path, _)| seen.insert(path.canonicalize().unwrap_or_else(|_| path.clone())));
     (files, problems)
 }
 
@@ -571,21 +532,6 @@ fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, files: &mut Vec<ToCheck>,
             problems.push((path.to_path_buf(), why));
         } else if kind.is_file() && wanted(path) {
             files.push((path.to_path_buf(), false));
-        } else if kind.is_symlink() && wanted(path) {
-            // A link within the folder leads to a lesson like any other; one that leads out of it is named.
-            let inside = path.canonicalize().ok().zip(folder.canonicalize().ok());
-            match inside {
-                Some((target, root)) if target.starts_with(&root) && target.is_file() => {
-                    files.push((path.to_path_buf(), false));
-                }
-                _ => {
-                    let why = format!(
-                        "{} is a link that leads out of the folder, or to no file: it is left out; name it to have it checked",
-                        printable_path(path)
-                    );
-                    problems.push((path.to_path_buf(), why));
-                }
-            }
         }
     }
 }

@@ -193,38 +193,6 @@ fn number(meta: &fs::Metadata) -> Option<(u64, u64)> {
     }
 }
 
-/// Bytes of a file that are looked at to see what it is.
-const HEAD: u64 = 64 << 10;
-
-/// Whether the file that is there is what this option writes: its own report, a picture, or nothing yet.
-fn replaces(option: &str, place: &Path) -> bool {
-    use std::io::Read;
-    let mut head = Vec::new();
-    let read = File::open(place).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    if read.is_err() {
-        return false;
-    }
-    let text = String::from_utf8_lossy(&head);
-    let text = text.trim_start_matches('\u{feff}').trim_start();
-    let has = |words: &[&str]| words.iter().all(|word| text.contains(word));
-    match option {
-        _ if text.is_empty() => true,
-        "--svg" => text.starts_with("<svg") || text.starts_with("<?xml") && has(&["<svg"]),
-        "--png" => drawn_here(place),
-        "--html" => text.starts_with("<!DOCTYPE html") && has(&["labspec"]),
-        "--baseline" => text.starts_with('{') && has(&["\"report\": \"baseline\""]),
-        "--record" => text.starts_with('{') && has(&["\"report\": \"reproduction\""]),
-        "--judge-request" => text.starts_with('{') && has(&["\"request\": \"judge\""]),
-        // Tables have no mark of their own: what is a report or a lesson is no table.
-        _ => {
-            !(text.starts_with('{')
-                || text.starts_with('[')
-                || text.starts_with('<')
-                || text.starts_with('#'))
-        }
-    }
-}
-
 /// An output that was asked for: the option, and the file.
 pub(super) struct Wanted {
     pub(super) option: &'static str,
@@ -262,11 +230,6 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
         if is_read || inputs.iter().any(|input| input.is(&identity)) {
             return Err(format!(
                 "{named} would overwrite a lesson or a model; name another file, nothing was written"
-            ));
-        }
-        if old.is_some() && !replaces(option, &identity.place) {
-            return Err(format!(
-                "{named} would overwrite a file that labspec did not write; name another file, or remove this one first; nothing was written"
             ));
         }
         if let Some((_, other)) = taken.iter().find(|(t, _)| t.is(&identity)) {

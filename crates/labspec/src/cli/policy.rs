@@ -141,13 +141,6 @@ pub(super) struct Policies {
 }
 
 impl Policies {
-    /// The files of settings that were looked for, whether they are there or not.
-    pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> + '_ {
-        self.read.keys().map(|folder| folder.join(FILE))
-    }
-}
-
-impl Policies {
     /// # Errors
     /// A word that is no rule, or settings that cannot be read.
     pub(super) fn new(options: &PolicyOptions) -> Result<Policies, Failure> {

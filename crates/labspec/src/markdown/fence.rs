@@ -121,16 +121,6 @@ fn in_other_words(words: &[String]) -> Option<&'static str> {
     }
 }
 
-/// The kind whose name is a part of a fence's language: `lab-simlab`, `labs`, `sim_quiz`.
-fn named_in(language: &str) -> Option<&'static str> {
-    let word = |part: &str| match part.to_ascii_lowercase().as_str() {
-        "lab" | "labs" | "simlab" | "simlabs" => Some("lab"),
-        "quiz" | "quizzes" | "quizes" | "quizs" => Some("quiz"),
-        _ => None,
-    };
-    language.split(|c: char| !c.is_ascii_alphanumeric()).find_map(word)
-}
-
 /// The kind that a misspelt fence was meant to have, and how it is written.
 pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
     let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
@@ -146,7 +136,7 @@ pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'st
                 Some(_) => return Some(lab),
                 None => {}
             }
-            match named_in(language).or_else(|| nearest(language, ["lab", "quiz", "simlab"]))? {
+            match nearest(language, ["lab", "quiz", "simlab"])? {
                 // A language of a similar name is none of our business, unless it holds what we know.
                 _ if super::loose::bare_json(body).next().is_none() => None,
                 "quiz" => Some(quiz),
