@@ -19,7 +19,8 @@ statement    = block | declaration | function | "if" "(" expression ")" statemen
 block        = "{" { statement } "}" ;
 declaration  = ( "const" | "let" ) pattern [ "=" expression ] { "," pattern [ "=" expression ] } ;
 function     = "function" name parameters block ;
-effects      = expression { "," expression } ;
+effects      = effect { "," effect } ;
+effect       = expression | ( "++" | "--" ) place | place ( "++" | "--" ) ;
 pattern      = name | "[" [ [ element ] { "," [ element ] } ] "]" | "{" [ entry { "," entry } ] "}" ;
 element      = pattern [ "=" expression ] ;
 entry        = name [ ":" pattern ] [ "=" expression ] ;
@@ -28,7 +29,7 @@ arrow        = ( name | parameters ) "=>" ( expression | block ) ;
 parameters   = "(" [ element { "," element } ] ")" ;
 choice       = operation [ "?" expression ":" expression ] ;
 operation    = unary { operator unary } ;
-unary        = ( "-" | "+" | "!" | "~" | "typeof" | "++" | "--" ) unary | postfix [ "++" | "--" ] ;
+unary        = ( "-" | "+" | "!" | "~" | "typeof" ) unary | postfix ;
 postfix      = primary { ( "." | "?." ) name | [ "?." ] "[" expression "]" | [ "?." ] "(" items ")" } ;
 primary      = number | string | template | "true" | "false" | "null" | name | "(" expression ")"
              | "[" items "]" | "{" [ property { "," property } ] "}" | "function" parameters block ;

@@ -3,14 +3,15 @@
 
 use super::{Row, table};
 
-/// A merge sort of two copies, `a` and `b`: runs of `w` elements of one become runs of twice as many in the other.
+/// A merge sort, `undefined` last, of two copies, `a` and `b`: runs of `w` elements of one become runs of twice as many in the other.
 macro_rules! merge_sort {
     ($end:literal) => {
         concat!(
             "(v, f) => { const n = v.length; let a = _copy(v), b = _copy(v); ",
             "for (let w = 1; w < n; w *= 2) { for (let s = 0; s < n; s += 2 * w) { ",
             "const m = Math.min(s + w, n), e = Math.min(s + 2 * w, n); let i = s, j = m; for (let k = s; k < e; k++) { ",
-            "if (i < m && (j >= e || !(f(a[i], a[j]) > 0))) { b[k] = a[i]; i++ } else { b[k] = a[j]; j++ } } } ",
+            "if (i < m && (j >= e || a[j] === undefined || a[i] !== undefined && !(f(a[i], a[j]) > 0))) ",
+            "{ b[k] = a[i]; i++ } else { b[k] = a[j]; j++ } } } ",
             "const t = a; a = b; b = t } ",
             $end,
             " }"

@@ -54,6 +54,7 @@ pub(super) static ROWS: &[Row] = table! {
     "_kind" Nothing (2, 2) List kind: "" => "", "";
     "_empty" Nothing (0, 0) Element empty: "" => "", "";
     "_copy" Nothing (1, 1) List copy: "" => "", "";
+    "_parts" Nothing (1, 1) List parts: "" => "", "";
 };
 
 /// What the elements are when a value holds numbers only: a typed array, or an array of the host.
@@ -251,6 +252,17 @@ fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
     items.reverse();
     replace(env, list, items)?;
     Ok(list.clone())
+}
+
+/// What is gone through, or taken apart by a list of names: a list as it is, a text as its characters.
+fn parts(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    match arg(args, 0) {
+        list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
+        other => {
+            let items = env.spread(other)?;
+            Ok(env.heap.list(items)?)
+        }
+    }
 }
 
 fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {

@@ -12,6 +12,7 @@ mod text;
 pub(crate) use env::{Env, Trouble, charge, out_of_steps, too_long};
 pub(crate) use number::NUMBER_CONSTANTS;
 pub use number::to_fixed;
+pub(crate) use text::whole;
 
 use std::sync::OnceLock;
 

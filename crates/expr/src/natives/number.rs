@@ -163,8 +163,7 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     if radix == 10.0 || !x.is_finite() {
         return env.string(convert::to_text(x));
     }
-    // Of numbers with a fraction engines print different digits; of whole numbers all the same.
-    if !(2.0..=36.0).contains(&radix) || x.fract() != 0.0 || x.abs() > 9007199254740992.0 {
+    if !(2.0..=36.0).contains(&radix) || x.abs() > 9007199254740992.0 {
         let message = format!("{} cannot be written in base {radix}", convert::to_text(x));
         return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
@@ -174,7 +173,45 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
         rest /= radix as u64;
     }
     let sign = if x < 0.0 { "-" } else { "" };
-    env.string(format!("{sign}{}", digits.iter().rev().collect::<String>()))
+    let (fraction, carries) = fraction_in(x.abs(), radix);
+    if carries {
+        return env.string(format!("{sign}{}", (x.abs().trunc() + 1.0) as u64));
+    }
+    env.string(format!("{sign}{}{fraction}", digits.iter().rev().collect::<String>()))
+}
+
+/// The fraction of a number in another base, `.1`: the fewest digits that are nearer to it than to any other number
+/// (G. L. Steele and J. L. White 1990, fixed-point fractions); whether it rounds up to the next whole number.
+fn fraction_in(x: f64, radix: f64) -> (String, bool) {
+    let (mut rest, mut digits) = (x.fract(), Vec::new());
+    if rest == 0.0 {
+        return (String::new(), false);
+    }
+    let mut unsure = (0.5 * (x.next_up() - x)).max(f64::MIN_POSITIVE);
+    loop {
+        (rest, unsure) = (rest * radix, unsure * radix);
+        let digit = rest.floor();
+        digits.push(digit as u32);
+        rest -= digit;
+        if (rest > 0.5 || rest == 0.5 && digit % 2.0 == 1.0) && rest + unsure > 1.0 {
+            // Up, and on to the left as long as a digit is full.
+            while let Some(last) = digits.pop() {
+                if last + 1 < radix as u32 {
+                    digits.push(last + 1);
+                    break;
+                }
+            }
+            break;
+        }
+        if rest < unsure {
+            break;
+        }
+    }
+    if digits.is_empty() {
+        return (String::new(), true);
+    }
+    let text: String = digits.iter().filter_map(|d| char::from_digit(*d, radix as u32)).collect();
+    (format!(".{text}"), false)
 }
 
 fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {

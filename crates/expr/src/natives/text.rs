@@ -64,7 +64,16 @@ fn units(value: &Value) -> Vec<u16> {
 }
 
 fn from_units(env: &mut Env<'_>, units: &[u16]) -> Outcome {
-    env.string(String::from_utf16_lossy(units))
+    let text = whole(units)?;
+    env.string(text)
+}
+
+/// The text of units. Texts hold whole characters: half of one has no text.
+pub(crate) fn whole(units: &[u16]) -> Result<String, Trouble> {
+    String::from_utf16(units).map_err(|_| {
+        let message = "half of a character that takes two units is asked for, and a text cannot hold that; `[...text]` has whole characters";
+        Trouble::new(rules::ARGUMENT_TYPE, message)
+    })
 }
 
 /// Units up to a byte of a text.
@@ -184,7 +193,7 @@ fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, Tr
         return Err(super::too_long());
     }
     let units: Vec<u16> = filler.encode_utf16().cycle().take(missing as usize).collect();
-    Ok(String::from_utf16_lossy(&units))
+    whole(&units)
 }
 
 fn pad_start(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
@@ -259,16 +268,16 @@ fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
         Value::Undefined => usize::MAX,
         limit => crate::number::to_int32(env.number(limit)?) as u32 as usize,
     };
-    let whole = str_of(text);
-    env.spend(whole.len())?;
+    let text_of = str_of(text);
+    env.spend(text_of.len())?;
     let parts: Vec<String> = match arg(args, 0) {
-        Value::Undefined => vec![whole.to_owned()],
+        Value::Undefined => vec![text_of.to_owned()],
         separator => {
             let separator = env.text(separator)?;
             if separator.is_empty() {
-                whole.encode_utf16().map(|unit| String::from_utf16_lossy(&[unit])).collect()
+                text_of.encode_utf16().map(|unit| whole(&[unit])).collect::<Result<_, _>>()?
             } else {
-                whole.split(&separator).map(str::to_owned).collect()
+                text_of.split(&separator).map(str::to_owned).collect()
             }
         }
     };

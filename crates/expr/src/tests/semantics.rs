@@ -2,6 +2,8 @@
 
 use crate::Value;
 use crate::mock::evaluate;
+use crate::mock::{Mock, World};
+use crate::{Compiler, Context, Globals};
 
 /// The same value; NaN is NaN, and zeros keep their sign.
 fn same(a: &Value, b: &Value) -> bool {
@@ -219,4 +221,52 @@ fn fields_and_names() {
         ("0.5 * model.body_mass[1] * data.qvel[0] ** 2", n(14020000.0)),
         ("say('a', 1, data.time)", s("a|true|0")),
     ]);
+}
+
+#[test]
+fn what_a_page_throws_is_thrown() {
+    for source in [
+        "(() => { for (const [k] of [1, 2]) { return k } return 0 })()",
+        "[1, 2].map(([a]) => a).length",
+        "[undefined].map(({a}) => a).length",
+        "(() => { const [a] = [1].find(x => x > 2); return a })()",
+        "(() => { let n = 0; for (const x of [{length: 2}][0]) { n++ } return n })()",
+    ] {
+        let mut globals = Globals::new();
+        let program = Compiler::new(&Mock, &mut globals).expression(source).program.unwrap();
+        let thrown = program.run(&mut World::new(), &mut Context::of(&globals), None);
+        assert!(thrown.is_err(), "{source}: {thrown:?}");
+    }
+    check(&[
+        ("(() => { const [a, b] = [[1, 2]][0]; return a + b })()", n(3.0)),
+        ("(() => { const [a, b] = ['xy'][0]; return b + a })()", s("yx")),
+        ("(() => { const [a] = '😀x'; return a })()", s("😀")),
+        ("[3, undefined, 1].sort((a, b) => b - a).join()", s("3,1,")),
+        ("[undefined, 3, undefined, 1].toSorted((a, b) => a - b).join()", s("1,3,,")),
+        ("(-2.5).toString(2)", s("-10.1")),
+        ("(255.5).toString(16)", s("ff.8")),
+        ("(0.1).toString(3)", s("0.0022002200220022002200220022002201")),
+        ("(0.5).toString(36)", s("0.i")),
+        ("'😀'.length", n(2.0)),
+        ("[...'😀x'].length", n(2.0)),
+    ]);
+}
+
+/// Texts hold whole characters: half of one is refused, and is not another one in silence.
+#[test]
+fn half_a_character_is_refused() {
+    for source in [
+        "'😀'[0] === 'x'",
+        "'😀'.charAt(1)",
+        "'😀'.at(0)",
+        "'x😀'.slice(0, 2)",
+        "'😀'.split('')",
+        "'😀'.substring(1)",
+        "'a'.padEnd(2, '😀')",
+    ] {
+        let mut globals = Globals::new();
+        let program = Compiler::new(&Mock, &mut globals).expression(source).program.unwrap();
+        let thrown = program.run(&mut World::new(), &mut Context::of(&globals), None);
+        assert!(thrown.is_err_and(|e| e.message.contains("half of a character")), "{source}");
+    }
 }

@@ -243,9 +243,10 @@ impl Machine<'_> {
                         Value::View(view) => self.env(code).view_item(*view, i),
                         Value::String(text) => {
                             let unit = text.encode_utf16().nth(i);
-                            unit.map_or(Value::Undefined, |u| {
-                                Value::String(String::from_utf16_lossy(&[u]).into())
-                            })
+                            match unit {
+                                Some(unit) => Value::String(natives::whole(&[unit])?.into()),
+                                None => Value::Undefined,
+                            }
                         }
                         _ => self.context.heap.item(object, i).unwrap_or_default(),
                     }),

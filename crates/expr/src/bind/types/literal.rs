@@ -125,6 +125,15 @@ impl<'a> Binder<'a> {
                 if self.expect_elements(&whole).is_err() {
                     return self.forget(pattern);
                 }
+                // What is not known to be a list is made one, or refused, as in JavaScript.
+                let whole = match (whole.ty, crate::natives::free("_parts")) {
+                    (Type::List | Type::View, _) | (_, None) => whole,
+                    (_, Some(function)) => {
+                        let item = Item { value: whole, spread: false };
+                        let parts = Ir::new(Kind::Native(function, vec![item]), Type::List, *span);
+                        self.keep(parts, Span { start: span.end, ..*span }, steps)
+                    }
+                };
                 for (i, item) in items.iter().enumerate() {
                     let Some(item) = item else { continue };
                     let ty = if whole.ty == Type::View { Type::Element } else { Type::Any };

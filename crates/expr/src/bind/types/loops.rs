@@ -137,7 +137,7 @@ impl<'a> Binder<'a> {
                     return self.dead_loop(target, body, known);
                 }
                 // A text is taken apart into its characters, of which some take two units.
-                let function = crate::natives::free("Array.from");
+                let function = crate::natives::free("_parts");
                 let value = match (value.ty, function) {
                     (Type::List | Type::View, _) | (_, None) => value,
                     (_, Some(function)) => {
