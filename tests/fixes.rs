@@ -7,9 +7,10 @@
 use crate::support::{check_text, workspace};
 use labspec::bind::scene::Models;
 use labspec::check::{self, Depth};
-use labspec::finding::{Finding, Fix, Severity};
+use labspec::finding::{Applicability, Finding, Fix, Severity};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
+use labspec::repair::{Traces, traces};
 use labspec::rules;
 use labspec::source::SourceFile;
 use proptest::prelude::*;
@@ -29,6 +30,12 @@ impl Case {
             text: text.into(),
             models: ModelFolder::with_names(["ball", "incline", "pendulum"]),
         }
+    }
+
+    /// What the labs show.
+    fn shown(&self, text: &str) -> Traces {
+        let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
+        traces(&lesson, &Models::new(self.models.clone()))
     }
 
     /// Everything that is found without running, and how many blocks are broken.
@@ -120,11 +127,26 @@ fn fault(case: &Case, finding: &Finding, before: &(Vec<Finding>, usize)) -> Opti
     None
 }
 
+/// What a fix that is called safe changes of what the labs show; `None` when it changes nothing.
+fn unproven(case: &Case, finding: &Finding, shown: &Traces) -> Option<String> {
+    let fix = finding.fix.as_ref().filter(|fix| fix.applicability == Applicability::Safe)?;
+    // Its own run shows what the repair changes.
+    if finding.code == "missing-setconst" {
+        return None;
+    }
+    let repaired = apply(&case.text, fix);
+    let same = shown.is_subset(&case.shown(&repaired));
+    (!same).then(|| format!("{} is called safe and changes a trace\n{}\n{repaired}", finding.code, case.text))
+}
+
 /// Tries all fixes of a file; returns how many there were, and what is wrong with them.
 fn try_all(case: &Case) -> (usize, Vec<String>) {
     let before = case.findings(&case.text);
     let with_fix: Vec<&Finding> = before.0.iter().filter(|f| f.fix.is_some()).collect();
-    (with_fix.len(), with_fix.iter().filter_map(|f| fault(case, f, &before)).collect())
+    let shown = if with_fix.is_empty() { Traces::new() } else { case.shown(&case.text) };
+    let faults =
+        with_fix.iter().filter_map(|f| fault(case, f, &before).or_else(|| unproven(case, f, &shown)));
+    (with_fix.len(), faults.collect())
 }
 
 fn all_hold(cases: impl IntoIterator<Item = Case>, at_least: usize) {
@@ -388,4 +410,45 @@ fn a_broken_block_is_still_checked() {
     let found: Vec<&str> = checked.findings.iter().map(|f| f.code).collect();
     assert_eq!(found, ["json-syntax", "unknown-field", "json-syntax"]);
     assert!(checked.lesson.labs[0].broken && checked.lesson.labs[0].lab.is_some());
+}
+
+/// Mistakes of labs that run, whose repair changes what they show: none of them is made unasked.
+#[test]
+fn repairs_that_change_what_a_lab_shows_are_guesses() {
+    let statements = [
+        "data.qvel[6] == 2",
+        "data.qvel[6] === 2",
+        "let i = 0; while (i > 5); data.qvel[6] = 2",
+        "for (let i = 0; i < 3; i++); data.qvel[6] = 2",
+        "if (data.time < 0); data.qvel[6] = 2",
+        "data.qvel[6] = Math.sin(90)",
+        "data.qvel[6] = 2 ^ 2 * data.time + 1",
+        "data.qvel[6] = 0 < data.time < 1 ? 2 : 3",
+        "data.qvel[6] = data.time == NaN ? 2 : 3",
+        "data.qpos[7] = 90",
+    ];
+    let expressions =
+        ["Math.sin(90)", "2 ^ 2 * data.time", "0 < data.time < 5", "data.time == NaN", "data.time * 3 ^ 2"];
+    let cases = expressions.iter().map(|e| (*e, lab(e, "data.qvel[0] = 1")));
+    let cases = cases.chain(statements.iter().map(|s| (*s, lab("data.qvel[6]", s))));
+    let mut changed = 0;
+    for (mistake, case) in cases {
+        let shown = case.shown(&case.text);
+        assert!(!shown.is_empty(), "{mistake} does not run");
+        let found = case.findings(&case.text).0;
+        for (finding, fix) in found.iter().filter_map(|f| Some((f, f.fix.as_ref()?))) {
+            let same = shown.is_subset(&case.shown(&apply(&case.text, fix)));
+            changed += usize::from(!same);
+            let guess = fix.applicability != Applicability::Safe;
+            assert!(same || guess, "{mistake}: {} changes what is shown, unasked", finding.code);
+        }
+        // And what is made unasked leaves the text as it shows itself.
+        let look = |text: &str| {
+            let (findings, broken) = case.findings(text);
+            labspec::repair::Looked { text: text.to_string(), findings, broken }
+        };
+        let (safe, _) = labspec::repair::repair(look(&case.text), false, &look, &|text| case.shown(text));
+        assert!(shown.is_subset(&case.shown(&safe)), "{mistake}");
+    }
+    assert!(changed >= 8, "only {changed} repairs change anything: nothing is tried here");
 }

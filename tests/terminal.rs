@@ -55,6 +55,39 @@ fn hostile_lesson() -> String {
     format!("raw {HOSTILE} text\n\n```quiz\n{quiz}\n```\n\n```lab simlab\n{lab}\n```\n")
 }
 
+/// The names of files are foreign text in every form of a report, and no name adds a line, a command or a key of its own.
+#[test]
+fn names_of_files_are_escaped_in_every_format() {
+    let folder = folder();
+    let names = [
+        "esc\u{1b}[2K\u{9b}31m.md",
+        "bidi\u{202e}\u{2066}\u{200f}.md",
+        "line\n::error file=x::verified.md",
+        "percent%0A::warning::verified,b.md",
+        "return\r::set-output name=a::verified.md",
+    ];
+    let text = "```lab simlab\n{\"model\": \"free_fall\", \"titel\": \"x\"}\n```\n";
+    for name in names {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    for format in ["human", "json", "concise", "jsonl", "github", "gitlab", "sarif", "junit"] {
+        for command in ["check", "verify"] {
+            let mut arguments = vec![command, "--format", format];
+            arguments.extend(names);
+            let done = run_in(folder.path(), &arguments);
+            assert!(is_safe(&done.stdout), "{command} {format}\n{:?}", done.stdout);
+            assert!(is_safe(&done.stderr), "{command} {format}\n{:?}", done.stderr);
+            let begins = |word: &str| done.stdout.lines().any(|line| line.trim_start().starts_with(word));
+            assert!(!begins("::error file=x"), "{command} {format}\n{}", done.stdout);
+            assert!(!begins("::warning::") && !begins("::set-output"), "{command} {format}\n{}", done.stdout);
+            if format == "github" {
+                assert!(done.stdout.contains("esc\\u{1b}[2K\\u{9b}31m.md"), "{}", done.stdout);
+                assert!(done.stdout.contains("percent%250A%3A%3Awarning"), "{}", done.stdout);
+            }
+        }
+    }
+}
+
 #[test]
 fn nothing_of_a_lesson_reaches_the_terminal_raw() {
     let folder = folder();

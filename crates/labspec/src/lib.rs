@@ -38,6 +38,7 @@ pub mod player;
 pub mod precision;
 mod printable;
 pub mod reference;
+pub mod repair;
 pub mod report;
 pub mod rules;
 pub mod run;

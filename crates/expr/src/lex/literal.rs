@@ -88,7 +88,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
             bad(format!("`{text}` runs into `{tail}`"))
                 .why("a product needs its sign, and a name cannot start with a digit")
                 .help(format!("write `{text} * {tail}` for the product"))
-                .fix(span, format!("{text} * {tail}")),
+                .guess(span, format!("{text} * {tail}")),
         );
     }
     let second = text.chars().nth(1).unwrap_or('.');
@@ -103,7 +103,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
             bad(format!("`{text}` starts with a zero too many"))
                 .why("JavaScript refuses it, or reads it in base 8")
                 .help(format!("write `{meant}`"))
-                .fix(span, meant),
+                .guess(span, meant),
         );
     }
     // A separator stands between two digits, one at a time.

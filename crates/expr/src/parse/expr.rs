@@ -536,7 +536,7 @@ impl Parser<'_> {
             Finding::error(rules::UNCLOSED, opener, format!("this `{open}` is never closed"))
                 .why(format!("found {} where `{closer}` must stand", self.shown()))
                 .help(format!("write `{closer}` behind `{}`", before.text(self.source)))
-                .fix(before.after(), closer),
+                .guess(before.after(), closer),
         )
     }
 

@@ -149,7 +149,7 @@ pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Finding {
         return Finding::error(rules::DECIMAL_COMMA, number, "a decimal comma")
             .why("a comma separates things; the decimal sign is a point")
             .help(format!("write `{meant}`"))
-            .fix(number, meant);
+            .guess(number, meant);
     }
     never(
         span,

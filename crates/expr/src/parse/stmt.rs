@@ -200,7 +200,7 @@ impl Parser<'_> {
                 Finding::warning(rules::EMPTY_BODY, span, format!("this `;` is all that the `{word}` does"))
                     .why("the statement behind it runs in any case, and only once")
                     .help("remove the `;`")
-                    .fix(span, "");
+                    .guess(span, "");
             self.diagnostics.push(report);
             return Ok(Stmt { kind: StmtKind::Empty, span });
         }
@@ -496,7 +496,7 @@ impl Parser<'_> {
                 Finding::error(rules::UNOPENED, span, format!("`{closer}` closes nothing"))
                     .why("no bracket is open here")
                     .help("remove it, or write the bracket that it should close")
-                    .fix(span, ""),
+                    .guess(span, ""),
             ),
             Tok::Symbol(":") => Some(
                 Finding::error(rules::HALF_CHOICE, span, "`:` without a `?` before it")

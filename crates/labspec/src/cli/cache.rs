@@ -5,6 +5,7 @@
 //! nothing is kept.
 
 use super::digest;
+use super::output::clear_abandoned;
 use crate::bind::parts::Part;
 use crate::bind::scene::Models;
 use crate::check::{self, Depth, Found, stored};
@@ -31,6 +32,9 @@ impl Cache {
     /// The user's cache, unless `off`; with `memory`, results are kept in this process, too.
     pub(super) fn open(off: bool, memory: bool) -> Cache {
         let folder = if off { None } else { folder() };
+        if let Some(folder) = &folder {
+            clear_abandoned(folder, is_unfinished);
+        }
         let program = folder.as_deref().map(program);
         // A program that cannot be known again keeps nothing on a disk.
         let known = program.as_ref().is_some_and(Option::is_some);
@@ -233,6 +237,13 @@ fn identity(path: &Path) -> Option<String> {
         text.push_str(&format!(" {} {} {} {}", meta.dev(), meta.ino(), meta.ctime(), meta.ctime_nsec()));
     }
     Some(text)
+}
+
+/// Whether a file of the cache was being written: `12-0.new`.
+fn is_unfinished(name: &str) -> bool {
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let inside = name.strip_suffix(".new").and_then(|rest| rest.split_once('-'));
+    inside.is_some_and(|(a, b)| number(a) && number(b))
 }
 
 /// Writes a file of the cache, whole or not at all.

@@ -3,9 +3,11 @@
 
 use super::Failure;
 use crate::report::printable_path;
+use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Files that labspec reads: an output never replaces one of these, whoever wrote it.
@@ -59,6 +61,9 @@ pub(super) fn write_with(
 fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let place = place(path)?;
     let old = writable(&place)?;
+    if let Some(folder) = place.parent() {
+        clear_abandoned(folder, is_temporary);
+    }
     let (mut temporary, file) = Temporary::beside(&place)?;
     if let Some(old) = &old {
         keep_owner(&temporary.path, old);
@@ -78,6 +83,41 @@ fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
         let _ = File::open(folder).and_then(|f| f.sync_all());
     }
     Ok(())
+}
+
+/// How long a temporary file that grows no more may lie there, in seconds: another run may still be writing it.
+const ABANDONED: u64 = 600;
+
+/// Whether a file has the name of a [`Temporary`]: `.labspec-12-0.tmp`.
+fn is_temporary(name: &str) -> bool {
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let inside = name.strip_prefix(".labspec-").and_then(|rest| rest.strip_suffix(".tmp"));
+    inside.and_then(|rest| rest.split_once('-')).is_some_and(|(a, b)| number(a) && number(b))
+}
+
+/// Removes what runs that were killed have left in a folder: temporary files, by their names, whose process is gone, or, where that is
+/// not known, that nobody has written for ten minutes. Each folder is looked through once.
+pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
+    static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if !SEEN.lock().is_ok_and(|mut seen| seen.insert(folder.to_path_buf())) {
+        return;
+    }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let Some(name) = name.to_str().filter(|name| is_temporary(name)) else { continue };
+        let process = name.trim_start_matches(".labspec-").split('-').next().and_then(|n| n.parse().ok());
+        let Ok(meta) = entry.metadata() else { continue };
+        let age = meta.modified().ok().and_then(|at| at.elapsed().ok()).map_or(0, |age| age.as_secs());
+        let gone = process.is_some_and(is_gone);
+        if meta.is_file() && process != Some(std::process::id()) && (gone || age >= ABANDONED) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether no process of this number runs on this machine, where the system tells.
+fn is_gone(process: u32) -> bool {
+    Path::new("/proc/self").exists() && !Path::new(&format!("/proc/{process}")).exists()
 }
 
 /// A file that is removed again unless it got its name.
@@ -240,4 +280,29 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
         taken.push((identity, named));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run that was killed between writing and renaming leaves its file; the next one that writes there removes it.
+    #[test]
+    fn what_a_killed_run_has_left_is_cleared() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        // No process has the number of the first; the second is this one's, and still being written; the others are no temporary files.
+        let own = format!(".labspec-{}-77.tmp", std::process::id());
+        let kept =
+            [own.as_str(), ".labspec-notes.tmp", ".labspec-1-x.tmp", "labspec-4294967295-0.tmp", "a.tmp"];
+        for name in kept.into_iter().chain([".labspec-4294967295-0.tmp"]) {
+            std::fs::write(at(name), "half").unwrap();
+        }
+        write_file(&at("out.csv"), "whole").unwrap();
+        assert_eq!(std::fs::read_to_string(at("out.csv")).unwrap(), "whole");
+        assert!(!at(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
+        for name in kept {
+            assert!(at(name).exists(), "{name}");
+        }
+    }
 }

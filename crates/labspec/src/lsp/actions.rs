@@ -2,12 +2,14 @@
 
 use super::documents::Document;
 use super::places;
+use crate::bind::scene::Models;
+use crate::check::{self, Depth};
 use crate::finding::{Applicability, Finding, Fix};
-use crate::lint::{ModelFolder, load_lesson};
+use crate::lint::load_lesson;
+use crate::repair::{Looked, repair as repair_text, traces};
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson};
 use serde_json::{Value, json};
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// What is offered for a range of a document. `only` are the kinds that are asked for, all of them when it is empty.
@@ -16,7 +18,7 @@ pub(super) fn actions(
     lesson: Option<&Lesson>,
     span: &Range<usize>,
     only: &[String],
-    folder: &ModelFolder,
+    models: &Models,
 ) -> Value {
     let wanted =
         |kind: &str| only.is_empty() || only.iter().any(|o| kind == o || kind.starts_with(&format!("{o}.")));
@@ -32,7 +34,7 @@ pub(super) fn actions(
         }
     }
     if wanted("source.fixAll") {
-        all.extend(lesson.and_then(|lesson| everything(document, lesson, folder)));
+        all.extend(lesson.and_then(|lesson| everything(document, lesson, models)));
     }
     all.into()
 }
@@ -78,36 +80,40 @@ fn edit(document: &Document, changes: &[(Range<usize>, String)]) -> Value {
     json!({"documentChanges": [{"textDocument": document, "edits": edits}]})
 }
 
-/// All safe repairs at once, if the lesson is better for it.
-fn everything(document: &Document, lesson: &Lesson, folder: &ModelFolder) -> Option<Value> {
-    let mut changes: BTreeMap<usize, (Range<usize>, String)> = BTreeMap::new();
-    let mut end = 0;
-    let mut fixes: Vec<&Fix> = document.findings.iter().filter_map(|f| f.fix.as_ref()).collect();
-    fixes.sort_by_key(|fix| (fix.span.start, fix.span.end));
-    for fix in fixes.into_iter().filter(|fix| fix.applicability == Applicability::Safe) {
-        // Of two that touch each other, the first one.
-        if fix.span.start >= end && !changes.contains_key(&fix.span.start) {
-            end = fix.span.end.max(end);
-            changes.insert(fix.span.start, (fix.span.clone(), fix.text.clone()));
-        }
-    }
-    if changes.is_empty() {
+/// All safe repairs that are proven, at once.
+fn everything(document: &Document, lesson: &Lesson, models: &Models) -> Option<Value> {
+    let is_safe = |f: &Finding| f.fix.as_ref().is_some_and(|fix| fix.applicability == Applicability::Safe);
+    if !document.findings.iter().any(is_safe) {
         return None;
     }
-    let mut text = document.file.text().to_string();
-    for (span, new) in changes.values().rev() {
-        text.get(span.clone())?;
-        text.replace_range(span.clone(), new);
-    }
-    let after = load_lesson(SourceFile::new(document.file.path().clone(), text), folder);
-    let errors = |lesson: &Lesson| lesson.findings.iter().filter(|f| f.is_error()).count();
-    if after.broken.len() > lesson.broken.len() || errors(&after) > errors(lesson) {
+    let depth = Depth { programs: true, ..Depth::STATIC };
+    let load = |text: &str| load_lesson(SourceFile::new(document.file.path().clone(), text), models.folder());
+    let look = |text: &str| {
+        let lesson = load(text);
+        let broken = lesson.broken.len();
+        Looked { text: text.to_string(), findings: check::check(lesson, models, depth).findings, broken }
+    };
+    let old = lesson.file.text();
+    // What only a run of the labs finds has been found already.
+    let now = Looked { text: old.to_string(), findings: look(old).findings, broken: lesson.broken.len() };
+    let (new, made) = repair_text(now, false, &look, &|text| traces(&load(text), models));
+    if made == 0 {
         return None;
     }
-    let changes: Vec<(Range<usize>, String)> = changes.into_values().collect();
+    let changes = [changed(old, &new)];
     Some(
         json!({"title": "labspec: make all safe repairs", "kind": "source.fixAll.labspec", "edit": edit(document, &changes)}),
     )
+}
+
+/// Where two texts differ, and what the second has there.
+fn changed(old: &str, new: &str) -> (Range<usize>, String) {
+    let start: usize =
+        old.chars().zip(new.chars()).take_while(|(a, b)| a == b).map(|(c, _)| c.len_utf8()).sum();
+    let (old_rest, new_rest) = (old.get(start..).unwrap_or(""), new.get(start..).unwrap_or(""));
+    let same = old_rest.chars().rev().zip(new_rest.chars().rev()).take_while(|(a, b)| a == b);
+    let end: usize = same.map(|(c, _)| c.len_utf8()).sum();
+    (start..old.len() - end, new_rest.get(..new_rest.len() - end).unwrap_or("").to_string())
 }
 
 /// To keep what is found: its code in the `lint` of the lab, the question or the quiz, where the author writes the reason; for prose,

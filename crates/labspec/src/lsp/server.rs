@@ -478,7 +478,7 @@ impl Server<'_> {
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
         let around = self.arounds.of((self.course.models)(&document.path));
         let lesson = lesson(document, around);
-        Ok(actions(document, lesson.as_deref(), &span, &only, around.models.folder()))
+        Ok(actions(document, lesson.as_deref(), &span, &only, &around.models))
     }
 
     fn inlay_hint(&mut self, params: &Value) -> Answer {

@@ -4,7 +4,7 @@ use super::uri::{slashed, uri};
 use super::{Summary, file_of, json as whole};
 use crate::finding::{Applicability, Finding, Severity};
 use crate::ledger::{Entry, Ledger, State};
-use crate::printable::{printable, printable_line};
+use crate::printable::{printable, printable_json, printable_line, printable_lines};
 use crate::rules;
 use crate::source::SourceFile;
 use serde_json::{Value, json};
@@ -58,7 +58,7 @@ pub fn jsonl(findings: &[Finding], files: &[&SourceFile]) -> String {
         let _ = writeln!(text, "{f}");
     }
     let _ = writeln!(text, "{}", json!({"summary": value["summary"]}));
-    text
+    printable_json(&text).into_owned()
 }
 
 /// Commands of GitHub's workflows, which show each finding in its file.
@@ -85,9 +85,9 @@ pub fn github(findings: &[Finding], files: &[&SourceFile]) -> String {
     text
 }
 
-/// What ends a command of GitHub's, escaped.
+/// What ends a command of GitHub's, escaped; what acts on a terminal is written out, since logs are read in one.
 fn data(text: &str) -> String {
-    text.replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
+    printable_lines(text).replace('%', "%25").replace('\r', "%0D").replace('\n', "%0A")
 }
 
 fn property(text: &str) -> String {
@@ -213,11 +213,12 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
     let _ = writeln!(text, "<testsuites name=\"labspec\" {}>", counts(&all).0);
     for (path, entries) in by_file {
         let (numbers, skipped) = counts(&entries);
-        let _ = writeln!(text, "  <testsuite name=\"{}\" {numbers} skipped=\"{skipped}\">", xml(path));
+        let _ = writeln!(text, "  <testsuite name=\"{}\" {numbers} skipped=\"{skipped}\">", attribute(path));
         for e in entries {
             let what = if e.what.is_empty() { String::new() } else { format!(" \"{}\"", e.what) };
             let name = format!("{}: {}{what}", e.subject.as_str(), e.owner);
-            let _ = write!(text, "    <testcase classname=\"{}\" name=\"{}\"", xml(path), xml(&name));
+            let _ =
+                write!(text, "    <testcase classname=\"{}\" name=\"{}\"", attribute(path), attribute(&name));
             let words =
                 if e.remark.is_empty() { e.word.to_string() } else { format!("{}: {}", e.word, e.remark) };
             // Findings in what it is about say more; those of the whole file all of it.
@@ -229,17 +230,17 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
                 State::False => writeln!(
                     text,
                     ">\n      <failure message=\"{}\">{}</failure>\n    </testcase>",
-                    xml(&words),
+                    attribute(&words),
                     more()
                 ),
                 State::Unchecked => writeln!(
                     text,
                     ">\n      <error message=\"{}\">{}</error>\n    </testcase>",
-                    xml(&words),
+                    attribute(&words),
                     more()
                 ),
                 State::LeftOut | State::NotClaimed | State::Known => {
-                    writeln!(text, ">\n      <skipped message=\"{}\"/>\n    </testcase>", xml(&words))
+                    writeln!(text, ">\n      <skipped message=\"{}\"/>\n    </testcase>", attribute(&words))
                 }
                 State::True(_) => writeln!(text, "/>"),
             };
@@ -250,10 +251,15 @@ pub fn junit(ledger: &Ledger, findings: &[Finding], files: &[&SourceFile]) -> St
     text
 }
 
-/// Text of XML, without what XML cannot hold.
+/// An attribute of XML: one line.
+fn attribute(text: &str) -> String {
+    xml(&printable(text))
+}
+
+/// Text of XML, without what XML cannot hold; what acts on a terminal is written out.
 fn xml(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
+    for c in printable_lines(text).chars() {
         match c {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),

@@ -253,7 +253,7 @@ fn options(
             [one] => f
                 .help(format!("what holds is answer {}", name(*one)))
                 .related(condition(*one), format!("this one {}", words(*one)))
-                .fix(keyed.span.clone(), one.to_string()),
+                .guess(keyed.span.clone(), one.to_string()),
             all => f.help(format!("what holds is {}", names(all))),
         };
         findings.push(f);

@@ -69,7 +69,7 @@ impl Look<'_> {
             Finding::warning(rules::DEGREES, span, format!("{what}, and this looks like degrees"))
                 .why("a full turn is 2π, about 6.28 radians")
                 .help(format!("write `{meant}`"))
-                .fix(span, meant),
+                .guess(span, meant),
         );
     }
 }

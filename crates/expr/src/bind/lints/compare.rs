@@ -21,7 +21,7 @@ impl Look<'_> {
             Finding::warning(rules::COMPARE_NAN, span, format!("this comparison is always {result}"))
                 .why("NaN is not equal to anything, not even to itself, and neither smaller nor larger");
         self.found.push(match op.power() {
-            8 => report.help(format!("write `{meant}`")).fix(span, meant),
+            8 => report.help(format!("write `{meant}`")).guess(span, meant),
             _ => report.help("compare with a number"),
         });
     }
@@ -45,7 +45,7 @@ impl Look<'_> {
             Finding::warning(rules::CHAINED_COMPARISON, span, "comparisons do not chain")
                 .why(format!("`{text}` is true or false, and that is what is compared next, as 1 or 0"))
                 .help(format!("write `{meant}`"))
-                .fix(span, meant),
+                .guess(span, meant),
         );
     }
 
@@ -57,7 +57,7 @@ impl Look<'_> {
             Finding::warning(rules::XOR_AS_POWER, span, "`^` is not a power")
                 .why("in JavaScript it is the bitwise exclusive or: `3 ^ 2` is 1")
                 .help(format!("write `{meant}`"))
-                .fix(span, meant),
+                .guess(span, meant),
         );
     }
 }

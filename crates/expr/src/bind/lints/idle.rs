@@ -40,7 +40,7 @@ impl Look<'_> {
         self.found.push(match &expr.kind {
             ExprKind::Binary { op, left, right } if equality(op) => {
                 let meant = format!("{} = {}", self.text(left.span), self.text(right.span));
-                report.help(format!("to assign, write `{meant}`")).fix(expr.span, meant)
+                report.help(format!("to assign, write `{meant}`")).guess(expr.span, meant)
             }
             _ => report.help(format!("assign it, as `ctx.x = {}`, or remove it", self.text(expr.span))),
         });

@@ -122,7 +122,7 @@ impl<'a> Binder<'a> {
             )
             .why("what is kept would go on changing, which is hardly ever meant")
             .help(format!("keep a copy, as `{text}.slice()`, or one element, as `{text}[0]`"))
-            .fix(value.span.after(), ".slice()"),
+            .guess(value.span.after(), ".slice()"),
         )
     }
 

@@ -218,7 +218,7 @@ impl<'a> Binder<'a> {
             Some(report) => {
                 let text = self.text(arg.span);
                 let help = format!("write `{path}(...{text})` for all its elements, or `{text}[0]` for one");
-                self.refuse(report.help(help).fix(Span::new(arg.span.start, arg.span.start), "..."))
+                self.refuse(report.help(help).guess(Span::new(arg.span.start, arg.span.start), "..."))
             }
             None => self.operand_of(thing, arg.span),
         }

@@ -246,7 +246,7 @@ impl<'a> Binder<'a> {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
                     None => report
                         .help(format!("remove `.{text}`"))
-                        .fix(Span::new(object.end, name.span.end), ""),
+                        .guess(Span::new(object.end, name.span.end), ""),
                 })
             }
         }

@@ -240,7 +240,7 @@ impl<'a> Binder<'a> {
                 .why(format!("this text only reads a value, and `{}` would change one", self.text(span))),
         };
         match op {
-            None => report.help("write `===` to compare").fix(op_span, "==="),
+            None => report.help("write `===` to compare").guess(op_span, "==="),
             Some(_) => report.help("write the assignment as a statement of its own"),
         }
     }
