@@ -237,6 +237,7 @@ const ROAD: [&str; 32] = [
     "stability",
     "plan",
     "check",
+    "repair",
     "trace",
     "scaffold",
     "report",
