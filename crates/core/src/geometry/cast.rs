@@ -5,9 +5,13 @@ use super::{Shape, surface};
 use crate::kinds::geom;
 use crate::math::*;
 
+/// Work of a ray against a shape, besides the triangles that it looks at.
+const PRICE: u64 = 20;
+
 /// The nearest point of the ray `from` + x `along` (x ≥ 0; world) on the surface of a shape. A plane is hit from
-/// its front only, inside its drawn rectangle.
-pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
+/// its front only, inside its drawn rectangle. What was done is added to `work`.
+pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3, work: &mut u64) -> Option<Hit> {
+    *work += PRICE;
     if shape.kind == geom::SPHERE {
         return ray::sphere(shape.size[0], &Ray { from: sub(from, shape.pos), along });
     }
@@ -18,8 +22,8 @@ pub(crate) fn ray_shape(shape: &Shape, from: Vec3, along: Vec3) -> Option<Hit> {
         geom::ELLIPSOID => ray::ellipsoid(shape.size, &r),
         geom::CYLINDER => ray::cylinder(shape.size, &r),
         geom::BOX => ray::cuboid(shape.size, &r),
-        geom::MESH => surface::mesh(&shape.mesh(), shape.size, &r),
-        geom::HFIELD => surface::field(&shape.field(), &r),
+        geom::MESH => surface::mesh(&shape.mesh(), shape.size, &r, work),
+        geom::HFIELD => surface::field(&shape.field(), &r, work),
         _ => None,
     }?;
     Some(Hit { normal: mat_mul_vec(&shape.mat, hit.normal), ..hit })

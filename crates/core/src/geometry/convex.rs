@@ -25,6 +25,9 @@ pub(crate) struct Nearest {
     pub(crate) witness: [Vec3; 2],
 }
 
+/// Work of a step of the search for the nearest point, besides its support points.
+const STEP: u64 = 60;
+
 /// Signed distance up to `cutoff`; `None` when it is larger, or when the bodies have no direction between them.
 pub(crate) fn nearest(
     a: &mut Body,
@@ -54,9 +57,16 @@ fn nearest_of_cores(
     limits: Limits,
     room: &mut Room,
 ) -> Option<Nearest> {
-    let price = 60 + a.price() + b.price();
+    let before = a.work + b.work;
+    let found = search(a, b, cutoff, limits, room);
+    room.cost += a.work + b.work - before;
+    found
+}
+
+/// The search itself; what its support points cost is kept by the bodies.
+fn search(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits, room: &mut Room) -> Option<Nearest> {
     let Found { dist, corral, steps } = distance(a, b, cutoff, limits);
-    room.cost += steps as u64 * price;
+    room.cost += steps as u64 * STEP;
     let dist = dist?;
     // So near to touching that the direction between them is best seen from the side that overlaps.
     let deep = if dist > limits.tolerance { None } else { epa::depth(&corral, a, b, limits, room) };
@@ -66,7 +76,7 @@ fn nearest_of_cores(
         return Some(Nearest { dist, normal, witness });
     }
     let witness = [corral.mean(|v| v.on_a), corral.mean(|v| v.on_b)];
-    let (normal, length) = normalize(sub(witness[1], witness[0]));
+    let (normal, length) = unit_vector(sub(witness[1], witness[0]));
     if corners {
         return (length > 0.0).then_some(Nearest { dist, normal, witness });
     }

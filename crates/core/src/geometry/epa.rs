@@ -128,11 +128,11 @@ impl Scratch {
             let directions: &[Vec3] = match self.vertices.len() {
                 1 => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
                 2 => {
-                    let along = normalize(edges[0]).0;
+                    let along = unit_vector(edges[0]).0;
                     let f = frame(along);
                     &[[f[3], f[4], f[5]], [f[6], f[7], f[8]]]
                 }
-                _ => &[normalize(cross(edges[0], edges[1])).0],
+                _ => &[unit_vector(cross(edges[0], edges[1])).0],
             };
             let mut farthest = (0.0, None);
             for &dir in directions {

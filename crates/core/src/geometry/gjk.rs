@@ -23,7 +23,7 @@ pub(super) struct Found {
 
 /// Distance up to `cutoff`.
 pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Found {
-    let towards = normalize(sub(b.centre(), a.centre())).0;
+    let towards = unit_vector(sub(b.centre(), a.centre())).0;
     let first = support(a, b, towards);
     let mut found = Found { dist: Some(0.0), corral: Corral::new(first), steps: 1 };
     let mut size = norm(first.point);

@@ -171,6 +171,7 @@ fn witness(a: &mut Body, b: &mut Body, n: Vec3, h: f64, limits: Limits) -> [Vec3
         _ => {
             let mut moved = b.moved(apart);
             let touching = distance(a, &mut moved, f64::INFINITY, limits).corral;
+            b.work = moved.work;
             around(add_scaled(touching.mean(|v| v.on_a), n, -0.5 * h))
         }
     }

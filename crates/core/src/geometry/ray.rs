@@ -1,7 +1,8 @@
 //! Rays against primitive shapes: the first point of a half line on a surface, from outside or inside.
 //!
 //! Along the ray p + x v the surface of a round shape is a quadratic a x² + 2 b x + c = 0. Rays that graze a
-//! surface to rounding miss it.
+//! surface to rounding miss it. What counts as rounding is a part of the lengths at hand, never a length: a scene may be of
+//! any size, and the direction of a ray of any length.
 
 use crate::math::*;
 
@@ -36,11 +37,24 @@ pub(super) fn nearer(best: &mut Option<Hit>, distance: f64, normal: impl FnOnce(
     }
 }
 
-/// Both solutions of a x² + 2 b x + c = 0, ascending for a > 0; none when they are one to rounding.
+/// A component of a direction of unit length below this is zero.
+pub(super) const PARALLEL: f64 = MINVAL;
+
+/// The coefficients of a x² + 2 b x + c = 0, and the sum of what c is the difference of.
+#[derive(Clone, Copy)]
+struct Quadratic {
+    a: f64,
+    b: f64,
+    c: f64,
+    size: f64,
+}
+
+/// Both solutions, ascending for a > 0; none when they are one to rounding.
 #[inline]
-fn roots(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
+fn roots(Quadratic { a, b, c, size }: Quadratic) -> Option<[f64; 2]> {
     let det = b * b - a * c;
-    if det < MINVAL {
+    let rounding = f64::EPSILON * (b * b + a * size);
+    if det.is_nan() || det <= rounding {
         return None;
     }
     let det = det.sqrt();
@@ -49,28 +63,28 @@ fn roots(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
 
 /// The first solution that is not negative.
 #[inline]
-fn first_root(a: f64, b: f64, c: f64) -> Option<f64> {
-    let [near, far] = roots(a, b, c)?;
+fn first_root(equation: Quadratic) -> Option<f64> {
+    let [near, far] = roots(equation)?;
     [near, far].into_iter().find(|&x| x >= 0.0)
 }
 
 /// |p + x v|² = r²
 #[inline]
-fn ball(radius2: f64, ray: &Ray) -> (f64, f64, f64) {
+fn ball(radius2: f64, ray: &Ray) -> Quadratic {
     let Ray { from: p, along: v } = *ray;
-    (dot(v, v), dot(v, p), dot(p, p) - radius2)
+    let far2 = dot(p, p);
+    Quadratic { a: dot(v, v), b: dot(v, p), c: far2 - radius2, size: far2 + radius2 }
 }
 
 /// Whether the ray meets a sphere about the origin.
 #[inline]
 pub(super) fn meets_sphere(radius2: f64, ray: &Ray) -> bool {
-    let (a, b, c) = ball(radius2, ray);
-    first_root(a, b, c).is_some()
+    first_root(ball(radius2, ray)).is_some()
 }
 
 pub(super) fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
     let Ray { from: p, along: v } = *ray;
-    if v[2] > -MINVAL {
+    if v[2] > -PARALLEL * norm(v) {
         return None;
     }
     let x = -p[2] / v[2];
@@ -80,9 +94,8 @@ pub(super) fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
 }
 
 pub(super) fn sphere(radius: f64, ray: &Ray) -> Option<Hit> {
-    let (a, b, c) = ball(radius * radius, ray);
-    let distance = first_root(a, b, c)?;
-    Some(Hit { distance, normal: normalize(ray.at(distance)).0 })
+    let distance = first_root(ball(radius * radius, ray))?;
+    Some(Hit { distance, normal: unit_vector(ray.at(distance)).0 })
 }
 
 /// (p + x v)ᵀ S⁻² (p + x v) = 1
@@ -90,9 +103,10 @@ pub(super) fn ellipsoid(size: Vec3, ray: &Ray) -> Option<Hit> {
     let Ray { from: p, along: v } = *ray;
     let s = size.map(|s| 1.0 / (s * s));
     let form = |u: Vec3, w: Vec3| s[0] * u[0] * w[0] + s[1] * u[1] * w[1] + s[2] * u[2] * w[2];
-    let distance = first_root(form(v, v), form(v, p), form(p, p) - 1.0)?;
+    let far2 = form(p, p);
+    let distance = first_root(Quadratic { a: form(v, v), b: form(v, p), c: far2 - 1.0, size: far2 + 1.0 })?;
     let on = ray.at(distance);
-    let normal = normalize(std::array::from_fn(|i| s[i] * on[i])).0;
+    let normal = unit_vector(std::array::from_fn(|i| s[i] * on[i])).0;
     Some(Hit { distance, normal })
 }
 
@@ -101,10 +115,10 @@ fn tube(radius: f64, half: f64, ray: &Ray) -> Option<Hit> {
     let Ray { from: p, along: v } = *ray;
     let a = v[0] * v[0] + v[1] * v[1];
     let b = v[0] * p[0] + v[1] * p[1];
-    let c = p[0] * p[0] + p[1] * p[1] - radius * radius;
-    let distance = first_root(a, b, c)?;
+    let (far2, radius2) = (p[0] * p[0] + p[1] * p[1], radius * radius);
+    let distance = first_root(Quadratic { a, b, c: far2 - radius2, size: far2 + radius2 })?;
     let [x, y, z] = ray.at(distance);
-    (z.abs() <= half).then(|| Hit { distance, normal: normalize([x, y, 0.0]).0 })
+    (z.abs() <= half).then(|| Hit { distance, normal: unit_vector([x, y, 0.0]).0 })
 }
 
 pub(super) fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
@@ -115,11 +129,11 @@ pub(super) fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
     for side in [1.0, -1.0] {
         // The half of the end sphere that is beyond the tube.
         let centre = [0.0, 0.0, side * half];
-        let (a, b, c) = ball(radius * radius, &Ray { from: sub(ray.from, centre), ..*ray });
-        for x in roots(a, b, c).into_iter().flatten() {
+        let equation = ball(radius * radius, &Ray { from: sub(ray.from, centre), ..*ray });
+        for x in roots(equation).into_iter().flatten() {
             let on = ray.at(x);
             if side * on[2] >= half {
-                nearer(&mut best, x, || normalize(sub(on, centre)).0);
+                nearer(&mut best, x, || unit_vector(sub(on, centre)).0);
             }
         }
     }
@@ -132,7 +146,7 @@ pub(super) fn cylinder([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
     }
     let Ray { from: p, along: v } = *ray;
     let mut best = None;
-    if v[2].abs() > MINVAL {
+    if v[2].abs() > PARALLEL * norm(v) {
         for side in [-1.0, 1.0] {
             let x = (side * half - p[2]) / v[2];
             let on = ray.at(x);
@@ -165,8 +179,9 @@ pub(super) fn box_faces(size: Vec3, ray: &Ray) -> [[f64; 2]; 3] {
         return all;
     }
     let Ray { from: p, along: v } = *ray;
+    let parallel = PARALLEL * norm(v);
     for i in 0..3 {
-        if v[i].abs() <= MINVAL {
+        if v[i].abs() <= parallel {
             continue;
         }
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);

@@ -1,6 +1,7 @@
 //! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
 
 use super::{Hull, Sides};
+use crate::kinds::geom;
 use crate::math::*;
 
 /// A geom or site as geometry sees it.
@@ -85,6 +86,18 @@ impl<'a> Shape<'a> {
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn axis(&self, i: usize) -> Vec3 {
         column(&self.mat, i)
+    }
+
+    /// The radius of a sphere about its frame that holds it, m; of a plane and a height field there is none that is asked for.
+    pub(crate) fn bounding_radius(&self) -> f64 {
+        let [x, y, _] = self.size;
+        match self.kind {
+            geom::SPHERE => x,
+            geom::CAPSULE => x + y,
+            geom::CYLINDER => (x * x + y * y).sqrt(),
+            geom::ELLIPSOID => self.size.into_iter().fold(0.0, f64::max),
+            _ => norm(self.size),
+        }
     }
 
     /// A point of the world in its frame.

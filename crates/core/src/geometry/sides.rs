@@ -118,7 +118,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
     let normals: Vec<Vec3> = hull
         .face
         .iter()
-        .map(|&[a, b, c]| normalize(cross(sub(corner(b), corner(a)), sub(corner(c), corner(a)))).0)
+        .map(|&[a, b, c]| unit_vector(cross(sub(corner(b), corner(a)), sub(corner(c), corner(a)))).0)
         .collect();
     // Every edge of a triangle, found by its two ends.
     let mut edges: Vec<(i32, i32, usize)> = Vec::new();

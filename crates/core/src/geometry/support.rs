@@ -24,18 +24,26 @@ pub(crate) struct Body<'a> {
     pub(super) corner: i32,
     /// The vertex of the hull found last: neighbouring directions have neighbouring answers.
     hull_vertex: usize,
+    /// Work that its support points were.
+    pub(super) work: u64,
 }
 
+/// Work of a support point, besides the vertices of a mesh that it looks at.
+const SUPPORT: u64 = 40;
 /// Hulls with fewer vertices are searched through.
 const CLIMB_FROM: usize = 10;
 
 impl<'a> Body<'a> {
     pub(crate) fn new(shape: &'a Shape<'a>) -> Body<'a> {
-        Body { form: Form::Shape(shape), shift: [0.0; 3], corner: -1, hull_vertex: 0 }
+        Body::of(Form::Shape(shape))
     }
 
     pub(crate) fn prism(corners: [Vec3; 6]) -> Body<'a> {
-        Body { form: Form::Prism(corners), shift: [0.0; 3], corner: -1, hull_vertex: 0 }
+        Body::of(Form::Prism(corners))
+    }
+
+    fn of(form: Form<'a>) -> Body<'a> {
+        Body { form, shift: [0.0; 3], corner: -1, hull_vertex: 0, work: 0 }
     }
 
     /// The same body somewhere else.
@@ -46,16 +54,6 @@ impl<'a> Body<'a> {
     /// The corner found last, -1 when the body has none.
     pub(crate) fn corner(&self) -> i32 {
         self.corner
-    }
-
-    /// What a support point costs.
-    pub(super) fn price(&self) -> u64 {
-        match self.form {
-            Form::Shape(s) if s.kind == geom::MESH && s.mesh().hull.is_none() => {
-                20 + s.mesh().vert.len() as u64
-            }
-            _ => 40,
-        }
     }
 
     /// The type of its geom.
@@ -89,6 +87,7 @@ impl<'a> Body<'a> {
 
     /// The farthest point of the core in a direction of unit length, world.
     pub(crate) fn support(&mut self, dir: Vec3) -> Vec3 {
+        self.work += SUPPORT;
         let point = match self.form {
             Form::Prism(corners) => {
                 self.corner = prism(&corners, dir) as i32;
@@ -146,7 +145,7 @@ impl<'a> Body<'a> {
             Form::Prism(corners) => {
                 let first = if dir[2] < 0.0 { 0 } else { 3 };
                 for k in 0..3 {
-                    consider(normalize(sub(corners[first + (k + 1) % 3], corners[first + k])).0);
+                    consider(unit_vector(sub(corners[first + (k + 1) % 3], corners[first + k])).0);
                 }
                 consider([0.0, 0.0, 1.0]);
             }
@@ -164,7 +163,7 @@ impl<'a> Body<'a> {
                     for (side, place) in sides.around(vertex) {
                         let list = sides.vertices(side);
                         let other = list[(place + 1) % list.len()] as usize;
-                        consider(mat_mul_vec(&s.mat, normalize(sub(at(other), at(vertex))).0));
+                        consider(mat_mul_vec(&s.mat, unit_vector(sub(at(other), at(vertex))).0));
                     }
                 }
                 _ => {}
@@ -185,7 +184,7 @@ impl<'a> Body<'a> {
             geom::ELLIPSOID => {
                 let on_unit: Vec3 = std::array::from_fn(|i| dir[i] * s.size[i]);
                 let n = norm(on_unit);
-                if n < MINVAL {
+                if n == 0.0 {
                     [s.size[0], 0.0, 0.0]
                 } else {
                     std::array::from_fn(|i| on_unit[i] * (1.0 / n * s.size[i]))
@@ -216,28 +215,34 @@ impl<'a> Body<'a> {
     fn mesh_vertex(&mut self, mesh: &Mesh, dir: Vec3) -> usize {
         match &mesh.hull {
             Some(hull) if mesh.vert.len() >= CLIMB_FROM => {
-                self.hull_vertex = climb(mesh, hull, dir, self.hull_vertex);
-                hull.vertex[self.hull_vertex] as usize
+                let (vertex, seen) = climb(mesh, hull, dir, self.hull_vertex);
+                self.hull_vertex = vertex;
+                self.work += seen;
+                hull.vertex[vertex] as usize
             }
-            _ => search(mesh, dir, usize::try_from(self.corner).ok()),
+            _ => {
+                self.work += mesh.vert.len() as u64;
+                search(mesh, dir, usize::try_from(self.corner).ok())
+            }
         }
     }
 }
 
-/// The farthest vertex of a hull by steps to a farther neighbour.
-pub(super) fn climb(mesh: &Mesh, hull: &Hull, dir: Vec3, start: usize) -> usize {
+/// The farthest vertex of a hull by steps to a farther neighbour, and how many vertices were looked at.
+pub(super) fn climb(mesh: &Mesh, hull: &Hull, dir: Vec3, start: usize) -> (usize, u64) {
     let mut highest = f64::NEG_INFINITY;
-    let mut best = start;
+    let (mut best, mut seen) = (start, 0);
     loop {
         let from = best;
         for v in hull.neighbours(from) {
+            seen += 1;
             let height = dot(dir, mesh.vert[hull.vertex[v] as usize]);
             if height > highest {
                 (highest, best) = (height, v);
             }
         }
         if best == from {
-            return best;
+            return (best, seen);
         }
     }
 }

@@ -1,8 +1,11 @@
 //! Rays against triangles: meshes and height fields.
 
-use super::ray::{Hit, Ray, box_faces, nearer};
+use super::ray::{Hit, PARALLEL, Ray, box_faces, nearer};
 use super::{Field, Mesh};
 use crate::math::*;
+
+/// Work of a ray against a triangle.
+const TRIANGLE: u64 = 10;
 
 /// A ray with two axes across it, in which triangles are looked at along the ray.
 struct Sight<'a> {
@@ -22,8 +25,8 @@ impl Sight<'_> {
         } else {
             [1.0, 1.0, 0.0]
         };
-        let up = normalize(add_scaled(start, v, -dot(v, start) / dot(v, v))).0;
-        let side = normalize(cross(up, v)).0;
+        let up = unit_vector(add_scaled(start, v, -dot(v, start) / dot(v, v))).0;
+        let side = unit_vector(cross(up, v)).0;
         Sight { ray, across: [side, up] }
     }
 
@@ -41,7 +44,8 @@ impl Sight<'_> {
         // The ray's point as c + s (a - c) + t (b - c).
         let (u, w) = (sub(pa, pc), sub(pb, pc));
         let det = u[0] * w[1] - w[0] * u[1];
-        if det.abs() < MINVAL {
+        // Seen from its edge.
+        if det.abs() <= PARALLEL * (dot2(u, u) * dot2(w, w)).sqrt() {
             return None;
         }
         let s = (-w[1] * pc[0] + w[0] * pc[1]) / det;
@@ -51,31 +55,36 @@ impl Sight<'_> {
         }
         let normal = cross(sub(a, c), sub(b, c));
         let speed = dot(self.ray.along, normal);
-        if speed.abs() < MINVAL {
+        if speed.abs() <= PARALLEL * norm(self.ray.along) * norm(normal) {
             return None;
         }
         Some((-dot(sub(self.ray.from, c), normal) / speed, normal))
     }
 }
 
+fn dot2(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
 /// The nearest triangle of a mesh; `size` is the box about the origin that holds it.
-pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray) -> Option<Hit> {
+pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option<Hit> {
     if box_faces(size, ray).as_flattened().iter().all(|&x| x < 0.0) {
         return None;
     }
     let sight = Sight::new(ray);
+    *work += TRIANGLE * mesh.face.len() as u64;
     let mut best = None;
     for face in mesh.face {
         let corners = face.map(|v| mesh.vert.get(v as usize).copied().unwrap_or_default());
         if let Some((x, normal)) = sight.triangle(corners) {
-            nearer(&mut best, x, || normalize(normal).0);
+            nearer(&mut best, x, || unit_vector(normal).0);
         }
     }
     best
 }
 
 /// A height field: the box under it, the triangles of its top, and the walls between the two.
-pub(super) fn field(field: &Field, ray: &Ray) -> Option<Hit> {
+pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
     let [sx, sy, top, base] = field.size;
     let shifted = |z: f64| Ray { from: sub(ray.from, [0.0, 0.0, z]), ..*ray };
     let axis = |i: usize, side: usize| {
@@ -97,13 +106,14 @@ pub(super) fn field(field: &Field, ray: &Ray) -> Option<Hit> {
     let ends = [if leave > enter { enter } else { 0.0 }, leave].map(|x| ray.at(x));
     let sight = Sight::new(ray);
     let (cols, rows) = (cells(ends, sx, 0, field.ncol), cells(ends, sy, 1, field.nrow));
+    *work += 2 * TRIANGLE * (rows.len() as u64 * cols.len() as u64);
     for r in rows {
         for c in cols.clone() {
             let (low, high) = (field.point(r, c), field.point(r + 1, c + 1));
             for triangle in [[low, high, field.point(r, c + 1)], [low, high, field.point(r + 1, c)]] {
                 if let Some((x, normal)) = sight.triangle(triangle) {
                     let up = if normal[2] < 0.0 { -1.0 } else { 1.0 };
-                    nearer(&mut best, x, || scale(normalize(normal).0, up));
+                    nearer(&mut best, x, || scale(unit_vector(normal).0, up));
                 }
             }
         }

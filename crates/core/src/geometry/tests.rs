@@ -5,6 +5,7 @@
 
 mod figures;
 mod random;
+mod scaled;
 mod truth;
 
 pub(crate) use random::Random;
@@ -13,8 +14,8 @@ use figures::Figures;
 use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
-use super::pair::{self, Method, Settings};
-use super::{Field, Hull, Mesh, Narrow, Shape, Sides, ray_shape};
+use super::pair::{self, Method, Settings, Touch};
+use super::{Field, Hull, Mesh, Narrow, Shape, Sides, ray, ray_shape};
 use crate::kinds::geom;
 use crate::math::*;
 use crate::model::Model;
@@ -199,7 +200,7 @@ fn rays_hit_where_they_do_in_mujoco() {
         words.next();
         let shape = assets.shape(&mut words);
         let v: Vec<f64> = words.map(|w| w.parse().unwrap()).collect();
-        let hit = ray_shape(&shape, [v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+        let hit = ray_shape(&shape, [v[0], v[1], v[2]], [v[3], v[4], v[5]], &mut 0);
         let got = hit.map_or([-1.0, 0.0, 0.0, 0.0], |h| [h.distance, h.normal[0], h.normal[1], h.normal[2]]);
         let name = KINDS[shape.kind as usize].to_string();
         report.note(name, case, difference(&got, &floats(want)), 1e-10, &format!("{line}\n    got {got:?}"));
@@ -411,7 +412,7 @@ fn hostile_numbers_are_harmless() {
                 let (first, second) = (shape(a, k), shape(b, k / 7 + 3 * k));
                 let margin = odd[(k + 3) % odd.len()];
                 super::distance::shape_distance(&first, &second, margin, &settings(), &mut work).unwrap();
-                ray_shape(&first, second.pos, second.size);
+                ray_shape(&first, second.pos, second.size, &mut 0);
                 super::inside_shape(&first, second.pos);
                 if let Some(method) = pair::method(first.kind, second.kind) {
                     work.touches.clear();

@@ -261,6 +261,14 @@ pub fn normalize(a: Vec3) -> (Vec3, f64) {
     if n < MINVAL { ([1.0, 0.0, 0.0], n) } else { (scale(a, 1.0 / n), n) }
 }
 
+/// a / |a| and |a|, however short it is: the direction of a length that depends on the scale of a scene. Zero becomes the
+/// x axis.
+#[inline]
+pub fn unit_vector(a: Vec3) -> (Vec3, f64) {
+    let n = norm(a);
+    if n > 0.0 || n.is_nan() { (scale(a, 1.0 / n), n) } else { ([1.0, 0.0, 0.0], n) }
+}
+
 /// The unit quaternion nearest to q. A zero quaternion becomes the identity; one whose norm is 1 to
 /// rounding is returned as it is, bit for bit.
 #[inline]

@@ -8,6 +8,6 @@ mod shape_of;
 mod within;
 
 pub(crate) use apart::geom_distance;
-pub(crate) use ray_hits::ray;
 pub use ray_hits::{RayFilter, RayHit};
+pub(crate) use ray_hits::{counted_ray, ray};
 pub(crate) use within::inside_site;

@@ -51,12 +51,25 @@ pub struct RayHit {
 
 /// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
 pub(crate) fn ray(m: &Model, d: &Fields, from: Vec3, along: Vec3, filter: &RayFilter) -> Option<RayHit> {
-    if norm(along) < MINVAL {
+    counted_ray(m, d, from, along, filter, &mut 0)
+}
+
+/// The same; what was done is added to `work`.
+pub(crate) fn counted_ray(
+    m: &Model,
+    d: &Fields,
+    from: Vec3,
+    along: Vec3,
+    filter: &RayFilter,
+    work: &mut u64,
+) -> Option<RayHit> {
+    *work += 5 * m.ngeom as u64;
+    if along == [0.0; 3] {
         return None;
     }
     let mut best: Option<RayHit> = None;
     for geom in (0..m.ngeom).filter(|&g| filter.admits(m, g)) {
-        if let Some(hit) = ray_shape(&Shape::geom(m, d, geom), from, along)
+        if let Some(hit) = ray_shape(&Shape::geom(m, d, geom), from, along, work)
             && best.is_none_or(|b| hit.distance < b.distance)
         {
             best = Some(RayHit { distance: hit.distance, geom, normal: hit.normal });

@@ -18,7 +18,7 @@ pub(super) fn touch(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let body = m.site_bodyid[site];
     d.meter.add(10 * d.contact.len() as u64);
     let zone = Shape::site(m, d, site);
-    let mut sum = 0.0;
+    let (mut sum, mut work) = (0.0, 0);
     for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
         let sides = [m.geom_bodyid[c.geom1], m.geom_bodyid[c.geom2]];
         if !sides.contains(&body) {
@@ -26,10 +26,11 @@ pub(super) fn touch(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
         }
         let push = contact_force(m, d, c)[0];
         let sign = if sides[1] == body { -1.0 } else { 1.0 };
-        if push > 0.0 && ray_shape(&zone, c.pos, scale(normal(c), sign)).is_some() {
+        if push > 0.0 && ray_shape(&zone, c.pos, scale(normal(c), sign), &mut work).is_some() {
             sum += push;
         }
     }
+    d.meter.add(work);
     put(out, [sum]);
 }
 
@@ -120,9 +121,9 @@ fn takes_part(m: &Model, (kind, id): (i32, i32), geom: usize) -> bool {
         k if k == Obj::Geom as i32 => id == geom as i32,
         k if k == Obj::Body as i32 => id == body,
         k if k == Obj::XBody as i32 => {
-            // Parents have smaller numbers.
+            // Parents have smaller numbers; the world has none.
             let mut up = body;
-            while up > id {
+            while up > id.max(0) {
                 up = m.body_parentid[up as usize];
             }
             up == id
@@ -156,7 +157,7 @@ fn net(m: &Model, d: &Fields, list: &[Match], mask: i32, out: &mut [f64]) {
         point = add_scaled(point, pos, norm(force));
         weight += norm(force);
     }
-    point = scale(point, 1.0 / weight.max(MINVAL));
+    point = if weight > 0.0 { scale(point, 1.0 / weight) } else { [0.0; 3] };
     let (mut force, mut torque) = ([0.0; 3], [0.0; 3]);
     for (pos, f, t) in list.iter().map(wrench) {
         force = add(force, f);

@@ -134,6 +134,13 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
         k if k == Obj::Geom as i32 => within(id, m.ngeom),
         _ => false,
     };
+    // What a contact is filtered by: an object that is there, or none at all.
+    let takes_part = |kind: i32, id: i32| match kind {
+        k if k == Obj::XBody as i32 => within(id, m.nbody),
+        k if k == Obj::Site as i32 => within(id, m.nsite),
+        0 => true,
+        _ => solid(kind, id),
+    };
     match table::of(m, s).senses {
         Senses::Site => within(id, m.nsite),
         Senses::SiteInImage => within(id, m.nsite) && within(reference, m.ncam),
@@ -147,6 +154,7 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
         Senses::Subtree => within(id, m.nbody),
         Senses::Pair => solid(kind, id) && solid(other, reference),
         Senses::FrameInSite => within(reference, m.nsite),
+        Senses::Contacts => takes_part(kind, id) && takes_part(other, reference),
         _ => true,
     }
 }

@@ -3,9 +3,16 @@
 //! What is farther apart than the cutoff is not looked at: the distance is the cutoff, the rest zero.
 
 use super::{Scratch, put};
+use crate::geometry::Shape;
+use crate::kinds::geom;
 use crate::math::*;
 use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
+
+/// Work of two geoms that turn out to be too far apart.
+const LOOKED_AT: u64 = 20;
+/// Part of a distance that is left to rounding before it counts as too far.
+const ROUNDING: f64 = 1e-9;
 
 /// The geoms of a body, or one geom.
 pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
@@ -24,11 +31,15 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
     let mut best = (cutoff, [[0.0; 3]; 2]);
     for g1 in geoms(m, m.sensor_objtype[s], m.sensor_objid[s]) {
         for g2 in geoms(m, m.sensor_reftype[s], m.sensor_refid[s]) {
+            d.meter.add(LOOKED_AT);
             if d.meter.over() {
                 return best;
             }
+            if are_beyond(m, d, [g1, g2], best.0) {
+                continue;
+            }
             // A model that needs what this build has not is refused when it is read: see `needs_search`.
-            let Some(found) = geom_distance(m, d, &mut w.narrow, [g1, g2], cutoff) else {
+            let Some(found) = geom_distance(m, d, &mut w.narrow, [g1, g2], best.0) else {
                 return (f64::NAN, [[f64::NAN; 3]; 2]);
             };
             if found.dist < best.0 {
@@ -37,6 +48,19 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
         }
     }
     best
+}
+
+/// Whether the bounding spheres of two geoms say that they are farther apart than that. Planes and height fields have none.
+fn are_beyond(m: &Model, d: &Fields, geoms: [usize; 2], most: f64) -> bool {
+    let [ra, rb] = geoms.map(|g| match m.geom_type[g] {
+        geom::PLANE | geom::HFIELD => f64::INFINITY,
+        geom::MESH => m.geom_rbound[g],
+        _ => Shape::geom(m, d, g).bounding_radius(),
+    });
+    let [a, b] = geoms.map(|g| rows::<3>(&d.geom_xpos)[g]);
+    let reach = (most.max(0.0) + ra + rb) * (1.0 + ROUNDING);
+    let apart = sub(b, a);
+    dot(apart, apart) > reach * reach
 }
 
 pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {

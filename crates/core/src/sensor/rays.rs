@@ -22,8 +22,6 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
     let Ok(id) = usize::try_from(m.sensor_objid[s]) else { return };
     let Some(f) = object::frame(m, d, m.sensor_objtype[s], id) else { return };
     let mask = m.sensor_intprm[3 * s];
-    let price = (20 * m.ngeom + m.nmeshface / 8) as u64;
-    d.meter.add(price);
     if m.sensor_objtype[s] != Obj::Camera as i32 {
         let ray = Ray { from: f.pos, along: column(&f.mat, 2) };
         return cast(m, d, &ray, &f, false, mask, out);
@@ -32,7 +30,6 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
     let [width, _] = camera.resolution;
     let size = data_layout::size(&RAY_DATA, mask).max(1);
     for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
-        d.meter.add(price);
         if d.meter.over() {
             return;
         }
@@ -43,10 +40,13 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
 
 /// What a ray from the frame `f` meets: distance -1 and no direction, point and normal where it meets nothing. The
 /// body that the sensor is fixed to is not seen. A camera's depth is along its axis, a site's along the ray.
-fn cast(m: &Model, d: &Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
+fn cast(m: &Model, d: &mut Fields, ray: &Ray, f: &Frame, in_image: bool, mask: i32, out: &mut [f64]) {
     let filter = RayFilter { exclude_body: Some(f.body), ..RayFilter::default() };
     let none = [0.0; 3];
-    let (dist, dir, point, normal, depth) = match query::ray(m, d, ray.from, ray.along, &filter) {
+    let mut work = 0;
+    let hit = query::counted_ray(m, d, ray.from, ray.along, &filter, &mut work);
+    d.meter.add(work);
+    let (dist, dir, point, normal, depth) = match hit {
         Some(hit) => {
             let point = add_scaled(ray.from, ray.along, hit.distance);
             let ahead = -dot(sub(point, f.pos), column(&f.mat, 2));

@@ -78,7 +78,7 @@ pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<
     let limit = margin + slack;
     let Some(separation) = separation(&relative, first.size, second.size, limit, slack) else { return };
     let Relative { turn, offset, offset_second } = relative;
-    if let Some(axis) = preferred_edge(&separation) {
+    if let Some(axis) = preferred_edge(&separation, slack) {
         out.extend(edge_contact(first, second.size, &turn, offset, axis, limit));
         return;
     }
@@ -190,14 +190,14 @@ fn edge_axis(relative: &Relative, size1: Vec3, size2: Vec3, [i, j]: [usize; 2]) 
 }
 
 /// The edge axis if it is the best, and not almost the best face normal with almost its gap: many contacts
-/// hold a body better than one.
-fn preferred_edge(&Separation { face_gap, face, edge }: &Separation) -> Option<EdgeAxis> {
+/// hold a body better than one. `slack` is what rounding may make of a gap.
+fn preferred_edge(&Separation { face_gap, face, edge }: &Separation, slack: f64) -> Option<EdgeAxis> {
     edge.filter(|axis| {
         let cosine = match face {
             Face::First(a) => axis.normal[a],
             Face::Second(a) => axis.normal_second[a],
         };
-        !(cosine.abs() > ALMOST_FACE && axis.gap < face_gap + FACE_BONUS * face_gap.abs() + MINVAL)
+        !(cosine.abs() > ALMOST_FACE && axis.gap < face_gap + FACE_BONUS * face_gap.abs() + slack)
     })
 }
 

@@ -14,6 +14,9 @@ use crate::geometry::Shape;
 use crate::math::sort::sort_by;
 use crate::math::*;
 
+/// Squared sine of the angle up to which an axis is parallel to an edge.
+const PARALLEL: f64 = 1e-12;
+
 /// Contact of a sphere and a box.
 pub(super) fn sphere_box(sphere: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     out.extend(ball(cuboid.local(sphere.pos), sphere.size[0], cuboid, margin));
@@ -28,9 +31,11 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
         size: cuboid.size,
     };
     let first = nearest(&axis);
-    // A squared distance compared with a length, as recorded: large shapes that overlap by little are lost.
+    // Of what is farther neither ball touches. (The library compares the square with the length: there, large shapes that
+    // overlap by little are lost.)
     let [a, b, c] = cuboid.size;
-    if first.square < margin + 2.0 * (radius + half_length + a + b + c) {
+    let reach = margin + 2.0 * (radius + half_length + a + b + c);
+    if first.square < reach * reach {
         let second = second_ball(&axis, &first);
         for t in [Some(first.t), second].into_iter().flatten() {
             out.extend(ball(axis.at(t), radius, cuboid, margin));
@@ -43,7 +48,8 @@ fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Touch>
     let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-cuboid.size[i], cuboid.size[i]]));
     let apart = sub(nearest, centre);
     let gap = norm(apart);
-    let (normal, dist, pos) = if gap > MINVAL {
+    let touching = MINVAL * (radius + cuboid.size.iter().sum::<f64>());
+    let (normal, dist, pos) = if gap > touching {
         let normal = scale(apart, 1.0 / gap);
         (normal, gap - radius, scale(add(nearest, add_scaled(centre, normal, radius)), 0.5))
     } else {
@@ -285,8 +291,9 @@ fn pierced(axis: &Axis) -> First {
         }
     }
     let mut best = First { t: -1.0, sides: [0.0; 3], square: f64::INFINITY };
+    let slack = MINVAL * (dot(axis.half, axis.half) + dot(axis.size, axis.size));
     let mut consider = |t, sides, square| {
-        if square < best.square - MINVAL {
+        if square < best.square - slack {
             best = First { t, sides, square };
         }
     };
@@ -317,7 +324,7 @@ fn pierced(axis: &Axis) -> First {
 fn nearest_to_edge(axis: &Axis, along: usize, edge: Sides) -> Option<(f64, f64, f64)> {
     let length = axis.size[along];
     let across: Vec3 = std::array::from_fn(|i| if i == along { 0.0 } else { axis.half[i] });
-    if dot(across, across) * length * length <= MINVAL {
+    if dot(across, across) <= PARALLEL * dot(axis.half, axis.half) {
         return None;
     }
     // Seen along the edge the distance depends on t alone; then the limits of both segments.

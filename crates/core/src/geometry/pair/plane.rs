@@ -76,7 +76,7 @@ pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut V
     }
     let behind = height + rise - 0.5 * fall;
     if behind <= margin {
-        let side = scale(normalize(cross(down, end)).0, radius * 3f64.sqrt() / 2.0);
+        let side = scale(unit_vector(cross(down, end)).0, radius * 3f64.sqrt() / 2.0);
         for point in [add(cylinder.pos, side), sub(cylinder.pos, side)] {
             out.push(touch(normal, behind, add_scaled(add(point, end), down, -0.5)));
         }
@@ -120,7 +120,7 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touc
         touch(normal, dot(sub(point, plane.pos), normal), point)
     };
     let lowest = match &mesh.hull {
-        Some(hull) => hull.vertex[climb(mesh, hull, down, 0)] as usize,
+        Some(hull) => hull.vertex[climb(mesh, hull, down, 0).0] as usize,
         None => search(mesh, down, None),
     };
     let first = at(lowest);

@@ -141,7 +141,7 @@ fn lying_on(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, 
     let mut flattest = (ALONG, None);
     for face in other.faces.all() {
         for edge in feature.edges.all() {
-            let slope = dot(normalize(sub(edge[1], edge[0])).0, face.normal).abs();
+            let slope = dot(unit_vector(sub(edge[1], edge[0])).0, face.normal).abs();
             if slope < flattest.0 {
                 flattest = (slope, Some((edge, face)));
             }
@@ -183,7 +183,7 @@ impl Feature {
             faces.push(face);
             return Feature { dim: 3, faces, edges: List::new() };
         }
-        let unit = |e: &Edge| normalize(sub(e[1], e[0])).0;
+        let unit = |e: &Edge| unit_vector(sub(e[1], e[0])).0;
         let slope = |e: &&Edge| dot(unit(e), direction).abs();
         let flattest = self.edges.all().iter().min_by(|e, f| slope(e).total_cmp(&slope(f)));
         let Some(&edge) = flattest.filter(|e| slope(e) < MEETS) else { return self };
@@ -276,7 +276,7 @@ impl Patch {
         for (k, &p) in face.iter().enumerate() {
             let edge = sub(face[(k + 1) % face.len()], p);
             size = size.max(norm(edge));
-            let inwards = normalize(cross(edge, self.normal)).0;
+            let inwards = unit_vector(cross(edge, self.normal)).0;
             self.lying = clip(&self.lying, |q| dot(inwards, sub(q, p)), SAME * size);
         }
         let depth = |p: Vec3| dot(self.normal, sub(p, origin));

@@ -4,6 +4,11 @@ use super::Touch;
 use crate::geometry::Shape;
 use crate::math::*;
 
+/// Centres nearer than this part of both radii are one point.
+const COINCIDENT: f64 = MINVAL;
+/// Squared sine of the angle up to which two axes are parallel.
+const PARALLEL: f64 = 1e-12;
+
 /// Two balls: the distance of their centres minus both radii. Coincident centres have no direction: the normal is taken across
 /// two axes, or along x when these are parallel.
 #[cfg_attr(not(feature = "small"), inline(always))]
@@ -18,8 +23,8 @@ pub(crate) fn two_balls(
     if dot(between, between) > reach * reach {
         return None;
     }
-    let (mut normal, length) = normalize(between);
-    if length < MINVAL {
+    let (mut normal, length) = unit_vector(between);
+    if length <= COINCIDENT * (ra + rb) {
         let [x, y] = axes();
         normal = normalize(cross(x, y)).0;
     }
@@ -126,7 +131,7 @@ pub(super) fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<T
     let axes = Axes::new(a, b);
     let Axes { aa, ab, bb, u, v, .. } = axes;
     let det = aa * bb - ab * ab;
-    if det.abs() < MINVAL || det.is_nan() {
+    if det.abs() <= PARALLEL * (aa * bb) || det.is_nan() {
         return parallel(a, b, margin, out);
     }
     let (mut x, mut y) = ((bb * u - ab * v) / det, (aa * v - ab * u) / det);

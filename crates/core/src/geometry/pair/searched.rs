@@ -56,7 +56,7 @@ fn rock(
     out: &mut Vec<Touch>,
 ) {
     let start = out.len() - 1;
-    let apart = DISTINCT * radius(a).min(radius(b));
+    let apart = DISTINCT * a.bounding_radius().min(b.bounding_radius());
     let frame = frame(first.normal);
     for axis in [[frame[3], frame[4], frame[5]], [frame[6], frame[7], frame[8]]] {
         for angle in [-ROCK, ROCK] {
@@ -77,16 +77,4 @@ fn turned<'a>(s: &Shape<'a>, about: Vec3, turn: &Mat3) -> Shape<'a> {
     let shift = sub(mat_mul_vec(turn, arm), arm);
     let columns = [0, 1, 2].map(|i| mat_mul_vec(turn, s.axis(i)));
     Shape { pos: sub(s.pos, shift), mat: std::array::from_fn(|i| columns[i % 3][i / 3]), ..*s }
-}
-
-/// The bounding radius of a shape about its frame.
-fn radius(s: &Shape) -> f64 {
-    let [x, y, _] = s.size;
-    match s.kind {
-        geom::SPHERE => x,
-        geom::CAPSULE => x + y,
-        geom::CYLINDER => (x * x + y * y).sqrt(),
-        geom::ELLIPSOID => s.size.into_iter().fold(0.0, f64::max),
-        _ => norm(s.size),
-    }
 }

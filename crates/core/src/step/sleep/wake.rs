@@ -109,7 +109,11 @@ fn was_moved(m: &Model, d: &Fields, w: &Scratch, tree: usize) -> bool {
 }
 
 /// Wakes a tree and those that fell asleep with it. One that is awake counts on from `value` if that is less.
+///
+/// A written `tree_asleep` may hold any number, so the walk relies on none: every tree that it visits is awake
+/// afterwards, and it ends at the first that is.
 fn wake_island(d: &mut Fields, tree: usize, value: i32) {
+    let value = if value < 0 { value } else { AWAKE };
     let mut at = tree;
     while let Some(slot) = d.tree_asleep.get_mut(at) {
         let next = *slot;

@@ -112,7 +112,7 @@ fn gaps_agree_with_clipping_and_contacts_lie_on_both_boxes() {
         let (first, second) = random.boxes();
         let tolerance = 1e-9 * extent(&first, &second);
         let separation = axes(&first, &second);
-        let edge = preferred_edge(&separation);
+        let edge = preferred_edge(&separation, 1e-4 * tolerance);
         let gap = edge.map_or(separation.face_gap, |axis| axis.gap);
         if gap.abs() > tolerance {
             let overlap = overlap_by_clipping(&first, &second, 0.5 * tolerance);

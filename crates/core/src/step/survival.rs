@@ -1,0 +1,167 @@
+//! Any number is survived: whatever integers a stored model holds it is refused or can be stepped, and whatever a caller
+//! writes to the integers of the data every stage ends. The cases come from the table of fields.
+
+use super::{sound::unsound, step, step1, step2};
+use crate::mjcf::compile;
+use crate::model::Model;
+use crate::model::reflect::{self, Elem, FieldId, Object, View};
+use crate::step::workspace::Data;
+use crate::step::{forward, functions, inverse, save};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+/// A scene with an object of every kind that another can name by a number.
+const EVERYTHING: &str = "<mujoco><option><flag sleep='enable'/></option>
+    <asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/>
+    <material name='paint' rgba='1 0 0 1'/></asset>
+    <worldbody><geom name='ground' type='hfield' hfield='h'/><geom name='floor' type='plane' size='9 9 1'/>
+    <camera name='eye' pos='0 0 3' resolution='2 1'/><light pos='0 0 3'/><body name='hand' mocap='true'><geom size='.1'/></body>
+    <body name='a' pos='0 0 .2'><freejoint/><geom name='rock' type='mesh' mesh='m'/><site name='s' size='.3'/></body>
+    <body name='b' pos='3 0 .05'><joint name='j' axis='0 1 0' range='-90 90'/><geom name='u' size='.1' material='paint'/><site name='t' pos='1 0 0'/>
+    <body pos='1 0 0'><joint name='k' axis='0 1 0' frictionloss='.1'/><geom name='w' size='.1'/><site name='x'/></body></body>
+    <body name='c' pos='3 3 1'><joint name='ball' type='ball'/><geom type='capsule' size='.1 .2'/><site name='y'/></body>
+    <body name='lazy' pos='5 5 .1' sleep='init'><freejoint/><geom type='box' size='.1 .1 .1'/></body>
+    <body name='lazier' pos='5 5 .3' sleep='init'><freejoint/><geom type='box' size='.1 .1 .1'/></body>
+    <body name='awake' pos='7 5 .1'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody>
+    <contact><pair geom1='rock' geom2='u'/><exclude body1='c' body2='b'/></contact>
+    <tendon><spatial name='l' limited='true' range='0 1'><site site='s'/><geom geom='w' sidesite='x'/><site site='t'/></spatial>
+    <fixed name='f'><joint joint='j' coef='1'/><joint joint='k' coef='2'/></fixed></tendon>
+    <equality><connect body1='a' body2='b' anchor='0 0 0'/><weld site1='s' site2='t'/><joint joint1='j' joint2='k'/></equality>
+    <actuator><motor joint='j'/><position tendon='l'/><general joint='k' dyntype='filter' dynprm='.1' delay='.004' nsample='3'/>
+    <motor site='x' refsite='t' gear='1 0 0 0 1 0'/><general slidersite='x' cranksite='t' cranklength='1'/>
+    <adhesion body='b' ctrlrange='0 1'/><muscle joint='j' lengthrange='0 1'/></actuator>
+    <sensor><jointpos joint='j'/><touch site='s'/><framepos objtype='body' objname='a' reftype='site' refname='t'/>
+    <contact subtree1='a' geom2='ground' num='2'/><contact body1='a' num='1' reduce='netforce'/><contact site='s' num='2'/>
+    <rangefinder site='s'/><rangefinder camera='eye'/><distance body1='a' body2='b' cutoff='9'/><camprojection site='s' camera='eye'/>
+    <insidesite site='s' objtype='body' objname='b'/><tendonpos tendon='l'/><actuatorfrc actuator='x0'/><user dim='2'/>
+    <subtreecom body='b'/><gyro site='x' delay='.004' nsample='2'/></sensor>
+    <keyframe><key/></keyframe></mujoco>";
+
+const VALUES: [i32; 10] = [i32::MIN, -12, -2, -1, 0, 1, 2, 7, 1000, i32::MAX];
+/// What a case may cost: beyond it stages are left out, as for a run whose budget is spent.
+const BUDGET: u64 = 3_000_000;
+
+fn everything() -> Model {
+    compile(&EVERYTHING.replace("<motor joint='j'/>", "<motor name='x0' joint='j'/>")).unwrap()
+}
+
+/// Runs a test in a thread of its own, and fails where it does not end.
+fn ends(test: fn()) {
+    let (tell, done) = channel();
+    let thread = std::thread::spawn(move || {
+        test();
+        let _ = tell.send(());
+    });
+    match done.recv_timeout(Duration::from_secs(500)) {
+        Err(RecvTimeoutError::Timeout) => panic!("a case does not end"),
+        _ => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+    }
+}
+
+fn integers(object: Object, among: fn(FieldId) -> bool) -> impl Iterator<Item = FieldId> {
+    let is = move |f: &FieldId| f.info().object == object && matches!(f.info().elem, Elem::I32 | Elem::Bool);
+    reflect::fields().filter(is).filter(move |&f| among(f))
+}
+
+/// Everything that a caller may ask for.
+fn use_all(m: &Model, d: &mut Data) {
+    functions::limit(d, BUDGET);
+    forward::contacts(m, d);
+    functions::kinematics(m, &mut d.clone());
+    forward::forward(m, &mut d.clone());
+    let _ = inverse::inverse(m, &mut d.clone());
+    let mut other = d.clone();
+    step1(m, &mut other);
+    step2(m, &mut other);
+    let bytes = save::save(m, d);
+    let _ = save::restore(m, &mut other, &bytes);
+    (0..3).for_each(|_| step(m, d));
+}
+
+#[test]
+fn what_is_accepted_of_a_stored_model_can_be_stepped() {
+    ends(|| {
+        let m = everything();
+        assert_eq!(unsound(&m), None);
+        let (mut accepted, mut refused) = (0, 0);
+        for field in integers(Object::Model, |_| true).chain(integers(Object::Option, |_| true)) {
+            for i in 0..reflect::view_model(&m, field).len() {
+                for value in VALUES {
+                    let mut changed = m.clone();
+                    reflect::view_model_mut(&mut changed, field).set(i, f64::from(value));
+                    if unsound(&changed).is_some() {
+                        refused += 1;
+                        continue;
+                    }
+                    accepted += 1;
+                    let mut d = Data::new(&changed);
+                    functions::limit(&mut d, BUDGET);
+                    (0..2).for_each(|_| step(&changed, &mut d));
+                }
+            }
+        }
+        assert!(accepted > 500 && refused > 1000, "{accepted} {refused}");
+    });
+}
+
+#[test]
+fn what_is_written_to_the_integers_of_the_data_is_survived() {
+    ends(|| {
+        let m = everything();
+        let mut start = Data::new(&m);
+        (0..2).for_each(|_| step(&m, &mut start));
+        assert!(start.tree_asleep.iter().any(|&next| next >= 0), "nothing sleeps");
+        let mut written = Vec::new();
+        for field in integers(Object::Data, reflect::is_writable) {
+            let n = match reflect::view_data(&start.fields, field) {
+                View::I32(list) => list.len(),
+                View::Bool(list) => list.len(),
+                _ => 0,
+            };
+            written.push(field.info().name);
+            for i in 0..n {
+                for value in VALUES {
+                    // One number, and all of them.
+                    let mut d = start.clone();
+                    reflect::view_data_mut(&mut d.fields, field).set(i, f64::from(value));
+                    use_all(&m, &mut d);
+                    for k in 0..n {
+                        reflect::view_data_mut(&mut d.fields, field).set(k, f64::from(value));
+                    }
+                    use_all(&m, &mut d);
+                }
+                // Every tree after another: circles that nobody made.
+                for next in 0..n {
+                    let mut d = start.clone();
+                    reflect::view_data_mut(&mut d.fields, field).set(i, next as f64);
+                    use_all(&m, &mut d);
+                }
+            }
+        }
+        assert_eq!(written, ["eq_active", "tree_asleep"]);
+    });
+}
+
+/// The case that did not end: a number written beside a tree that sleeps, while what is awake touches it.
+#[test]
+fn a_written_circle_of_sleeping_trees_wakes() {
+    ends(|| {
+        let m = compile(
+            "<mujoco><option><flag sleep='enable'/></option><worldbody><geom type='plane' size='9 9 1'/>
+             <body pos='0 0 .1'><freejoint/><geom size='.1'/></body>
+             <body name='b' pos='.25 0 .1' sleep='init'><freejoint/><geom size='.1'/></body>
+             <body name='c' pos='3 0 .1' sleep='init'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+        )
+        .unwrap();
+        for next in 0..3 {
+            let mut d = Data::new(&m);
+            forward::forward(&m, &mut d);
+            d.geom_xpos[3] += 0.1;
+            d.tree_asleep.copy_from_slice(&[next, 1, 2]);
+            (d.tree_awake[0], d.tree_awake[1], d.tree_awake[2]) = (1, 0, 0);
+            (d.ntree_awake, d.body_awake[2]) = (1, 0);
+            forward::contacts(&m, &mut d);
+            assert!(d.tree_asleep[1] < 0, "{:?}", d.tree_asleep);
+        }
+    });
+}
