@@ -296,10 +296,10 @@ mod tests {
         let kept =
             [own.as_str(), ".labspec-notes.tmp", ".labspec-1-x.tmp", "labspec-4294967295-0.tmp", "a.tmp"];
         for name in kept.into_iter().chain([".labspec-4294967295-0.tmp"]) {
-            std::fs::write(at(name), "half").unwrap();
+            fs::write(at(name), "half").unwrap();
         }
         write_file(&at("out.csv"), "whole").unwrap();
-        assert_eq!(std::fs::read_to_string(at("out.csv")).unwrap(), "whole");
+        assert_eq!(fs::read_to_string(at("out.csv")).unwrap(), "whole");
         assert!(!at(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
         for name in kept {
             assert!(at(name).exists(), "{name}");
