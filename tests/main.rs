@@ -39,6 +39,7 @@ mod numbers;
 mod parity;
 mod partners;
 mod plan;
+mod planned;
 mod player;
 mod precision;
 mod program;

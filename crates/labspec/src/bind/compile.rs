@@ -161,7 +161,7 @@ impl Programs {
 }
 
 /// Adds what a program touches to a demand.
-pub(crate) fn include(effects: &Effects, demand: &mut Demand) {
+pub fn include(effects: &Effects, demand: &mut Demand) {
     if effects.reads_everything {
         demand.reads = FieldSet::ALL;
     }

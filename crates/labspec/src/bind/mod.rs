@@ -8,8 +8,9 @@ mod labels;
 pub mod parts;
 pub mod scene;
 
+pub use compile::include;
 pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
-pub(crate) use compile::{include, scalar, writes_kind};
+pub(crate) use compile::{scalar, writes_kind};
 pub use dimension::{Dimensions, dimension_of, dimensions};
 pub(crate) use dimension::{given, given_by};
 pub(crate) use labels::{contradicts, of_heading, of_label, unit};
