@@ -4,6 +4,8 @@
 //! Every `verify` object whose labs have such a program is judged a second time, with the partners corrected behind every program.
 //! A claim that holds in the lab alone, and not with the partners corrected, is not true of what the text speaks of.
 
+mod rests;
+
 use super::claims::{self, Cast, cast};
 use super::{Ready, refresh};
 use crate::bind::ControlProgram;
@@ -12,14 +14,11 @@ use crate::bind::scene::Models;
 use crate::finding::{Finding, Severity};
 use crate::json::read::named;
 use crate::ledger::State;
-use crate::rules;
 use crate::source::Text;
 use crate::spec::{Lab, Lesson, Question, Run, Verify};
-use crate::verify::{
-    self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage, Verdict, significant,
-};
+use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, ShownText, Stage};
+use rests::Rests;
 use std::cell::OnceCell;
-use std::ops::Range;
 
 /// A part of a measure by which another order of operations may change it.
 const ROUNDING: f64 = 1e-6;
@@ -37,6 +36,15 @@ struct Candidate<'a> {
     own: bool,
     /// It is a change of the model's text.
     change: bool,
+}
+
+impl Candidate<'_> {
+    /// What it leaves behind, in words.
+    fn left(&self) -> String {
+        let mut partners: Vec<&str> = self.pairs.pairs().map(|(_, pair)| pair.left).collect();
+        partners.dedup();
+        format!("{} leaves {} as it was", self.who, partners.join(" and "))
+    }
 }
 
 /// The labs of a lesson with partners corrected, and what came of their runs.
@@ -121,14 +129,8 @@ impl<'a> Partners<'a> {
             return;
         }
         let causes = self.causes(case, &candidates, judgement);
-        let evidence = evidence(judgement, &second);
-        let who: Vec<&str> = causes.iter().map(|c| c.who.as_str()).collect();
-        let rests = Rests {
-            who: who.join(" and "),
-            corrected: corrected_words(&causes),
-            evidence: evidence.clone(),
-            codes: codes(&causes),
-        };
+        let rests = Rests::new(&causes, judgement, &second);
+        let evidence = rests.evidence.clone();
         rests.apply(case, judgement, second, findings);
         for cause in causes.iter().filter(|c| c.own) {
             for (rule, pairs) in refresh::by_rule(cause.pairs) {
@@ -284,107 +286,4 @@ fn differs(a: &Judgement, b: &Judgement) -> bool {
         answer.chain(quotes).chain(exact).collect::<Vec<_>>()
     };
     held(a) != held(b) || pairs(a, b).any(|(x, y)| moved(x, y))
-}
-
-/// The measure that changes most, with both numbers.
-fn evidence(first: &Judgement, second: &Judgement) -> String {
-    let part = |(a, b): &(&Measured, &Measured)| {
-        let most = a.value.abs().max(b.value.abs());
-        if most > 0.0 { (a.value - b.value).abs() / most } else { 0.0 }
-    };
-    let changed = pairs(first, second).filter(|(a, b)| moved(a, b));
-    let Some((a, b)) = changed.max_by(|x, y| part(x).total_cmp(&part(y))) else { return String::new() };
-    let run = match a.name.split_once('.') {
-        Some((run, _)) => format!("in the run {}, ", named(run)),
-        None => String::new(),
-    };
-    format!("{run}`{}` is {}, and {}", a.name, significant(a.value), significant(b.value))
-}
-
-fn corrected_words(causes: &[Candidate<'_>]) -> String {
-    let mut all: Vec<&str> = Vec::new();
-    for (_, pair) in causes.iter().flat_map(|c| c.pairs.pairs()) {
-        if !all.contains(&pair.corrected) {
-            all.push(pair.corrected);
-        }
-    }
-    all.join(" and ")
-}
-
-fn codes(causes: &[Candidate<'_>]) -> String {
-    let mut all: Vec<&str> = causes.iter().flat_map(|c| c.pairs.pairs()).map(|(_, p)| p.rule.code).collect();
-    all.dedup();
-    all.join("`, `")
-}
-
-/// What claims rest on.
-struct Rests {
-    who: String,
-    corrected: String,
-    evidence: String,
-    codes: String,
-}
-
-impl Rests {
-    /// Puts the second verdict in place of the first where a claim is not true any more; one that stays true says that it was tried.
-    fn apply(&self, case: Case<'_>, first: &mut Judgement, second: Judgement, findings: &mut Vec<Finding>) {
-        let holds = |state: State| matches!(state, State::True(_));
-        let also = format!("it also holds with {} (`{}` at {})", self.corrected, self.codes, self.who);
-        let add = |reason: &mut String| {
-            let between = if reason.is_empty() { "" } else { "; " };
-            *reason = format!("{reason}{between}{also}");
-        };
-        if let (Some(a), Some(b)) = (&mut first.answer, second.answer) {
-            let margins =
-                |answer: &verify::Answer| answer.weights.iter().map(|w| w.margin).collect::<Vec<_>>();
-            if holds(a.verdict.state()) && !holds(b.verdict.state()) {
-                let right = case.question.and_then(Question::right_option);
-                let option = right.and_then(|i| case.verify.options.get(i));
-                let place =
-                    case.verify.value.as_ref().or(option).map_or(case.verify.span.clone(), Text::span);
-                a.reason = self.reason(b.verdict.as_str());
-                a.verdict = if b.verdict == Verdict::Unverified { Verdict::Failed } else { b.verdict };
-                findings.push(self.finding(place, "this answer"));
-            } else if holds(a.verdict.state()) && margins(a) != margins(&b) {
-                add(&mut a.reason);
-            }
-        }
-        for (a, b) in first.quotes.iter_mut().zip(second.quotes) {
-            if a.state == QuoteState::Right && b.state != QuoteState::Right {
-                a.reason = self.reason(b.verdict());
-                (a.state, a.computed) = (b.state, b.computed);
-                findings.push(self.finding(a.span.clone(), "this quote"));
-            } else if a.state == QuoteState::Right && a.computed.to_bits() != b.computed.to_bits() {
-                add(&mut a.reason);
-            }
-        }
-        for (a, b) in first.exact.iter_mut().zip(second.exact) {
-            if holds(a.state) && !holds(b.state) {
-                (a.state, a.remark) = (b.state, self.reason(&b.remark));
-                findings.push(self.finding(a.span.clone(), "this closed form"));
-            } else if holds(a.state) && a.remark != b.remark {
-                add(&mut a.remark);
-            }
-        }
-    }
-
-    /// Why a claim is not true: the two numbers, and what it then is.
-    fn reason(&self, then: &str) -> String {
-        let numbers = match self.evidence.as_str() {
-            "" => format!("with {}", self.corrected),
-            evidence => format!("{evidence} with {}", self.corrected),
-        };
-        format!("{numbers}: {then}")
-    }
-
-    fn finding(&self, place: Range<usize>, what: &str) -> Finding {
-        let message = format!("{what} holds only while {} leaves a partner behind", self.who);
-        let why = match self.evidence.as_str() {
-            "" => format!("with {} it does not", self.corrected),
-            evidence => format!("{evidence} with {}: it then does not hold", self.corrected),
-        };
-        Finding::error(rules::CLAIM_OF_MISMATCH, place, message)
-            .why(why)
-            .help(format!("correct the program (`{}` says how), then what is claimed of it", self.codes))
-    }
 }

@@ -1,0 +1,136 @@
+//! What becomes of claims that rest on a partner that was left behind, and what is said of them.
+
+use super::{Candidate, Case, moved, pairs};
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::ledger::State;
+use crate::rules;
+use crate::source::Text;
+use crate::spec::Question;
+use crate::verify::{self, Judgement, Measured, QuoteState, Verdict, significant};
+use std::ops::Range;
+
+/// What claims rest on.
+pub(super) struct Rests {
+    who: String,
+    /// What they leave behind.
+    left: String,
+    corrected: String,
+    /// The measure that changes most, in words; empty where none does.
+    pub(super) evidence: String,
+    codes: String,
+}
+
+impl Rests {
+    pub(super) fn new(causes: &[Candidate<'_>], first: &Judgement, second: &Judgement) -> Rests {
+        let who: Vec<&str> = causes.iter().map(|c| c.who.as_str()).collect();
+        let left: Vec<String> = causes.iter().map(Candidate::left).collect();
+        Rests {
+            who: who.join(" and "),
+            left: left.join(", and "),
+            corrected: corrected_words(causes),
+            evidence: evidence(first, second),
+            codes: codes(causes),
+        }
+    }
+
+    /// Puts the second verdict in place of the first where a claim is not true any more; one that stays true says that it was tried.
+    pub(super) fn apply(
+        &self,
+        case: Case<'_>,
+        first: &mut Judgement,
+        second: Judgement,
+        findings: &mut Vec<Finding>,
+    ) {
+        let holds = |state: State| matches!(state, State::True(_));
+        let also = format!("it also holds with {} (`{}` at {})", self.corrected, self.codes, self.who);
+        let add = |reason: &mut String| {
+            let between = if reason.is_empty() { "" } else { "; " };
+            *reason = format!("{reason}{between}{also}");
+        };
+        if let (Some(a), Some(b)) = (&mut first.answer, second.answer) {
+            let margins =
+                |answer: &verify::Answer| answer.weights.iter().map(|w| w.margin).collect::<Vec<_>>();
+            if holds(a.verdict.state()) && !holds(b.verdict.state()) {
+                let right = case.question.and_then(Question::right_option);
+                let option = right.and_then(|i| case.verify.options.get(i));
+                let place =
+                    case.verify.value.as_ref().or(option).map_or(case.verify.span.clone(), Text::span);
+                a.reason = self.reason(b.verdict.as_str());
+                a.verdict = if b.verdict == Verdict::Unverified { Verdict::Failed } else { b.verdict };
+                findings.push(self.finding(place, "this answer"));
+            } else if holds(a.verdict.state()) && margins(a) != margins(&b) {
+                add(&mut a.reason);
+            }
+        }
+        for (a, b) in first.quotes.iter_mut().zip(second.quotes) {
+            if a.state == QuoteState::Right && b.state != QuoteState::Right {
+                a.reason = self.reason(b.verdict());
+                (a.state, a.computed) = (b.state, b.computed);
+                findings.push(self.finding(a.span.clone(), "this quote"));
+            } else if a.state == QuoteState::Right && a.computed.to_bits() != b.computed.to_bits() {
+                add(&mut a.reason);
+            }
+        }
+        for (a, b) in first.exact.iter_mut().zip(second.exact) {
+            if holds(a.state) && !holds(b.state) {
+                (a.state, a.remark) = (b.state, self.reason(&b.remark));
+                findings.push(self.finding(a.span.clone(), "this closed form"));
+            } else if holds(a.state) && a.remark != b.remark {
+                add(&mut a.remark);
+            }
+        }
+    }
+
+    /// Why a claim is not true: the two numbers, and what it then is.
+    fn reason(&self, then: &str) -> String {
+        let numbers = match self.evidence.as_str() {
+            "" => format!("with {}", self.corrected),
+            evidence => format!("{evidence} with {}", self.corrected),
+        };
+        format!("{numbers}: {then}")
+    }
+
+    fn finding(&self, place: Range<usize>, what: &str) -> Finding {
+        let message = format!("{what} holds only because {}", self.left);
+        let why = match self.evidence.as_str() {
+            "" => format!("with {} it does not hold", self.corrected),
+            evidence => format!("{evidence} with {}: with that it does not hold", self.corrected),
+        };
+        Finding::error(rules::CLAIM_OF_MISMATCH, place, message)
+            .why(why)
+            .help(format!("correct the program (`{}` says how), then what is claimed of it", self.codes))
+    }
+}
+
+/// The measure that changes most, with both numbers.
+fn evidence(first: &Judgement, second: &Judgement) -> String {
+    let part = |(a, b): &(&Measured, &Measured)| {
+        let most = a.value.abs().max(b.value.abs());
+        if most > 0.0 { (a.value - b.value).abs() / most } else { 0.0 }
+    };
+    let changed = pairs(first, second).filter(|(a, b)| moved(a, b));
+    let Some((a, b)) = changed.max_by(|x, y| part(x).total_cmp(&part(y))) else { return String::new() };
+    let run = match (a.name.split_once('.'), first.runs.as_slice()) {
+        (Some((run, _)), _) => format!("in the run {}, ", named(run)),
+        (None, [run]) => format!("in the run {}, ", named(&run.name)),
+        (None, _) => String::new(),
+    };
+    format!("{run}`{}` is {}, and {}", a.name, significant(a.value), significant(b.value))
+}
+
+fn corrected_words(causes: &[Candidate<'_>]) -> String {
+    let mut all: Vec<&str> = Vec::new();
+    for (_, pair) in causes.iter().flat_map(|c| c.pairs.pairs()) {
+        if !all.contains(&pair.corrected) {
+            all.push(pair.corrected);
+        }
+    }
+    all.join(" and ")
+}
+
+fn codes(causes: &[Candidate<'_>]) -> String {
+    let mut all: Vec<&str> = causes.iter().flat_map(|c| c.pairs.pairs()).map(|(_, p)| p.rule.code).collect();
+    all.dedup();
+    all.join("`, `")
+}
