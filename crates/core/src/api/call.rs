@@ -544,7 +544,7 @@ pub mod save {
     /// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
     /// model are not part of it: a run goes on with those that the model has now.
     pub fn restore<S: Scope>(m: &Model, d: &mut Data<S>, bytes: &[u8]) -> Result<(), Error> {
-        Ok(crate::step::save::restore(m, d.engine(m)?, bytes)?)
+        Ok(crate::step::save::restore(m, d.engine_to_write(m)?, bytes)?)
     }
 }
 
@@ -586,7 +586,7 @@ pub mod state {
 
     /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
     pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
-        Ok(state::set(m, d.engine(m)?, values, sig)?)
+        Ok(state::set(m, d.engine_to_write(m)?, values, sig)?)
     }
 
     /// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
@@ -602,6 +602,6 @@ pub mod state {
         sig: i32,
     ) -> Result<(), Error> {
         from.belongs_to(m)?;
-        Ok(state::copy(m, &from.inner, to.engine(m)?, sig)?)
+        Ok(state::copy(m, &from.inner, to.engine_to_write(m)?, sig)?)
     }
 }

@@ -1,11 +1,12 @@
 //! `Data` as everybody but the engine sees it: of one model, read by name, written where that means something.
 
 use super::addresses::Addresses;
+use super::contents::Contents;
 use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::planning::Plan;
 use crate::model::fields::data_fields;
-use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut};
+use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut, data};
 use crate::model::{Fields, Names};
 use crate::step::reset;
 use crate::step::scene::Demand;
@@ -65,9 +66,11 @@ pub struct Data<S: Scope = Full> {
     pub(super) inner: Inner,
     pub(super) names: Arc<Names>,
     pub(super) addresses: Arc<Addresses>,
-    /// The model, and its contents when the data were used last.
+    /// The model, and the version of its contents when the data were used last; 0 where the plan has not been held against any.
     model: u64,
     version: u64,
+    /// The contents that the plan was made for; `None` where it holds for any.
+    made_for: Option<Contents>,
     demand: Demand,
     /// Whether inputs may have been written that the plan was not told of.
     touched: bool,
@@ -128,8 +131,9 @@ impl<S: Scope> Data<S> {
             inner: Inner::planned(m, plan.inner),
             names: Arc::clone(&m.names),
             addresses: Arc::clone(&m.addresses),
-            model: m.id,
-            version: m.version,
+            model: m.contents.model,
+            version: 0,
+            made_for: plan.made_for,
             demand: plan.demand,
             touched: false,
             scope: PhantomData,
@@ -196,13 +200,13 @@ impl<S: Scope> Data<S> {
 
     /// The plan that decides what is computed.
     pub fn plan(&self) -> Plan {
-        Plan { inner: self.inner.plan().clone(), demand: self.demand }
+        Plan { inner: self.inner.plan().clone(), demand: self.demand, made_for: self.made_for.clone() }
     }
 
     /// That the data belong to a model, whose parameters are known.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn engine(&mut self, m: &Model) -> Result<&mut Inner, Error> {
-        if self.version != m.version {
+        if self.version != m.contents.version {
             self.catch_up(m)?;
         }
         if self.touched {
@@ -211,20 +215,24 @@ impl<S: Scope> Data<S> {
         Ok(&mut self.inner)
     }
 
+    /// The same, for what may write inputs: see [`Data::edit`].
+    pub(super) fn engine_to_write(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+        self.engine(m)?;
+        self.touched = !S::FULL;
+        Ok(&mut self.inner)
+    }
+
     /// Forces are applied that the plan was not told of: it is made again, or they would not act.
     #[cold]
     fn look_again(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
         self.touched = false;
-        let forces =
-            ["qfrc_applied", "xfrc_applied"].into_iter().filter_map(|f| reflect::field(Object::Data, f));
-        let acts = |f: &FieldId| match reflect::view_data(&self.inner.fields, *f) {
-            View::F64(list) => list.iter().any(|&x| x != 0.0),
-            _ => false,
-        };
         let before = self.demand.writes;
-        for field in forces.filter(acts).collect::<Vec<_>>() {
-            self.demand.writes.insert(field);
+        let Fields { qfrc_applied, xfrc_applied, .. } = &self.inner.fields;
+        for (field, list) in [(data::qfrc_applied, qfrc_applied), (data::xfrc_applied, xfrc_applied)] {
+            if list.iter().any(|&x| x != 0.0) {
+                self.demand.writes.insert(field);
+            }
         }
         if self.demand.writes != before {
             self.plan_again(m);
@@ -232,38 +240,52 @@ impl<S: Scope> Data<S> {
         Ok(())
     }
 
-    /// The parameters of the model have changed. What a plan was told of costs nothing; for what it was not, it is made
-    /// again.
+    /// The parameters of the model are others than those that the data were used with last, or those of a clone. Where they differ
+    /// from what the plan was made for in nothing but what it was told of, it stays; else it is made again.
     #[cold]
     fn catch_up(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
-        if !m.edited.is_part_of(&self.demand.writes) {
+        let writes = self.demand.writes;
+        if self.made_for.as_ref().is_some_and(|planned| planned.differ(&m.contents, &writes)) {
             self.plan_again(m);
         }
-        self.version = m.version;
+        self.version = m.contents.version;
         Ok(())
+    }
+
+    /// The version of the contents that the plan was made for.
+    #[cfg(test)]
+    pub(super) fn made_for_version(&self) -> Option<u64> {
+        self.made_for.as_ref().map(|planned| planned.version)
     }
 
     /// Makes the plan anew, for the model as it is.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
         reset::set_plan(m, &mut self.inner, plan.inner);
+        match &mut self.made_for {
+            Some(planned) => planned.follow(&m.contents),
+            None => self.made_for = plan.made_for,
+        }
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn belongs_to(&self, m: &Model) -> Result<(), Error> {
-        if self.model == m.id { Ok(()) } else { Err(Error::ForeignData) }
+        if self.model == m.contents.model { Ok(()) } else { Err(Error::ForeignData) }
     }
 
-    /// Notes that the data know the parameters of the model as they are.
+    /// Notes that the plan has been looked at for constants that were computed with these data.
     pub(super) fn in_step_with(&mut self, m: &Model) {
-        self.version = m.version;
+        self.version = m.contents.version;
+        if let Some(planned) = &mut self.made_for {
+            planned.adopt_constants(&m.contents);
+        }
     }
 
     /// Replaces the plan.
     pub(super) fn replan(&mut self, m: &Model, plan: Plan) -> Result<(), Error> {
         self.belongs_to(m)?;
-        (self.version, self.demand) = (m.version, plan.demand);
+        (self.version, self.demand, self.made_for) = (0, plan.demand, plan.made_for);
         reset::set_plan(m, &mut self.inner, plan.inner);
         Ok(())
     }

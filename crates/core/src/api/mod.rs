@@ -2,6 +2,7 @@
 
 pub(crate) mod addresses;
 pub(crate) mod call;
+mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
 pub(crate) mod model;

@@ -1,25 +1,18 @@
 //! `Model` as everybody but the engine sees it: its fields can be read, its parameters edited, its structure not.
 
 use super::addresses::Addresses;
+use super::contents::Contents;
 use super::error::Error;
 use crate::geometry::pair::CONVEX;
 use crate::kinds::{disable, enable};
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
-use crate::model::reflect::{self, FieldId, FieldSet, Object};
+use crate::model::reflect::{self, FieldId, Object};
 use crate::model::{self as inner, Names, Obj};
 use crate::sensor;
 use crate::setup;
 use labspec_finding::nearest;
 use std::ops::{Deref, Range};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, Ordering};
-
-/// Where versions come from: no two contents have the same.
-static NEXT: AtomicU64 = AtomicU64::new(1);
-
-fn next() -> u64 {
-    NEXT.fetch_add(1, Ordering::Relaxed)
-}
 
 /// A compiled model. All fields of MuJoCo's `mjModel` can be read by their names, as `model.nq` or `model.body_mass`;
 /// parameters are written through [`Model::edit`].
@@ -41,10 +34,7 @@ pub struct Model {
     pub(super) names: Arc<Names>,
     pub(super) addresses: Arc<Addresses>,
     /// Which model it is, whatever its parameters, and which contents it has now.
-    pub(super) id: u64,
-    pub(super) version: u64,
-    /// The fields that were written since it was compiled.
-    pub(super) edited: FieldSet,
+    pub(super) contents: Contents,
 }
 
 impl std::fmt::Debug for Model {
@@ -75,7 +65,7 @@ impl Model {
     pub(crate) fn new(inner: inner::Model) -> Model {
         let names = Arc::new(inner.names.clone());
         let addresses = Arc::new(Addresses::new(&inner));
-        Model { inner, names, addresses, id: next(), version: next(), edited: FieldSet::EMPTY }
+        Model { inner, names, addresses, contents: Contents::new() }
     }
 
     /// Compiles a model from its text. It can name no files: [`Model::from_xml_with`] and [`Model::from_file`] let it.
@@ -130,12 +120,12 @@ impl Model {
 
     /// Which model this is: its clones answer the same, whatever is edited in them, and no other model of this program does.
     pub fn identity(&self) -> u64 {
-        self.id
+        self.contents.model
     }
 
     /// What can be written of the model. Data that were planned for other parameters are planned again at their next use.
     pub fn edit(&mut self) -> ModelEdit<'_> {
-        (self.version, self.edited) = (next(), FieldSet::ALL);
+        self.contents.touch_all();
         ModelEdit::of(&mut self.inner)
     }
 
@@ -150,18 +140,12 @@ impl Model {
 
     /// Notes that fields of the model have been written.
     pub(super) fn touch(&mut self, field: FieldId) {
-        self.version = next();
-        self.edited.insert(field);
+        self.contents.touch(field);
     }
 
     /// Notes that what `mj_setConst` computes has been written.
     pub(super) fn touch_constants(&mut self) {
-        self.version = next();
-        for field in reflect::fields().filter(|f| f.info().object != Object::Data) {
-            if field.info().stage == crate::model::stage::Stage::SetConst {
-                self.edited.insert(field);
-            }
-        }
+        self.contents.touch_constants();
     }
 }
 

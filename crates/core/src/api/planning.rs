@@ -1,5 +1,6 @@
 //! Plans as everybody but the engine sees them: what a demand leads to.
 
+use super::contents::Contents;
 use super::model::{Model, SensorId};
 use crate::collision::{self, PairFate};
 use crate::dynamics::ways;
@@ -29,36 +30,49 @@ use crate::step::scene::Demand;
 /// # Ok(())
 /// # }
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Plan {
     pub(super) inner: Inner,
     pub(super) demand: Demand,
+    /// The contents that it was made for; `None` where it holds for any.
+    pub(super) made_for: Option<Contents>,
+}
+
+impl PartialEq for Plan {
+    /// Whether two plans decide the same for the same demand, whatever model they were made for.
+    fn eq(&self, other: &Plan) -> bool {
+        self.inner == other.inner && self.demand == other.demand
+    }
 }
 
 impl Plan {
     /// The stages that a scene needs, for what is read and written.
     pub fn new(m: &Model, demand: &Demand) -> Plan {
-        Plan { inner: Inner::new(m, demand, Ways::ALL), demand: *demand }
+        Plan { inner: Inner::new(m, demand, Ways::ALL), demand: *demand, made_for: Some(m.contents.clone()) }
     }
 
     /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
     pub fn by_ways(m: &Model, demand: &Demand, ways: Ways) -> Plan {
-        Plan { inner: Inner::new(m, demand, ways), demand: *demand }
+        Plan { inner: Inner::new(m, demand, ways), demand: *demand, made_for: Some(m.contents.clone()) }
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
     pub fn with(m: &Model, demand: &Demand, more: Stage) -> Plan {
-        Plan { inner: Inner::with(m, demand, Ways::ALL, Some(more)), demand: *demand }
+        Plan {
+            inner: Inner::with(m, demand, Ways::ALL, Some(more)),
+            demand: *demand,
+            made_for: Some(m.contents.clone()),
+        }
     }
 
     /// Every stage, needed or not: the reference that plans are held against.
     pub fn full() -> Plan {
-        Plan { inner: Inner::full(), demand: Demand::ANY }
+        Plan { inner: Inner::full(), demand: Demand::ANY, made_for: None }
     }
 
     /// Every stage but the one that lets trees sleep.
     pub fn awake() -> Plan {
-        Plan { inner: Inner::awake(), demand: Demand::ANY }
+        Plan { inner: Inner::awake(), demand: Demand::ANY, made_for: None }
     }
 
     /// What it was made for.

@@ -57,6 +57,9 @@ pub(super) struct Hessian {
     /// Scratch of a block of the Jacobian: its rows by fours of columns.
     fours: Vec<Four>,
     order: Order,
+    /// How many times it was laid out.
+    #[cfg(test)]
+    pub(super) laid_out: usize,
 }
 
 /// Four rows: their first block, and where it lies.
@@ -95,6 +98,11 @@ struct Order {
 }
 
 impl Hessian {
+    /// The island that it is laid out for.
+    pub(super) fn island(&self) -> usize {
+        self.made_for.1
+    }
+
     /// Room for a vector.
     pub(super) fn room(&self) -> usize {
         4 * self.blocks.len()
@@ -113,6 +121,10 @@ impl Hessian {
             return self.fits;
         }
         self.made_for = (islands.found, island);
+        #[cfg(test)]
+        {
+            self.laid_out += 1;
+        }
         let trees = || islands.trees_of(island);
         self.len = trees().map(|t| m.tree_dofs(t).len()).sum();
         self.local.resize(m.nv, 0);
@@ -610,6 +622,26 @@ mod tests {
         let (kept, d) = kept(&boxes((0..300).map(pair)));
         // Three rows of blocks: one block of four by four, then two, then three.
         assert_eq!((d.nisland, kept), (150, 96));
+    }
+
+    /// Islands are laid out when they are found, not in every step.
+    #[test]
+    fn islands_keep_their_layouts() {
+        let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
+        let mut m = boxes((0..6).map(pair));
+        m.opt.disableflags |= crate::kinds::disable::WARMSTART;
+        let mut d = Data::new(&m);
+        let mut directions = 0;
+        for _ in 0..50 {
+            step(&m, &mut d);
+            directions += d.solver_niter;
+        }
+        let solver = &d.work.constraint.solver;
+        let all = solver.apart.iter().chain([&solver.hessian]);
+        let (laid_out, found) =
+            (all.map(|h| h.laid_out).sum::<usize>(), d.work.constraint.islands.found as usize);
+        assert!(d.nisland == 3 && directions >= 150 && found < 25, "{directions} directions, found {found}");
+        assert!(laid_out <= 3 * found, "{laid_out} layouts of islands that were found {found} times");
     }
 
     #[test]

@@ -20,8 +20,9 @@ pub(super) struct Iterate {
     /// J a - aref, and J search.
     pub(super) jar: Vec<f64>,
     pub(super) jv: Vec<f64>,
-    /// Hessian of an island, and a right-hand side.
+    /// Hessian of the island at hand, those of the others as they were laid out, and a right-hand side.
     pub(super) hessian: Hessian,
+    pub(super) apart: Vec<Hessian>,
     pub(super) rhs: Vec<f64>,
     /// What the dual methods keep.
     pub(super) dual: Dual,
@@ -30,6 +31,22 @@ pub(super) struct Iterate {
 }
 
 impl Iterate {
+    /// Brings the Hessian of an island to hand, laid out as it was left. Islands share no degree of freedom, so that one list of
+    /// their positions serves all.
+    pub(super) fn take_up(&mut self, island: usize) {
+        let at = self.hessian.island();
+        if at == island {
+            return;
+        }
+        let most = at.max(island);
+        if self.apart.len() <= most {
+            self.apart.resize_with(most + 1, Hessian::default);
+        }
+        std::mem::swap(&mut self.hessian, &mut self.apart[at]);
+        std::mem::swap(&mut self.hessian, &mut self.apart[island]);
+        std::mem::swap(&mut self.hessian.local, &mut self.apart[at].local);
+    }
+
     pub(super) fn resize(&mut self, nv: usize, nefc: usize) {
         if self.ma.len() != nv {
             let old = [&mut self.grad_old, &mut self.step_old];

@@ -41,6 +41,7 @@ impl Problem<'_> {
     /// Whether the Hessian of the island is worth its room.
     fn lay_out(&mut self) -> bool {
         let s = &mut *self.s;
+        s.take_up(self.island);
         let fits = s.hessian.lay_out(self.m, self.jac, self.islands, self.island);
         s.rhs.clear();
         s.rhs.resize(s.hessian.room(), 0.0);

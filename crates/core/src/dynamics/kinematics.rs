@@ -5,6 +5,7 @@
 use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
+use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -82,8 +83,15 @@ struct Joint {
 }
 
 /// What is written to the model and changes frames.
-pub(crate) const FIELDS: [&str; 7] =
-    ["body_pos", "body_quat", "body_ipos", "body_iquat", "jnt_pos", "jnt_axis", "qpos0"];
+pub(crate) const FIELDS: [FieldId; 7] = [
+    fields_of::body_pos,
+    fields_of::body_quat,
+    fields_of::body_ipos,
+    fields_of::body_iquat,
+    fields_of::jnt_pos,
+    fields_of::jnt_axis,
+    fields_of::qpos0,
+];
 
 impl Frames {
     /// The frames of a model.

@@ -327,6 +327,26 @@ const DATA_AT: usize = STAT_AT + STAT_COUNT;
 /// Number of fields.
 pub const NFIELD: usize = DATA_AT + DATA_COUNT;
 
+/// The fields by their names, as constants: a name that is misspelt does not compile.
+macro_rules! ids {
+    ($module:ident, $doc:literal, $ids:ident, $at:expr; $($name:ident: $ty:ty, [$($dim:tt),*], $kind:ident, $stage:ident, $unit:literal, $fdoc:literal;)*) => {
+        #[doc = $doc]
+        #[allow(non_upper_case_globals)] // MuJoCo's names
+        pub mod $module {
+            use super::{FieldId, $ids};
+            $(#[doc = $fdoc] pub const $name: FieldId = FieldId($at as u16 + $ids::$name as u16);)*
+        }
+    };
+}
+macro_rules! model_ids { ($($t:tt)*) => { ids! { model, "The fields of the model.", ModelId, 0; $($t)* } } }
+macro_rules! option_ids { ($($t:tt)*) => { ids! { option, "The options.", OptionId, super::OPTION_AT; $($t)* } } }
+macro_rules! statistic_ids { ($($t:tt)*) => { ids! { statistic, "The statistics.", StatId, super::STAT_AT; $($t)* } } }
+macro_rules! data_ids { ($($t:tt)*) => { ids! { data, "The fields of the data.", DataId, super::DATA_AT; $($t)* } } }
+model_fields!(model_ids);
+option_fields!(option_ids);
+statistic_fields!(statistic_ids);
+data_fields!(data_ids);
+
 /// The rows of the four parts of the table as one.
 macro_rules! whole_table {
     ($model:ident, $option:ident, $stat:ident, $data:ident) => {{
@@ -609,14 +629,14 @@ impl FieldSet {
     /// other field is added as a whole.
     pub fn insert_elements(&mut self, f: FieldId, first: usize, count: Option<usize>) {
         self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
-        if f.info().name == "sensordata" {
+        if f == data::sensordata {
             self.1.insert(first..count.map_or(usize::MAX, |n| first.saturating_add(n)));
         }
     }
 
     /// Whether an element of a field is in the set.
     pub fn contains_element(&self, f: FieldId, element: usize) -> bool {
-        self.contains(f) && (f.info().name != "sensordata" || self.1.some(element..element + 1))
+        self.contains(f) && (f != data::sensordata || self.1.some(element..element + 1))
     }
 
     /// The numbers of `sensordata` in the set.
@@ -626,7 +646,7 @@ impl FieldSet {
 
     /// Whether the set holds all numbers of a field that has so many.
     pub(crate) fn contains_whole(&self, f: FieldId, numbers: usize) -> bool {
-        self.contains(f) && (f.info().name != "sensordata" || self.1.every(0..numbers))
+        self.contains(f) && (f != data::sensordata || self.1.every(0..numbers))
     }
 
     /// Whether the field is in the set.

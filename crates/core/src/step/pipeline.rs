@@ -9,6 +9,7 @@ use super::forward as run;
 use super::scene::Scene;
 use crate::dynamics::ways;
 use crate::kinds::{disable, integrator, trntype, wraptype};
+use crate::model::reflect::data;
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
 use crate::step::workspace::Data;
@@ -140,13 +141,13 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::MassMatrix,
         name: "mass-matrix",
         needs: &[
-            (&[Stage::ComPos], |s, _| s.large || s.reads_field("crb")),
+            (&[Stage::ComPos], |s, _| s.large || s.reads_field(data::crb)),
             (&[Stage::Tendon], |s, _| s.tendon_armature),
         ],
         // Constant where all bodies are simple: only the composite inertias would be computed.
         wanted: |s| match s.general {
             true => Some(MOVING_MASS.into()),
-            false => because(s.reads_field("crb"), "data.crb is read"),
+            false => because(s.reads_field(data::crb), "data.crb is read"),
         },
         left_out: |_| CONSTANT_MASS,
         run: &[(Part::Positions, run::mass_matrix)],

@@ -9,7 +9,6 @@ use super::scene::{Demand, FACTS, Scene};
 use crate::dynamics::ways;
 use crate::model::Model;
 use crate::model::plan::{Decision, Fact, Plan};
-use crate::model::reflect::Object;
 use crate::model::stage::Stage;
 use crate::model::way::Ways;
 
@@ -48,7 +47,7 @@ impl Plan {
         let mut plan = Plan::default();
         plan.ways = ways;
         (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
-        plan.changing = ways::changing(|fields| scene.writes(Object::Model, fields));
+        plan.changing = ways::changing(|fields| scene.writes(fields));
         for (fact, holds) in FACTS {
             plan.state(fact, holds(&scene));
         }

@@ -4,7 +4,7 @@ use crate::dynamics::ways;
 use crate::forces::{actuation, derivative, tendon};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
 use crate::model::plan::Fact;
-use crate::model::reflect::{FieldId, FieldSet, Object, Stage, field};
+use crate::model::reflect::{FieldId, FieldSet, Object, Stage, data, model, option};
 use crate::model::way::Ways;
 use crate::model::{Model, Plan};
 use crate::step::damping;
@@ -27,58 +27,63 @@ impl Demand {
 }
 
 /// What the parameters of a contact are mixed from.
-const CONTACT_PARAMS: [&str; 18] = [
-    "geom_rbound",
-    "geom_condim",
-    "geom_priority",
-    "geom_solmix",
-    "geom_solref",
-    "geom_solimp",
-    "geom_friction",
-    "geom_margin",
-    "geom_gap",
-    "geom_adhesion",
-    "pair_dim",
-    "pair_friction",
-    "pair_solref",
-    "pair_solreffriction",
-    "pair_solimp",
-    "pair_margin",
-    "pair_gap",
-    "pair_adhesion",
+const CONTACT_PARAMS: [FieldId; 18] = [
+    model::geom_rbound,
+    model::geom_condim,
+    model::geom_priority,
+    model::geom_solmix,
+    model::geom_solref,
+    model::geom_solimp,
+    model::geom_friction,
+    model::geom_margin,
+    model::geom_gap,
+    model::geom_adhesion,
+    model::pair_dim,
+    model::pair_friction,
+    model::pair_solref,
+    model::pair_solreffriction,
+    model::pair_solimp,
+    model::pair_margin,
+    model::pair_gap,
+    model::pair_adhesion,
 ];
-/// The name of a field, and its numbers.
-type Numbers = (&'static str, fn(&Model) -> &[f64]);
+/// A field, and its numbers.
+type Numbers = (FieldId, fn(&Model) -> &[f64]);
 /// What makes passive forces of joints.
 const JOINT_FORCES: [Numbers; 4] = [
-    ("dof_damping", |m| &m.dof_damping),
-    ("dof_dampingpoly", |m| &m.dof_dampingpoly),
-    ("jnt_stiffness", |m| &m.jnt_stiffness),
-    ("jnt_stiffnesspoly", |m| &m.jnt_stiffnesspoly),
+    (model::dof_damping, |m| &m.dof_damping),
+    (model::dof_dampingpoly, |m| &m.dof_dampingpoly),
+    (model::jnt_stiffness, |m| &m.jnt_stiffness),
+    (model::jnt_stiffnesspoly, |m| &m.jnt_stiffnesspoly),
 ];
 /// What makes passive forces of tendons, springs first.
 const TENDON_FORCES: [Numbers; 4] = [
-    ("tendon_stiffness", |m| &m.tendon_stiffness),
-    ("tendon_stiffnesspoly", |m| &m.tendon_stiffnesspoly),
-    ("tendon_damping", |m| &m.tendon_damping),
-    ("tendon_dampingpoly", |m| &m.tendon_dampingpoly),
+    (model::tendon_stiffness, |m| &m.tendon_stiffness),
+    (model::tendon_stiffnesspoly, |m| &m.tendon_stiffnesspoly),
+    (model::tendon_damping, |m| &m.tendon_damping),
+    (model::tendon_dampingpoly, |m| &m.tendon_dampingpoly),
 ];
 /// Damping of actuators, which joints and tendons have.
-const ACTUATOR_DAMPING: [Numbers; 2] =
-    [("actuator_damping", |m| &m.actuator_damping), ("actuator_dampingpoly", |m| &m.actuator_dampingpoly)];
+const ACTUATOR_DAMPING: [Numbers; 2] = [
+    (model::actuator_damping, |m| &m.actuator_damping),
+    (model::actuator_dampingpoly, |m| &m.actuator_dampingpoly),
+];
 /// Dry friction.
-const FRICTION_LOSS: [Numbers; 2] =
-    [("dof_frictionloss", |m| &m.dof_frictionloss), ("tendon_frictionloss", |m| &m.tendon_frictionloss)];
-const ACTUATOR_ARMATURE: Numbers = ("actuator_armature", |m| &m.actuator_armature);
-const TENDON_ARMATURE: Numbers = ("tendon_armature", |m| &m.tendon_armature);
+const FRICTION_LOSS: [Numbers; 2] = [
+    (model::dof_frictionloss, |m| &m.dof_frictionloss),
+    (model::tendon_frictionloss, |m| &m.tendon_frictionloss),
+];
+const ACTUATOR_ARMATURE: Numbers = (model::actuator_armature, |m| &m.actuator_armature);
+const TENDON_ARMATURE: Numbers = (model::tendon_armature, |m| &m.tendon_armature);
 /// Geoms on which the medium acts one by one.
-const ELLIPSOIDS: Numbers = ("geom_fluid", |m| &m.geom_fluid);
+const ELLIPSOIDS: Numbers = (model::geom_fluid, |m| &m.geom_fluid);
 /// Contacts that pull, and surfaces that move by themselves.
 const ADHESION: [Numbers; 2] =
-    [("geom_adhesion", |m| &m.geom_adhesion), ("pair_adhesion", |m| &m.pair_adhesion)];
-const SURFACES: Numbers = ("geom_surfacevel", |m| &m.geom_surfacevel);
-const GRAVCOMP: Numbers = ("body_gravcomp", |m| &m.body_gravcomp);
-const OVERRIDES: [&str; 5] = ["o_margin", "o_solref", "o_solimp", "o_friction", "enableflags"];
+    [(model::geom_adhesion, |m| &m.geom_adhesion), (model::pair_adhesion, |m| &m.pair_adhesion)];
+const SURFACES: Numbers = (model::geom_surfacevel, |m| &m.geom_surfacevel);
+const GRAVCOMP: Numbers = (model::body_gravcomp, |m| &m.body_gravcomp);
+const OVERRIDES: [FieldId; 5] =
+    [option::o_margin, option::o_solref, option::o_solimp, option::o_friction, option::enableflags];
 
 /// When a fact holds.
 type Test = fn(&Scene) -> bool;
@@ -87,7 +92,7 @@ type Test = fn(&Scene) -> bool;
 /// [`Scene::mass_for_rows`].
 pub(super) const FACTS: [(Fact, Test); 22] = [
     (Fact::General, |s| s.general),
-    (Fact::Composite, |s| s.large || s.reads_field("crb")),
+    (Fact::Composite, |s| s.large || s.reads_field(data::crb)),
     (Fact::Recursion, |s| s.large),
     (Fact::Equalities, |s| s.equalities > 0),
     (Fact::FrictionLoss, |s| s.friction > 0),
@@ -105,15 +110,13 @@ pub(super) const FACTS: [(Fact, Test); 22] = [
     (Fact::ForceLimits, |s| {
         s.m.actuator_forcelimited.contains(&true)
             || s.m.jnt_actfrclimited.contains(&true)
-            || s.writes(Object::Model, &["actuator_forcelimited", "jnt_actfrclimited"])
+            || s.writes(&[model::actuator_forcelimited, model::jnt_actfrclimited])
     }),
-    (Fact::SolverDetails, |s| s.reads_field("efc_b") || s.reads_field("efc_state")),
+    (Fact::SolverDetails, |s| s.reads_field(data::efc_b) || s.reads_field(data::efc_state)),
     (Fact::BodyForces, |s| s.body_forces()),
     (Fact::AppliedForces, |s| s.pushed()),
     (Fact::PairsChange, |s| s.pairs_change),
-    (Fact::ContactParamsChange, |s| {
-        s.writes(Object::Model, &CONTACT_PARAMS) || s.writes(Object::Option, &OVERRIDES)
-    }),
+    (Fact::ContactParamsChange, |s| s.writes(&CONTACT_PARAMS) || s.writes(&OVERRIDES)),
 ];
 
 /// What is known of a scene before it runs.
@@ -183,24 +186,23 @@ impl<'a> Scene<'a> {
             energy: m.opt.enabled(enable::ENERGY),
             sleeps: false,
         };
-        scene.sleeps =
-            m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(Object::Option, &["enableflags"]));
-        scene.pairs_change = scene.writes(Object::Model, &["geom_contype", "geom_conaffinity"])
-            || scene.writes(Object::Option, &["disableflags"]);
+        scene.sleeps = m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(&[option::enableflags]));
+        scene.pairs_change = scene.writes(&[model::geom_contype, model::geom_conaffinity])
+            || scene.writes(&[option::disableflags]);
         // What a flag switches off counts only if the flag may be cleared.
         let off = |bit: i32| {
             (m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
-                && !scene.writes(Object::Option, &["disableflags"])
+                && !scene.writes(&[option::disableflags])
         };
         let [no_contacts, no_limits, no_friction, no_equalities] =
             [disable::CONTACT, disable::LIMIT, disable::FRICTIONLOSS, disable::EQUALITY].map(off);
         if !no_contacts {
             scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
         }
-        if scene.writes(Object::Model, &["jnt_limited"]) {
+        if scene.writes(&[model::jnt_limited]) {
             scene.limited = m.njnt;
         }
-        if scene.writes(Object::Model, &["tendon_limited"]) {
+        if scene.writes(&[model::tendon_limited]) {
             scene.limited_tendons = m.ntendon;
         }
         scene.friction = FRICTION_LOSS.iter().map(|f| scene.others_than_zero(f)).sum();
@@ -213,7 +215,7 @@ impl<'a> Scene<'a> {
         if no_equalities {
             scene.equalities = 0;
         }
-        scene.fluid |= scene.writes(Object::Option, &["density", "viscosity"]);
+        scene.fluid |= scene.writes(&[option::density, option::viscosity]);
         scene.gravcomp = scene.some(&[GRAVCOMP]);
         scene.adhesion = scene.pairs > 0 && scene.some(&ADHESION);
         scene.joint_forces = scene.some(&JOINT_FORCES);
@@ -227,10 +229,10 @@ impl<'a> Scene<'a> {
         scene.tendon_armature |= on_tendons && scene.some(&[ACTUATOR_ARMATURE]);
         // A tendon's inertia adds to that of simple bodies, too.
         scene.general |= scene.tendon_armature;
-        scene.actuated |= m.nactuator > 0 && scene.writes(Object::Option, &["disableflags"]);
+        scene.actuated |= m.nactuator > 0 && scene.writes(&[option::disableflags]);
         scene.sensors = m.nsensor > 0
-            && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field("history"));
-        scene.energy |= scene.writes(Object::Option, &["enableflags"]);
+            && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field(data::history));
+        scene.energy |= scene.writes(&[option::enableflags]);
         scene
     }
 
@@ -240,9 +242,9 @@ impl<'a> Scene<'a> {
     }
 
     /// How many of these numbers are or may become other than zero.
-    pub(super) fn others_than_zero(&self, (name, numbers): &Numbers) -> usize {
+    pub(super) fn others_than_zero(&self, (field, numbers): &Numbers) -> usize {
         let numbers = numbers(self.m);
-        if self.writes(Object::Model, &[name]) {
+        if self.writes(&[*field]) {
             return numbers.len();
         }
         numbers.iter().filter(|&&x| x != 0.0).count()
@@ -252,10 +254,10 @@ impl<'a> Scene<'a> {
     pub(super) fn damped(&self) -> Option<bool> {
         let own = [JOINT_FORCES[0].0, JOINT_FORCES[1].0];
         let actuators = ACTUATOR_DAMPING.map(|f| f.0);
-        let changes = self.writes(Object::Model, &own)
-            || self.writes(Object::Model, &actuators)
-            || self.writes(Object::Model, &[ACTUATOR_ARMATURE.0])
-            || self.writes(Object::Option, &["disableflags"]);
+        let changes = self.writes(&own)
+            || self.writes(&actuators)
+            || self.writes(&[ACTUATOR_ARMATURE.0])
+            || self.writes(&[option::disableflags]);
         (!changes).then(|| damping::has_dampers(self.m))
     }
 
@@ -263,12 +265,12 @@ impl<'a> Scene<'a> {
     /// rows, and so does the integrator.
     pub(super) fn mass_for_rows(&self, plan: &Plan) -> bool {
         let m = self.m;
-        let fields = ["M", "qLD", "qLDiagInv", "crb"];
+        let fields = [data::M, data::qLD, data::qLDiagInv, data::crb];
         let integrates = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
-        let changes = ["integrator", "enableflags"];
+        let changes = [option::integrator, option::enableflags];
         self.general
             && integrates
-            && !self.writes(Object::Option, &changes)
+            && !self.writes(&changes)
             && !m.opt.enabled(enable::DIAGEXACT)
             && !self.tendon_armature
             && !self.sleeps
@@ -286,7 +288,7 @@ impl<'a> Scene<'a> {
             without.contains(&m.actuator_dyntype[i])
         };
         self.sleeps
-            || self.writes(Object::Model, &["actuator_gear"])
+            || self.writes(&[model::actuator_gear])
             || !(0..m.nactuator).all(|i| self.is_motor(i) && dynamics(i))
     }
 
@@ -321,8 +323,8 @@ impl<'a> Scene<'a> {
                 && m.actuator_ctrlnum[i] == 1
                 && !actuation::switched_off(m, i)
         };
-        let switched = self.writes(Object::Option, &["disableactuator"])
-            || self.writes(Object::Model, &["actuator_group", "actuator_gear"]);
+        let switched = self.writes(&[option::disableactuator])
+            || self.writes(&[model::actuator_group, model::actuator_gear]);
         !self.sleeps && !switched && m.nhistory == 0 && m.nout == m.nactuator && (0..m.nactuator).all(plain)
     }
 
@@ -330,12 +332,12 @@ impl<'a> Scene<'a> {
     /// servos, along joints and fixed tendons.
     pub(super) fn slopes_stay(&self) -> bool {
         let growth = [JOINT_FORCES[1], TENDON_FORCES[3], ACTUATOR_DAMPING[1]];
-        let numbers = ["wrap_prm", TENDON_FORCES[2].0];
+        let numbers = [model::wrap_prm, TENDON_FORCES[2].0];
         !self.sleeps
             && !self.fluid
             && self.damped().is_some()
             && !self.some(&growth)
-            && !self.writes(Object::Model, &numbers)
+            && !self.writes(&numbers)
             && (self.m.nactuator == 0 || self.actuators_are(Scene::is_servo))
             && (0..self.m.ntendon).all(|t| tendon::is_fixed(self.m, t))
     }
@@ -353,12 +355,12 @@ impl<'a> Scene<'a> {
 
     /// Whether forces are applied to bodies or along degrees of freedom.
     pub(super) fn applies_forces(&self) -> bool {
-        self.writes(Object::Data, &["xfrc_applied", "qfrc_applied"])
+        self.writes(&[data::xfrc_applied, data::qfrc_applied])
     }
 
     /// Whether forces are applied to bodies.
     pub(super) fn pushed(&self) -> bool {
-        self.writes(Object::Data, &["xfrc_applied"])
+        self.writes(&[data::xfrc_applied])
     }
 
     /// Forces on bodies as such.
@@ -376,7 +378,7 @@ impl<'a> Scene<'a> {
         let m = self.m;
         self.limited_tendons > 0
             || m.eq_type.contains(&eqtype::TENDON)
-            || self.some(&[("tendon_frictionloss", |m| &m.tendon_frictionloss)])
+            || self.some(&[(model::tendon_frictionloss, |m| &m.tendon_frictionloss)])
     }
 
     /// Forces along tendons.
@@ -386,7 +388,7 @@ impl<'a> Scene<'a> {
 
     /// Whether the options name an integrator, or may come to name it.
     pub(super) fn may_integrate_by(&self, kind: i32) -> bool {
-        self.m.opt.integrator == kind || self.writes(Object::Option, &["integrator"])
+        self.m.opt.integrator == kind || self.writes(&[option::integrator])
     }
 
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
@@ -408,12 +410,12 @@ impl<'a> Scene<'a> {
         self.demand.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
     }
 
-    pub(super) fn reads_field(&self, name: &str) -> bool {
-        field(Object::Data, name).is_some_and(|f| self.demand.reads.contains(f))
+    pub(super) fn reads_field(&self, field: FieldId) -> bool {
+        self.demand.reads.contains(field)
     }
 
-    pub(super) fn writes(&self, object: Object, names: &[&str]) -> bool {
-        names.iter().any(|n| field(object, n).is_some_and(|f| self.demand.writes.contains(f)))
+    pub(super) fn writes(&self, fields: &[FieldId]) -> bool {
+        fields.iter().any(|f| self.demand.writes.contains(*f))
     }
 
     /// Whether an actuator acts through one of these transmissions.

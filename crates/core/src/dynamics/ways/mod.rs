@@ -20,6 +20,7 @@
 use super::Scratch;
 use crate::kinds::disable;
 use crate::math::Vec3;
+use crate::model::reflect::FieldId;
 use crate::model::way::{Way, Ways};
 use crate::model::{Fields, Model};
 
@@ -73,7 +74,7 @@ struct Row {
     /// Whether a tree is of its kind.
     covers: fn(&Model, usize) -> bool,
     /// Fields of the model of which its trees keep copies, and what takes them again.
-    copies: &'static [&'static str],
+    copies: &'static [FieldId],
     load: fn(&Model, &mut Scratch),
     /// What it computes.
     places: Option<Places>,
@@ -257,7 +258,7 @@ pub(crate) fn solve_alone(m: &Model, ways: Ways) -> bool {
 }
 
 /// The ways that keep copies of something that changes.
-pub(crate) fn changing(changes: impl Fn(&[&str]) -> bool) -> Ways {
+pub(crate) fn changing(changes: impl Fn(&[FieldId]) -> bool) -> Ways {
     let keeps = |i: &usize| changes(TABLE[*i].copies);
     (0..TABLE.len()).filter(keeps).fold(Ways::GENERAL, |ways, i| ways.with(Way(i as u8)))
 }

@@ -13,6 +13,7 @@ use super::{Forces, NOTHING, Own, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
+use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 
 pub(super) const ROW: Row = Row {
@@ -31,17 +32,17 @@ pub(super) const ROW: Row = Row {
 };
 
 /// What the inertia of a body follows from.
-const COPIES: [&str; 10] = [
-    "body_pos",
-    "body_quat",
-    "body_ipos",
-    "body_iquat",
-    "body_mass",
-    "body_inertia",
-    "jnt_pos",
-    "dof_armature",
-    "actuator_armature",
-    "actuator_gear",
+const COPIES: [FieldId; 10] = [
+    fields_of::body_pos,
+    fields_of::body_quat,
+    fields_of::body_ipos,
+    fields_of::body_iquat,
+    fields_of::body_mass,
+    fields_of::body_inertia,
+    fields_of::jnt_pos,
+    fields_of::dof_armature,
+    fields_of::actuator_armature,
+    fields_of::actuator_gear,
 ];
 
 /// Whether a tree is one of them: a ball with its three degrees of freedom, or a free joint with its six.

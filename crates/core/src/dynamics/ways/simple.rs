@@ -6,13 +6,14 @@ use super::{Forces, NOTHING, Own, Row};
 use crate::dynamics::Scratch;
 use crate::kinds::joint;
 use crate::math::*;
+use crate::model::reflect::model as fields_of;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
 pub(super) const ROW: Row = Row {
     name: "simple",
     covers,
-    copies: &["body_mass", "body_inertia"],
+    copies: &[fields_of::body_mass, fields_of::body_inertia],
     load: |m, w| w.ways.simple.joints.iter_mut().for_each(|joint| joint.load(m)),
     forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia, turns_alone: true }),
     ..NOTHING

@@ -8,13 +8,19 @@ use super::{Damped, Factors, Forces, NOTHING, Own, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
+use crate::model::reflect::model as fields_of;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
 pub(super) const ROW: Row = Row {
     name: "sliding",
     covers,
-    copies: &["body_mass", "dof_armature", "actuator_armature", "actuator_gear"],
+    copies: &[
+        fields_of::body_mass,
+        fields_of::dof_armature,
+        fields_of::actuator_armature,
+        fields_of::actuator_gear,
+    ],
     load: |m, w| w.ways.sliding.load(m),
     forces: Some(Forces {
         mass,

@@ -21,6 +21,7 @@ use super::{Forces, NOTHING, Own, Row};
 use crate::dynamics::{Scratch, mass, walk};
 use crate::kinds::joint;
 use crate::math::*;
+use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 
 /// A tree with more degrees of freedom is cheaper by composite bodies and recursion.
@@ -42,19 +43,19 @@ pub(super) const ROW: Row = Row {
 };
 
 /// What the model says about a link.
-const COPIES: [&str; 12] = [
-    "body_pos",
-    "body_quat",
-    "body_ipos",
-    "body_iquat",
-    "body_mass",
-    "body_inertia",
-    "jnt_pos",
-    "jnt_axis",
-    "qpos0",
-    "dof_armature",
-    "actuator_armature",
-    "actuator_gear",
+const COPIES: [FieldId; 12] = [
+    fields_of::body_pos,
+    fields_of::body_quat,
+    fields_of::body_ipos,
+    fields_of::body_iquat,
+    fields_of::body_mass,
+    fields_of::body_inertia,
+    fields_of::jnt_pos,
+    fields_of::jnt_axis,
+    fields_of::qpos0,
+    fields_of::dof_armature,
+    fields_of::actuator_armature,
+    fields_of::actuator_gear,
 ];
 
 /// The links of all short chains, chain by chain, each from its root on.

@@ -1,0 +1,251 @@
+//! Which contents a model has: a stamp for each field, of the write that it was given last.
+//!
+//! Clones of a model share the stamps of what is the same in them. A plan keeps those of the contents that it was made for, so that
+//! what differs from them is known whichever clone a step is taken with, and in whatever order clones were written.
+
+use crate::model::reflect::{self, FieldId, FieldSet, NFIELD, Object};
+use crate::model::stage::Stage;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Where identities and stamps come from: no two writes have the same.
+static NEXT: AtomicU64 = AtomicU64::new(1);
+
+fn next() -> u64 {
+    NEXT.fetch_add(1, Ordering::Relaxed)
+}
+
+/// The contents of a model.
+#[derive(Clone, Debug)]
+pub(super) struct Contents {
+    /// Which model it is, whatever its parameters.
+    pub(super) model: u64,
+    /// The last write: contents with the same version are the same.
+    pub(super) version: u64,
+    /// The last write of each field.
+    stamps: Box<[u64; NFIELD]>,
+}
+
+impl Contents {
+    /// Those of a model that has just been compiled.
+    pub(super) fn new() -> Contents {
+        Contents { model: next(), version: next(), stamps: Box::new([0; NFIELD]) }
+    }
+
+    /// Notes that a field is written.
+    pub(super) fn touch(&mut self, field: FieldId) {
+        self.version = next();
+        if let Some(stamp) = self.stamps.get_mut(field.index()) {
+            *stamp = self.version;
+        }
+    }
+
+    /// Notes that any field may be written.
+    pub(super) fn touch_all(&mut self) {
+        self.version = next();
+        self.stamps.fill(self.version);
+    }
+
+    /// Notes that what `mj_setConst` computes is written.
+    pub(super) fn touch_constants(&mut self) {
+        self.version = next();
+        for field in constants() {
+            if let Some(stamp) = self.stamps.get_mut(field.index()) {
+                *stamp = self.version;
+            }
+        }
+    }
+
+    /// Whether some field that is not in a set differs from other contents. Those of another model differ.
+    pub(super) fn differ(&self, other: &Contents, except: &FieldSet) -> bool {
+        if self.model != other.model {
+            return true;
+        }
+        if self.version == other.version {
+            return false;
+        }
+        let mut at = 0;
+        for (a, b) in self.stamps.chunks(8).zip(other.stamps.chunks(8)) {
+            if a != b {
+                let differs = |(i, (a, b)): (usize, (&u64, &u64))| {
+                    a != b && FieldId::new(at + i).is_some_and(|field| !except.contains(field))
+                };
+                if a.iter().zip(b).enumerate().any(differs) {
+                    return true;
+                }
+            }
+            at += 8;
+        }
+        false
+    }
+
+    /// Takes the constants of other contents over: those that a plan has been looked at for.
+    pub(super) fn adopt_constants(&mut self, other: &Contents) {
+        for field in constants() {
+            if let (Some(stamp), Some(new)) =
+                (self.stamps.get_mut(field.index()), other.stamps.get(field.index()))
+            {
+                *stamp = *new;
+            }
+        }
+        self.version = next();
+    }
+
+    /// Becomes the same as other contents; allocates nothing.
+    pub(super) fn follow(&mut self, other: &Contents) {
+        (self.model, self.version) = (other.model, other.version);
+        self.stamps.copy_from_slice(&*other.stamps);
+    }
+}
+
+/// The fields of a model that `mj_setConst` computes.
+fn constants() -> impl Iterator<Item = FieldId> {
+    reflect::fields().filter(|f| f.info().object != Object::Data && f.info().stage == Stage::SetConst)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod tests {
+    use crate::api::{call, data::Data, model::Model, planning::Plan};
+    use crate::model::reflect::{FieldId, FieldSet, ViewMut, data, model, option};
+    use crate::step::scene::Demand;
+    use proptest::prelude::*;
+
+    const SCENE: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 1'/>\
+        <body pos='0 0 .12'><freejoint/><geom type='box' size='.1 .1 .1'/></body>\
+        <body pos='1 0 .5'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0'/>\
+        <body pos='.2 0 0'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0'/></body></body>\
+        <body pos='-1 0 .04'><joint type='slide' axis='0 0 1'/><geom size='.05'/></body></worldbody>\
+        <actuator><motor joint='push' gear='2'/></actuator></mujoco>";
+
+    /// What is written of the clones, and with what.
+    const WRITES: [(FieldId, f64); 13] = [
+        (model::geom_contype, 0.0),
+        (model::geom_conaffinity, 2.0),
+        (model::geom_friction, 0.2),
+        (model::geom_solref, 0.05),
+        (model::body_mass, 3.0),
+        (model::body_pos, 0.3),
+        (model::dof_damping, 0.7),
+        (model::dof_frictionloss, 0.2),
+        (model::dof_armature, 0.1),
+        (model::jnt_stiffness, 5.0),
+        (model::body_gravcomp, 0.5),
+        (option::density, 50.0),
+        (option::timestep, 0.003),
+    ];
+
+    fn scene() -> Model {
+        Model::from_xml(&SCENE.replacen("<joint type='slide'", "<joint name='push' type='slide'", 1)).unwrap()
+    }
+
+    fn write(m: &mut Model, d: &mut Data<crate::api::data::Planned>, what: usize, at: usize) {
+        let (field, value) = WRITES[what];
+        let mut view = call::view_mut(m, d, field).unwrap();
+        let len = match &view {
+            ViewMut::F64(v) => v.len(),
+            ViewMut::I32(v) => v.len(),
+            ViewMut::Bool(v) => v.len(),
+            ViewMut::Fixed => 0,
+        };
+        view.set(at % len.max(1), value);
+    }
+
+    fn coordinates() -> Demand {
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        demand.reads.insert(data::qpos);
+        demand
+    }
+
+    /// Steps with one clone after the other, which are written by hand and by edits, end as full steps.
+    fn moved(
+        events: &[(usize, usize, usize)],
+        made_with: usize,
+        announced: &[usize],
+    ) -> Result<(), TestCaseError> {
+        let mut clones = [scene(), Model::new(crate::mjcf::compile("<mujoco/>").unwrap())];
+        clones[1] = clones[0].clone();
+        let mut demand = coordinates();
+        announced.iter().for_each(|&i| demand.writes.insert(WRITES[i].0));
+        let mut planned = Data::planned(&clones[0], Plan::new(&clones[made_with], &demand));
+        let mut full = Data::unplanned(&clones[0]);
+        for &(what, at, which) in events {
+            let other = clones[(which + 1) % 2].clone();
+            let clone = &mut clones[which % 2];
+            match what.checked_sub(WRITES.len()) {
+                None => write(clone, &mut planned, what, at),
+                Some(0) => clone.edit().geom_contype[0] ^= 1,
+                Some(1) => *clone = other,
+                Some(_) => {}
+            }
+            let clone = &clones[at % 2];
+            for _ in 0..4 {
+                call::step(clone, &mut planned).unwrap();
+                call::step(clone, &mut full).unwrap();
+            }
+            let bits = |q: &[f64]| q.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            prop_assert_eq!(bits(&planned.fields().qpos), bits(&full.qpos));
+        }
+        Ok(())
+    }
+
+    proptest! {
+        #[test]
+        fn data_that_are_moved_between_clones_step_as_full_data(
+            events in prop::collection::vec((0..WRITES.len() + 3, 0..40usize, 0..2usize), 1..12),
+            announced in prop::collection::vec(0..WRITES.len(), 0..3),
+        ) {
+            moved(&events, 0, &announced)?;
+        }
+    }
+
+    /// The floor of one clone holds; that of the other, for which the plan was made, does not.
+    #[test]
+    fn a_body_does_not_fall_through_the_floor_of_another_clone() {
+        let with = scene();
+        let mut without = with.clone();
+        without.edit().geom_contype.fill(0);
+        without.edit().geom_conaffinity.fill(0);
+        let made = Data::planned(&without, Plan::new(&without, &coordinates()));
+        let given = Data::planned(&with, Plan::new(&without, &coordinates()));
+        for mut d in [made, given] {
+            (0..200).for_each(|_| call::step(&with, &mut d).unwrap());
+            assert!(d.fields().qpos[2] > 0.09, "{}", d.fields().qpos[2]);
+        }
+    }
+
+    /// Forces of a state that is set act, announced or not.
+    #[test]
+    fn forces_of_a_state_that_is_set_act() {
+        let m = scene();
+        let mut from = Data::unplanned(&m);
+        from.edit().xfrc_applied[8] = 500.0;
+        let mut d = Data::planned(&m, Plan::new(&m, &coordinates()));
+        call::step(&m, &mut d).unwrap();
+        call::state::copy(&m, &from, &mut d, call::state::INTEGRATION).unwrap();
+        (0..20).for_each(|_| {
+            call::step(&m, &mut from).unwrap();
+            call::step(&m, &mut d).unwrap();
+        });
+        assert_eq!(d.fields().qpos, from.qpos);
+    }
+
+    /// After an edit, which may have written anything, a write that the plan was told of makes no other plan.
+    #[test]
+    fn one_edit_does_not_make_later_writes_plan() {
+        let mut m = scene();
+        let mut demand = coordinates();
+        demand.writes.insert(model::dof_damping);
+        let mut d = Data::planned(&m, Plan::new(&m, &demand));
+        m.edit().body_mass[1] *= 2.0;
+        call::step(&m, &mut d).unwrap();
+        let before = d.made_for_version();
+        for i in 0..10 {
+            call::view_mut(&mut m, &mut d, model::dof_damping).unwrap().set(0, 0.1 * f64::from(i));
+            call::step(&m, &mut d).unwrap();
+        }
+        assert_eq!(d.made_for_version(), before);
+        call::view_mut(&mut m, &mut d, model::body_mass).unwrap().set(1, 0.5);
+        call::step(&m, &mut d).unwrap();
+        assert_ne!(d.made_for_version(), before);
+    }
+}
