@@ -6,11 +6,9 @@ use crate::finding::Finding;
 use crate::interrupt;
 use crate::lint::load_lesson;
 use crate::source::SourceFile;
+use crate::threads;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The stack of the thread: that of a main thread.
-const STACK: usize = 8 << 20;
 
 /// What was found of a version of a document.
 #[derive(Debug)]
@@ -53,7 +51,7 @@ impl Job {
                 done(Ran { job: number, uri: of, version, findings });
             }
         };
-        std::thread::Builder::new().stack_size(STACK).spawn(work).ok()?;
+        threads::checking().spawn(work).ok()?;
         Some(Job { number, uri, stop })
     }
 
