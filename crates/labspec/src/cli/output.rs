@@ -18,7 +18,10 @@ fn is_own(option: &str, old: &str) -> bool {
     let says = |key: &str, word: &str| object().is_some_and(|value| value[key] == word);
     let text = old.trim_start_matches('\u{feff}').trim_start();
     match option {
-        "snapshot" => text.lines().take(8).any(|line| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot")),
+        "snapshot" => text
+            .lines()
+            .take(8)
+            .any(|line| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot")),
         "--update-baseline" => says("report", "baseline"),
         "--record" => says("report", "reproduction"),
         "--judge-request" => says("request", "judge"),
