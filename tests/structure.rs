@@ -217,6 +217,7 @@ fn rooms_of_the_engine_look_down() {
 const ROAD: [&str; 33] = [
     "printable",
     "interrupt",
+    "threads",
     "covering",
     "source",
     "finding",
