@@ -187,8 +187,37 @@ const NAMED_PREFIXES: [(&str, i32); 20] = [
 
 /// Units of what lessons of mechanics do not compute, or that differ by more than a factor: they are units, and none of ours.
 const OTHER: [&str; 31] = [
-    "°C", "°F", "℃", "℉", "degC", "degF", "mol", "cd", "lm", "lx", "dB", "px", "pt", "eV", "keV", "MeV", "kcal", "cal",
-    "Ω", "ohm", "ohms", "mT", "Wb", "ppm", "bit", "bits", "byte", "bytes", "kWh", "celsius", "fahrenheit",
+    "°C",
+    "°F",
+    "℃",
+    "℉",
+    "degC",
+    "degF",
+    "mol",
+    "cd",
+    "lm",
+    "lx",
+    "dB",
+    "px",
+    "pt",
+    "eV",
+    "keV",
+    "MeV",
+    "kcal",
+    "cal",
+    "Ω",
+    "ohm",
+    "ohms",
+    "mT",
+    "Wb",
+    "ppm",
+    "bit",
+    "bits",
+    "byte",
+    "bytes",
+    "kWh",
+    "celsius",
+    "fahrenheit",
 ];
 
 /// What a unit without its power is: its size and its dimension.
@@ -202,7 +231,10 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
     let (row, size) = match row(word) {
         Some(row) => (row, 1.0),
         None => {
-            let prefixes = PREFIXES.iter().chain(NAMED_PREFIXES.iter().filter(|(p, _)| !p.is_ascii())).filter(|(p, _)| !p.is_empty());
+            let prefixes = PREFIXES
+                .iter()
+                .chain(NAMED_PREFIXES.iter().filter(|(p, _)| !p.is_ascii()))
+                .filter(|(p, _)| !p.is_empty());
             let mut short = prefixes.filter_map(|(prefix, power)| {
                 let found = row(word.strip_prefix(prefix)?).filter(|row| row.3)?;
                 Some((found, 10f64.powi(*power)))
@@ -221,10 +253,11 @@ fn named(word: &str) -> Option<(f64, &'static str)> {
     let one = |word: &str| WORDS.iter().find(|(name, ..)| *name == word).map(|(_, size, of)| (*size, *of));
     let any = |word: &str| one(word).or_else(|| one(word.strip_suffix('s')?));
     any(word).or_else(|| {
-        let mut prefixed = NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
-            let (size, of) = any(word.strip_prefix(prefix)?)?;
-            Some((size * 10f64.powi(*power), of))
-        });
+        let mut prefixed =
+            NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
+                let (size, of) = any(word.strip_prefix(prefix)?)?;
+                Some((size * 10f64.powi(*power), of))
+            });
         prefixed.next()
     })
 }

@@ -173,13 +173,18 @@ impl<'t> Reader<'t> {
     fn word(&mut self) -> Option<Part> {
         let rest = self.rest();
         let wide = rest.chars().next().is_some_and(is_wide);
-        let letter = |c: &char| c.is_alphabetic() && is_wide(*c) == wide && !raised(*c) || matches!(c, '°' | 'µ' | '℃' | '℉');
-        let mut ends: Vec<usize> = rest.chars().take_while(letter).scan(0, |at, c| {
-            *at += c.len_utf8();
-            Some(*at)
-        })
-        .take(WORD)
-        .collect();
+        let letter = |c: &char| {
+            c.is_alphabetic() && is_wide(*c) == wide && !raised(*c) || matches!(c, '°' | 'µ' | '℃' | '℉')
+        };
+        let mut ends: Vec<usize> = rest
+            .chars()
+            .take_while(letter)
+            .scan(0, |at, c| {
+                *at += c.len_utf8();
+                Some(*at)
+            })
+            .take(WORD)
+            .collect();
         // `square metre`
         for (square, power) in [("square ", 2.0), ("cubic ", 3.0)] {
             if let Some(tail) = rest.strip_prefix(square) {
@@ -196,11 +201,8 @@ impl<'t> Reader<'t> {
         }
         ends.into_iter().rev().find_map(|end| {
             let text = rest.get(..end)?;
-            let found = if is_other(text) {
-                Part::Other
-            } else {
-                Part::Known(symbol(&text.replace('µ', "μ"))?)
-            };
+            let found =
+                if is_other(text) { Part::Other } else { Part::Known(symbol(&text.replace('µ', "μ"))?) };
             self.at += end;
             Some(found)
         })
@@ -235,9 +237,11 @@ impl<'t> Reader<'t> {
         let tail = body.get(used..)?;
         let close = usize::from(open && tail.starts_with([')', '}']));
         let digits = plain.trim_start_matches('-');
-        let decimal = tail.strip_prefix(['.', ',']).is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()));
+        let decimal =
+            tail.strip_prefix(['.', ',']).is_some_and(|t| t.starts_with(|c: char| c.is_ascii_digit()));
         // `s-1` is a power, `s-0.5 s` and `s-12` are none.
-        let bare = marked.is_none() && rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '–'));
+        let bare = marked.is_none()
+            && rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '-' | '−' | '–'));
         if digits.is_empty() || decimal || open && close == 0 || bare && !bare_power(digits, tail) {
             return None;
         }
@@ -249,10 +253,13 @@ impl<'t> Reader<'t> {
 
 /// Whether a factor with a power begins here: of `m.s^-1` the second.
 fn dotted(text: &str) -> bool {
-    let letters = text.chars().take_while(|c| c.is_alphabetic() && !raised(*c)).map(char::len_utf8).sum::<usize>();
+    let letters =
+        text.chars().take_while(|c| c.is_alphabetic() && !raised(*c)).map(char::len_utf8).sum::<usize>();
     letters > 0
         && text.get(..letters).and_then(symbol).is_some()
-        && text.get(letters..).is_some_and(|t| t.starts_with(|c: char| c == '^' || c == '-' || raised(c) || c.is_ascii_digit()))
+        && text
+            .get(letters..)
+            .is_some_and(|t| t.starts_with(|c: char| c == '^' || c == '-' || raised(c) || c.is_ascii_digit()))
 }
 
 /// Whether digits behind a symbol without a sign for it are its power: one from 1 to 6, and no number that goes on.

@@ -36,7 +36,9 @@ pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
     let head = head.trim();
     let whole = |text: &str| parse(text).filter(|_| !text.is_empty() && text != "1");
     let close = head.chars().next_back()?;
-    if let Some(open) = [(')', '('), (']', '['), ('）', '（')].iter().find(|(c, _)| *c == close).map(|(_, o)| *o) {
+    if let Some(open) =
+        [(')', '('), (']', '['), ('）', '（')].iter().find(|(c, _)| *c == close).map(|(_, o)| *o)
+    {
         let inner = head.strip_suffix(close)?;
         let mut depth = 1;
         let start = inner.char_indices().rev().find(|(_, c)| {
@@ -58,7 +60,8 @@ pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
     // `x / mm` is a quantity over its unit; `m/s`, and the ratio `M / m`, are none.
     for (at, _) in head.match_indices('/') {
         let (left, text) = (head.get(..at)?.trim(), head.get(at + 1..)?.trim());
-        let ratio = left.to_lowercase() == text.to_lowercase() || !left.contains(' ') && whole(head).is_some();
+        let ratio =
+            left.to_lowercase() == text.to_lowercase() || !left.contains(' ') && whole(head).is_some();
         if let Some(found) = whole(text).filter(|_| !ratio && !left.is_empty()) {
             return Some((text, found));
         }

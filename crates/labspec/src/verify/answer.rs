@@ -5,7 +5,8 @@ use super::bound::Found;
 use super::condition::Weighed;
 use super::outcome::Outcome;
 use super::{
-    BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, option_numbers, over, quote, shorten, significant, units,
+    BoundVerify, CLOSER, Outcomes, PERTURBED, grounded, option_numbers, over, quote, shorten, significant,
+    units,
 };
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
@@ -408,7 +409,8 @@ fn value(
         QuestionKind::Numeric { unit, .. } => unit.as_ref(),
         _ => None,
     };
-    let unit = quote::answer_unit(asked.map(|u| u.as_str()), asked.and_then(|_| units::of_claim(bound, text)));
+    let unit =
+        quote::answer_unit(asked.map(|u| u.as_str()), asked.and_then(|_| units::of_claim(bound, text)));
     if let quote::AnswerUnit::Wrong(asked_in, gives) = &unit {
         let message = format!("the question asks in {asked_in}, the expression gives {gives}");
         findings.push(wrong_unit(keyed.span.clone(), text, &message));

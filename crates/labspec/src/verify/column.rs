@@ -52,7 +52,8 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
         let read = quote::reading(&key.value).ok();
         let unit_of_key = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| key_head.clone());
         // Cells in millimetres beside values in metres are converted; another dimension is nobody's value.
-        let held = unit_of_key.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, swept.as_ref()));
+        let held =
+            unit_of_key.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, swept.as_ref()));
         let wanted = unit_of_key.as_ref().and_then(|unit| unit.dimension);
         let converted = wanted.zip(swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
         let factor = match (held, converted) {
@@ -60,9 +61,8 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
             (quote::Held::Wrong, None) => None,
             _ => Some(1.0),
         };
-        let is_key = |x: f64| {
-            read.as_ref().zip(factor).is_some_and(|(read, factor)| read.number().is(factor * x))
-        };
+        let is_key =
+            |x: f64| read.as_ref().zip(factor).is_some_and(|(read, factor)| read.number().is(factor * x));
         let member = values.iter().position(|x| is_key(*x));
         let Some(member) = member else {
             let other = unit_of_key.filter(|_| factor.is_none()).map_or(String::new(), |unit| {

@@ -29,7 +29,9 @@ pub(super) fn check(
 ) -> Option<String> {
     let mut reason = None;
     for ((option, condition), held) in options.iter().zip(conditions).zip(held) {
-        let Some(message) = contradiction(bound, outcome, option, condition, *held == Some(true)) else { continue };
+        let Some(message) = contradiction(bound, outcome, option, condition, *held == Some(true)) else {
+            continue;
+        };
         findings.push(
             Finding::error(rules::QUOTE_WRONG, option.span(), message.clone())
                 .why("the option says one number, and what decides about it asks for another")
@@ -50,7 +52,8 @@ fn contradiction(
 ) -> Option<String> {
     let said = option_text(&option.value)?;
     let asked = asked(&parse_expression(&condition.value).tree)?;
-    let text = Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
+    let text =
+        Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
     let found = units::of_claim(bound, &text)?;
     let wanted = said.unit.dimension?;
     if !found.agrees(&wanted) {
@@ -58,7 +61,11 @@ fn contradiction(
     }
     let factor = match conversion(&wanted, &found) {
         Some(factor) => factor,
-        None if hold(&said.unit, Some(&found)) == Held::Fits && (wanted.factor / found.factor - 1.0).abs() < 1e-3 => 1.0,
+        None if hold(&said.unit, Some(&found)) == Held::Fits
+            && (wanted.factor / found.factor - 1.0).abs() < 1e-3 =>
+        {
+            1.0
+        }
         None => return None,
     };
     let (low, high) = (asked.low * factor, asked.high * factor);
@@ -74,7 +81,9 @@ fn contradiction(
     }
     let x = bound.find(outcome, &text, &mut Vec::new())?.value.to_number() * factor;
     let off = x.is_finite() && (x < said.low - slack || x > said.high + slack);
-    off.then(|| format!("the option says {}, and what its condition compares is {}", said.text, significant(x)))
+    off.then(|| {
+        format!("the option says {}, and what its condition compares is {}", said.text, significant(x))
+    })
 }
 
 /// `asks for 1.13 to 1.33`
@@ -140,7 +149,11 @@ fn around(inner: &Expr, off: f64) -> Option<Asked> {
     if let ExprKind::Binary { op: BinaryOp::Divide, left, right } = &quantity.kind
         && let Some(unit) = constant(right).filter(|c| *c > 0.0)
     {
-        return single(left).then(|| Asked { quantity: print(left), low: unit * (centre - off), high: unit * (centre + off) });
+        return single(left).then(|| Asked {
+            quantity: print(left),
+            low: unit * (centre - off),
+            high: unit * (centre + off),
+        });
     }
     single(quantity).then(|| Asked { quantity: print(quantity), low: centre - off, high: centre + off })
 }
@@ -194,7 +207,9 @@ mod tests {
         ] {
             assert_eq!(of(text), Some((quantity.to_string(), low, high)), "{text}");
         }
-        for text in ["a < b", "abs(a - b) < 1", "a > 1 && b < 2", "a - b > 1", "a > 1 || a < 0", "true", "abs(m) > 1"] {
+        for text in
+            ["a < b", "abs(a - b) < 1", "a > 1 && b < 2", "a - b > 1", "a > 1 || a < 0", "true", "abs(m) > 1"]
+        {
             assert_eq!(of(text), None, "{text}");
         }
     }

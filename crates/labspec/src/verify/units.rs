@@ -20,7 +20,8 @@ pub(super) struct Known {
 impl Known {
     pub(super) fn of(bound: &BoundVerify<'_>) -> Option<Known> {
         let Scene { lab, model, programs, .. } = bound.lab()?;
-        let runs = bound.cast().map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
+        let runs =
+            bound.cast().map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
         let runs = runs.collect();
         Some(Known { given: given(lab, model, programs), runs })
     }
@@ -42,7 +43,11 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, text: &Text) -> Option<Dimension
 fn swept(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Option<(String, Measure)> {
     let what = &run.spec?.sweep.as_ref()?.what;
     let lab = &scene.scene.lab;
-    let measure = match lab.controls.iter().find(|c| run.control.is_some() && c.label.as_str() == what.as_str()) {
+    let measure = match lab
+        .controls
+        .iter()
+        .find(|c| run.control.is_some() && c.label.as_str() == what.as_str())
+    {
         Some(control) => match given_by(control) {
             Measure::Unknown => {
                 let names = scene.names(Scope::Measure);

@@ -55,13 +55,20 @@ mod tests {
     fn units_of_answers_are_converted_or_wrong() {
         let d = |text: &str| units::parse(text);
         let of = |unit: &str, found: &str| answer_unit(Some(unit), d(found));
-        for (unit, found, factor) in
-            [("s", "s", 1.0), ("ms", "s", 1000.0), ("min", "s", 1.0 / 60.0), ("h", "s", 1.0 / 3600.0), ("mm", "m", 1000.0), ("%", "1", 100.0)]
-        {
+        for (unit, found, factor) in [
+            ("s", "s", 1.0),
+            ("ms", "s", 1000.0),
+            ("min", "s", 1.0 / 60.0),
+            ("h", "s", 1.0 / 3600.0),
+            ("mm", "m", 1000.0),
+            ("%", "1", 100.0),
+        ] {
             let AnswerUnit::Equal(found) = of(unit, found) else { panic!("{unit} {found}") };
             assert!((found / factor - 1.0).abs() < 1e-12, "{unit}: {found}");
         }
-        for (unit, found) in [("kg", "s"), ("ms", "m"), ("m/s", "m"), ("dB", "s"), ("A", "s"), ("h", "m"), ("°C", "s")] {
+        for (unit, found) in
+            [("kg", "s"), ("ms", "m"), ("m/s", "m"), ("dB", "s"), ("A", "s"), ("h", "m"), ("°C", "s")]
+        {
             assert!(matches!(of(unit, found), AnswerUnit::Wrong(..)), "{unit} {found}");
         }
         assert_eq!(answer_unit(Some("ms"), None), AnswerUnit::Unknown);

@@ -14,28 +14,156 @@ const LETTERS: &str = "a number with letters behind it";
 const NEAR: usize = 40;
 
 /// Words before a number that make it a bound.
-const BOUNDS: [&str; 34] = [
-    "less than", "more than", "fewer than", "greater than", "smaller than", "larger than", "longer than", "shorter than",
-    "higher than", "lower than", "slower than", "faster than", "other than", "different from", "at most", "at least", "below",
-    "above", "under", "over", "up to", "exceeds", "exceed", "exceeding", "no more than", "maximum of", "minimum of", "weniger als",
-    "mehr als", "mindestens", "höchstens", "moins de", "plus de", "beyond",
+const BOUNDS: [&str; 30] = [
+    "less than",
+    "more than",
+    "fewer than",
+    "greater than",
+    "smaller than",
+    "larger than",
+    "longer than",
+    "shorter than",
+    "higher than",
+    "lower than",
+    "slower than",
+    "faster than",
+    "other than",
+    "different from",
+    "at most",
+    "at least",
+    "below",
+    "above",
+    "under",
+    "over",
+    "exceeds",
+    "exceed",
+    "exceeding",
+    "weniger als",
+    "mehr als",
+    "mindestens",
+    "höchstens",
+    "moins de",
+    "plus de",
+    "beyond",
 ];
 
 /// Words before a number that change it.
 const CHANGES: [&str; 62] = [
-    "minus", "negative", "plus", "times", "half", "half of", "half the", "half a", "twice", "twice the", "thrice", "double",
-    "double the", "triple", "triple the", "quadruple", "third of", "thirds of", "quarter of", "quarters of", "fifth of",
-    "tenth of", "hundredth of", "thousandth of", "square of", "cube of", "root of", "root", "inverse of", "reciprocal of",
-    "logarithm of", "log", "ln", "lg", "exp", "sin", "cos", "tan", "sqrt", "one over", "divided by", "multiplied by", "percent of",
-    "fraction of", "power of", "power", "multiple of", "multiples of", "opposite of", "not", "never", "nor", "moins", "meno",
-    "menos", "halb", "halbe", "doppelt", "mal", "fois", "per", "hardly",
+    "minus",
+    "negative",
+    "plus",
+    "times",
+    "half",
+    "half of",
+    "half the",
+    "half a",
+    "twice",
+    "twice the",
+    "thrice",
+    "double",
+    "double the",
+    "triple",
+    "triple the",
+    "quadruple",
+    "third of",
+    "thirds of",
+    "quarter of",
+    "quarters of",
+    "fifth of",
+    "tenth of",
+    "hundredth of",
+    "thousandth of",
+    "square of",
+    "cube of",
+    "root of",
+    "root",
+    "inverse of",
+    "reciprocal of",
+    "logarithm of",
+    "log",
+    "ln",
+    "lg",
+    "exp",
+    "sin",
+    "cos",
+    "tan",
+    "sqrt",
+    "one over",
+    "divided by",
+    "multiplied by",
+    "percent of",
+    "fraction of",
+    "power of",
+    "power",
+    "multiple of",
+    "multiples of",
+    "opposite of",
+    "not",
+    "never",
+    "nor",
+    "moins",
+    "meno",
+    "menos",
+    "halb",
+    "halbe",
+    "doppelt",
+    "mal",
+    "fois",
+    "per",
+    "hardly",
 ];
 
 /// The same in scripts without spaces: `负0.5秒`, `每秒0.5米`.
 const WIDE: [&str; 49] = [
-    "负", "負", "减", "減", "减去", "マイナス", "零下", "第", "每", "毎", "每秒", "毎秒", "每分", "毎分", "每米", "每小时", "秒速", "时速",
-    "時速", "分速", "半", "倍", "大于", "大於", "小于", "小於", "超过", "超過", "不到", "不足", "至少", "至多", "最多", "最少", "低于", "低於",
-    "高于", "高於", "以上", "以下", "加", "乘", "乘以", "除以", "一半", "不是", "并非", "点", "點",
+    "负",
+    "負",
+    "减",
+    "減",
+    "减去",
+    "マイナス",
+    "零下",
+    "第",
+    "每",
+    "毎",
+    "每秒",
+    "毎秒",
+    "每分",
+    "毎分",
+    "每米",
+    "每小时",
+    "秒速",
+    "时速",
+    "時速",
+    "分速",
+    "半",
+    "倍",
+    "大于",
+    "大於",
+    "小于",
+    "小於",
+    "超过",
+    "超過",
+    "不到",
+    "不足",
+    "至少",
+    "至多",
+    "最多",
+    "最少",
+    "低于",
+    "低於",
+    "高于",
+    "高於",
+    "以上",
+    "以下",
+    "加",
+    "乘",
+    "乘以",
+    "除以",
+    "一半",
+    "不是",
+    "并非",
+    "点",
+    "點",
 ];
 
 /// Figures of these scripts.
@@ -50,7 +178,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
             ' ' => attached = false,
             '(' | '[' => {
                 let outer = at.checked_sub(1).and_then(|k| chars.before(k));
-                if outer.is_some_and(|c| c.is_alphanumeric() && !is_wide(c) || matches!(c, '^' | '_' | '√')) {
+                if outer.is_some_and(|c| c.is_alphanumeric() && !is_wide(c) || matches!(c, '^' | '_' | '√'))
+                {
                     return Some(FORMULA);
                 }
                 (attached, within) = (false, true);
@@ -72,7 +201,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '±' | '∓' => Some("a plus-minus without its number"),
         '/' if previous == Some('+') => Some("a plus-minus without its number"),
         '-' | '–' => Some(DIFFERENCE),
-        '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠' | '¬' | '#' | '@' | '!'
+        '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
+        | '¬' | '#' | '@' | '!'
             if !(c == '|' && !attached) && !(c == '!' && !attached) =>
         {
             Some(FORMULA)
@@ -87,9 +217,15 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         c if c.is_alphanumeric() && attached => Some(ODD),
         c if c.is_alphanumeric() => words_before(chars, at),
         '%' => None,
-        '\u{2200}'..='\u{22ff}' | '\u{2a00}'..='\u{2aff}' if !matches!(c, '≈' | '≃' | '≅' | '∼' | '≡' | '⇒' | '∴') => Some(FORMULA),
-        '=' | '≈' | '~' | ':' | ';' | ',' | '.' | '?' | '!' | '…' | '—' | '→' | '⇒' | '|' | '•' | ')' | ']' | '、' | '。' | '，'
-        | '：' | '；' | '」' | '』' | '≡' | '∴' | '≃' | '≅' | '∼' => None,
+        '\u{2200}'..='\u{22ff}' | '\u{2a00}'..='\u{2aff}'
+            if !matches!(c, '≈' | '≃' | '≅' | '∼' | '≡' | '⇒' | '∴') =>
+        {
+            Some(FORMULA)
+        }
+        '=' | '≈' | '~' | ':' | ';' | ',' | '.' | '?' | '!' | '…' | '—' | '→' | '⇒' | '|' | '•' | ')'
+        | ']' | '、' | '。' | '，' | '：' | '；' | '」' | '』' | '≡' | '∴' | '≃' | '≅' | '∼' => {
+            None
+        }
         c if attached || c.is_alphanumeric() => Some(ODD),
         _ => None,
     }
@@ -105,11 +241,18 @@ fn wide_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
 fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at.saturating_sub(NEAR), at);
     let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
-    let ends = |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
-    if BOUNDS.into_iter().any(ends) {
+    let ends =
+        |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
+    // `up to` and `no more than` state the largest value itself.
+    let largest = ["no more than", "no less than"].into_iter().any(ends);
+    if BOUNDS.into_iter().any(ends) && !largest {
         return Some(BOUND);
     }
-    if CHANGES.into_iter().any(ends) || line.ends_with("n't") || line.ends_with("% of") || line.ends_with("½ of") {
+    if CHANGES.into_iter().any(ends)
+        || line.ends_with("n't")
+        || line.ends_with("% of")
+        || line.ends_with("½ of")
+    {
         return Some("a number that the words before it change");
     }
     let last = line.rsplit(' ').next().unwrap_or("");
@@ -117,7 +260,9 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let command = last.starts_with('\\') || last.contains('\\');
     let mut letters = last.chars();
     let symbol = match (letters.next(), letters.next()) {
-        (Some(c), None) => c.is_alphabetic() && !matches!(c, 'a' | 'i' | 'à' | 'y' | 'e' | 'o' | 'u' | 's' | 'm'),
+        (Some(c), None) => {
+            c.is_alphabetic() && !matches!(c, 'a' | 'i' | 'à' | 'y' | 'e' | 'o' | 'u' | 's' | 'm')
+        }
         _ => false,
     };
     (command || symbol).then_some(FORMULA)
@@ -125,12 +270,31 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
 
 /// Words behind a number that change it.
 const BEHIND: [&str; 20] = [
-    "or more", "or less", "or longer", "or higher", "or above", "or below", "or lower", "and more", "and above", "squared", "cubed",
-    "to the power", "dozen", "score", "times ten", "at most", "at least", "and a half", "oder mehr", "ou plus",
+    "or more",
+    "or less",
+    "or longer",
+    "or higher",
+    "or above",
+    "or below",
+    "or lower",
+    "and more",
+    "and above",
+    "squared",
+    "cubed",
+    "to the power",
+    "dozen",
+    "score",
+    "times ten",
+    "at most",
+    "at least",
+    "and a half",
+    "oder mehr",
+    "ou plus",
 ];
 
 const WIDE_BEHIND: [&str; 19] = [
-    "以上", "以下", "以内", "以內", "未満", "未满", "不到", "多", "余", "餘", "半", "平方", "立方", "次方", "乗", "之", "分之", "分の", "割",
+    "以上", "以下", "以内", "以內", "未満", "未满", "不到", "多", "余", "餘", "半", "平方", "立方", "次方",
+    "乗", "之", "分之", "分の", "割",
 ];
 
 /// What follows a quantity and makes it a part of something else.
@@ -140,7 +304,9 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
     let apart = next > end;
     let number_at = |i: usize| {
         let i = chars.skip_blanks(i);
-        chars.digit(i) || chars.at(i) == Some('.') && chars.digit(i + 1) || chars.at(i).is_some_and(|c| fraction(c).is_some())
+        chars.digit(i)
+            || chars.at(i) == Some('.') && chars.digit(i + 1)
+            || chars.at(i).is_some_and(|c| fraction(c).is_some())
     };
     if !apart {
         match c {
@@ -163,14 +329,18 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
     let then = number_at(next + 1);
     match c {
         '-' if chars.at(next + 1) == Some('>') => None,
-        '^' | 'π' | '√' | '\\' | '÷' | '∙' | '⁄' | '∕' | '∓' | '±' | '%' | '‰' | '≠' => Some(FORMULA),
+        '^' | 'π' | '√' | '\\' | '÷' | '∙' | '⁄' | '∕' | '∓' | '±' | '%' | '‰' | '≠' => {
+            Some(FORMULA)
+        }
         '×' | '·' | '*' => Some(if then { "a product" } else { FORMULA }),
         '/' => Some(if then { "a fraction with a slash" } else { "a quotient" }),
         'x' | 'X' if then => Some("a product"),
         '+' => Some(if then { "a sum" } else { FORMULA }),
         '-' | '–' if then => Some(DIFFERENCE),
         '<' | '>' | '≤' | '≥' | '≪' | '≫' => Some(BOUND),
-        '(' if matches!(chars.at(next + 1), Some('-' | '–' | '+')) && chars.at(next + 2) == Some(')') => Some(FORMULA),
+        '(' if matches!(chars.at(next + 1), Some('-' | '–' | '+')) && chars.at(next + 2) == Some(')') => {
+            Some(FORMULA)
+        }
         c if fraction(c).is_some() => Some("a product"),
         // `0.5 10^3`
         c if c.is_ascii_digit() => {
@@ -196,8 +366,12 @@ fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
     }
     let next = chars.skip_blanks(at);
     match chars.at(next) {
-        Some('^' | '×' | '·' | '*' | '÷' | '/' | '⁄' | '∕' | '∙' | '√' | '²' | '³') => Some(FORMULA),
-        Some(c) if next == at && (c.is_alphanumeric() && !is_wide(c) || c == '(' || c == '\\') => Some(FORMULA),
+        Some('^' | '×' | '·' | '*' | '÷' | '/' | '⁄' | '∕' | '∙' | '√' | '²' | '³') => {
+            Some(FORMULA)
+        }
+        Some(c) if next == at && (c.is_alphanumeric() && !is_wide(c) || c == '(' || c == '\\') => {
+            Some(FORMULA)
+        }
         Some('+') => Some(FORMULA),
         Some('-' | '–') if chars.digit(chars.skip_blanks(next + 1)) => Some(FORMULA),
         _ => None,
@@ -207,7 +381,9 @@ fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
 fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at, at + 4);
     let figure = near.chars().next().is_some_and(|c| FIGURES.contains(c) || c == '每' || c == '毎');
-    let fraction = near.strip_prefix('の').is_some_and(|t| t.starts_with(|c: char| c.is_numeric() || FIGURES.contains(c)));
+    let fraction = near
+        .strip_prefix('の')
+        .is_some_and(|t| t.starts_with(|c: char| c.is_numeric() || FIGURES.contains(c)));
     (figure || fraction || WIDE_BEHIND.into_iter().any(|w| near.starts_with(w))).then_some(ODD_BEHIND)
 }
 
@@ -216,7 +392,8 @@ const ODD_BEHIND: &str = "a number that the words behind it change";
 fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at, at + NEAR);
     let line = near.split('\n').next().unwrap_or("").to_lowercase();
-    let begins = |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
+    let begins =
+        |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
     if BEHIND.into_iter().any(begins) {
         return Some(ODD_BEHIND);
     }
@@ -228,7 +405,10 @@ fn letter(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let alone = !chars.at(at + 1).is_some_and(|c| c.is_alphanumeric() || c == '\'' || c == '-' || c == '.');
     let c = chars.at(at)?;
     let digits = matches!(c, 'e' | 'E') && chars.digit(at + 1);
-    let symbol = c.is_alphabetic() && !is_wide(c) && alone && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'o' | 'u' | 'A' | 'i');
+    let symbol = c.is_alphabetic()
+        && !is_wide(c)
+        && alone
+        && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'o' | 'u' | 'A' | 'i');
     let indexed = c.is_alphabetic() && matches!(chars.at(at + 1), Some('_' | '^' | '('));
     (symbol || digits || indexed).then_some(FORMULA)
 }

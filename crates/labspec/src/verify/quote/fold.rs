@@ -133,7 +133,9 @@ fn digit(c: char, zero: char) -> char {
 /// The length of a command that shows nothing, with its argument: `\phantom{0.5}`.
 fn unseen(text: &str) -> Option<usize> {
     let name: String = text.chars().skip(1).take_while(char::is_ascii_alphabetic).collect();
-    if !["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"].contains(&name.as_str()) {
+    if !["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"]
+        .contains(&name.as_str())
+    {
         return None;
     }
     let from = 1 + name.len();
@@ -167,7 +169,9 @@ fn command(text: &str) -> (Meaning, usize) {
         "pm" => Meaning::Operator('±'),
         "approx" | "simeq" | "cong" => Meaning::Letter('≈'),
         "sim" => Meaning::Letter('~'),
-        "to" | "rightarrow" | "longrightarrow" | "Rightarrow" | "implies" | "longmapsto" | "mapsto" => Meaning::Letter('→'),
+        "to" | "rightarrow" | "longrightarrow" | "Rightarrow" | "implies" | "longmapsto" | "mapsto" => {
+            Meaning::Letter('→')
+        }
         "le" | "leq" => Meaning::Letter('≤'),
         "ge" | "geq" => Meaning::Letter('≥'),
         "lt" => Meaning::Letter('<'),
@@ -179,8 +183,10 @@ fn command(text: &str) -> (Meaning, usize) {
         "ldots" | "dots" => Meaning::Letter('…'),
         "quad" | "qquad" => Meaning::Space,
         "mathrm" | "mathit" | "mathbf" | "mathsf" | "text" | "textrm" | "textbf" | "operatorname" | "rm"
-        | "bf" | "left" | "right" | "displaystyle" | "big" | "Big" | "bigl" | "bigr" | "Bigl" | "Bigr" | "boxed" | "mbox" | "hbox"
-        | "textit" | "emph" | "mathbin" | "mathord" | "ensuremath" => Meaning::Nothing,
+        | "bf" | "left" | "right" | "displaystyle" | "big" | "Big" | "bigl" | "bigr" | "Bigl" | "Bigr"
+        | "boxed" | "mbox" | "hbox" | "textit" | "emph" | "mathbin" | "mathord" | "ensuremath" => {
+            Meaning::Nothing
+        }
         _ => return (Meaning::Verbatim, 1 + letters),
     };
     let spaces = text.bytes().skip(1 + letters).take_while(|&b| b == b' ').count();

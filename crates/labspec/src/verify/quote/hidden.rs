@@ -13,17 +13,18 @@ pub(super) struct Hidden {
 }
 
 /// Elements without an end tag.
-const VOID: [&str; 13] = [
-    "area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr",
-];
+const VOID: [&str; 13] =
+    ["area", "base", "br", "col", "embed", "hr", "img", "input", "link", "meta", "source", "track", "wbr"];
 
 /// Elements that no page shows where it runs scripts and plays media, and words that are struck out.
 const UNSEEN: [&str; 14] = [
-    "template", "noscript", "datalist", "head", "iframe", "object", "audio", "video", "canvas", "rp", "del", "s", "strike", "noframes",
+    "template", "noscript", "datalist", "head", "iframe", "object", "audio", "video", "canvas", "rp", "del",
+    "s", "strike", "noframes",
 ];
 
 /// Classes by which the usual style sheets hide an element.
-const CLASSES: [&str; 7] = ["hidden", "d-none", "invisible", "sr-only", "visually-hidden", "is-hidden", "screen-reader-text"];
+const CLASSES: [&str; 7] =
+    ["hidden", "d-none", "invisible", "sr-only", "visually-hidden", "is-hidden", "screen-reader-text"];
 
 impl Hidden {
     /// Whether what follows is hidden.
@@ -118,11 +119,16 @@ fn attributes(text: &str) -> Vec<(String, String)> {
 fn hides(name: &str, text: &str) -> bool {
     let all = attributes(text);
     let has = |wanted: &str| all.iter().any(|(name, _)| name == wanted);
-    let value = |wanted: &str| all.iter().filter(|(name, _)| name == wanted).map(|(_, value)| value.as_str()).collect::<Vec<_>>();
+    let value = |wanted: &str| {
+        all.iter().filter(|(name, _)| name == wanted).map(|(_, value)| value.as_str()).collect::<Vec<_>>()
+    };
     has("hidden")
         || has("popover")
         || name == "dialog" && !has("open")
-        || value("class").iter().flat_map(|list| list.split_whitespace()).any(|class| CLASSES.contains(&class))
+        || value("class")
+            .iter()
+            .flat_map(|list| list.split_whitespace())
+            .any(|class| CLASSES.contains(&class))
         || value("style").into_iter().any(style_hides)
 }
 
@@ -149,9 +155,15 @@ fn style_hides(style: &str) -> bool {
                     || value.len() == 9 && value.starts_with('#') && value.ends_with("00")
             }
             "clip" => value.starts_with("rect(0"),
-            "clip-path" => value.starts_with("inset(100") || value.starts_with("inset(50") || value.starts_with("circle(0"),
+            "clip-path" => {
+                value.starts_with("inset(100")
+                    || value.starts_with("inset(50")
+                    || value.starts_with("circle(0")
+            }
             "transform" | "scale" => value == "0" || value.contains("scale(0)") || value.contains("scale(0,"),
-            "text-indent" | "left" | "top" | "right" | "bottom" | "margin-left" | "margin-top" => value.starts_with("-9"),
+            "text-indent" | "left" | "top" | "right" | "bottom" | "margin-left" | "margin-top" => {
+                value.starts_with("-9")
+            }
             "width" | "height" | "max-width" | "max-height" => clips && (zero(value) || value == "1px"),
             "text-decoration" | "text-decoration-line" => value.contains("line-through"),
             _ => false,
@@ -176,15 +188,34 @@ mod tests {
         assert_eq!(visible("a<p hidden>b"), "a");
         assert_eq!(visible("a<script hidden>'<p hidden>'</script>b"), "ab");
         for open in [
-            "template", "noscript", "del", "p hidden", "p HIDDEN", "p style='visibility:hidden'", "p style=\"opacity: 0\"",
-            "p style='font-size:0px'", "p style='color:transparent'", "p style='color: rgba(0, 0, 0, 0)'", "p class='x sr-only'",
-            "p style='height:0;overflow:hidden'", "p style='display:none !important'", "p style=display:none", "dialog",
+            "template",
+            "noscript",
+            "del",
+            "p hidden",
+            "p HIDDEN",
+            "p style='visibility:hidden'",
+            "p style=\"opacity: 0\"",
+            "p style='font-size:0px'",
+            "p style='color:transparent'",
+            "p style='color: rgba(0, 0, 0, 0)'",
+            "p class='x sr-only'",
+            "p style='height:0;overflow:hidden'",
+            "p style='display:none !important'",
+            "p style=display:none",
+            "dialog",
             "p style='position:absolute;left:-9999px'",
         ] {
             let name = open.split(' ').next().unwrap();
             assert_eq!(visible(&format!("a<{open}>b</{name}>c")), "ac", "{open}");
         }
-        for open in ["details", "p aria-hidden='true'", "p style='opacity:0.5'", "p class='hiddenlake'", "dialog open", "p style='left:0'"] {
+        for open in [
+            "details",
+            "p aria-hidden='true'",
+            "p style='opacity:0.5'",
+            "p class='hiddenlake'",
+            "dialog open",
+            "p style='left:0'",
+        ] {
             assert!(visible(&format!("a<{open}>b</p>c")).contains('b'), "{open}");
         }
         // Walked once, not once for each.

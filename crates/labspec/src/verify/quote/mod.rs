@@ -196,7 +196,9 @@ pub(super) fn check(
     let factor = factor.filter(|f| !unit_check::is_power_of_ten(*f)).filter(|_| reading.share.is_none());
     let scale = |x: f64| factor.map_or(x, |f| x * f);
     let computed = scale(value.computed);
-    let others = |list: &[Other]| -> Vec<Other> { list.iter().map(|o| Other { value: scale(o.value), ..*o }).collect() };
+    let others = |list: &[Other]| -> Vec<Other> {
+        list.iter().map(|o| Other { value: scale(o.value), ..*o }).collect()
+    };
     let (timestep_others, start_others) = (others(value.timestep), others(value.start));
     outcome.computed = computed;
     let fits = [Some(reading.read), reading.share].into_iter().flatten().find(|q| q.is(computed));

@@ -24,7 +24,20 @@ const ABOUT: f64 = 0.1;
 
 /// Words before a number that make it one of something else: a change, a place, a case.
 const ELSE: [&str; 14] = [
-    "by", "than", "instead of", "rather than", "within", "after", "at", "from", "every", "of", "for", "until", "before", "first",
+    "by",
+    "than",
+    "instead of",
+    "rather than",
+    "within",
+    "after",
+    "at",
+    "from",
+    "every",
+    "of",
+    "for",
+    "until",
+    "before",
+    "first",
 ];
 
 /// The only quantity with a unit that an option states; `None` where it states several, or where its words say something else of it.
@@ -34,25 +47,40 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     let all = quantities(chars);
-    let with_unit = |q: &&Quantity| q.unit.as_ref().is_some_and(|u| u.dimension.is_some() && u.share().is_none());
+    let with_unit =
+        |q: &&Quantity| q.unit.as_ref().is_some_and(|u| u.dimension.is_some() && u.share().is_none());
     let mut found = all.iter().filter(with_unit);
     let (Some(q), None) = (found.next(), found.next()) else { return None };
     let unit = q.unit.clone().filter(|u| !u.is_doubtful())?;
     let before = chars.text(q.whole.start.saturating_sub(30), q.whole.start).to_lowercase();
     let before = before.trim_end();
-    let ends = |word: &str| {
-        before.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric))
-    };
+    let ends =
+        |word: &str| before.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
     let behind = chars.text(q.whole.end, q.whole.end + 40).to_lowercase();
     let mut words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));
     // `7 m farther` is a change.
-    let compares = words.any(|w| matches!(w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && w != "under");
+    let compares = words
+        .any(|w| matches!(w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && w != "under");
     if compares || q.refused != Some(BOUND) && ELSE.into_iter().any(ends) {
         return None;
     }
-    let is_about = ["about", "around", "roughly", "approximately", "nearly", "almost", "some", "circa", "ca.", "~", "≈", "约", "約"]
-        .into_iter()
-        .any(|w| if w.is_ascii() && w != "~" { ends(w) } else { before.ends_with(w) });
+    let is_about = [
+        "about",
+        "around",
+        "roughly",
+        "approximately",
+        "nearly",
+        "almost",
+        "some",
+        "circa",
+        "ca.",
+        "~",
+        "≈",
+        "约",
+        "約",
+    ]
+    .into_iter()
+    .any(|w| if w.is_ascii() && w != "~" { ends(w) } else { before.ends_with(w) });
     let Quoted { value, half_unit, form, .. } = q.quoted;
     let (low, high) = match (q.refused, form) {
         (None, Form::Range(a, b) | Form::PlusMinus(a, b)) => (a, b),
@@ -61,8 +89,30 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
             (value - off, value + off)
         }
         (Some(BOUND), Form::Plain(_)) => {
-            let more = ["more than", "greater than", "larger than", "longer than", "higher than", "faster than", "at least", "above", ">", "≥"];
-            let less = ["less than", "smaller than", "shorter than", "lower than", "slower than", "at most", "below", "under", "<", "≤"];
+            let more = [
+                "more than",
+                "greater than",
+                "larger than",
+                "longer than",
+                "higher than",
+                "faster than",
+                "at least",
+                "above",
+                ">",
+                "≥",
+            ];
+            let less = [
+                "less than",
+                "smaller than",
+                "shorter than",
+                "lower than",
+                "slower than",
+                "at most",
+                "below",
+                "under",
+                "<",
+                "≤",
+            ];
             let says = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
             match (says(&more), says(&less)) {
                 (true, false) => (value, f64::INFINITY),
@@ -84,13 +134,26 @@ mod tests {
         let of = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
         let is = |text: &str, low: f64, high: f64| {
             let (shown, a, b) = of(text).unwrap_or_else(|| panic!("{text}"));
-            assert!((a - low).abs() < 1e-9 * low.abs().max(1.0) && (b - high).abs() < 1e-9 * high.abs().max(1.0), "{text}: {shown} {a} {b}");
+            assert!(
+                (a - low).abs() < 1e-9 * low.abs().max(1.0) && (b - high).abs() < 1e-9 * high.abs().max(1.0),
+                "{text}: {shown} {a} {b}"
+            );
         };
         is("about 7 m", 6.3, 7.7);
         is("It rises to 1.23 m, as it must", 1.1685, 1.2915);
         is("0.4 to 0.5 s", 0.4, 0.5);
         assert_eq!(of("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
-        for text in ["7 m farther", "by 7 m", "7 m or 8 m", "twice 7 m", "7 balls", "50 %", "2 h", "nothing", "it is there after 7 s"] {
+        for text in [
+            "7 m farther",
+            "by 7 m",
+            "7 m or 8 m",
+            "twice 7 m",
+            "7 balls",
+            "50 %",
+            "2 h",
+            "nothing",
+            "it is there after 7 s",
+        ] {
             assert_eq!(of(text), None, "{text}");
         }
     }

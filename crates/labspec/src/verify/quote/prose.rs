@@ -69,7 +69,9 @@ fn notes(text: &str) -> BTreeSet<String> {
         match event {
             Event::Start(Tag::FootnoteDefinition(name)) => inside = Some(name.to_string()),
             Event::End(TagEnd::FootnoteDefinition) => inside = None,
-            Event::FootnoteReference(name) => refers.entry(inside.clone()).or_default().push(name.to_string()),
+            Event::FootnoteReference(name) => {
+                refers.entry(inside.clone()).or_default().push(name.to_string())
+            }
             _ => {}
         }
     }
@@ -261,23 +263,9 @@ fn is_output(language: &str) -> bool {
 
 /// Tags within a line, which part nothing.
 fn is_inline(tag: &Tag<'_>) -> bool {
-    matches!(
-        tag,
-        Tag::Emphasis
-            | Tag::Strong
-            | Tag::Link { .. }
-            | Tag::Superscript
-            | Tag::Subscript
-    )
+    matches!(tag, Tag::Emphasis | Tag::Strong | Tag::Link { .. } | Tag::Superscript | Tag::Subscript)
 }
 
 fn is_inline_end(tag: &TagEnd) -> bool {
-    matches!(
-        tag,
-        TagEnd::Emphasis
-            | TagEnd::Strong
-            | TagEnd::Link
-            | TagEnd::Superscript
-            | TagEnd::Subscript
-    )
+    matches!(tag, TagEnd::Emphasis | TagEnd::Strong | TagEnd::Link | TagEnd::Superscript | TagEnd::Subscript)
 }

@@ -40,11 +40,22 @@ impl Quantity {
 
 /// All quantities of a text, in order; pairs that say one thing (`0.4 to 0.5 s`, `0.44 ± 0.01 s`) are one.
 pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
+    read(chars, false)
+}
+
+/// The same, where the ends of a range in words that has both units (`between 0.4 s and 0.5 s`) are quantities of their own: a text
+/// states each of them.
+pub(super) fn quantities_apart(chars: Chars<'_>) -> Vec<Quantity> {
+    read(chars, true)
+}
+
+fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
     let singles = singles(chars);
     let mut all: Vec<Quantity> = Vec::with_capacity(singles.len());
     let mut rest = singles.into_iter().peekable();
     while let Some(mut first) = rest.next() {
         match rest.peek().map(|second| pair(chars, &first, second)) {
+            Some(Pair::One(_)) if apart && in_words(chars, &first, rest.peek()) => all.push(first),
             Some(Pair::One(one)) => {
                 rest.next();
                 all.push(one);
@@ -101,12 +112,21 @@ fn share(chars: Chars<'_>, all: &mut [Quantity]) {
             && let Some((start, Some(unit))) = &next
         {
             let gap = chars.text(q.whole.end, *start);
-            if ["to", "and", "or", ",", "–", "-", "→", "->", "、", "到", "至", "和"].contains(&gap.trim()) {
+            if ["to", "and", "or", ",", "–", "-", "→", "->", "、", "到", "至", "和"].contains(&gap.trim())
+            {
                 q.unit = Some(Unit { shared: true, ..unit.clone() });
             }
         }
         next = Some((q.whole.start, q.unit.clone()));
     }
+}
+
+/// Whether two numbers with their own units are linked by a word.
+fn in_words(chars: Chars<'_>, first: &Quantity, second: Option<&Quantity>) -> bool {
+    second.is_some_and(|second| {
+        let gap = chars.text(first.whole.end, second.whole.start);
+        first.unit.is_some() && second.unit.is_some() && matches!(gap.trim(), "and" | "to" | "bis")
+    })
 }
 
 /// What two numbers beside each other are.
@@ -135,7 +155,11 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
             doubts: Vec::new(),
             unsure: first.unsure.or(second.unsure),
             whole: first.whole.start..end,
-            number_end: if unit.is_some() && first.unit.is_some() { first.number_end } else { second.number_end },
+            number_end: if unit.is_some() && first.unit.is_some() {
+                first.number_end
+            } else {
+                second.number_end
+            },
             unit,
             refused,
             ..first.clone()
@@ -181,9 +205,9 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
 
 fn word_before(chars: Chars<'_>, at: usize, word: &str) -> bool {
     let near = chars.text(at.saturating_sub(20), at).to_lowercase();
-    near.trim_end().strip_suffix(word).is_some_and(|rest| {
-        !rest.ends_with(char::is_alphanumeric) || !word.is_ascii()
-    })
+    near.trim_end()
+        .strip_suffix(word)
+        .is_some_and(|rest| !rest.ends_with(char::is_alphanumeric) || !word.is_ascii())
 }
 
 /// A number of percent as the fraction of one that an expression may give; `None` for other units.

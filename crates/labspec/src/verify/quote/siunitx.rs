@@ -64,7 +64,8 @@ fn group(text: &str, at: usize) -> Option<(&str, usize)> {
 fn plain(number: &str) -> Option<String> {
     let text = number.replace("\\pm", "±").replace("+-", "±").replace(' ', "").replace("\\,", "");
     let text = text.replace(['−', '–'], "-");
-    let known = |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | '±' | 'e' | 'E' | '(' | ')');
+    let known =
+        |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | '±' | 'e' | 'E' | '(' | ')');
     (!text.is_empty() && text.chars().all(known)).then_some(text)
 }
 
@@ -176,7 +177,9 @@ mod tests {
 
     #[test]
     fn commands_are_shown_as_a_page_shows_them() {
-        let of = |text: &str| command(text).map(|(shown, length)| (shown, text.get(length..).unwrap_or("").to_string()));
+        let of = |text: &str| {
+            command(text).map(|(shown, length)| (shown, text.get(length..).unwrap_or("").to_string()))
+        };
         for (text, shown) in [
             ("\\SI{0.5}{s}", "0.5 s"),
             ("\\SI{0.5}{\\second}", "0.5 s"),
@@ -192,7 +195,9 @@ mod tests {
         ] {
             assert_eq!(of(&format!("{text} x")), Some((shown.to_string(), " x".to_string())), "{text}");
         }
-        for text in ["\\SI{0.5", "\\SI{0.5}", "\\SI{x}{s}", "\\SI{0.5}{\\furlong}", "\\num{}", "\\sin{2}", "\\"] {
+        for text in
+            ["\\SI{0.5", "\\SI{0.5}", "\\SI{x}{s}", "\\SI{0.5}{\\furlong}", "\\num{}", "\\sin{2}", "\\"]
+        {
             assert_eq!(of(text), None, "{text}");
         }
     }

@@ -59,7 +59,9 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
         let found = units::read(tail)?;
         let text = tail.get(..found.length)?;
         let whole = text.chars().count() > 0 && !goes_on(tail.get(found.length..)?);
-        return whole.then(|| (Unit { text: text.into(), dimension: found.dimension, shared: false }, 1 + found.length));
+        return whole.then(|| {
+            (Unit { text: text.into(), dimension: found.dimension, shared: false }, 1 + found.length)
+        });
     }
     let rest = line.get(from..)?;
     for word in ["percent", "per cent", "per mille", "permille", "pct", "Prozent"] {

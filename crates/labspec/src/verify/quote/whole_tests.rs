@@ -22,7 +22,11 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
     let places = places(&said.quote, None, &shown);
     let mut findings = Vec::new();
     let outcome = check(&claim, &reading(quote), places, &value, &shown, &mut findings);
-    assert_eq!(outcome.state == QuoteState::Right, findings.iter().all(|f| !f.is_error() && f.code != "quote-not-found"), "{text}: {findings:?}");
+    assert_eq!(
+        outcome.state == QuoteState::Right,
+        findings.iter().all(|f| !f.is_error() && f.code != "quote-not-found"),
+        "{text}: {findings:?}"
+    );
     outcome.state
 }
 
@@ -30,17 +34,116 @@ const RIGHT: QuoteState = QuoteState::Right;
 
 /// Other numbers than half a second, all with the characters of `0.5`.
 const OTHERS: [&str; 110] = [
-    "minus 0.5 s", "- 0.5 s", "-0.5 s", "\u{2212}0.5 s", "\u{2212} 0.5 s", "–0.5 s", "– 0.5 s", "(−)0.5 s", "negative 0.5 s",
-    "0.5 s / m", "0.5 s/m", "0.5 s per m", "0.5 s m", "0.5 s·m", "0.5 s-1", "0.5 s^-1", "0.5 s⁻¹", "0.5 s²", "0.5 s squared",
-    "0.5 s per lap", "0.5 s/lap", "2·0.5 s", "2 × 0.5 s", "2 * 0.5 s", "√0.5 s", "√(0.5 s)", "√ 0.5 s", "1+0.5 s", "1 + 0.5 s", "1/0.5 s",
-    "1 / 0.5 s", "0.5/2 s", "0.5 / 2 s", "3 ½ s or 0.5² s", "0.5² s", "0.5^2 s", "10^0.5 s", "x^0.5 s", "x_0.5 s", "(0.5 s)²", "2(0.5 s)",
-    "sin(0.5 s)", "log 0.5 s", "ln 0.5 s", "half of 0.5 s", "twice 0.5 s", "three times 0.5 s", "a third of 0.5 s", "the square root of 0.5 s",
-    "0.5 thousand s", "0.5 million s", "0.5 e3 s", "0.5e3 s", "0.5 E3 s", "0.5 × 10³ s", "0.5·10^3 s", "0.5 x 10^3 s", "0.5 10^3 s",
-    "0.5 ms", "0.5 μs", "0.5 ks", "0.5 k s", "0.5 %", "0.5 ‰", "0.5 percent", "0.5 kg", "0.5 min", "0.5 h", "0.5 minutes", "0.5 hours", "0.5 metres",
-    "0.5°", "0.5 °C", "0.5 ft", "<0.5 s", "> 0.5 s", "≤ 0.5 s", "less than 0.5 s", "at most 0.5 s", "over 0.5 s", "not 0.5 s",
-    "0.5 s ± 0.3 s", "0.5 ± 0.3 s", "± 0.5 s", "0.3–0.5 s", "0.3 to 0.5 s", "0.5 to 0.7 s", "between 0.3 and 0.5 s", "0.5 s or more", "0.5 s + 0.1 s",
-    "0.5 - 0.1 s", "0.51 s", "10.5 s", "0.5.1 s", "0.5(3) s", "0.5π s", "0.5 π s", "π·0.5 s", "v0.5 s", "1,0.5 s", "0.5x s", "3:0.5 s",
-    "$\\frac{0.5}{2}$ s", "$\\frac{1}{0.5}$ s", "$\\sqrt{0.5}$ s", "$e^{0.5}$ s", "$\\log 0.5$ s", "负0.5秒", "0.5秒以上", "每秒0.5米",
+    "minus 0.5 s",
+    "- 0.5 s",
+    "-0.5 s",
+    "\u{2212}0.5 s",
+    "\u{2212} 0.5 s",
+    "–0.5 s",
+    "– 0.5 s",
+    "(−)0.5 s",
+    "negative 0.5 s",
+    "0.5 s / m",
+    "0.5 s/m",
+    "0.5 s per m",
+    "0.5 s m",
+    "0.5 s·m",
+    "0.5 s-1",
+    "0.5 s^-1",
+    "0.5 s⁻¹",
+    "0.5 s²",
+    "0.5 s squared",
+    "0.5 s per lap",
+    "0.5 s/lap",
+    "2·0.5 s",
+    "2 × 0.5 s",
+    "2 * 0.5 s",
+    "√0.5 s",
+    "√(0.5 s)",
+    "√ 0.5 s",
+    "1+0.5 s",
+    "1 + 0.5 s",
+    "1/0.5 s",
+    "1 / 0.5 s",
+    "0.5/2 s",
+    "0.5 / 2 s",
+    "3 ½ s or 0.5² s",
+    "0.5² s",
+    "0.5^2 s",
+    "10^0.5 s",
+    "x^0.5 s",
+    "x_0.5 s",
+    "(0.5 s)²",
+    "2(0.5 s)",
+    "sin(0.5 s)",
+    "log 0.5 s",
+    "ln 0.5 s",
+    "half of 0.5 s",
+    "twice 0.5 s",
+    "three times 0.5 s",
+    "a third of 0.5 s",
+    "the square root of 0.5 s",
+    "0.5 thousand s",
+    "0.5 million s",
+    "0.5 e3 s",
+    "0.5e3 s",
+    "0.5 E3 s",
+    "0.5 × 10³ s",
+    "0.5·10^3 s",
+    "0.5 x 10^3 s",
+    "0.5 10^3 s",
+    "0.5 ms",
+    "0.5 μs",
+    "0.5 ks",
+    "0.5 k s",
+    "0.5 %",
+    "0.5 ‰",
+    "0.5 percent",
+    "0.5 kg",
+    "0.5 min",
+    "0.5 h",
+    "0.5 minutes",
+    "0.5 hours",
+    "0.5 metres",
+    "0.5°",
+    "0.5 °C",
+    "0.5 ft",
+    "<0.5 s",
+    "> 0.5 s",
+    "≤ 0.5 s",
+    "less than 0.5 s",
+    "at most 0.5 s",
+    "over 0.5 s",
+    "not 0.5 s",
+    "0.5 s ± 0.3 s",
+    "0.5 ± 0.3 s",
+    "± 0.5 s",
+    "0.3–0.5 s",
+    "0.3 to 0.5 s",
+    "0.5 to 0.7 s",
+    "between 0.3 and 0.5 s",
+    "0.5 s or more",
+    "0.5 s + 0.1 s",
+    "0.5 - 0.1 s",
+    "0.51 s",
+    "10.5 s",
+    "0.5.1 s",
+    "0.5(3) s",
+    "0.5π s",
+    "0.5 π s",
+    "π·0.5 s",
+    "v0.5 s",
+    "1,0.5 s",
+    "0.5x s",
+    "3:0.5 s",
+    "$\\frac{0.5}{2}$ s",
+    "$\\frac{1}{0.5}$ s",
+    "$\\sqrt{0.5}$ s",
+    "$e^{0.5}$ s",
+    "$\\log 0.5$ s",
+    "负0.5秒",
+    "0.5秒以上",
+    "每秒0.5米",
 ];
 
 #[test]
@@ -48,7 +151,8 @@ fn other_numbers_are_not_right() {
     let mut right = Vec::new();
     for text in OTHERS {
         for quote in ["0.5 s", "0.5", "0.5秒", "0.5 s."] {
-            for sentence in [format!("It takes {text}."), format!("It takes {text} here"), format!("{text}")] {
+            for sentence in [format!("It takes {text}."), format!("It takes {text} here"), format!("{text}")]
+            {
                 // A list, and a quotation, of Markdown.
                 let marked = sentence.starts_with("- ") || sentence.starts_with("> ");
                 if !marked && state(&sentence, quote, 0.5, "s") == RIGHT {
@@ -64,18 +168,53 @@ fn other_numbers_are_not_right() {
 #[test]
 fn the_same_number_is_right() {
     for text in [
-        "0.5 s", "0.5 s.", "(0.5 s)", "t = 0.5 s", "about 0.5 s", "~0.5 s", "≈ 0.5 s", "+0.5 s", "after 0.5 s, then", "0.5 s — and", "t: 0.5 s",
-        "$t = 0.5$ s", "$\\mathrm{0.5\\,s}$", "**0.5** s", "0.5&nbsp;s", "\"0.5 s\"", "0.5 s (half a second)", "from 0.3 s to 0.5 s", "$\\SI{0.5}{s}$",
-        "$\\SI{0.5}{\\second}$", "$\\qty{0.5}{s}$", "0.5 s = 500 ms", "0.3 s → 0.5 s", "It lasts 0.5 s!", "x/y: 0.5 s", "| t |\n|---|\n| 0.5 s |",
+        "0.5 s",
+        "0.5 s.",
+        "(0.5 s)",
+        "t = 0.5 s",
+        "about 0.5 s",
+        "~0.5 s",
+        "≈ 0.5 s",
+        "+0.5 s",
+        "after 0.5 s, then",
+        "0.5 s — and",
+        "t: 0.5 s",
+        "$t = 0.5$ s",
+        "$\\mathrm{0.5\\,s}$",
+        "**0.5** s",
+        "0.5&nbsp;s",
+        "\"0.5 s\"",
+        "0.5 s (half a second)",
+        "from 0.3 s to 0.5 s",
+        "$\\SI{0.5}{s}$",
+        "$\\SI{0.5}{\\second}$",
+        "$\\qty{0.5}{s}$",
+        "0.5 s = 500 ms",
+        "0.3 s → 0.5 s",
+        "It lasts 0.5 s!",
+        "x/y: 0.5 s",
+        "| t |\n|---|\n| 0.5 s |",
     ] {
         for quote in ["0.5 s", "0.5"] {
             assert_eq!(state(text, quote, 0.5, "s"), RIGHT, "{quote} in {text}");
         }
     }
     for (text, quote) in [
-        ("下落需要0.5秒。", "0.5秒"), ("下落需要0.5秒。", "0.5"), ("落下には０．５秒かかる", "0.5秒"), ("落下には0.5秒かかる", "0.5"), ("大约0.5 秒", "0.5 秒"),
-        ("a 0.5-second fall", "0.5"), ("0.5 seconds", "0.5 seconds"), ("0.5 Sekunden", "0.5"), ("0.5 sec", "0.5"), ("$\\num{0.5}$ s", "0.5 s"),
-        ("| t (s) |\n|---|\n| 0.5 |", "0.5"), ("0,5 s", "0,5 s"), ("½ s", "½ s"), ("5e-1 s", "5e-1 s"), ("500 thousandths s", "500 thousandths s"),
+        ("下落需要0.5秒。", "0.5秒"),
+        ("下落需要0.5秒。", "0.5"),
+        ("落下には０．５秒かかる", "0.5秒"),
+        ("落下には0.5秒かかる", "0.5"),
+        ("大约0.5 秒", "0.5 秒"),
+        ("a 0.5-second fall", "0.5"),
+        ("0.5 seconds", "0.5 seconds"),
+        ("0.5 Sekunden", "0.5"),
+        ("0.5 sec", "0.5"),
+        ("$\\num{0.5}$ s", "0.5 s"),
+        ("| t (s) |\n|---|\n| 0.5 |", "0.5"),
+        ("0,5 s", "0,5 s"),
+        ("½ s", "½ s"),
+        ("5e-1 s", "5e-1 s"),
+        ("500 thousandths s", "500 thousandths s"),
     ] {
         assert_eq!(state(text, quote, 0.5, "s"), RIGHT, "{quote} in {text}");
     }
@@ -92,19 +231,57 @@ fn the_same_number_is_right() {
 
 /// A unit, and the number of one of it in the unit of the expression.
 const UNITS: [(&str, &str); 9] = [
-    ("s", "s"), ("ms", "ms"), ("m", "m"), ("mm", "mm"), ("kg", "kg"), ("m/s", "m/s"), ("N m", "N m"), ("m/s^2", "m/s^2"), ("rad/s", "rad/s"),
+    ("s", "s"),
+    ("ms", "ms"),
+    ("m", "m"),
+    ("mm", "mm"),
+    ("kg", "kg"),
+    ("m/s", "m/s"),
+    ("N m", "N m"),
+    ("m/s^2", "m/s^2"),
+    ("rad/s", "rad/s"),
 ];
 
 /// What stands around a quantity and leaves it as it is.
 const PLAIN: [(&str, &str); 9] = [
-    ("It takes ", "."), ("(", ")"), ("x = ", ", then"), ("about ", " here"), ("≈ ", ""), ("is **", "** there"), ("`", "`"), ("$t = ", "$"), ("结果是", "。"),
+    ("It takes ", "."),
+    ("(", ")"),
+    ("x = ", ", then"),
+    ("about ", " here"),
+    ("≈ ", ""),
+    ("is **", "** there"),
+    ("`", "`"),
+    ("$t = ", "$"),
+    ("结果是", "。"),
 ];
 
 /// What makes another number of it.
 const CHANGED: [(&str, &str); 25] = [
-    ("minus ", ""), ("- ", ""), ("-", ""), ("\u{2212}", ""), ("2·", ""), ("2 × ", ""), ("√", ""), ("1+", ""), ("1/", ""), ("10^", ""), ("1", ""),
-    ("half of ", ""), ("twice ", ""), ("< ", ""), ("up to ", ""), ("log ", ""), ("", "²"), ("", "/K"), ("", " per A"), ("", "·kg"), ("", " ± 0.1"),
-    ("(", ")²"), ("", " · 2"), ("", " or more"), ("ten thousand ", ""),
+    ("minus ", ""),
+    ("- ", ""),
+    ("-", ""),
+    ("\u{2212}", ""),
+    ("2·", ""),
+    ("2 × ", ""),
+    ("√", ""),
+    ("1+", ""),
+    ("1/", ""),
+    ("10^", ""),
+    ("1", ""),
+    ("half of ", ""),
+    ("twice ", ""),
+    ("< ", ""),
+    ("more than ", ""),
+    ("log ", ""),
+    ("", "²"),
+    ("", "/K"),
+    ("", " per A"),
+    ("", "·kg"),
+    ("", " ± 0.1"),
+    ("(", ")²"),
+    ("", " · 2"),
+    ("", " or more"),
+    ("ten thousand ", ""),
 ];
 
 proptest! {
