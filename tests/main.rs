@@ -13,6 +13,7 @@ mod course;
 mod courses;
 mod dimensions;
 mod examples;
+mod false_claims;
 mod files;
 mod fixes;
 mod format;
