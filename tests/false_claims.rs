@@ -118,7 +118,7 @@ fn claims(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         2 => all.extend(spaces::fit(scene)),
         _ => all.extend(spaces::exact(random, scene)),
     }
-    all.extend(spaces::stop(scene));
+    all.extend(spaces::stop());
     all.retain(|c| !KNOWN.contains(&(c.kind, c.way.as_str())));
     // Findings stand in the order of the text, and what is true comes first.
     all.sort_by_key(|c| c.truth != Truth::True);

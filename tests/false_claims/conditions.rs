@@ -53,7 +53,7 @@ pub(super) fn right(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         format!("!({name} > {})", x + d),
         format!("Math.abs({name} - ({x})) <= {d}"),
     ];
-    vec![option("", Truth::True, random.pick(&texts), k)]
+    vec![option("", Truth::True, random.pick::<String>(&texts), k)]
 }
 
 /// False ones.

@@ -252,12 +252,12 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     let telling = (k.x - 1.0).abs() > 0.2 && k.x.abs() > 0.02;
     if telling && !n.minus {
         for _ in 0..8 {
-            around("a factor", random.pick(FACTORS), random);
+            around("a factor", random.pick::<&str>(FACTORS), random);
         }
     }
     if !n.minus {
         for _ in 0..4 {
-            around("another sign", random.pick(SIGNS), random);
+            around("another sign", random.pick::<&str>(SIGNS), random);
         }
     } else {
         all.push(says(

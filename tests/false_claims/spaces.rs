@@ -222,7 +222,7 @@ pub(super) fn fit(scene: &Scene) -> Vec<Claim> {
 }
 
 /// Runs that end where something holds.
-pub(super) fn stop(scene: &Scene) -> Vec<Claim> {
+pub(super) fn stop() -> Vec<Claim> {
     let claim = |way: &str, truth, stop: &str, keyed: &str| {
         let verify = json!({"lab": "#1", "runs": {"r": {"stop": stop, "until": 1}}, "measure": {"end": "final(data.time)"}});
         choice("stop", way, truth, verify, [keyed.to_string(), "end > 5".into(), "end > 6".into()])
