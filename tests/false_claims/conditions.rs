@@ -155,7 +155,7 @@ fn empty_of(m: &str, n: &str, x: f64, positive: bool) -> Vec<(&'static str, Stri
     })
     .collect();
     for text in
-        ["true", "1", "'text'", "1 < 2", "Math.PI > 3", "'a' === 'a'", "!0", "0.5", "half > 0.4", "text"]
+        ["true", "1", "'text'", "!0", "0.5", "text"]
     {
         all.push(("a constant", text.to_string()));
     }
