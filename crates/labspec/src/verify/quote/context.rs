@@ -214,6 +214,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         ')' | ']' if attached && !within => Some(FORMULA),
         ')' if matches!(previous, Some('-' | '–' | '+' | '±')) => Some(FORMULA),
         c if is_wide(c) => wide_before(chars, at),
+        // A half of what follows.
+        c if c.is_numeric() && !c.is_ascii_digit() && !c.is_alphabetic() => Some(FORMULA),
         c if c.is_alphanumeric() && attached => Some(ODD),
         c if c.is_alphanumeric() => words_before(chars, at),
         '%' => None,
