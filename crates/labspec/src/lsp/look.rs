@@ -203,7 +203,8 @@ It comes late.
     fn what_is_kept_changes_nothing() {
         let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();
         let folder = ModelFolder::open(&specs.join("models")).unwrap();
-        let around = Around { models: Arc::new(Models::new(folder)), started: Vec::new() };
+        let around =
+            Around { models: Arc::new(Models::new(folder)), sources: Sources::Disk, started: Vec::new() };
         let (mut changes, mut with_findings) = (0, 0);
         let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
         let lessons =
