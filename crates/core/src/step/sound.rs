@@ -276,12 +276,20 @@ fn ties(m: &Model) -> bool {
         let joints = m.eq_type[e] != eqtype::JOINT || scalar(first) && (second < 0 || scalar(second));
         within(first, n) && (within(second, n) || alone && second == -1) && joints
     };
+    // A branch leads from site to site, over one geom or none.
+    let branch = |kinds: &[i32]| {
+        let is_site = |kind: &i32| *kind == wraptype::SITE;
+        kinds.len() > 1
+            && [kinds.first(), kinds.last()].iter().all(|end| end.is_some_and(is_site))
+            && kinds.windows(2).all(|two| two.iter().any(is_site))
+            && kinds.iter().all(|k| matches!(*k, wraptype::SITE | wraptype::SPHERE | wraptype::CYLINDER))
+    };
     let tendon = |t: usize| {
         let path = span(m.tendon_adr[t], m.tendon_num[t]);
         let fixed = m.wrap_type.get(path.start) == Some(&wraptype::JOINT);
-        !path.is_empty() && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
-            // A path begins and ends at a site.
-            && (fixed || [path.start, path.end - 1].iter().all(|&w| m.wrap_type[w] == wraptype::SITE))
+        !path.is_empty()
+            && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
+            && (fixed || m.wrap_type[path].split(|&kind| kind == wraptype::PULLEY).all(branch))
     };
     let wrap = |w: usize| match m.wrap_type[w] {
         wraptype::JOINT => {
