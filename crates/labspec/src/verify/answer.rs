@@ -225,11 +225,6 @@ fn options(
     let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
 
-    let holds: Vec<Option<bool>> = weights.iter().map(|w| w.holds).collect();
-    let texts = option_numbers::check(bound, &outcomes.nominal, options, &verify.options, &holds, findings);
-    if let Some(reason) = texts {
-        return done(Verdict::Failed, reason);
-    }
     if open.contains(&answer) {
         return done(Verdict::Failed, format!("answer {} is the one that is not decided", name(answer)));
     }
@@ -260,6 +255,11 @@ fn options(
         }
         findings.push(f);
         return done(Verdict::Ambiguous, message);
+    }
+    let holds: Vec<Option<bool>> = weights.iter().map(|w| w.holds).collect();
+    let texts = option_numbers::check(bound, &outcomes.nominal, options, &verify.options, &holds, findings);
+    if let Some(reason) = texts {
+        return done(Verdict::Failed, reason);
     }
     if open.len() + 1 == weights.len() {
         return done(Verdict::Failed, "none of the other options is decided".to_string());
