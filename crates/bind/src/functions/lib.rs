@@ -149,7 +149,7 @@ pub(super) const ROWS: &[Function] = &[
         doc: "how a site moves with each degree of freedom: three rows of velocity, three of turning; the second argument keeps only the first columns",
         example: ("lib.jacobian('tip')[0][0]", "-0.5"),
         run: |w, heap, args| {
-            let rows = jacobian(w, index(args)?, args.get(1).map(Value::to_number));
+            let rows = jacobian(w, index(args)?, args.get(1).map(Value::to_number))?;
             matrix(heap, &rows)
         },
         ..LIST
@@ -164,7 +164,7 @@ pub(super) const ROWS: &[Function] = &[
         run: |w, heap, args| {
             let option = |key| args.get(1).and_then(|o| heap.get(o, key)).filter(|v| !v.is_nothing());
             let only = option("rows").is_some_and(|v| v.to_string() == "pos");
-            let mut rows = jacobian(w, index(args)?, option("cols").map(|v| v.to_number()));
+            let mut rows = jacobian(w, index(args)?, option("cols").map(|v| v.to_number()))?;
             if only {
                 rows.truncate(3);
             }
@@ -231,12 +231,12 @@ fn label(w: &World, geom: usize) -> &str {
 }
 
 /// The six rows of the Jacobian of a site, or their first columns.
-fn jacobian(w: &World, site: usize, columns: Option<f64>) -> Vec<Vec<f64>> {
+fn jacobian(w: &World, site: usize, columns: Option<f64>) -> Result<Vec<Vec<f64>>, String> {
     let nv = w.model.nv;
     let width = columns.map_or(nv, |c| c.clamp(0.0, nv as f64) as usize);
-    let Ok(j) = core::jac_site(&w.model, &w.data, site) else { return vec![Vec::new(); 6] };
+    let j = core::jac_site(&w.model, &w.data, site)?;
     let row = |all: &[f64], i: usize| all.get(i * nv..i * nv + width).unwrap_or(&[]).to_vec();
-    (0..3).map(|i| row(&j.jacp, i)).chain((0..3).map(|i| row(&j.jacr, i))).collect()
+    Ok((0..3).map(|i| row(&j.jacp, i)).chain((0..3).map(|i| row(&j.jacr, i))).collect())
 }
 
 fn matrix(heap: &mut Heap, rows: &[Vec<f64>]) -> Result<Value, String> {
