@@ -14,7 +14,7 @@ mod snapshots;
 mod spaces;
 mod values;
 
-use crate::support::{for_each, workspace};
+use crate::support::for_each;
 use conditions::Known;
 use lesson::{Claim, Fate, Truth};
 use random::Random;
