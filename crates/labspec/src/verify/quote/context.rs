@@ -48,7 +48,12 @@ const BOUNDS: [&str; 30] = [
 ];
 
 /// Words before a number that change it.
-const CHANGES: [&str; 62] = [
+const CHANGES: [&str; 67] = [
+    "hundred",
+    "thousand",
+    "million",
+    "billion",
+    "dozen",
     "minus",
     "negative",
     "plus",

@@ -308,6 +308,10 @@ proptest! {
         let text = format!("{before}{printed}{after}");
         prop_assert_eq!(state(&text, &quote, value, dimension), RIGHT, "{} in {}", quote, text);
 
+        // A number of the text that is a factor of the expression may have a unit of its own: then nothing is certain of another unit
+        // behind a number that is quoted alone.
+        let exact = parse(dimension).is_some_and(|d| d.is_exact());
+        prop_assume!(exact || !alone);
         let (front, back) = CHANGED[change];
         let changed = format!("It takes {front}{digits} {unit}{back} here.");
         prop_assert_ne!(state(&changed, &quote, value, dimension), RIGHT, "{} in {}", quote, changed);
