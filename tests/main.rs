@@ -14,6 +14,7 @@ mod courses;
 mod dimensions;
 mod evidence;
 mod examples;
+mod false_claims;
 mod files;
 mod fixes;
 mod format;

@@ -214,9 +214,10 @@ fn rooms_of_the_engine_look_down() {
 
 /// The road of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
 /// happens when it runs, what is true of that, and how it is shown. Facades and the program come last.
-const ROAD: [&str; 33] = [
+const ROAD: [&str; 34] = [
     "printable",
     "interrupt",
+    "threads",
     "covering",
     "source",
     "finding",

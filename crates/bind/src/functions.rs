@@ -234,9 +234,7 @@ fn touch(touches: &[Touches]) -> Touch {
             Touches::Energy => i.name == "energy",
             Touches::Flags => i.name == "enableflags",
             Touches::Places => matches!(i.name, "xpos" | "site_xpos"),
-            Touches::Motion => {
-                matches!(i.name, "site_xpos" | "cdof" | "subtree_com" | "xanchor" | "xaxis" | "xmat" | "xpos")
-            }
+            Touches::Motion => labspec_core::JACOBIAN_READS.contains(&i.name) || i.name == "site_xpos",
             Touches::Mass => i.stage == Stage::MassMatrix,
         }
     };

@@ -74,6 +74,17 @@ impl Fix {
     }
 }
 
+/// The claim that a finding is about: it ties the finding to its entry in the ledger, whatever bytes both point at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ClaimId {
+    /// Who claims it: `quiz fall, question 2`.
+    pub owner: String,
+    /// Which of the owner's claims: `answer`, `quoted number 0.45 s`; empty when the finding concerns all of them.
+    pub part: String,
+    /// What was claimed, and what came out.
+    pub result: String,
+}
+
 /// One thing that is wrong or doubtful, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
@@ -97,6 +108,8 @@ pub struct Finding {
     pub fix: Option<Fix>,
     /// Other places.
     pub related: Vec<Place>,
+    /// The claim that it is about; `None` for what is wrong with something else.
+    pub claim: Option<Box<ClaimId>>,
 }
 
 impl Finding {
@@ -121,6 +134,7 @@ impl Finding {
             help: None,
             fix: None,
             related: Vec::new(),
+            claim: None,
         }
     }
 

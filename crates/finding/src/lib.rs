@@ -10,7 +10,7 @@ mod pages;
 mod place;
 mod rule;
 
-pub use finding::{Applicability, Finding, Fix, Severity, sort};
+pub use finding::{Applicability, ClaimId, Finding, Fix, Severity, sort};
 pub use nearest::{distance, nearest, ranked};
 pub use pages::list_rules;
 pub use place::{EditorPosition, Lines, Place, Position, Span, floor};

@@ -1,7 +1,7 @@
 //! What a check has to say, and where it stands in a file.
 
 use crate::source::SourceFile;
-pub use labspec_finding::{Applicability, Finding, Fix, Place, Severity, sort};
+pub use labspec_finding::{Applicability, ClaimId, Finding, Fix, Place, Severity, sort};
 
 /// A finding gets its file.
 pub trait InFile {

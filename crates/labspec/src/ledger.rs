@@ -228,6 +228,55 @@ impl Ledger {
         }
     }
 
+    /// How many claims are in a state, files not counted: those are in order or not by what stands in them.
+    fn in_state(&self, state: State) -> usize {
+        self.entries.iter().filter(|e| e.state == state && e.subject != Subject::File).count()
+    }
+
+    /// What it all comes to, in a sentence for people: what is false first, then what could not be checked, then what was left
+    /// out, then what the baseline knows.
+    pub fn conclusion(&self) -> String {
+        let claims = |n: usize, one: &str, more: &str| match n {
+            1 => format!("1 claim {one}"),
+            n => format!("{n} claims {more}"),
+        };
+        let [wrong, open] = [State::False, State::Unchecked].map(|state| self.in_state(state));
+        let mut parts = Vec::new();
+        if wrong > 0 {
+            parts.push(claims(wrong, "is false", "are false"));
+        }
+        if open > 0 {
+            parts.push(claims(open, "could not be checked", "could not be checked"));
+        }
+        let any = |state| self.entries.iter().any(|e| e.state == state);
+        // What is wrong with a file that claims nothing.
+        if parts.is_empty() && (any(State::False) || any(State::Unchecked)) {
+            parts.push("a file has faults".into());
+        }
+        if any(State::LeftOut) {
+            let all_is_well = parts.is_empty();
+            parts.push(match all_is_well {
+                true => "nothing wrong in what was checked, but not everything was".into(),
+                false => "not everything was checked".into(),
+            });
+        }
+        if any(State::Known) {
+            parts.push(match parts.is_empty() {
+                true => "nothing that is not in the baseline".into(),
+                false => format!("{} already in the baseline", self.known()),
+            });
+        }
+        match (parts.is_empty(), self.outcome()) {
+            (false, _) => parts.join(", "),
+            (true, Outcome::Nothing) => "nothing to check".into(),
+            (true, _) => "nothing to complain about".into(),
+        }
+    }
+
+    fn known(&self) -> usize {
+        self.entries.iter().filter(|e| e.state == State::Known).count()
+    }
+
     /// Everything in numbers: `2 files, 4 labs run, 3 answers verified, 2 without a check, 29 quoted numbers verified`.
     pub fn summary(&self) -> String {
         let mut parts = Vec::new();
@@ -267,9 +316,9 @@ impl Ledger {
                 }
             }
         }
-        let known = self.entries.iter().filter(|e| e.state == State::Known).count();
+        let known = self.known();
         if known > 0 {
-            parts.push(format!("{known} no better than the baseline"));
+            parts.push(format!("{known} already in the baseline"));
         }
         parts.join(", ")
     }
@@ -282,6 +331,14 @@ impl Ledger {
                 (entry.state, entry.word) = (State::NotClaimed, "not run");
                 entry.remark.clear();
             }
+        }
+    }
+
+    /// Marks what was left out of the lessons whose check was broken off: it could not be checked.
+    pub fn break_off(&mut self, is_broken_off: impl Fn(&Arc<str>) -> bool) {
+        for entry in self.entries.iter_mut().filter(|e| e.state == State::LeftOut && is_broken_off(&e.path)) {
+            (entry.state, entry.word) = (State::Unchecked, "unchecked");
+            entry.remark = "the check of this lesson was broken off".into();
         }
     }
 
@@ -348,6 +405,48 @@ mod tests {
         assert_eq!(of(&[file, left, answer(State::True(Evidence::Simulated))]), Outcome::Partial);
         assert_eq!(of(&[left, answer(State::Unchecked)]), Outcome::Findings);
         assert_eq!(of(&[answer(State::True(Evidence::Simulated)), answer(State::False)]), Outcome::Findings);
+    }
+
+    /// Every combination of counts has a sentence that is true of it: it names what there is, and nothing that there is not.
+    #[test]
+    fn the_conclusion_is_true_of_every_combination() {
+        let states = [
+            (State::False, "is false", "are false"),
+            (State::Unchecked, "1 claim could not be checked", "2 claims could not be checked"),
+            (State::LeftOut, "not everything was", "not everything was"),
+            (State::Known, "the baseline", "the baseline"),
+        ];
+        for code in 0..3usize.pow(5) {
+            let count = |digit: u32| code / 3usize.pow(digit) % 3;
+            let mut ledger = Ledger::default();
+            for (&(state, ..), digit) in states.iter().zip(0..) {
+                (0..count(digit)).for_each(|_| ledger.add(entry(Subject::Answer, state)));
+            }
+            let good = State::True(Evidence::Simulated);
+            (0..count(4)).for_each(|_| ledger.add(entry(Subject::Quote, good)));
+            let said = ledger.conclusion();
+            for (&(_, one, more), digit) in states.iter().zip(0..) {
+                assert_eq!(
+                    said.contains(one),
+                    count(digit) == 1 || one == more && count(digit) > 0,
+                    "{said}"
+                );
+                assert_eq!(
+                    said.contains(more),
+                    count(digit) == 2 || one == more && count(digit) > 0,
+                    "{said}"
+                );
+            }
+            let bad = count(0) + count(1) > 0;
+            assert_eq!(said.contains("nothing wrong"), !bad && count(2) > 0, "{said}");
+            let clean = (0..4).all(|digit| count(digit) == 0);
+            assert_eq!(said == "nothing to complain about", clean && count(4) > 0, "{said}");
+            assert_eq!(said == "nothing to check", code == 0, "{said}");
+            assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{said}");
+        }
+        let mut ledger = Ledger::default();
+        ledger.add(entry(Subject::File, State::False));
+        assert_eq!(ledger.conclusion(), "a file has faults");
     }
 
     #[test]

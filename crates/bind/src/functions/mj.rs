@@ -185,6 +185,7 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "mj_inverse",
+        reads: Touches::Derived,
         writes: &[Touches::Derived],
         doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
         example: ("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)", "0.0000"),
@@ -196,6 +197,7 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "mj_subtreeVel",
+        reads: Touches::Derived,
         writes: &[Touches::Derived],
         doc: "computes velocity and angular momentum of the subtrees",
         example: (
@@ -207,6 +209,7 @@ pub(super) const ROWS: &[Function] = &[
     },
     Function {
         name: "mj_rnePostConstraint",
+        reads: Touches::Derived,
         writes: &[Touches::Derived],
         doc: "computes accelerations of bodies and the forces between them",
         example: ("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)", "9.81"),

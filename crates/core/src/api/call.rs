@@ -267,8 +267,8 @@ pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), E
     Ok(())
 }
 
-/// What a point's Jacobian follows from.
-const MOTION: [&str; 4] = ["xanchor", "xaxis", "xmat", "xpos"];
+/// The fields of the data that a point's Jacobian follows from.
+pub const JACOBIAN_READS: [&str; 4] = ["xanchor", "xaxis", "xmat", "xpos"];
 
 /// Jacobians by what they are of.
 macro_rules! jacobians {
@@ -276,7 +276,7 @@ macro_rules! jacobians {
         $(#[$doc])*
         pub fn $name<S: Scope>(m: &Model, d: &Data<S>, $($arg: $ty,)* $id: usize) -> Result<$ret, Error> {
             d.belongs_to(m)?;
-            d.has(&MOTION)?;
+            d.has(&JACOBIAN_READS)?;
             d.has(&[$($needs),*])?;
             exists($noun, $id, m.$count)?;
             $call(m, &d.inner, $($arg,)* $id).ok_or(Error::NoId { kind: $noun, id: $id, count: m.$count })
@@ -312,7 +312,7 @@ pub fn apply_ft<S: Scope>(
     qfrc: &mut [f64],
 ) -> Result<(), Error> {
     d.belongs_to(m)?;
-    d.has(&MOTION)?;
+    d.has(&JACOBIAN_READS)?;
     exists("body", body, m.nbody)?;
     wanted("the force", m.nv, qfrc.len())?;
     jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).unwrap_or(());

@@ -191,6 +191,13 @@ fn trees(m: &Model) -> bool {
             && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
             && m.body_rootid[b] <= b as i32
             && m.body_weldid[b] <= b as i32
+            // What has joints is welded to nothing; what has none has no first degree of freedom.
+            && (if dofs == 0 { m.body_dofadr[b] == -1 } else { m.body_weldid[b] == b as i32 })
+    });
+    // Each follows the one before it in its body, the first of a body the last of those that carry it.
+    let paths = (0..m.nv).all(|k| match m.dof_bodyid[k] as usize {
+        b if k as i32 > m.body_dofadr[b] => m.dof_parentid[k] == k as i32 - 1,
+        b => m.dof_parentid[k] == last_before(m, b),
     });
     let mut next = 0;
     let in_order = (0..m.ntree).all(|t| {
@@ -206,13 +213,27 @@ fn trees(m: &Model) -> bool {
         && m.body_parentid.first() == Some(&0)
         && before(&m.body_parentid, 1)
         && before(&m.dof_parentid, 0)
-        && dofs
         && bodies
+        && paths
+        && dofs
         && in_order
         && next as usize == m.nv
         && simple
         // What is called simple has nothing but its diagonal.
         && (0..m.nv).all(|k| m.dof_simplenum[k] == 0 || m.M_rownnz[k] == 1)
+}
+
+/// The last degree of freedom of the bodies above a body, -1 where there is none.
+fn last_before(m: &Model, b: usize) -> i32 {
+    let mut up = b;
+    while up > 0 {
+        // Parents stand before their children.
+        up = (m.body_parentid[up].max(0) as usize).min(up - 1);
+        if m.body_dofnum[up] > 0 {
+            return m.body_dofadr[up] + m.body_dofnum[up] - 1;
+        }
+    }
+    -1
 }
 
 /// Meshes and height fields have their corners.
@@ -255,12 +276,20 @@ fn ties(m: &Model) -> bool {
         let joints = m.eq_type[e] != eqtype::JOINT || scalar(first) && (second < 0 || scalar(second));
         within(first, n) && (within(second, n) || alone && second == -1) && joints
     };
+    // A branch leads from site to site, over one geom or none.
+    let branch = |kinds: &[i32]| {
+        let is_site = |kind: &i32| *kind == wraptype::SITE;
+        kinds.len() > 1
+            && [kinds.first(), kinds.last()].iter().all(|end| end.is_some_and(is_site))
+            && kinds.windows(2).all(|two| two.iter().any(is_site))
+            && kinds.iter().all(|k| matches!(*k, wraptype::SITE | wraptype::SPHERE | wraptype::CYLINDER))
+    };
     let tendon = |t: usize| {
         let path = span(m.tendon_adr[t], m.tendon_num[t]);
         let fixed = m.wrap_type.get(path.start) == Some(&wraptype::JOINT);
-        !path.is_empty() && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
-            // A path begins and ends at a site.
-            && (fixed || [path.start, path.end - 1].iter().all(|&w| m.wrap_type[w] == wraptype::SITE))
+        !path.is_empty()
+            && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
+            && (fixed || m.wrap_type[path].split(|&kind| kind == wraptype::PULLEY).all(branch))
     };
     let wrap = |w: usize| match m.wrap_type[w] {
         wraptype::JOINT => {

@@ -1,7 +1,7 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
 use super::partners::Partners;
-use super::{Ready, refresh};
+use super::{Ready, claim_id, refresh};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::json::read;
@@ -269,14 +269,16 @@ struct Court<'a> {
 impl Court<'_> {
     fn judge_lab(&mut self, name: String, lab: &Lab, findings: &mut Vec<Finding>) {
         if let Some(verify) = &lab.verify {
-            let judgement = self.judge(verify, Some(lab), None, &self.shown, findings);
+            let judgement = self.judge_as(&name, verify, Some(lab), None, &self.shown, findings);
             self.list.push(Claim { name, span: verify.span.clone(), judgement });
         }
     }
 
     fn judge_question(&mut self, name: String, question: &Question, findings: &mut Vec<Finding>) {
         let mut judgement = match &question.verify {
-            Some(verify) => self.judge(verify, question.sim(), Some(question), &self.shown, findings),
+            Some(verify) => {
+                self.judge_as(&name, verify, question.sim(), Some(question), &self.shown, findings)
+            }
             None => Judgement::default(),
         };
         if judgement.answer.is_none() {
@@ -290,8 +292,25 @@ impl Court<'_> {
 
     fn judge_remark(&mut self, name: String, remark: &Remark, findings: &mut Vec<Finding>) {
         let shown = self.shown.within(&remark.over, &remark.verify);
-        let judgement = self.judge(&remark.verify, None, None, &shown, findings);
+        let judgement = self.judge_as(&name, &remark.verify, None, None, &shown, findings);
         self.list.push(Claim { name, span: remark.verify.span.clone(), judgement });
+    }
+
+    /// The judgement of a claim; its findings carry the identity of the claim.
+    fn judge_as(
+        &self,
+        name: &str,
+        verify: &Verify,
+        own: Option<&Lab>,
+        question: Option<&Question>,
+        shown: &ShownText,
+        findings: &mut Vec<Finding>,
+    ) -> Judgement {
+        let mut found = Vec::new();
+        let judgement = self.judge(verify, own, question, shown, &mut found);
+        claim_id::identify(name, self.lesson.whole(verify), question, &judgement, &mut found);
+        findings.extend(found);
+        judgement
     }
 
     fn judge(

@@ -1,6 +1,7 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
 mod allowed;
+mod claim_id;
 mod claims;
 mod contact_time;
 mod curves;
@@ -21,6 +22,7 @@ mod trial;
 mod units;
 
 pub use allowed::Allowed;
+pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{Drawn, curves};
 pub use entries::{evidence, ledger};
@@ -120,6 +122,13 @@ pub struct Found {
     pub(crate) labs: Vec<RanLab>,
     pub(crate) claims: Vec<Claim>,
     pub(crate) snapshots: Vec<Kept>,
+}
+
+impl Found {
+    /// One finding, and nothing else.
+    pub fn of(finding: Finding) -> Found {
+        Found { findings: vec![finding], ..Found::default() }
+    }
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.

@@ -3,7 +3,7 @@
 //! Reading takes nothing for granted: what is not exactly what was written gives `None`.
 
 use super::{Claim, Divergence, Found, Kept, RanLab, Tried};
-use crate::finding::{Applicability, Finding, Fix, Place, Severity};
+use crate::finding::{Applicability, ClaimId, Finding, Fix, Place, Severity};
 use crate::ledger::{Evidence, State};
 use crate::rules;
 use crate::spec::LabAddress;
@@ -76,12 +76,13 @@ fn finding(f: &Finding) -> Value {
         f.why,
         f.help,
         f.fix.as_ref().map(fix),
-        related
+        related,
+        f.claim.as_ref().map(|c| [&c.owner, &c.part, &c.result])
     ])
 }
 
 fn read_finding(value: &Value) -> Option<Finding> {
-    let [code, severity, path, at, position, message, why, help, fix, related] = parts(value)?;
+    let [code, severity, path, at, position, message, why, help, fix, related, claim] = parts(value)?;
     let read_fix = |value: &Value| {
         let [at, written, who] = parts(value)?;
         Some(Fix {
@@ -93,6 +94,10 @@ fn read_finding(value: &Value) -> Option<Finding> {
     let place = |value: &Value| {
         let [path, at, label] = parts(value)?;
         Some(Place { path: Arc::from(path.as_str()?), span: read_span(at)?, label: text(label)? })
+    };
+    let read_claim = |value: &Value| {
+        let [owner, part, result] = parts(value)?;
+        Some(Box::new(ClaimId { owner: text(owner)?, part: text(part)?, result: text(result)? }))
     };
     let read_position = |value: &Value| {
         let [line, column] = parts(value)?;
@@ -109,6 +114,7 @@ fn read_finding(value: &Value) -> Option<Finding> {
         help: maybe(help, text)?,
         fix: maybe(fix, read_fix)?,
         related: list(related, place)?,
+        claim: maybe(claim, read_claim)?,
     })
 }
 

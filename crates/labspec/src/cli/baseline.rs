@@ -1,7 +1,8 @@
 //! Findings that are known: `--baseline FILE` tells only those that are not in it, `--update-baseline` writes it anew.
 //!
 //! A finding is known by its file, its code, its words and the line that it stands in, not by the number of that line: text that
-//! moves stays known. Of several alike so many are known as there were.
+//! moves stays known. A finding about a claim is known by the claim, too, and by what was claimed and what came out: a key that moved, or
+//! another value, is new. Of several alike so many are known as there were.
 
 use super::Failure;
 use super::output::write_file;
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 const MOST: u64 = 64 << 20;
 
 /// What a finding is known by.
-type Mark = [String; 4];
+type Mark = [String; 6];
 
 /// How often each is known.
 #[derive(Debug, Default)]
@@ -37,7 +38,10 @@ impl Baseline {
     /// It cannot be read, or is no baseline.
     pub(super) fn read(path: &Path) -> Result<Baseline, Failure> {
         let no = |why: &str| {
-            format!("{} is no baseline: {why}; --update-baseline writes one", printable_path(path))
+            format!(
+                "{} is no baseline: {why}; name another file, and --update-baseline writes one",
+                printable_path(path)
+            )
         };
         let text = read_text(path, MOST, "a baseline")?;
         let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
@@ -52,7 +56,9 @@ impl Baseline {
                 return Err(no("one of its findings is not whole"));
             };
             let count = entry["count"].as_u64().unwrap_or(1) as usize;
-            *all.known.entry([file, code, message, line]).or_default() += count;
+            // Findings about something else carry no claim.
+            let [claim, result] = [text("claim"), text("result")].map(Option::unwrap_or_default);
+            *all.known.entry([file, code, message, line, claim, result]).or_default() += count;
         }
         Ok(all)
     }
@@ -87,7 +93,15 @@ impl Baseline {
         for f in findings {
             *self.known.entry(self.mark(f, files)).or_default() += 1;
         }
-        let one = |([file, code, message, line], count): (&Mark, &usize)| json!({"file": file, "code": code, "message": message, "line": line, "count": count});
+        let one = |([file, code, message, line, claim, result], count): (&Mark, &usize)| {
+            let mut entry =
+                json!({"file": file, "code": code, "message": message, "line": line, "count": count});
+            if !claim.is_empty() {
+                entry["claim"] = json!(claim);
+                entry["result"] = json!(result);
+            }
+            entry
+        };
         let list: Vec<Value> = self.known.iter().map(one).collect();
         let value = report::report("baseline", json!({"findings": list}));
         let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
@@ -102,7 +116,12 @@ impl Baseline {
             name.components().map(|c| c.as_os_str().to_string_lossy().into_owned()).collect();
         let file = files.iter().find(|file| *file.path() == f.path);
         let line = file.map_or("", |file| line(file.text(), f.span.start));
-        [name.join("/"), f.code.to_string(), f.message.clone(), line.to_string()]
+        let (claim, result) = match &f.claim {
+            Some(claim) if claim.part.is_empty() => (claim.owner.clone(), claim.result.clone()),
+            Some(claim) => (format!("{}, {}", claim.owner, claim.part), claim.result.clone()),
+            None => Default::default(),
+        };
+        [name.join("/"), f.code.to_string(), f.message.clone(), line.to_string(), claim, result]
     }
 }
 

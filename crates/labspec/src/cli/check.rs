@@ -161,6 +161,7 @@ fn work(
         ("--record", records.write),
         ("--html", records.html),
         ("--judge-request", a.judge_request.as_deref()),
+        ("--update-baseline", a.baseline.as_deref().filter(|_| a.update_baseline)),
     ];
     let outputs: Vec<Wanted> = outputs
         .into_iter()
@@ -203,7 +204,8 @@ fn work(
     if !a.watch {
         return report(a, &look(&plan, &cache)?, evidence, records, before.as_ref());
     }
-    watch::watch(&a.paths, || {
+    let settings: Vec<&Path> = a.policy.config().into_iter().chain(a.baseline.as_deref()).collect();
+    watch::watch(&a.paths, &settings, || {
         let course = look(&plan, &cache)?;
         Ok((report(a, &course, evidence, records, before.as_ref()), course.read))
     })
@@ -393,13 +395,10 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
 /// The last line: everything in numbers, and a judgement.
 fn last_line(course: &Course) -> String {
     let found = Summary::of(&course.findings);
+    let conclusion = course.ledger.conclusion();
     let judgement = match (found.errors + found.warnings, course.ledger.outcome()) {
-        (0, ledger::Outcome::Clean) if found.notes > 0 => format!("nothing to complain about, {found}"),
-        (0, ledger::Outcome::Clean) => "nothing to complain about".into(),
-        (0, ledger::Outcome::Nothing) => "nothing to check".into(),
-        (0, ledger::Outcome::Partial) => "nothing wrong in what was checked, but not everything was".into(),
-        (0, ledger::Outcome::Findings) => "not everything could be checked".into(),
-        (0, ledger::Outcome::Known) => "nothing that is not in the baseline".into(),
+        (0, _) if found.notes > 0 => format!("{conclusion}, {found}"),
+        (0, _) => conclusion,
         _ => found.to_string(),
     };
     format!("{}: {judgement}{}", course.ledger.summary(), put_aside(course))

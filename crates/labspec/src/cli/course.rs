@@ -10,7 +10,7 @@ use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
 use crate::bind::scene::{Models, check_model_file};
-use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Hearing, Recording};
+use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Found, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
 use crate::lint::load_lesson_file;
@@ -19,6 +19,7 @@ use crate::report::{Summary, human, printable_path};
 use crate::rules;
 use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of};
+use crate::threads;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -88,6 +89,8 @@ pub(super) struct Aside {
     pub(super) ignored: Vec<Finding>,
     pub(super) allowed: Vec<Allowed>,
     pub(super) known: Vec<Finding>,
+    /// The check of the lesson was ended by a mistake of the program.
+    failed: bool,
 }
 
 /// What is to be done with a file.
@@ -112,9 +115,6 @@ enum Done {
     Interrupted,
 }
 
-/// The stack of a thread: that of a main thread, so that what is deep is as deep on each.
-const STACK: usize = 8 << 20;
-
 /// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
 pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let (mut files, problems) = collect(plan.paths);
@@ -132,7 +132,8 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
             let (Some(task), Some((path, named))) = (tasks.get(i), files.get(i)) else { return done };
-            let mut found = one(plan, cache, task, path, *named, &by_folder);
+            let found = threads::apart(|| one(plan, cache, task, path, *named, &by_folder));
+            let mut found = found.unwrap_or_else(|why| Done::Refused(failed(&why)));
             if let (Done::Lesson(c, aside, ..), Some(policy)) = (&mut found, of_files.get(i)) {
                 let c = &mut **c;
                 put_aside(plan, policy, &mut c.findings, &[&c.lesson.file], aside);
@@ -151,7 +152,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let mut done = std::thread::scope(|scope| {
         let others = 1..plan.jobs.min(files.len());
         // Where the system gives no thread, those that there are do all the work.
-        let thread = || std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, work).ok();
+        let thread = || threads::checking().spawn_scoped(scope, work).ok();
         let threads: Vec<_> = others.map_while(|_| thread()).collect();
         let mut done = work();
         for thread in threads {
@@ -172,6 +173,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let judged_by = plan.judge.recording.map(|r| r.engine.clone());
     let mut course = Course { judged_by, ..Course::default() };
     let mut refused: Vec<(PathBuf, String)> = problems;
+    let mut broken_off = BTreeSet::new();
     let mut read = 0;
     for ((path, _), (_, done)) in files.iter().zip(done) {
         course.read.insert(path.clone());
@@ -181,6 +183,9 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
                 course.hearings.push(hearing);
                 course.bases.push(basis);
                 course.curves.push(curves);
+                if aside.failed {
+                    broken_off.insert(checked.lesson.file.path().clone());
+                }
                 course.checked.push(*checked);
                 course.aside.ignored.extend(aside.ignored);
                 course.aside.allowed.extend(aside.allowed);
@@ -230,6 +235,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     finding::sort(&mut course.findings);
     let models = std::mem::take(&mut course.ledger);
     course.ledger = check::ledger(&course.checked, &course.findings);
+    course.ledger.break_off(|path| broken_off.contains(path));
     course.ledger.append(models);
     let mut page: BTreeMap<Arc<str>, Vec<String>> = BTreeMap::new();
     for c in course.checked.iter().filter(|c| !c.lesson.widgets.is_empty()) {
@@ -273,7 +279,16 @@ fn settle(course: &mut Course) {
     let meets = |e: &Entry, findings: Option<&Vec<Finding>>| {
         let whole = e.span.is_empty();
         let inside = |f: &Finding| f.span.start <= e.span.end && e.span.start <= f.span.end;
-        findings.is_some_and(|all| all.iter().any(|f| whole || inside(f)))
+        let claims = [Subject::Answer, Subject::Option, Subject::Quote, Subject::ClosedForm, Subject::Run];
+        // A false claim has findings of its own; one that was never judged fails with what holds it.
+        let is_claim = claims.contains(&e.subject);
+        let about = |f: &Finding| match &f.claim {
+            Some(claim) if is_claim => check::is_about(claim, e),
+            Some(_) => whole,
+            None if is_claim => e.state == State::Unchecked && inside(f),
+            None => whole || inside(f),
+        };
+        findings.is_some_and(|all| all.iter().any(about))
     };
     course.ledger.know(|e| meets(e, known.get(&e.path)) && !meets(e, told.get(&e.path)));
     let ignored = course.aside.ignored.iter().filter(|f| f.is_error()).cloned().collect();
@@ -364,6 +379,11 @@ fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<M
     Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, digest::hex_of)).collect()))
 }
 
+/// What is said where a mistake of the program ended the check of a file.
+fn failed(why: &str) -> String {
+    format!("labspec failed while it checked this file: {why}")
+}
+
 /// Checks one file.
 fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by_folder: &[Models]) -> Done {
     if interrupted() {
@@ -395,7 +415,18 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     if !named && is_other_json(&lesson) {
         return Done::Other;
     }
-    let mut found = cache.examine(path, &lesson, models, plan.depth, interrupted);
+    let examined = threads::apart(|| cache.examine(path, &lesson, models, plan.depth, interrupted));
+    let mut found = match examined {
+        Ok(found) => found,
+        Err(why) => {
+            let found = Finding::error(rules::UNREADABLE_FILE, 0..0, failed(&why))
+                .why("no lab of this lesson was run to its end, and no claim was judged")
+                .help("report it with this lesson; the other lessons were checked");
+            let checked = Box::new(check::join(lesson, Found::of(found), Depth::STATIC));
+            let aside = Aside { failed: true, ..Aside::default() };
+            return Done::Lesson(checked, aside, Basis::default(), Vec::new(), Hearing::default());
+        }
+    };
     // Runs may have been cut short: half of a check is none.
     if interrupted() {
         Done::Interrupted
@@ -500,7 +531,22 @@ pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
             Ok(_) => files.push((path.clone(), true)),
         }
     }
-    (files, problems)
+    (once(files), problems)
+}
+
+/// Each file once, however often and under whatever paths it was given: under the first of them.
+fn once(files: Vec<ToCheck>) -> Vec<ToCheck> {
+    let mut places: BTreeMap<PathBuf, usize> = BTreeMap::new();
+    let mut all: Vec<ToCheck> = Vec::new();
+    for (path, named) in files {
+        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
+        let place = *places.entry(real).or_insert(all.len());
+        match all.get_mut(place) {
+            Some((_, before)) => *before |= named,
+            None => all.push((path, named)),
+        }
+    }
+    all
 }
 
 /// Deepest nesting of folders.

@@ -35,6 +35,7 @@ mod watch;
 
 use crate::interrupt;
 use crate::report::{printable_lines, printable_path};
+use crate::threads;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use output::write_file;
 use std::ffi::OsString;
@@ -151,7 +152,21 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     if cli.command.prints_what_is_finished() {
         interrupt::listen();
     }
-    let result = match &cli.command {
+    // The same stack for all work, whatever the system gives the first thread.
+    match threads::run(|| execute(&cli.command)) {
+        Ok(_) if interrupted() => ExitCode::from(130),
+        Ok(Outcome::Clean) => ExitCode::SUCCESS,
+        Ok(Outcome::Findings) => ExitCode::from(1),
+        Ok(Outcome::Partial) => ExitCode::from(3),
+        Err(message) => {
+            complain(&format!("labspec: {}\n", printable_lines(&message)));
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn execute(command: &Command) -> Result<Outcome, Failure> {
+    match command {
         Command::Init(a) => init::init(a),
         Command::Completions(a) => completions::completions(a),
         Command::Check(a) => check::check(a),
@@ -171,16 +186,6 @@ pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Record(a) => record::record(a),
         Command::Bench(a) => bench::bench(a),
         Command::Reference { folder } => reference(folder),
-    };
-    match result {
-        Ok(_) if interrupted() => ExitCode::from(130),
-        Ok(Outcome::Clean) => ExitCode::SUCCESS,
-        Ok(Outcome::Findings) => ExitCode::from(1),
-        Ok(Outcome::Partial) => ExitCode::from(3),
-        Err(message) => {
-            complain(&format!("labspec: {}\n", printable_lines(&message)));
-            ExitCode::from(2)
-        }
     }
 }
 

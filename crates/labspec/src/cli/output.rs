@@ -14,6 +14,62 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 const READ: [&str; 13] =
     ["md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml"];
 
+/// What an option writes, as far as a file shows it: an output replaces files of its own kind alone.
+fn is_own(option: &str, old: &str) -> bool {
+    let object = || serde_json::from_str::<serde_json::Value>(old).ok();
+    let says = |key: &str, word: &str| object().is_some_and(|value| value[key] == word);
+    let text = old.trim_start_matches('\u{feff}').trim_start();
+    match option {
+        "snapshot" => text
+            .lines()
+            .take(8)
+            .any(|line| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot")),
+        "--update-baseline" => says("report", "baseline"),
+        "--record" => says("report", "reproduction"),
+        "--judge-request" => says("request", "judge"),
+        "--json" => says("report", "run"),
+        "--html" => text.starts_with("<!DOCTYPE html>") && text.contains("<footer><p>labspec "),
+        "--svg" => {
+            text.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"")
+                && text.contains("'DejaVu Sans'")
+        }
+        // A table of numbers has no mark of its own: what is a text of another kind is refused.
+        "--csv" => !text.starts_with(['{', '[', '<', '#']) && has_even_rows(text),
+        _ => false,
+    }
+}
+
+/// Whether the first row of a text names columns of ours, and the others have as many cells.
+fn has_even_rows(text: &str) -> bool {
+    let cells = |line: &str| line.split('"').step_by(2).map(|part| part.matches(',').count()).sum::<usize>();
+    if !text.starts_with("time,")
+        && text.lines().next() != Some("time")
+        && !text.starts_with("integrator,solver,")
+    {
+        return false;
+    }
+    let mut rows = text.lines().map(cells);
+    let first = rows.next().unwrap_or(0);
+    rows.all(|n| n == first)
+}
+
+/// Whether an option may replace what stands in a file: nothing, or a file of its own.
+fn may_replace(option: &str, place: &Path, old: &fs::Metadata) -> bool {
+    match option {
+        _ if old.len() == 0 => true,
+        "--png" => drawn_here(place),
+        _ => old.len() <= MOST_OF_OWN && fs::read_to_string(place).is_ok_and(|text| is_own(option, &text)),
+    }
+}
+
+/// Whether nothing stands in a file, or something that the same writer wrote.
+pub(super) fn is_free_or_own(option: &str, path: &Path) -> bool {
+    fs::metadata(path).map_or(true, |old| may_replace(option, path, &old))
+}
+
+/// Bytes of an output that is recognized, at most.
+const MOST_OF_OWN: u64 = 1 << 30;
+
 /// Writes a file whole or not at all.
 pub(super) fn write_file(path: &Path, text: &str) -> Result<(), Failure> {
     write_with(path, |out| out.write_all(text.as_bytes()))
@@ -270,6 +326,12 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
         if is_read || inputs.iter().any(|input| input.is(&identity)) {
             return Err(format!(
                 "{named} would overwrite a lesson or a model; name another file, nothing was written"
+            ));
+        }
+        if old.as_ref().is_some_and(|old| !may_replace(option, &identity.place, old)) {
+            return Err(format!(
+                "{named} would overwrite a file that labspec did not write with this option; name another file, or remove \
+                 that one first; nothing was written"
             ));
         }
         if let Some((_, other)) = taken.iter().find(|(t, _)| t.is(&identity)) {

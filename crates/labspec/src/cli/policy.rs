@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The name of the file of settings.
-const FILE: &str = "labspec.toml";
+pub(super) const FILE: &str = "labspec.toml";
 /// Its bytes, at most.
 const MOST: u64 = 1 << 20;
 
@@ -32,6 +32,13 @@ pub(super) struct PolicyOptions {
     /// Settings of this file, and of no other [default: the nearest labspec.toml around each lesson]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
+}
+
+impl PolicyOptions {
+    /// The file of settings that was named.
+    pub(super) fn config(&self) -> Option<&Path> {
+        self.config.as_deref()
+    }
 }
 
 /// Some rules.

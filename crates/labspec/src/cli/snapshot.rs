@@ -232,6 +232,12 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     let Some(text) = renewal.text(|lab| one.accepted.contains(&lab.kept.lab)) else { return Ok(()) };
     let old = std::fs::read_to_string(&one.file).ok();
     // Line breaks may have been changed on the way.
+    if !super::output::is_free_or_own("snapshot", &one.file) {
+        return Err(format!(
+            "{} is no snapshot that labspec wrote; rename or remove it, nothing was written",
+            printable_path(&one.file)
+        ));
+    }
     if old.is_none_or(|old| old.replace("\r\n", "\n") != text) {
         write_file(&one.file, &text)?;
         one.written = true;

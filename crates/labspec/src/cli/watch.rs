@@ -1,8 +1,10 @@
 //! Waiting for files to change, by looking at their sizes and times.
 
 use super::course::collect;
+use super::policy;
 use super::stdio::complain;
 use super::{Failure, Outcome, interrupted};
+use crate::lint;
 use crate::report::printable_lines;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -18,9 +20,10 @@ type Stamp = Option<(u64, SystemTime)>;
 /// it depends on besides those that were named.
 pub(super) fn watch(
     paths: &[PathBuf],
+    settings: &[&Path],
     mut check: impl FnMut() -> Result<(Result<Outcome, Failure>, BTreeSet<PathBuf>), Failure>,
 ) -> Result<Outcome, Failure> {
-    let mut also = BTreeSet::new();
+    let mut also: BTreeSet<PathBuf> = settings.iter().map(|path| path.to_path_buf()).collect();
     loop {
         // Before the check: what changes while it goes on is checked again.
         let mut before = stamps(paths, &also);
@@ -49,10 +52,19 @@ pub(super) fn watch(
     }
 }
 
+/// What counts for a lesson besides its own text: its snapshot, and the settings of the folders around it, which may not be there
+/// yet.
+fn beside(path: &Path) -> Vec<PathBuf> {
+    let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let settings = real.ancestors().skip(1).map(|folder| folder.join(policy::FILE));
+    settings.chain([lint::snapshot_path(path)]).collect()
+}
+
 /// The files that were named or lie in folders that were named, and others.
 fn stamps(paths: &[PathBuf], also: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Stamp> {
     let found = collect(paths).0.into_iter().map(|(path, _)| path);
     found
+        .flat_map(|path| beside(&path).into_iter().chain([path]))
         .chain(paths.iter().filter(|p| !p.is_dir()).cloned())
         .chain(also.iter().cloned())
         .map(|p| (p.clone(), stamp(&p)))

@@ -1,10 +1,11 @@
 //! Links of a lesson that lead to nothing: files of the course that are not there, headings that no lesson has.
 
+use super::Sources;
 use super::models::{lesson_folder, root_of};
 use crate::finding::Finding;
 use crate::markdown::{self, Link, Scan};
 use crate::rules;
-use crate::source::SourceFile;
+use crate::source::{MAX_FILE, SourceFile};
 use crate::spec::Lesson;
 use std::path::{Path, PathBuf};
 
@@ -59,7 +60,7 @@ pub(super) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
 }
 
 /// Files that links of a lesson name, and headings of those that are lessons. Nothing outside of the root is looked at.
-pub(super) fn check_files(lesson: &Lesson, path: &Path, findings: &mut Vec<Finding>) {
+pub(super) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findings: &mut Vec<Finding>) {
     let folder = lesson_folder(path);
     let mut root = None;
     for link in lesson.scan.links.iter().take(MOST) {
@@ -79,7 +80,8 @@ pub(super) fn check_files(lesson: &Lesson, path: &Path, findings: &mut Vec<Findi
                 if link.image { "there is no such picture" } else { "there is no such file" },
             )),
             (Ok(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
-                let Ok(other) = SourceFile::read(&real) else { continue };
+                let Ok(text) = sources.text(&real, MAX_FILE, "a lesson") else { continue };
+                let other = SourceFile::new(real.display().to_string(), text);
                 if !has_anchor(other.text(), &markdown::scan(&other), &decoded(&anchor))
                     && !is_of_the_site(lesson, &anchor)
                 {

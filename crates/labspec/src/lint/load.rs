@@ -1,10 +1,11 @@
 //! The way in: a lesson is read, and the rules of structure look at it.
 
-use super::ModelFolder;
+use super::{ModelFolder, Sources};
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{BadText, SourceFile, read_text};
+use crate::source::{BadText, SourceFile};
 use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -32,10 +33,20 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
     lesson
 }
 
-/// The same of a lesson that lies at this path, with the labs of other lessons that it names.
-pub fn load_lesson_at(file: SourceFile, path: &Path, models: &ModelFolder) -> Lesson {
-    let mut lesson = load_lesson(file, models);
-    lesson.others = read_others(&lesson, path);
+/// The same of a lesson that lies at this path, with its neighbours: the labs of other lessons that it names, the files that it
+/// links to, its snapshot. Every program that has files reads lessons by this, whether they are saved or not.
+pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
+    let lesson = load_lesson(file, models);
+    with_neighbours(lesson, path, sources)
+}
+
+fn with_neighbours(mut lesson: Lesson, path: &Path, sources: &Sources) -> Lesson {
+    let mut found = Vec::new();
+    super::links::check_files(&lesson, path, sources, &mut found);
+    lesson.findings.extend(found.into_iter().map(|f| f.at(&lesson.file)));
+    finding::sort(&mut lesson.findings);
+    lesson.snapshot = read_snapshot(path, sources);
+    lesson.others = read_others(&lesson, path, sources);
     lesson
 }
 
@@ -57,33 +68,38 @@ pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
 /// A sentence for the author: the file cannot be read, is no file, or is too large.
 pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, String> {
     let (file, bad) = SourceFile::read_lossy(path)?;
-    let mut lesson = load_bytes(file, bad, models);
-    let mut found = Vec::new();
-    super::links::check_files(&lesson, path, &mut found);
-    lesson.findings.extend(found.into_iter().map(|f| f.at(&lesson.file)));
-    finding::sort(&mut lesson.findings);
-    lesson.snapshot = read_snapshot(path);
-    lesson.others = read_others(&lesson, path);
-    Ok(lesson)
+    Ok(with_neighbours(load_bytes(file, bad, models), path, &Sources::Disk))
 }
 
-/// Most labs of other lessons that one lesson may name.
-const MOST_OTHERS: usize = 32;
+/// Bytes of other lessons that are read through for the labs that one lesson names, at most: each name counts its lesson.
+const MOST_OF_OTHERS: u64 = 256 << 20;
 /// Bytes of a lesson whose labs another one names, at most.
 const MOST_OF_OTHER: u64 = 4 << 20;
 
 /// The labs of other lessons that this one names.
-fn read_others(lesson: &Lesson, path: &Path) -> Vec<Other> {
+fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
+    let mut texts: BTreeMap<PathBuf, Result<String, String>> = BTreeMap::new();
+    let mut left = MOST_OF_OTHERS;
     let named = lesson.verifies().flat_map(Verify::labs).filter_map(|lab| match lab {
         VerifyLab::Elsewhere(text, file, address) => Some((text.span(), file, address)),
         _ => None,
     });
-    let read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
+    let mut read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
         let there = path.parent().unwrap_or(Path::new("")).join(file);
         let shown = there.display().to_string();
         // A lesson of somebody else may name any file of this machine.
         let inside = Path::new(file).is_relative();
-        let found = if inside { read_other_file(path, &there) } else { Err(NOT_FROM_HERE.into()) };
+        let known = texts.entry(there.clone());
+        let found = match inside {
+            true => known.or_insert_with(|| read_other_file(path, &there, sources)).clone(),
+            false => Err(NOT_FROM_HERE.into()),
+        };
+        let found = found.and_then(|text| {
+            left = left
+                .checked_sub(text.len() as u64)
+                .ok_or("this lesson names too many labs of long lessons")?;
+            Ok(text)
+        });
         let (text, lab) = match found {
             Ok(text) => {
                 let lab = read_other(SourceFile::new(file.as_str(), text.as_str()), address, span.clone());
@@ -93,20 +109,20 @@ fn read_others(lesson: &Lesson, path: &Path) -> Vec<Other> {
         };
         Other { span, path: shown, text, lab }
     };
-    named.take(MOST_OTHERS).map(read).collect()
+    named.map(&mut read).collect()
 }
 
 const NOT_FROM_HERE: &str = "a lesson is named by its path from this one";
 
 /// The text of another lesson, whose labs find the same models.
-fn read_other_file(own: &Path, other: &Path) -> Result<String, String> {
+fn read_other_file(own: &Path, other: &Path, sources: &Sources) -> Result<String, String> {
     if !is_lesson(other) {
         return Err("a lab stands in a lesson (.md) or in a JSON file".into());
     }
     if ModelFolder::find_near(own) != ModelFolder::find_near(other) {
         return Err("that lesson has another folder of models".into());
     }
-    read_text(other, MOST_OF_OTHER, "a lesson")
+    sources.text(other, MOST_OF_OTHER, "a lesson")
 }
 
 fn is_lesson(path: &Path) -> bool {
@@ -125,11 +141,11 @@ pub const SNAPSHOT: &str = ".snap";
 /// Its bytes, at most.
 const MOST: u64 = 4 << 20;
 
-fn read_snapshot(path: &Path) -> Option<Result<SourceFile, String>> {
+fn read_snapshot(path: &Path, sources: &Sources) -> Option<Result<SourceFile, String>> {
     let path = snapshot_path(path);
     // A link that leads nowhere is there, and cannot be read.
     std::fs::symlink_metadata(&path).ok()?;
-    let text = read_text(&path, MOST, "a snapshot");
+    let text = sources.text(&path, MOST, "a snapshot");
     Some(text.map(|text| SourceFile::new(path.display().to_string(), text)))
 }
 

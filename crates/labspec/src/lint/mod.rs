@@ -14,6 +14,7 @@ mod load;
 mod markup;
 pub(crate) mod model;
 mod models;
+mod sources;
 
 pub use load::{
     MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, snapshot_path,
@@ -21,6 +22,7 @@ pub use load::{
 };
 pub use models::ModelFolder;
 pub(crate) use models::{lesson_folder, root_of};
+pub use sources::{Overlay, Sources};
 
 use crate::finding::Finding;
 use crate::markdown::BlockKind;

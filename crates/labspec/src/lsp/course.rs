@@ -4,7 +4,7 @@ use super::documents::Document;
 use super::places;
 use super::start::Started;
 use crate::bind::scene::Models;
-use crate::lint::ModelFolder;
+use crate::lint::{ModelFolder, Overlay, Sources};
 use crate::source::{MAX_FILE, SourceFile};
 use crate::spec::{FileKind, kind_of};
 use ignore::WalkBuilder;
@@ -22,32 +22,40 @@ const MOST_ENTRIES: usize = 100_000;
 pub(super) struct Around {
     /// The models; threads that run labs share them.
     pub(super) models: Arc<Models>,
+    /// Where other lessons are read from: the editor's texts, then files.
+    pub(super) sources: Sources,
     /// The labs that somebody pointed into last.
     pub(super) started: Vec<Started>,
 }
 
 /// Everything around the open documents, by the folder of models.
 #[derive(Debug, Default)]
-pub(super) struct Arounds(BTreeMap<Option<PathBuf>, Around>);
+pub(super) struct Arounds {
+    by_folder: BTreeMap<Option<PathBuf>, Around>,
+    /// The texts that the editor holds.
+    pub(super) overlay: Arc<Overlay>,
+}
 
 impl Arounds {
     /// What lies around a document.
     pub(super) fn of(&mut self, folder: ModelFolder) -> &mut Around {
         let key = folder.path_of_folder().map(Path::to_path_buf);
-        let around = self
-            .0
-            .entry(key)
-            .or_insert_with(|| Around { models: Arc::new(Models::new(folder.clone())), started: Vec::new() });
+        let new = |folder: ModelFolder| Around {
+            models: Arc::new(Models::new(folder)),
+            sources: Sources::Over(self.overlay.clone()),
+            started: Vec::new(),
+        };
+        let around = self.by_folder.entry(key).or_insert_with(|| new(folder.clone()));
         // A model that was added or taken away.
         if around.models.folder().names() != folder.names() {
-            *around = Around { models: Arc::new(Models::new(folder)), started: Vec::new() };
+            *around = new(folder);
         }
         around
     }
 
     /// Files of models changed: all are compiled anew.
     pub(super) fn forget(&mut self) {
-        self.0.clear();
+        self.by_folder.clear();
     }
 }
 

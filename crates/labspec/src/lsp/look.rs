@@ -48,7 +48,7 @@ pub(super) fn lesson(document: &mut Document, around: &Around) -> Option<Arc<Les
 }
 
 fn read(document: &Document, around: &Around) -> Lesson {
-    load_lesson_at(document.file.clone(), &document.path, around.models.folder())
+    load_lesson_at(document.file.clone(), &document.path, &around.sources, around.models.folder())
 }
 
 /// The findings of a lesson whose blocks are bound as far as they are new.
@@ -173,13 +173,14 @@ fn spans(f: &Finding) -> impl Iterator<Item = &Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lint::ModelFolder;
+    use crate::lint::{ModelFolder, Sources};
     use crate::source::SourceFile;
     use std::path::Path;
 
     /// What a lesson says without anything kept: what [`look`] must find, too.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
-        check::check(load_lesson_at(file, path, models.folder()), models, Depth::STATIC).findings
+        check::check(load_lesson_at(file, path, &Sources::Disk, models.folder()), models, Depth::STATIC)
+            .findings
     }
 
     /// Claims that name others: one in a comment, one of another lesson's lab, one that uses the runs of another.
@@ -202,7 +203,8 @@ It comes late.
     fn what_is_kept_changes_nothing() {
         let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();
         let folder = ModelFolder::open(&specs.join("models")).unwrap();
-        let around = Around { models: Arc::new(Models::new(folder)), started: Vec::new() };
+        let around =
+            Around { models: Arc::new(Models::new(folder)), sources: Sources::Disk, started: Vec::new() };
         let (mut changes, mut with_findings) = (0, 0);
         let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
         let lessons =

@@ -153,7 +153,7 @@ pub(super) fn places_of(name: &Name, ground: &Ground<'_>) -> Places {
             continue;
         }
         let around = arounds.of((ground.models_of)(&path));
-        let lesson = load_lesson_at(file, &path, around.models.folder());
+        let lesson = load_lesson_at(file, &path, &around.sources, around.models.folder());
         in_lesson(name, &lesson, &path, &around.models, &mut found);
     }
     found

@@ -4,13 +4,12 @@ use crate::bind::scene::Models;
 use crate::check::{self, Depth};
 use crate::finding::Finding;
 use crate::interrupt;
-use crate::lint::load_lesson;
+use crate::lint::{Sources, load_lesson_at};
 use crate::source::SourceFile;
+use crate::threads;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// The stack of the thread: that of a main thread.
-const STACK: usize = 8 << 20;
 
 /// What was found of a version of a document.
 #[derive(Debug)]
@@ -37,15 +36,15 @@ impl Job {
         number: u64,
         uri: &str,
         version: i64,
-        file: SourceFile,
-        models: Arc<Models>,
+        (file, path): (SourceFile, PathBuf),
+        (models, sources): (Arc<Models>, Sources),
         done: impl FnOnce(Ran) + Send + 'static,
     ) -> Option<Job> {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
         let (asked, of) = (stop.clone(), uri.clone());
         let work = move || {
             let findings = interrupt::until(asked.clone(), || {
-                let lesson = load_lesson(file, models.folder());
+                let lesson = load_lesson_at(file, &path, &sources, models.folder());
                 check::check(lesson, &models, Depth::FULL).findings
             });
             // What a run that was stopped says is not used.
@@ -53,7 +52,7 @@ impl Job {
                 done(Ran { job: number, uri: of, version, findings });
             }
         };
-        std::thread::Builder::new().stack_size(STACK).spawn(work).ok()?;
+        threads::checking().spawn(work).ok()?;
         Some(Job { number, uri, stop })
     }
 

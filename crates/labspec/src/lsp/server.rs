@@ -15,13 +15,14 @@ use super::runs::{Job, Ran};
 use super::wire::{self, Incoming};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
-use crate::spec::FileKind;
+use crate::spec::{FileKind, Lesson};
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::io::{self, BufRead, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 
 /// What the program knows of a course: where its models are, and which findings it wants to be told.
@@ -255,7 +256,10 @@ impl Server<'_> {
                 {
                     self.stop_for(uri);
                     let document = Document::new(uri, places::real(&path), text, version);
+                    let path = document.path.clone();
+                    self.arounds.overlay.put(&path, document.file.text());
                     self.documents.insert(uri.to_string(), document);
+                    self.renew_readers(&path);
                 }
             }
             "textDocument/didChange" => {
@@ -263,12 +267,17 @@ impl Server<'_> {
                 let changes = n.params.get("contentChanges").and_then(Value::as_array);
                 if let (Some(document), Some(changes)) = (self.documents.get_mut(uri), changes) {
                     document.change(changes, version);
+                    let path = document.path.clone();
+                    self.arounds.overlay.put(&path, document.file.text());
+                    self.renew_readers(&path);
                 }
             }
             "textDocument/didSave" => self.saved(uri),
             "textDocument/didClose" => {
                 self.stop_for(uri);
-                if self.documents.remove(uri).is_some() {
+                if let Some(document) = self.documents.remove(uri) {
+                    self.arounds.overlay.close(&document.path);
+                    self.renew_readers(&document.path);
                     let empty: [Value; 0] = [];
                     return self.notify(
                         "textDocument/publishDiagnostics",
@@ -285,6 +294,18 @@ impl Server<'_> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Lessons that name labs of this one are read again.
+    fn renew_readers(&mut self, path: &Path) {
+        for document in self.documents.values_mut() {
+            let names =
+                |lesson: &Arc<Lesson>| lesson.others.iter().any(|o| places::real(Path::new(&o.path)) == path);
+            if document.path != path && document.lesson.as_ref().is_some_and(names) {
+                document.lesson = None;
+                document.stale = true;
+            }
+        }
     }
 
     /// Models are compiled anew, and everything is looked at again.
@@ -305,12 +326,14 @@ impl Server<'_> {
             FileKind::Lesson | FileKind::Json if self.settings.run_on_save => {
                 self.stop();
                 let Some(document) = self.documents.get(uri) else { return };
-                let models = self.arounds.of((self.course.models)(&document.path)).models.clone();
+                let around = self.arounds.of((self.course.models)(&document.path));
+                let around = (around.models.clone(), around.sources.clone());
+                let text = (document.file.clone(), document.path.clone());
                 let sender = self.sender.clone();
                 // Nobody listens any more when the server has ended.
                 let done = move |ran| drop(sender.send(Event::Ran(ran)));
                 self.jobs += 1;
-                self.job = Job::start(self.jobs, uri, document.version, document.file.clone(), models, done);
+                self.job = Job::start(self.jobs, uri, document.version, text, around, done);
             }
             _ => {}
         }

@@ -121,6 +121,20 @@ fn in_other_words(words: &[String]) -> Option<&'static str> {
     }
 }
 
+/// `lab` or `quiz`, where the word is made of ours alone: `lab-simlab`, `simlab`, `labs`, `quizzes`.
+fn joined_or_plural(language: &str) -> Option<&'static str> {
+    let language = language.to_ascii_lowercase();
+    let ours = |word: &str| match word {
+        "lab" | "labs" | "simlab" | "simlabs" => Some("lab"),
+        "quiz" | "quizzes" | "quizes" | "quizs" => Some("quiz"),
+        _ => None,
+    };
+    let words = language.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+    let kinds: Option<Vec<_>> = words.map(ours).collect();
+    let kinds = kinds?;
+    if kinds.contains(&"quiz") { Some("quiz") } else { kinds.first().copied() }
+}
+
 /// The kind that a misspelt fence was meant to have, and how it is written.
 pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'static str, BlockKind)> {
     let lab = ("lab simlab", BlockKind::Lab("simlab".into()));
@@ -132,6 +146,11 @@ pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'st
         BlockKind::Code { language, .. } => {
             let holds_json = body.trim_start().starts_with(['{', '[']);
             match in_other_words(&open.words).filter(|_| holds_json) {
+                Some("quiz") => return Some(quiz),
+                Some(_) => return Some(lab),
+                None => {}
+            }
+            match joined_or_plural(language).filter(|_| holds_json) {
                 Some("quiz") => return Some(quiz),
                 Some(_) => return Some(lab),
                 None => {}

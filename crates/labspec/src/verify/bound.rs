@@ -19,7 +19,7 @@ use crate::rules;
 use crate::run::{Budget, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Find, Run, Sweep, Verify};
-use labspec_core::reflect::FieldId;
+use labspec_core::reflect::{FieldId, Object};
 use labspec_core::{self as core, Demand, Model};
 use labspec_expr::{Compiled, Compiler, Globals, Program, RuntimeError, Value};
 use std::cell::{OnceCell, RefCell};
@@ -277,28 +277,40 @@ impl<'a> BoundVerify<'a> {
         places.iter().filter_map(|place| numbers.get(*place)).map(|x| x.to_bits()).collect()
     }
 
-    /// Whether a control makes any difference to the model, the data or the variables of its lab.
+    /// Whether a control makes any difference to what the simulation computes: at its start, or in its first steps. Colours and
+    /// views make none.
     pub(super) fn moves_anything(&self, label: &Text, from: f64, to: f64) -> bool {
+        const STEPS: usize = 20;
         let Some(Scene { lab, model, programs, .. }) = self.lab() else { return false };
-        let state = |x: f64| {
+        let start = |x: f64| {
             let mut session =
                 Session::start_within(programs.clone(), model, lab.keyframe(), &Demand::ANY, Budget::TRIAL);
             let (i, _) = programs.control(&label.value)?;
             session.set_control(i, Value::Number(x));
             Some(session)
         };
-        let (Some(a), Some(b)) = (state(from), state(to)) else { return false };
-        let differs = |f: FieldId| {
+        let (Some(mut a), Some(mut b)) = (start(from), start(to)) else { return false };
+        let variables =
+            programs.effects_of(&label.value).is_some_and(|e| !e.ctx_writes.is_empty() || e.any_ctx);
+        let differs = |a: &Session<'_>, b: &Session<'_>, f: FieldId| {
             let count = core::length(&a.world.model, &a.world.data, f);
-            (0..count).any(|i| {
-                let [x, y] = [&a, &b].map(|s| core::element(&s.world.model, &s.world.data, f, i));
-                x.map(f64::to_bits) != y.map(f64::to_bits)
-            })
+            let other = core::length(&b.world.model, &b.world.data, f);
+            let bits =
+                |s: &Session<'_>, i| core::element(&s.world.model, &s.world.data, f, i).map(f64::to_bits);
+            count != other || (0..count).any(|i| bits(a, i) != bits(b, i))
         };
-        let variables = programs.control(&label.value).is_some_and(|_| {
-            programs.effects_of(&label.value).is_some_and(|e| !e.ctx_writes.is_empty() || e.any_ctx)
-        });
-        variables || (0..).map_while(FieldId::new).any(differs)
+        let computed = |f: &FieldId| f.info().object == Object::Data || f.info().name == "timestep";
+        let any = |a: &Session<'_>, b: &Session<'_>| {
+            (0..).map_while(FieldId::new).filter(computed).any(|f| differs(a, b, f))
+        };
+        if variables || any(&a, &b) {
+            return true;
+        }
+        for _ in 0..STEPS {
+            a.step();
+            b.step();
+        }
+        any(&a, &b)
     }
 
     /// Whether a text reads a value that is searched for.
@@ -605,6 +617,10 @@ impl<'a> BoundVerify<'a> {
         let kinds: Vec<Kind> = places.iter().map(kind).collect();
         let mut outlook = |inputs: &Inputs| {
             let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
+            // A number that is not there is no other number.
+            if matches!(traced.value, Value::Number(x) if x.is_nan()) {
+                return None;
+            }
             let look = match (says, &traced.value) {
                 (Some(says), value) => Outlook::Holds(says(value)),
                 (None, Value::Boolean(holds)) => Outlook::Holds(*holds),

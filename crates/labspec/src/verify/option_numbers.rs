@@ -51,7 +51,9 @@ fn contradiction(
     holds: bool,
 ) -> Option<String> {
     let said = option_text(&option.value)?;
-    let asked = asked(&parse_expression(&condition.value).tree)?;
+    // One side alone may bound another quantity than the number is of: a height, beside how far something fell.
+    let asked = asked(&parse_expression(&condition.value).tree)
+        .filter(|a| a.low.is_finite() && a.high.is_finite())?;
     let text =
         Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
     let found = units::of_claim(bound, &text)?;
@@ -88,11 +90,7 @@ fn contradiction(
 
 /// `asks for 1.13 to 1.33`
 fn range(low: f64, high: f64) -> String {
-    match (low.is_finite(), high.is_finite()) {
-        (true, true) => format!("asks for {} to {}", significant(low), significant(high)),
-        (true, false) => format!("asks for more than {}", significant(low)),
-        _ => format!("asks for less than {}", significant(high)),
-    }
+    format!("asks for {} to {}", significant(low), significant(high))
 }
 
 /// What a condition asks of one quantity; `None` where it is about several, or about something else.

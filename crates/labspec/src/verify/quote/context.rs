@@ -13,8 +13,8 @@ const LETTERS: &str = "a number with letters behind it";
 /// Characters that are looked at on either side.
 const NEAR: usize = 40;
 
-/// Words before a number that make it a bound which it does not reach. "Up to 27 mm" and "at least 2 s" state the number itself.
-const BOUNDS: [&str; 26] = [
+/// Words before a number that make it a bound.
+const BOUNDS: [&str; 30] = [
     "less than",
     "more than",
     "fewer than",
@@ -29,6 +29,8 @@ const BOUNDS: [&str; 26] = [
     "faster than",
     "other than",
     "different from",
+    "at most",
+    "at least",
     "below",
     "above",
     "under",
@@ -38,13 +40,20 @@ const BOUNDS: [&str; 26] = [
     "exceeding",
     "weniger als",
     "mehr als",
+    "mindestens",
+    "höchstens",
     "moins de",
     "plus de",
     "beyond",
 ];
 
 /// Words before a number that change it.
-const CHANGES: [&str; 62] = [
+const CHANGES: [&str; 67] = [
+    "hundred",
+    "thousand",
+    "million",
+    "billion",
+    "dozen",
     "minus",
     "negative",
     "plus",
@@ -210,6 +219,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         ')' | ']' if attached && !within => Some(FORMULA),
         ')' if matches!(previous, Some('-' | '–' | '+' | '±')) => Some(FORMULA),
         c if is_wide(c) => wide_before(chars, at),
+        // A half of what follows.
+        c if c.is_numeric() && !c.is_ascii_digit() && !c.is_alphabetic() => Some(FORMULA),
         c if c.is_alphanumeric() && attached => Some(ODD),
         c if c.is_alphanumeric() => words_before(chars, at),
         '%' => None,
@@ -239,7 +250,9 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let line = near.rsplit('\n').next().unwrap_or("").to_lowercase();
     let ends =
         |word: &str| line.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
-    if BOUNDS.into_iter().any(ends) {
+    // `up to` and `no more than` state the largest value itself.
+    let largest = ["no more than", "no less than"].into_iter().any(ends);
+    if BOUNDS.into_iter().any(ends) && !largest {
         return Some(BOUND);
     }
     if CHANGES.into_iter().any(ends)
@@ -263,7 +276,7 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
 }
 
 /// Words behind a number that change it.
-const BEHIND: [&str; 18] = [
+const BEHIND: [&str; 20] = [
     "or more",
     "or less",
     "or longer",
@@ -279,6 +292,8 @@ const BEHIND: [&str; 18] = [
     "dozen",
     "score",
     "times ten",
+    "at most",
+    "at least",
     "and a half",
     "oder mehr",
     "ou plus",

@@ -1,7 +1,7 @@
 //! Where texts stand as numbers of their own: all quotes are looked for at once, in one walk through the text.
 
 use super::numeral::{Chars, fraction};
-use super::quantity::{Quantity, quantities};
+use super::quantity::{Quantity, quantities, quantities_apart};
 use super::unit_text::Unit;
 use super::{fold, html};
 use labspec_bind::units::is_wide;
@@ -153,6 +153,8 @@ pub(super) struct Readable {
     /// For each byte of it the character that it belongs to.
     character: Vec<u32>,
     quantities: Vec<Quantity>,
+    /// Those with the ends of ranges apart.
+    apart: Vec<Quantity>,
 }
 
 impl Readable {
@@ -163,7 +165,12 @@ impl Readable {
             character.extend(std::iter::repeat_n(i as u32, c.len_utf8()));
         }
         character.push(chars.len() as u32);
-        Readable { flat, character, quantities: quantities(Chars(chars)) }
+        Readable {
+            flat,
+            character,
+            quantities: quantities(Chars(chars)),
+            apart: quantities_apart(Chars(chars)),
+        }
     }
 
     /// Whether what stands at a range says what the quote says when it stands alone: the same numbers, with the same signs, factors
@@ -174,38 +181,46 @@ impl Readable {
         }
         let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
         let (start, end) = (at(bytes.start)?, at(bytes.end)?);
-        let first = self.quantities.partition_point(|q| q.whole.end <= start);
-        let mut here = self.quantities.get(first..)?.iter().take_while(|q| q.whole.start < end);
-        let mut unit = None;
-        for (i, mine) in own.iter().enumerate() {
-            let theirs = here.next()?;
-            let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
-            // A plus before it changes nothing.
-            let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
-            // What a quote cannot be read as is told when it is read.
-            let clear = mine.refused.is_some() || theirs.refused.is_none();
-            if !(inside && begins && clear && mine.says(theirs)) {
-                return None;
-            }
-            let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
-            if text(mine) == text(theirs) {
-                if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| !u.shared) {
-                    return None;
-                }
-                continue;
-            }
-            let last = i + 1 == own.len();
-            if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.shared) || !last {
-                return None;
-            }
-            // Of `0.7 mm per step` the number alone says nothing.
-            if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none()) {
-                return None;
-            }
-            unit = theirs.unit.clone();
-        }
-        here.next().is_none().then(|| Found { bytes: bytes.clone(), unit })
+        let among = |all: &[Quantity]| says(all, start..end, own);
+        let unit = among(&self.quantities).or_else(|| among(&self.apart))?;
+        Some(Found { bytes: bytes.clone(), unit })
     }
+}
+
+/// Whether the quantities at a range of characters are those of a quote; with the unit that the text has behind the last of them.
+fn says(all: &[Quantity], range: Range<usize>, own: &[Quantity]) -> Option<Option<Unit>> {
+    let Range { start, end } = range;
+    let first = all.partition_point(|q| q.whole.end <= start);
+    let mut here = all.get(first..)?.iter().take_while(|q| q.whole.start < end);
+    let mut unit = None;
+    for (i, mine) in own.iter().enumerate() {
+        let theirs = here.next()?;
+        let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
+        // A plus before it changes nothing.
+        let begins = theirs.whole.start >= start || theirs.whole.start + 1 == start;
+        // What a quote cannot be read as is told when it is read.
+        let clear = mine.refused.is_some() || theirs.refused.is_none();
+        if !(inside && begins && clear && mine.says(theirs)) {
+            return None;
+        }
+        let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
+        if text(mine) == text(theirs) {
+            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| !u.shared) {
+                return None;
+            }
+            continue;
+        }
+        let last = i + 1 == own.len();
+        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.shared) || !last {
+            return None;
+        }
+        // Of `0.7 mm per step` the number alone says nothing.
+        if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none()) {
+            return None;
+        }
+        unit = theirs.unit.clone();
+    }
+    here.next().is_none().then_some(unit)
 }
 
 #[cfg(test)]
@@ -241,6 +256,10 @@ mod tests {
             ("(0.5 s)", "0.5 s", vec![1]),
             ("from 0.3 s to 0.5 s", "0.5 s", vec![14]),
             ("from 2.31 to 3.73 N m", "2.31", vec![5]),
+            ("between 0.4 J and 0.5 J", "0.4 J", vec![8]),
+            ("between 0.4 J and 0.5 J", "0.5 J", vec![18]),
+            ("up to 27 mm deep", "27 mm", vec![6]),
+            ("no more than 41 ms", "41 ms", vec![13]),
             ("0.5 thousand s", "0.5 thousand s", vec![0]),
             ("a 0.5-second fall", "0.5", vec![2]),
             ("0.7 mm per step", "0.7 mm per step", vec![0]),

@@ -40,11 +40,22 @@ impl Quantity {
 
 /// All quantities of a text, in order; pairs that say one thing (`0.4 to 0.5 s`, `0.44 ± 0.01 s`) are one.
 pub(super) fn quantities(chars: Chars<'_>) -> Vec<Quantity> {
+    read(chars, false)
+}
+
+/// The same, where the ends of a range in words that has both units (`between 0.4 s and 0.5 s`) are quantities of their own: a text
+/// states each of them.
+pub(super) fn quantities_apart(chars: Chars<'_>) -> Vec<Quantity> {
+    read(chars, true)
+}
+
+fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
     let singles = singles(chars);
     let mut all: Vec<Quantity> = Vec::with_capacity(singles.len());
     let mut rest = singles.into_iter().peekable();
     while let Some(mut first) = rest.next() {
         match rest.peek().map(|second| pair(chars, &first, second)) {
+            Some(Pair::One(_)) if apart && in_words(chars, &first, rest.peek()) => all.push(first),
             Some(Pair::One(one)) => {
                 rest.next();
                 all.push(one);
@@ -108,6 +119,14 @@ fn share(chars: Chars<'_>, all: &mut [Quantity]) {
         }
         next = Some((q.whole.start, q.unit.clone()));
     }
+}
+
+/// Whether two numbers with their own units are linked by a word.
+fn in_words(chars: Chars<'_>, first: &Quantity, second: Option<&Quantity>) -> bool {
+    second.is_some_and(|second| {
+        let gap = chars.text(first.whole.end, second.whole.start);
+        first.unit.is_some() && second.unit.is_some() && matches!(gap.trim(), "and" | "to" | "bis")
+    })
 }
 
 /// What two numbers beside each other are.

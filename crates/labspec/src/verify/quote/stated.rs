@@ -2,7 +2,7 @@
 
 use super::context::BOUND;
 use super::numeral::Chars;
-use super::quantity::quantities;
+use super::quantity::quantities_apart;
 use super::unit_text::{Unit, unit_of_head};
 use super::{Quoted, fold, html};
 use crate::source::Text;
@@ -131,7 +131,7 @@ fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let (folded, map) = fold::fold(&text.value, false);
     let chars: Vec<char> = folded.chars().collect();
     let bytes: Vec<usize> = folded.char_indices().map(|(at, _)| at).chain([folded.len()]).collect();
-    let found = quantities(Chars(&chars));
+    let found = quantities_apart(Chars(&chars));
     for q in found.into_iter().rev() {
         let byte = |i: usize| bytes.get(i).copied();
         let (Some(start), Some(end)) = (byte(q.whole.start), byte(q.whole.end)) else { continue };

@@ -1,0 +1,87 @@
+//! The identity of a claim, carried by each of its findings: it ties a finding to its entry in the ledger, and a baseline knows a
+//! finding by it.
+
+use crate::finding::{ClaimId, Finding};
+use crate::json::read::Number;
+use crate::ledger::{Entry, Subject};
+use crate::spec::{Question, QuestionKind, Verify};
+use crate::verify::Judgement;
+use std::fmt::Write;
+use std::ops::Range;
+
+/// The part of its owner's claims that a claim of the ledger is.
+fn part(subject: Subject, what: &str) -> String {
+    match subject {
+        // An undecided option is a part of the answer.
+        Subject::Answer | Subject::Option => Subject::Answer.as_str().to_string(),
+        subject => format!("{} {what}", subject.as_str()),
+    }
+}
+
+/// Whether a finding is about the claim of this entry.
+pub fn is_about(claim: &ClaimId, entry: &Entry) -> bool {
+    claim.owner == entry.owner && (claim.part.is_empty() || claim.part == part(entry.subject, &entry.what))
+}
+
+/// Gives each finding that was made while a claim was checked the identity of the claim.
+pub(super) fn identify(
+    owner: &str,
+    verify: &Verify,
+    question: Option<&Question>,
+    judgement: &Judgement,
+    findings: &mut [Finding],
+) {
+    let answer = judgement.answer.as_ref().map(|_| answer_result(verify, question, judgement));
+    for finding in findings {
+        let (part, result) = result_at(judgement, &finding.span).unwrap_or_else(|| match &answer {
+            Some(result) => (String::new(), result.clone()),
+            None => Default::default(),
+        });
+        finding.claim = Some(Box::new(ClaimId { owner: owner.to_string(), part, result }));
+    }
+}
+
+/// The quote, closed form or run that stands at a place, and what came out.
+fn result_at(judgement: &Judgement, span: &Range<usize>) -> Option<(String, String)> {
+    let at = |own: &Range<usize>| own == span;
+    let quotes = judgement.quotes.iter().filter(|q| at(&q.span));
+    let quotes = quotes.map(|q| (part(Subject::Quote, &q.text), q.reason.clone()));
+    let forms = judgement.exact.iter().filter(|form| at(&form.span));
+    let forms = forms.map(|form| (part(Subject::ClosedForm, &form.trace), form.remark.clone()));
+    let runs = judgement.runs.iter().filter(|run| at(&run.span));
+    let runs = runs.map(|run| (part(Subject::Run, &run.name), run.broke.clone().unwrap_or_default()));
+    quotes.chain(forms).chain(runs).next()
+}
+
+/// What a question claims, and what came out: the key, the conditions, the verdict, and which options hold.
+fn answer_result(verify: &Verify, question: Option<&Question>, judgement: &Judgement) -> String {
+    let mut text = String::new();
+    match question.map(|q| &q.kind) {
+        Some(QuestionKind::Choice { options, answer, .. }) => {
+            let key = answer.as_ref().map_or(f64::NAN, |n| n.value);
+            let option = options.get(key as usize).map_or("", |t| t.as_str());
+            let _ = write!(text, "key {key} ({option})");
+        }
+        Some(QuestionKind::Numeric { answer, tol, .. }) => {
+            let value = |n: &Option<Number>| n.as_ref().map_or(f64::NAN, |n| n.value);
+            let _ = write!(text, "key {} within {}", value(answer), value(tol));
+        }
+        _ => {}
+    }
+    for condition in verify.options.iter().chain(&verify.value) {
+        let _ = write!(text, "; {}", condition.as_str());
+    }
+    if let Some(answer) = &judgement.answer {
+        let _ = write!(text, "; {}: {}", answer.verdict.as_str(), answer.reason);
+        for weight in &answer.weights {
+            let holds = match weight.holds {
+                Some(true) => "holds",
+                Some(false) => "does not hold",
+                None => "is undecided",
+            };
+            let option = weight.option.map_or(String::from("value"), |i| i.to_string());
+            let _ = write!(text, "; {option} {holds}");
+        }
+    }
+    text
+}

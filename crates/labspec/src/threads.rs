@@ -1,0 +1,61 @@
+//! Threads that check lessons: each has the same stack, on every system, and a panic in one lesson ends the check of that lesson
+//! alone.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::thread::Builder;
+
+/// The stack of every thread that checks, in bytes: what is deep is as deep on each.
+const STACK: usize = 8 << 20;
+
+/// A thread to be, with that stack.
+#[cfg(any(feature = "cli", feature = "lsp"))]
+pub(crate) fn checking() -> Builder {
+    Builder::new().stack_size(STACK)
+}
+
+/// Does all the work of a program on a thread with that stack; where the system gives none, on this one.
+#[cfg(feature = "cli")]
+pub(crate) fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
+    std::thread::scope(|scope| match checking().spawn_scoped(scope, &work) {
+        Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
+        Err(_) => work(),
+    })
+}
+
+/// Does something about one lesson.
+///
+/// # Errors
+/// What the panic said that ended it.
+#[cfg(feature = "cli")]
+pub(crate) fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    // What was half done is dropped; caches keep whole entries alone.
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+        text.unwrap_or("it does not say why").to_string()
+    })
+}
+
+#[cfg(all(test, feature = "cli"))]
+#[allow(clippy::panic)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_says_what_it_was() {
+        assert_eq!(apart(|| 3), Ok(3));
+        let lesson = 7;
+        assert_eq!(apart(|| -> u8 { panic!("lesson {lesson} is odd") }), Err("lesson 7 is odd".into()));
+        assert_eq!(apart(|| -> u8 { panic!("odd") }), Err("odd".into()));
+    }
+
+    #[test]
+    fn the_work_has_the_stated_stack() {
+        /// Takes more than the 2 MB that a thread has when nobody says.
+        fn deep(n: usize) -> usize {
+            let space = std::hint::black_box([n as u8; 1 << 10]);
+            if n == 0 { 0 } else { deep(n - 1) + usize::from(space[n % 1024] == n as u8) }
+        }
+        assert_eq!(run(|| deep(4_000)), 4_000);
+    }
+}

@@ -1,0 +1,150 @@
+//! A lesson full of claims about one lab, checked once, and what became of each of them.
+
+use super::scenes::{NEVER, Scene};
+use labspec::bind::scene::Models;
+use labspec::check::{self, Checked, Depth};
+use labspec::ledger::State;
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::source::SourceFile;
+use labspec::verify::{Judgement, QuoteState, Verdict};
+use serde_json::{Map, Value, json};
+use std::fmt::Write;
+
+/// What is known of a claim by how it was made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Truth {
+    True,
+    False,
+    /// It would be the same whatever the simulation does, or says nothing at all.
+    Empty,
+    /// It is worked out without a run, and true: it may be *computed*, never *verified*.
+    Worked,
+}
+
+#[derive(Clone, Debug)]
+pub(super) enum Body {
+    Question(Value),
+    /// A comment, and the block that it is about.
+    Text(Value, String),
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Claim {
+    pub(super) kind: &'static str,
+    /// How it was made of a true one; empty for a true one.
+    pub(super) way: String,
+    pub(super) truth: Truth,
+    pub(super) body: Body,
+}
+
+/// What became of a claim.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Fate {
+    Verified,
+    Computed,
+    Refuted,
+    /// It could not be checked, or depends on the numerics.
+    Open,
+}
+
+/// The `verify` object of the lab, whose runs and measures all others use.
+fn shared(scene: &Scene) -> Value {
+    let named = scene.measures.iter().chain(&NEVER).map(|m| (m.name.to_string(), json!(m.expr)));
+    let mut measures: Map<String, Value> = named.collect();
+    measures.insert("half".into(), json!("0.5"));
+    measures.insert("text".into(), json!("'0.5'"));
+    measures.insert("rooted".into(), json!("max(Math.sqrt(0.2 - data.time))"));
+    measures.insert("hopeless".into(), json!("holds(!(NaN < -1))"));
+    measures.insert("hidden".into(), json!("holds(!(Math.sqrt(-1 - data.time) > 0))"));
+    measures.insert("counted".into(), json!("count(!(Math.sqrt(0.2 - data.time) > 100))"));
+    json!({"runs": scene.runs, "measure": measures, "says": [["runs", "1 < 2"]]})
+}
+
+/// The lesson, with questions before comments.
+pub(super) fn text(scene: &Scene, claims: &[Claim]) -> String {
+    let mut lab = scene.lab.clone();
+    lab["verify"] = shared(scene);
+    let mut text = format!("# A lab\n\nIt runs.\n\n```lab simlab\n{lab}\n```\n\n");
+    let questions: Vec<&Value> = claims
+        .iter()
+        .filter_map(|c| match &c.body {
+            Body::Question(q) => Some(q),
+            Body::Text(..) => None,
+        })
+        .collect();
+    if !questions.is_empty() {
+        let _ = writeln!(text, "```quiz\n{}\n```\n", json!({"id": "q", "questions": questions}));
+    }
+    for claim in claims {
+        if let Body::Text(verify, block) = &claim.body {
+            let _ = writeln!(text, "<!-- labspec verify {verify} -->\n{block}\n");
+        }
+    }
+    text
+}
+
+pub(super) fn check(scene: &Scene, claims: &[Claim]) -> Checked {
+    let models = Models::new(ModelFolder::unknown());
+    let lesson = load_lesson(SourceFile::new("claims.md", text(scene, claims)), models.folder());
+    check::check(lesson, &models, Depth::CLAIMS)
+}
+
+/// The measures of both runs, by name.
+pub(super) fn measured(scene: &Scene) -> Vec<(String, f64)> {
+    let checked = check(scene, &[]);
+    let judgement = &checked.claims[0].judgement;
+    judgement.measures.iter().map(|m| (m.name.clone(), m.value)).collect()
+}
+
+/// What became of each claim, and the first finding at it.
+pub(super) fn fates(checked: &Checked, claims: &[Claim]) -> Vec<(Fate, String)> {
+    let is_question = |c: &Claim| matches!(c.body, Body::Question(_));
+    let count = claims.iter().filter(|c| is_question(c)).count();
+    // The lab comes first, then all questions, then all comments.
+    assert_eq!(
+        checked.claims.len(),
+        1 + claims.len(),
+        "{:?}",
+        &checked.findings[..checked.findings.len().min(5)]
+    );
+    let (mut question, mut comment) = (1, 1 + count);
+    let mut all = Vec::new();
+    for claim in claims {
+        let at = if is_question(claim) { &mut question } else { &mut comment };
+        let judged = &checked.claims[*at];
+        let before = checked.claims[*at - 1].span.end;
+        *at += 1;
+        let inside = |start: usize| start >= before.min(judged.span.start) && start <= judged.span.end;
+        let found = checked.findings.iter().find(|f| inside(f.span.start));
+        let found = found.map_or(String::new(), |f| format!("{}: {}", f.code, f.message));
+        all.push((fate(&judged.judgement), found));
+    }
+    all
+}
+
+fn fate(judgement: &Judgement) -> Fate {
+    let answer = judgement.answer.iter().map(|a| match a.verdict {
+        Verdict::Verified => Fate::Verified,
+        Verdict::Computed => Fate::Computed,
+        Verdict::Refuted | Verdict::Ambiguous => Fate::Refuted,
+        Verdict::Fragile | Verdict::Failed | Verdict::Unverified => Fate::Open,
+    });
+    let quotes = judgement.quotes.iter().map(|q| match q.state {
+        QuoteState::Right if q.verdict() == "verified" => Fate::Verified,
+        QuoteState::Right => Fate::Computed,
+        QuoteState::Wrong => Fate::Refuted,
+        QuoteState::Unclear => Fate::Open,
+    });
+    let exact = judgement.exact.iter().map(|e| match e.state {
+        State::True(_) => Fate::Verified,
+        State::False => Fate::Refuted,
+        _ => Fate::Open,
+    });
+    let rank = |f: &Fate| match f {
+        Fate::Verified => 0,
+        Fate::Computed => 1,
+        Fate::Open => 2,
+        Fate::Refuted => 3,
+    };
+    answer.chain(quotes).chain(exact).max_by_key(rank).unwrap_or(Fate::Open)
+}
