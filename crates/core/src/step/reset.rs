@@ -14,7 +14,7 @@ use crate::model::way::Ways;
 use crate::model::{Model, Warning, WarningStat, reflect};
 use crate::step::scene::Demand;
 use crate::step::workspace::Data;
-use crate::{collision, sensor};
+use crate::{collision, constraint, sensor};
 
 impl Data {
     /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
@@ -144,6 +144,21 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.keeps(Stage::Actuation) {
         d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
+    }
+    if !d.plan.keeps(Stage::Passive) {
+        d.qfrc_passive.fill(0.0);
+    }
+    if !d.plan.keeps(Stage::Constraint) {
+        constraint::none(&mut d.fields, &mut d.work.constraint);
+    } else if !d.plan.keeps(Stage::Collision) {
+        collision::none(d);
+    }
+    if !d.plan.keeps(Stage::Solve) {
+        d.qfrc_constraint.fill(0.0);
+        (d.solver_niter, d.nisland) = (0, 0);
+    }
+    if !d.plan.keeps(Stage::Energy) {
+        d.energy = [0.0; 2];
     }
     if !d.plan.has(Fact::Springs) {
         d.qfrc_spring.fill(0.0);
