@@ -159,8 +159,9 @@ fn a_thousand_sensors_of_four_million_pairs() {
     );
     let checked = look(&xml, json!({"readouts": [{"label": "d", "expr": "data.sensordata[0]"}]}));
     let t = tried(&checked);
-    assert_eq!(t.covered, 0.0, "{t:?}");
-    assert!(t.ended.unwrap().starts_with("first 0 of 10 s"));
+    // Sensors that look at the same pairs begin with the best distance so far: some steps are made within the budget.
+    assert!(t.covered < 0.1, "{t:?}");
+    assert!(t.ended.unwrap().starts_with("first 0"));
 }
 
 #[test]

@@ -259,7 +259,7 @@ fn every_form_of_a_right_number_is_right() {
         ("It is **0.25** m.", "0.25 m", "0.25"),
         ("It is <b>0.25</b> m.", "0.25 m", "0.25"),
     ] {
-        let found = quotes(prose, &format!(r#"["{quote}", "{expr} + 0 * touch"]"#));
+        let found = quotes(prose, &format!(r#"["{quote}", "{expr} + 0"]"#));
         assert_eq!(found, (1, vec![]), "{quote} as {expr} in: {prose}");
     }
 }
@@ -277,7 +277,7 @@ fn a_wrong_number_is_wrong_in_every_form() {
         ("$I = mL^2 + I_c = 0.2501$", "2"),
     ] {
         let quote = quote.replace('\\', "\\\\");
-        let found = quotes(&format!("It is {quote}."), &format!(r#"["{quote}", "{expr} + 0 * touch"]"#));
+        let found = quotes(&format!("It is {quote}."), &format!(r#"["{quote}", "{expr} + 0"]"#));
         assert_eq!(found, (0, vec!["quote-wrong"]), "{quote} as {expr}");
     }
 }
@@ -296,7 +296,7 @@ fn what_is_not_understood_is_said_and_not_called_wrong() {
         ("0.25 m", "1 / 0", "quote-without-value"),
         ("the value x_1 of H2O", "1", "quote-without-number"),
     ] {
-        let found = quotes(&format!("It is {quote}."), &format!(r#"["{quote}", "{expr} + 0 * touch"]"#));
+        let found = quotes(&format!("It is {quote}."), &format!(r#"["{quote}", "{expr} + 0"]"#));
         assert_eq!(found, (0, vec![code]), "{quote} as {expr}");
     }
 }
@@ -304,25 +304,25 @@ fn what_is_not_understood_is_said_and_not_called_wrong() {
 /// What an author reads, for each kind of finding about a quote.
 #[test]
 fn findings_about_quotes_say_what_to_do() {
-    let says = r#"["0.25 m", "0.3 + 0 * touch"]"#;
+    let says = r#"["0.25 m", "0.3 + 0"]"#;
     expect_quote(
         "quote-everywhere",
         "refuted",
         "First 0.25 m, then **0.25** m.",
         &numeric("0.44", "0.005", "touch", says),
     );
-    let says = r#"["0.83 mm", "0.00083 + 0 * touch"]"#;
+    let says = r#"["0.83 mm", "0.00083 + 0"]"#;
     expect_quote("quote-unit", "failed", "It sinks by 0.83 mm.", &numeric("0.44", "0.005", "touch", says));
     let says = r#"["0.25 s", "first(contact('ball', 'floor') && data.time > 2)"]"#;
     expect_quote("quote-without-value", "failed", "After 0.25 s.", &numeric("0.44", "0.005", "touch", says));
-    let says = r#"["less than 1 mm", "0.83 + 0 * touch"]"#;
+    let says = r#"["less than 1 mm", "0.83 + 0"]"#;
     expect_quote(
         "quote-unclear",
         "failed",
         "It sinks by less than 1 mm.",
         &numeric("0.44", "0.005", "touch", says),
     );
-    let says = r#"["0.25 m", "0.25 + 0 * touch"]"#;
+    let says = r#"["0.25 m", "0.25 + 0"]"#;
     let prose = "After 0.26 m.\n\n```python\nx = '0.25 m'\n```";
     expect_quote("quote-hidden", "failed", prose, &numeric("0.44", "0.005", "touch", says));
 }

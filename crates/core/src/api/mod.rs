@@ -7,6 +7,9 @@ pub(crate) mod data;
 pub(crate) mod error;
 pub(crate) mod model;
 pub(crate) mod planning;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod scaled_scenes;
 pub(crate) mod view;
 
 #[cfg(feature = "mjcf")]

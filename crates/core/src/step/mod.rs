@@ -103,9 +103,6 @@ fn check_acceleration(m: &Model, d: &mut Data) {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod scaled;
-#[cfg(test)]
 #[allow(clippy::unwrap_used, clippy::panic)]
 mod survival;
 #[cfg(test)]

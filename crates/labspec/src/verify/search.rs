@@ -18,7 +18,7 @@ use labspec_core::xml::Patch;
 
 /// Values that are looked at between the ends, and of the search for a place that is near to turning over.
 const PROBES: usize = 12;
-const NEARER: usize = 8;
+const NEARER: usize = 20;
 /// Where both sides of a limit are looked at, as parts of the range.
 const BESIDE: [f64; 2] = [0.004, 0.02];
 /// Most halvings: more are finer than numbers are.
@@ -129,8 +129,8 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Re
         tried.windows(3).map(|t| nearer(t, try_at)).collect::<Option<Vec<_>>>()?.concat();
     tried.extend(near);
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let changes = changes(&tried);
-    let [[mut low, mut high]] = changes[..] else { return Some(Err(several(&changes))) };
+    let found = as_one(changes(&tried), find.tol.value);
+    let [[mut low, mut high]] = found[..] else { return Some(Err(several(&found))) };
     for _ in 0..HALVINGS {
         let middle = low + (high - low) / 2.0;
         if high - low <= find.tol.value || middle <= low || middle >= high {
@@ -150,9 +150,9 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Re
         }
     }
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let changes = self::changes(&tried);
-    if changes.len() != 1 {
-        return Some(Err(several(&changes)));
+    let found = as_one(changes(&tried), find.tol.value);
+    if found.len() != 1 {
+        return Some(Err(several(&found)));
     }
     // The value with which it was seen to hold.
     Some(Ok(if find.largest { low } else { high }))
@@ -162,6 +162,14 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Re
 fn changes(tried: &[(f64, Tried)]) -> Vec<[f64; 2]> {
     let pairs = tried.iter().zip(tried.iter().skip(1));
     pairs.filter(|(a, b)| a.1.holds != b.1.holds).map(|(a, b)| [a.0, b.0]).collect()
+}
+
+/// Changes that lie nearer to each other than the limit is asked for are one.
+fn as_one(changes: Vec<[f64; 2]>, tol: f64) -> Vec<[f64; 2]> {
+    match (changes.first(), changes.last()) {
+        (Some([low, _]), Some([_, high])) if high - low <= tol => vec![[*low, *high]],
+        _ => changes,
+    }
 }
 
 fn several(changes: &[[f64; 2]]) -> NoLimit {

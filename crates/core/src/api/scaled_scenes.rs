@@ -1,12 +1,12 @@
 //! A whole scene scaled: what touches in it, what rays meet and how far geoms are apart, for every pair of types of geoms, from
 //! 6e-5 to 16384 of its size. Scales are powers of two, so that the scaled answer is that of the scene to the bit.
 
-use super::workspace::Data;
-use super::{forward, functions};
 use crate::math::{Vec3, scale};
 use crate::mjcf::compile;
 use crate::model::{Contact, Model};
 use crate::query::{RayFilter, ray};
+use crate::step::workspace::Data;
+use crate::step::{forward, functions};
 
 const SCENE: &str = "<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1 .8 .7 .9' scale='.5 .5 .5'/>
     <hfield name='h' nrow='3' ncol='3' size='2 2 .4 .2' elevation='0 1 0 2 3 1 0 1 2'/></asset>
