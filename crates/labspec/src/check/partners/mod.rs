@@ -20,8 +20,8 @@ use crate::verify::{self, BoundVerify, Judgement, Measured, QuoteState, ShownTex
 use rests::Rests;
 use std::cell::OnceCell;
 
-/// A part of a measure by which another order of operations may change it.
-const ROUNDING: f64 = 1e-6;
+/// The part of a measure that a reader would see: what changes less says nothing of the body.
+const MATTERS: f64 = 1e-3;
 
 /// A program that writes a parameter which others belong to.
 #[derive(Clone)]
@@ -270,7 +270,7 @@ fn moved(a: &Measured, b: &Measured) -> bool {
     }
     let apart = (a.value - b.value).abs();
     let numerics = a.halved.map_or(0.0, |h| (h - a.value).abs());
-    apart > ROUNDING * a.value.abs().max(b.value.abs()) && !(apart <= numerics)
+    apart > MATTERS * a.value.abs().max(b.value.abs()) && !(apart <= numerics)
 }
 
 fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Measured, &'j Measured)> {

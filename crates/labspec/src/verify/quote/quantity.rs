@@ -55,7 +55,9 @@ fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
     let mut rest = singles.into_iter().peekable();
     while let Some(mut first) = rest.next() {
         match rest.peek().map(|second| pair(chars, &first, second)) {
-            Some(Pair::One(_)) if apart && in_words(chars, &first, rest.peek()) => all.push(first),
+            Some(Pair::One(_) | Pair::Refused(_)) if apart && in_words(chars, &first, rest.peek()) => {
+                all.push(first);
+            }
             Some(Pair::One(one)) => {
                 rest.next();
                 all.push(one);

@@ -90,7 +90,13 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
     for (verify, block) in lesson.scoped() {
         let narrow = block.map(|block| shown.within(block, verify));
         let shown = narrow.as_ref().unwrap_or(&shown);
-        all.extend(verify.says.iter().flat_map(|said| shown.places(said.quote.as_str())));
+        for said in &verify.says {
+            // A quote that is one number claims the number that it begins with, and no other end of a range.
+            let number = said.exprs.len() == 1
+                && said.quote.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit());
+            let place = |at: Range<usize>| if number { at.start..at.start + 1 } else { at };
+            all.extend(shown.places(said.quote.as_str()).into_iter().map(place));
+        }
         let cells = verify.table.iter().filter_map(|claim| super::cells(claim, shown).ok());
         all.extend(cells.flatten().flatten().map(|cell| cell.span()));
     }
