@@ -154,9 +154,7 @@ fn empty_of(m: &str, n: &str, x: f64, positive: bool) -> Vec<(&'static str, Stri
         )
     })
     .collect();
-    for text in
-        ["true", "1", "'text'", "!0", "0.5", "text"]
-    {
+    for text in ["true", "1", "'text'", "!0", "0.5", "text"] {
         all.push(("a constant", text.to_string()));
     }
     all.push(("a number instead of a condition", m.to_string()));
