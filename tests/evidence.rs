@@ -193,19 +193,15 @@ fn a_range_is_that_of_what_was_read() {
 fn a_search_sees_a_thin_band_and_says_where_it_looked() {
     // The condition fails in a band of a hundredth of the range, between two of the values that are looked at first.
     let find = |condition: &str| {
-        json!({"find": {"limit": {"largest": "g", "from": -20, "to": -1, "while": condition, "tol": 1e-3}},
-            "options": ["abs(limit + 9) < 0.1", "limit > -7"]})
+        json!({"find": {"limit": {"largest": "g", "from": -20, "to": -2, "while": condition, "tol": 1e-3}},
+            "options": ["abs(limit + 8.163) < 0.05", "limit > -7"]})
     };
-    let clean = choice("", &find("initial(model.opt.gravity[2]) <= -9 && final(data.time) > 0"));
+    let half_way = "crossing(data.qpos[2], 0.5)";
+    let clean = choice("", &find(&format!("{half_way} < 0.35")));
     assert_eq!(verdict(&clean), Verdict::Verified, "{:?}", codes(&clean));
     let answer = checked_reason(&clean);
-    assert!(answer.contains("`limit` was looked for at") && answer.contains("from -20 to -1"), "{answer}");
-    let band = choice(
-        "",
-        &find(
-            "initial(model.opt.gravity[2]) <= -9 && abs(initial(model.opt.gravity[2]) + 15) > 0.08 && final(data.time) > 0",
-        ),
-    );
+    assert!(answer.contains("`limit` was looked for at") && answer.contains("from -20 to -2"), "{answer}");
+    let band = choice("", &find(&format!("{half_way} < 0.35 && abs({half_way} - 0.26) > 0.001")));
     assert_eq!(verdict(&band), Verdict::Failed, "{:?}", codes(&band));
 }
 

@@ -10,6 +10,9 @@ pub(crate) mod planning;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod scaled_scenes;
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)]
+mod survival;
 pub(crate) mod view;
 
 #[cfg(feature = "mjcf")]

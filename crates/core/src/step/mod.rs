@@ -103,8 +103,5 @@ fn check_acceleration(m: &Model, d: &mut Data) {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)]
-mod survival;
-#[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests;

@@ -86,7 +86,7 @@ impl Claim {
             Some(Slot::Swept(_) | Slot::Missing) | None => false,
         };
         let own = self.program.iter().flat_map(|p| p.aggregates().iter().enumerate());
-        let own = own.filter(|(_, a)| a.args.iter().any(|p| looks_over_run(p))).map(|(i, _)| slots.len() + i);
+        let own = own.filter(|(_, a)| a.args.iter().any(looks_over_run)).map(|(i, _)| slots.len() + i);
         self.reads.iter().copied().filter(simulated).chain(own).collect()
     }
 

@@ -323,7 +323,7 @@ fn turns(
         for pair in known.windows(2) {
             let [(a, at_a), (b, at_b)] = pair else { continue };
             let (Some(da), Some(db)) = (difference(at_a, k), difference(at_b, k)) else { continue };
-            if !(da * db < 0.0) {
+            if da * db >= 0.0 || (da * db).is_nan() {
                 continue;
             }
             let (mut low, mut high, low_side) = (*a, *b, da);

@@ -11,6 +11,9 @@ use std::ops::Range;
 /// What of a partner changes: an element of its field, and how.
 type Changes = Vec<(usize, Change)>;
 
+/// Writes the statements that change the partner of these objects; `None` where that cannot be written.
+type Repair = fn(&mut Statements<'_>, &[usize]) -> Option<()>;
+
 /// A parameter of a model, and the partner that has to follow it.
 #[derive(Debug)]
 pub(crate) struct Pair {
@@ -31,7 +34,7 @@ pub(crate) struct Pair {
     /// The elements of the partner that belong to an element of the parameter.
     pub(super) partners: fn(usize) -> Range<usize>,
     /// The correction as statements; `None` where it has none.
-    pub(super) repair: Option<fn(&mut Statements<'_>, &[usize]) -> Option<()>>,
+    pub(super) repair: Option<Repair>,
 }
 
 /// All pairs.

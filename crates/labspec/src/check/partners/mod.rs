@@ -270,7 +270,7 @@ fn moved(a: &Measured, b: &Measured) -> bool {
     }
     let apart = (a.value - b.value).abs();
     let numerics = a.halved.map_or(0.0, |h| (h - a.value).abs());
-    apart > MATTERS * a.value.abs().max(b.value.abs()) && !(apart <= numerics)
+    apart > MATTERS * a.value.abs().max(b.value.abs()) && apart > numerics
 }
 
 fn pairs<'j>(a: &'j Judgement, b: &'j Judgement) -> impl Iterator<Item = (&'j Measured, &'j Measured)> {

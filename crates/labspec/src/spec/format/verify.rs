@@ -262,7 +262,7 @@ pub static FIND: Object = Object {
     what: "a search",
     doc: "The largest or the smallest value with which a condition holds, found by running and halving.",
     tag: None,
-    minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-5}"#,
+    minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-3}"#,
     keys: &[
         key(
             "largest",

@@ -208,7 +208,7 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '-' | '–' => Some(DIFFERENCE),
         '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
         | '¬' | '#' | '@' | '!'
-            if !(c == '|' && !attached) && !(c == '!' && !attached) =>
+            if attached || c != '|' && c != '!' =>
         {
             Some(FORMULA)
         }

@@ -109,7 +109,7 @@ fn meaning(c: char, flat: bool) -> Meaning {
         // Full width, as Chinese and Japanese print figures.
         '\u{ff01}'..='\u{ff5e}' => {
             let plain = char::from_u32(u32::from(c) - 0xfee0).unwrap_or(c);
-            return if plain == '~' { Meaning::Tilde } else { Meaning::Letter(plain) };
+            if plain == '~' { Meaning::Tilde } else { Meaning::Letter(plain) }
         }
         '〜' => Meaning::Tilde,
         '\u{2126}' => Meaning::Letter('Ω'),

@@ -135,7 +135,7 @@ fn unit_at(
 ) -> Option<(Unit, Held)> {
     let unit = |place: &Place| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
     let held = |place: &Place| unit(place).map(|unit| (hold(&unit, found), unit));
-    let best = places.iter().filter_map(|p| Some((held(p).map_or(Held::Fits, |(held, _)| held), p)));
+    let best = places.iter().map(|p| (held(p).map_or(Held::Fits, |(held, _)| held), p));
     let rank = |held: Held| match held {
         Held::Fits => 0,
         Held::Unknown => 1,

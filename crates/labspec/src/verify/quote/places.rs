@@ -133,8 +133,9 @@ fn whole_words(text: &str, range: &Range<usize>) -> bool {
     let letter = |c: Option<char>| c.filter(|c| c.is_alphanumeric() && !is_wide(*c));
     let before = letter(text.get(..range.start).and_then(|t| t.chars().next_back()));
     let after = letter(text.get(range.end..).and_then(|t| t.chars().next()));
-    !(before.is_some() && letter(quote.chars().next()).is_some())
-        && !(after.is_some() && letter(quote.chars().next_back()).is_some_and(|c| !c.is_numeric()))
+    let begins = before.is_some() && letter(quote.chars().next()).is_some();
+    let goes_on = after.is_some() && letter(quote.chars().next_back()).is_some_and(|c| !c.is_numeric());
+    !begins && !goes_on
 }
 
 /// A place of a quote.

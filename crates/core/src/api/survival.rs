@@ -1,12 +1,12 @@
 //! Any number is survived: whatever integers a stored model holds it is refused or can be stepped, and whatever a caller
 //! writes to the integers of the data every stage ends. The cases come from the table of fields.
 
-use super::{sound::unsound, step, step1, step2};
 use crate::mjcf::compile;
 use crate::model::Model;
 use crate::model::reflect::{self, Elem, FieldId, Object, View};
 use crate::step::workspace::Data;
 use crate::step::{forward, functions, inverse, save};
+use crate::step::{sound::unsound, step, step1, step2};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
