@@ -159,7 +159,7 @@ pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     for text in [format!("{x}"), format!("'{x}'"), format!("-(-({x}))")] {
         all.push(value("a constant", &a, text));
     }
-    for text in ["'0.5'".to_string(), format!("'0.' + '5'"), "'a0.5'.slice(1)".into()] {
+    for text in ["'0.5'".to_string(), "'0.' + '5'".into(), "'a0.5'.slice(1)".into()] {
         all.push(value("a text for a number", &half, text));
     }
     for text in [

@@ -151,8 +151,7 @@ fn other_numbers_are_not_right() {
     let mut right = Vec::new();
     for text in OTHERS {
         for quote in ["0.5 s", "0.5", "0.5秒", "0.5 s."] {
-            for sentence in [format!("It takes {text}."), format!("It takes {text} here"), format!("{text}")]
-            {
+            for sentence in [format!("It takes {text}."), format!("It takes {text} here"), text.to_string()] {
                 // A list, and a quotation, of Markdown.
                 let marked = sentence.starts_with("- ") || sentence.starts_with("> ");
                 if !marked && state(&sentence, quote, 0.5, "s") == RIGHT {
@@ -225,7 +224,7 @@ fn the_same_number_is_right() {
     // Minutes and degrees are converted.
     assert_eq!(state("It takes 2.0 min.", "2.0 min", 120.0, "s"), RIGHT);
     assert_ne!(state("It takes 2.0 min.", "2.0 min", 2.0, "s"), RIGHT);
-    assert_eq!(state("It turns by 45.0°.", "45.0°", 0.785398, "rad"), RIGHT);
+    assert_eq!(state("It turns by 45.0°.", "45.0°", std::f64::consts::FRAC_PI_4, "rad"), RIGHT);
     assert_eq!(state("It is 0.5 s here, and 0.5 ms there.", "0.5", 0.5, "s"), RIGHT);
 }
 
