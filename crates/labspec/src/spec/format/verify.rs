@@ -90,7 +90,7 @@ pub static VERIFY: Object = Object {
             "find",
             Type::Map(&FOUND),
             "values that are searched for by running: the largest or the smallest value of a control, or of an attribute of the model, with which a condition holds; each is read by its name, like a measure",
-            r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-5}}"#,
+            r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-3}}"#,
         )
         .or(Absent::Empty),
         key(
@@ -284,7 +284,7 @@ pub static FIND: Object = Object {
             r#""final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1""#,
         )
         .must("without it there is no limit"),
-        key("tol", Type::Number, "how near the limit is found", "1e-5")
+        key("tol", Type::Number, "how near the limit is found", "1e-3")
             .positive()
             .must("without it nobody knows how near is near enough"),
     ],
