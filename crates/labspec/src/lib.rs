@@ -46,6 +46,7 @@ pub mod scaffold;
 pub mod source;
 pub mod spec;
 pub mod stability;
+#[cfg(feature = "cli")]
 mod threads;
 pub mod trace;
 pub mod verify;

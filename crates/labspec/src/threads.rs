@@ -8,13 +8,11 @@ use std::thread::Builder;
 const STACK: usize = 8 << 20;
 
 /// A thread to be, with that stack.
-#[cfg(any(feature = "cli", feature = "lsp"))]
 pub(crate) fn checking() -> Builder {
     Builder::new().stack_size(STACK)
 }
 
 /// Does all the work of a program on a thread with that stack; where the system gives none, on this one.
-#[cfg(feature = "cli")]
 pub(crate) fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     std::thread::scope(|scope| match checking().spawn_scoped(scope, &work) {
         Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
@@ -26,7 +24,6 @@ pub(crate) fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
 ///
 /// # Errors
 /// What the panic said that ended it.
-#[cfg(feature = "cli")]
 pub(crate) fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     // What was half done is dropped; caches keep whole entries alone.
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
@@ -36,7 +33,7 @@ pub(crate) fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     })
 }
 
-#[cfg(all(test, feature = "cli"))]
+#[cfg(test)]
 #[allow(clippy::panic)]
 mod tests {
     use super::*;
