@@ -8,10 +8,10 @@ pub(crate) mod error;
 pub(crate) mod model;
 pub(crate) mod planning;
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
 mod scaled_scenes;
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::panic)]
+#[allow(clippy::unwrap_used, clippy::panic)] // a test that fails says why
 mod survival;
 pub(crate) mod view;
 
