@@ -652,7 +652,7 @@ impl<'a> BoundVerify<'a> {
                     Some(part) => moved.parts.get_mut(part),
                 };
                 if let Some(x) = number {
-                    *x += part * x.abs() + 1e-300;
+                    *x += part * x.abs().max(1e-6);
                 }
             }
             claim.evaluate(self, &moved, None).and_then(Result::ok)
