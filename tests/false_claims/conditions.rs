@@ -1,8 +1,9 @@
 //! Options of questions: conditions that hold and could fail, and what was made of them.
 
 use super::lesson::{Body, Claim, Truth};
-use super::random::Random;
+use super::random::{Random, printed};
 use super::scenes::NEVER;
+use super::values::other_units;
 use serde_json::json;
 
 /// A measure of a run, as a claim reads it, with its value.
@@ -301,4 +302,42 @@ pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         all.push(("samples that are no number", (*random.pick(MISSING)).to_string()));
     }
     all.iter().map(|(way, text)| option(way, Truth::Empty, &in_run(text), k)).collect()
+}
+
+/// Options whose own text states a number, beside a condition on the same measure.
+pub(super) fn texts(random: &mut Random, known: &[Known]) -> Vec<Claim> {
+    let k = random.pick(known);
+    let Some((x, _)) = printed(k.x).filter(|_| !k.unit.is_empty() && k.x > 0.05) else { return Vec::new() };
+    let unit = k.unit;
+    let d = 0.04 * k.x;
+    let condition = format!("abs({} - {}) < {d}", k.name, k.x);
+    let others = not_so(k);
+    let claim = |way: &str, truth, text: &str| {
+        let mut made = question("text of an option", way, truth, &condition, [&others[0], &others[0]]);
+        if let Body::Question(q) = &mut made.body {
+            q["options"][0] = json!(text);
+        }
+        made
+    };
+    let times = |f: f64| format!("{:.*}", if k.x * f < 1.0 { 4 } else { 2 }, k.x * f);
+    let say = |number: &str, unit: &str, random: &mut Random| {
+        let forms =
+            ["about {}", "It comes to {}", "{}", "roughly {}, no more", "Just {}.", "**{}**", "They are {} apart"];
+        random.pick(&forms).replace("{}", &format!("{number} {unit}"))
+    };
+    let mut all = vec![claim("", Truth::True, &say(&x, unit, random))];
+    for factor in [0.1, 0.5, 0.8, 1.25, 2.0, 10.0] {
+        all.push(claim("another number", Truth::False, &say(&times(factor), unit, random)));
+    }
+    // Units of the same kind: of another one the number may be of something else.
+    let kind = |u: &&&str| match unit {
+        "s" => ["ms", "min", "h", "µs"].contains(u),
+        "m" => ["mm", "cm", "km"].contains(u),
+        "m/s" => ["mm/s", "km/h", "cm/s"].contains(u),
+        _ => false,
+    };
+    for other in other_units(unit).iter().filter(kind).filter(|u| **u != "h") {
+        all.push(claim("another unit", Truth::False, &say(&x, other, random)));
+    }
+    all
 }

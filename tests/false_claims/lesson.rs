@@ -117,6 +117,8 @@ pub(super) fn fates(checked: &Checked, claims: &[Claim]) -> Vec<(Fate, String)> 
         let inside = |start: usize| start >= before.min(judged.span.start) && start <= judged.span.end;
         let found = checked.findings.iter().find(|f| inside(f.span.start));
         let found = found.map_or(String::new(), |f| format!("{}: {}", f.code, f.message));
+        let reasons: Vec<&str> = judged.judgement.quotes.iter().map(|q| q.reason.as_str()).collect();
+        let found = if found.is_empty() { reasons.join("; ") } else { found };
         all.push((fate(&judged.judgement), found));
     }
     all

@@ -123,7 +123,6 @@ const FACTORS: &[&str] = &[
     "4 - {T} {U}",
     "log {T} {U}",
     "exp({T}) {U}",
-    "{T}!",
     "{T} mille {U}",
 ];
 

@@ -165,7 +165,8 @@ pub(super) fn find(random: &mut Random, scene: &Scene) -> Vec<Claim> {
     ];
     for (truth, text) in [(Truth::True, limit), (Truth::False, 1.2 * limit)] {
         let quote = format!("{text:.0}");
-        let sure = (limit - limit.round()).abs() < 0.3;
+        // The steps of the run move the limit by up to a part in a hundred.
+        let sure = (0.99 * limit).round() == (1.01 * limit).round();
         if sure && (truth == Truth::True || (text - limit).abs() > 1.0) {
             let mut verify = object("largest", &right);
             verify["says"] = json!([[quote, "limit"]]);
@@ -285,6 +286,67 @@ pub(super) fn exact(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         ));
         let narrow = json!({"is": random.pick(&form.wrong), "tol": 1e-4});
         all.push(claim("another formula", Truth::False, form.trace, narrow));
+    }
+    all
+}
+
+/// Columns of tables whose rows are members of a sweep.
+pub(super) fn columns(random: &mut Random, scene: &Scene) -> Vec<Claim> {
+    let Some(law) = &scene.law else { return Vec::new() };
+    let [from, to] = law.range;
+    let values: Vec<f64> = (0..3).map(|i| (from + (to - from) * f64::from(i) / 2.0).round()).collect();
+    let unit = if law.slider == "g" { "m/s^2" } else { "N/m" };
+    let claim = |way: &str, truth, heads: [&str; 2], rows: &[[String; 2]]| {
+        let mut verify = law.verify(json!({"r": {"sweep": {law.slider: values}, "until": law.until}}));
+        let is = format!("r.{}", law.measure);
+        verify["table"] = json!([{"column": heads[1], "by": [heads[0], "r.value"], "is": is}]);
+        let rows: String = rows.iter().map(|[a, b]| format!("| {a} | {b} |\n")).collect();
+        let block = format!("| {} | {} |\n|---|---|\n{}", heads[0], heads[1], rows.trim_end());
+        Claim { kind: "column", way: way.into(), truth, body: Body::Text(verify, block) }
+    };
+    // Two digits, and none that half a step of the run could decide.
+    let cell = |x: f64| {
+        let text = format!("{x:.2}");
+        ((x - text.parse::<f64>().unwrap()).abs() < 0.003).then_some(text)
+    };
+    let rows: Vec<[String; 2]> =
+        values.iter().filter_map(|v| Some([format!("{v}"), cell(law.at(*v))?])).collect();
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let heads = [format!("{} ({unit})", law.slider), format!("{} (s)", law.measure)];
+    let heads = [heads[0].as_str(), heads[1].as_str()];
+    let mut all = vec![claim("", Truth::True, heads, &rows)];
+    let changed = |f: &dyn Fn(&mut [[String; 2]])| {
+        let mut rows = rows.clone();
+        f(&mut rows);
+        rows
+    };
+    let i = random.below(rows.len());
+    let plus = |text: &str, by: f64| format!("{:.2}", text.parse::<f64>().unwrap() + by);
+    all.push(claim("another number", Truth::False, heads, &changed(&|r| r[i][1] = plus(&r[i][1], 0.02))));
+    all.push(claim("another number", Truth::False, heads, &changed(&|r| r[i][1] = plus(&r[i][1], -0.03))));
+    all.push(claim("another sign", Truth::False, heads, &changed(&|r| r[i][1] = format!("-{}", r[i][1]))));
+    all.push(claim("another row", Truth::False, heads, &changed(&|r| r[i][0] = plus(&r[i][0], 0.5))));
+    if rows.len() > 1 && rows[0][1] != rows[rows.len() - 1][1] {
+        let last = rows.len() - 1;
+        let exchanged = changed(&|r| {
+            let text = r[0][1].clone();
+            r[0][1] = r[last][1].clone();
+            r[last][1] = text;
+        });
+        all.push(claim("another row", Truth::False, heads, &exchanged));
+    }
+    for other in ["ms", "kg", "min", "m"] {
+        let head = format!("{} ({other})", law.measure);
+        all.push(claim("another unit", Truth::False, [heads[0], &head], &rows));
+    }
+    for other in ["mm/s^2", "kg", "s", "kN/m"] {
+        let head = format!("{} ({other})", law.slider);
+        all.push(claim("another unit of the rows", Truth::False, [&head, heads[1]], &rows));
+    }
+    for text in ["?", "many", "see below", ""] {
+        all.push(claim("a cell without a number", Truth::Empty, heads, &changed(&|r| r[i][1] = text.into())));
     }
     all
 }

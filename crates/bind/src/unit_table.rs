@@ -239,13 +239,23 @@ pub(crate) fn symbol(word: &str) -> Option<Dimension> {
                 let found = row(word.strip_prefix(prefix)?).filter(|row| row.3)?;
                 Some((found, 10f64.powi(*power)))
             });
-            short.next().or_else(named)?
+            short.next().or_else(named).or_else(|| spelled(word))?
         }
     };
     let powers = row.2.iter().map(|(base, n)| Dimension::base(*base).power(f64::from(*n)));
     let dimension = powers.into_iter().try_fold(Dimension::NUMBER, |all, one| all.product(one?))?;
     // A larger unit has smaller numbers.
     Some(dimension.times(1.0 / (row.1 * size)))
+}
+
+/// A symbol behind a prefix that is written out: `millis`, `kiloN`.
+fn spelled(word: &str) -> Option<(&'static Row, f64)> {
+    let mut found = NAMED_PREFIXES.iter().filter(|(p, _)| p.is_ascii()).filter_map(|(prefix, power)| {
+        let (head, tail) = word.split_at_checked(prefix.len())?;
+        let row = UNITS.iter().find(|row| row.3 && row.0 == tail)?;
+        head.eq_ignore_ascii_case(prefix).then_some((row, 10f64.powi(*power)))
+    });
+    found.next()
 }
 
 /// A unit by its name in lower case: how large it is, and in which unit.

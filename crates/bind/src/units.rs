@@ -371,6 +371,8 @@ mod tests {
             ("m per second squared", "m/s^2"),
             ("metres per second", "m/s"),
             ("Kilometer", "km"),
+            ("millim", "mm"),
+            ("KiloN", "kN"),
             ("毫秒", "ms"),
             ("米/秒", "m/s"),
             ("キログラム", "kg"),

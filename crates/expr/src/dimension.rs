@@ -98,6 +98,11 @@ impl Dimension {
         (self.factor.abs() - 1.0).abs() < 1e-9
     }
 
+    /// The power of the angle.
+    pub fn angle(&self) -> f64 {
+        f64::from(self.powers[ANGLE]) / f64::from(SIXTHS)
+    }
+
     /// Whether angles have a part in it.
     pub fn has_angle(&self) -> bool {
         self.powers[ANGLE] != 0

@@ -1,8 +1,8 @@
 //! The answer of a question: one condition per option, or the value of a number, under the numerics of the lesson and under
 //! others that it does not mention.
 
-use super::bound::Found;
 use super::condition::Weighed;
+use super::found::Found;
 use super::outcome::Outcome;
 use super::{
     BoundVerify, CLOSER, Outcomes, PERTURBED, decided, empty, grounded, option_numbers, over, quote, shorten,
@@ -172,7 +172,7 @@ fn conditions(
         }
         match ground(bound, outcome, text, findings) {
             Err(why) => reason = reason.or(Some(why)),
-            Ok(found) if !is_truth(&found.value) => {
+            Ok(found) if tried && !bound.is_truth(&found) => {
                 findings.push(no_condition(text, &found.value));
                 reason = reason.or_else(|| Some("an option has no condition".to_string()));
             }
@@ -188,11 +188,6 @@ fn conditions(
 /// Whether a text says that the evidence does not decide an option.
 pub(super) fn is_undecided(text: &Text) -> bool {
     text.value.trim() == UNDECIDED
-}
-
-/// Whether a value says that something holds or not: a truth value, or what `holds(…)` gives.
-fn is_truth(value: &Value) -> bool {
-    matches!(value, Value::Boolean(_)) || matches!(value, Value::Number(x) if *x == 0.0 || *x == 1.0)
 }
 
 /// An option with a number or a text instead of a condition.

@@ -20,6 +20,8 @@ pub(super) struct Claim {
     pub(super) reads: Vec<usize>,
     /// Where it looks at the simulation outside of what is taken over a run.
     pub(super) outside: bool,
+    /// It names a number of a run; with no place among `reads`, the text never comes to it.
+    pub(super) names_number: bool,
     /// Numbers that stand in the text.
     pub(super) constants: Vec<f64>,
 }
@@ -31,6 +33,27 @@ pub(super) struct Inputs {
     pub(super) numbers: Vec<f64>,
     /// What the aggregates in its own text give, in order.
     pub(super) parts: Vec<f64>,
+}
+
+impl Inputs {
+    /// The number at a place: of the layout, and then of the parts.
+    pub(super) fn at(&self, place: usize) -> Option<f64> {
+        match place.checked_sub(self.numbers.len()) {
+            None => self.numbers.get(place).copied(),
+            Some(part) => self.parts.get(part).copied(),
+        }
+    }
+
+    /// Puts another number at a place.
+    pub(super) fn put(&mut self, place: usize, x: f64) {
+        let number = match place.checked_sub(self.numbers.len()) {
+            None => self.numbers.get_mut(place),
+            Some(part) => self.parts.get_mut(part),
+        };
+        if let Some(number) = number {
+            *number = x;
+        }
+    }
 }
 
 /// An evaluation.
@@ -68,6 +91,7 @@ impl Claim {
             diagnostics: compiled.diagnostics,
             reads,
             outside,
+            names_number: names.met(),
             constants,
         })
     }

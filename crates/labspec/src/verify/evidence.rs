@@ -172,6 +172,25 @@ fn of_aggregate(a: &Aggregate, world: &World, context: &mut Context) -> Kind {
     }
 }
 
+/// Values that are drawn in place of what was measured.
+const DRAWN: usize = 16;
+
+/// The numbers of a claim with others of their kinds in place of what was measured, again and again.
+pub(super) fn draws<'i>(
+    nominal: &'i Inputs,
+    places: &'i [usize],
+    kinds: &'i [Kind],
+) -> impl Iterator<Item = Inputs> + 'i {
+    let mut draws = Draws::new(3);
+    (0..DRAWN).map(move |_| {
+        let mut inputs = nominal.clone();
+        for (place, kind) in places.iter().zip(kinds) {
+            inputs.put(*place, kind.nearest(draws.any()));
+        }
+        inputs
+    })
+}
+
 /// What a claim says with some numbers: `None` where it says nothing.
 pub(super) type Says<'s> = dyn FnMut(&Inputs) -> Option<(Outlook, Vec<Comparison>)> + 's;
 
@@ -212,21 +231,7 @@ pub(super) fn could_differ(
     says: &mut Says<'_>,
 ) -> bool {
     let Some((now, compared)) = says(nominal) else { return false };
-    let at = |inputs: &Inputs, place: usize| match place.checked_sub(inputs.numbers.len()) {
-        None => inputs.numbers.get(place).copied(),
-        Some(part) => inputs.parts.get(part).copied(),
-    };
-    let put = |inputs: &mut Inputs, place: usize, x: f64| {
-        let count = inputs.numbers.len();
-        let number = match place.checked_sub(count) {
-            None => inputs.numbers.get_mut(place),
-            Some(part) => inputs.parts.get_mut(part),
-        };
-        if let Some(number) = number {
-            *number = x;
-        }
-    };
-    let values: Vec<f64> = places.iter().filter_map(|p| at(nominal, *p)).collect();
+    let values: Vec<f64> = places.iter().filter_map(|p| nominal.at(*p)).collect();
     let sides = compared.iter().flat_map(|c| [c.left, c.right]);
     let others: Vec<f64> = values
         .iter()
@@ -253,7 +258,7 @@ pub(super) fn could_differ(
         // Any measure may have no value: its event does not happen, or the run breaks.
         for x in list.iter().copied().chain([f64::NAN]) {
             let mut inputs = nominal.clone();
-            put(&mut inputs, place, x);
+            inputs.put(place, x);
             if let Some((then, compared)) = says(&inputs) {
                 if then.differs(now) {
                     return true;
@@ -265,14 +270,14 @@ pub(super) fn could_differ(
         if !kind.whole
             && turns(&known, now, &mut |x| {
                 let mut inputs = nominal.clone();
-                put(&mut inputs, place, x);
+                inputs.put(place, x);
                 says(&inputs)
             })
         {
             return true;
         }
     }
-    together(nominal, places, kinds, &lists, now, says, &put)
+    together(nominal, places, kinds, &lists, now, says)
 }
 
 /// Changes several numbers at once: each stays, is one of its values, or that of another number.
@@ -283,7 +288,6 @@ fn together(
     lists: &[Vec<f64>],
     now: Outlook,
     says: &mut Says<'_>,
-    put: &dyn Fn(&mut Inputs, usize, f64),
 ) -> bool {
     if places.len() < 2 {
         return false;
@@ -300,7 +304,7 @@ fn together(
                 _ => list.get((at * list.len() as f64) as usize).copied(),
             };
             if let Some(x) = x.filter(|x| kind.has(*x)) {
-                put(&mut inputs, place, x);
+                inputs.put(place, x);
                 last = Some(x);
             }
         }

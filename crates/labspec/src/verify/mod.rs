@@ -8,6 +8,7 @@
 //! | values that are searched for | `search` |
 //! | what conditions read | `outcome`, at the places of `layout` |
 //! | an expression over measures, compiled once | `claim` |
+//! | its value, and what that rests on | `found` |
 //! | whether it could have come out otherwise | `evidence` |
 //! | whether and how well a condition holds | `condition` |
 //! | the answer of a question | `answer` |
@@ -27,6 +28,7 @@ mod condition;
 mod curves;
 mod evidence;
 mod exact;
+mod found;
 pub(crate) mod judge;
 mod layout;
 mod measure;
@@ -278,11 +280,12 @@ fn grounded(
     outcome: &Outcome,
     text: &Text,
     findings: &mut Vec<Finding>,
-) -> Result<bound::Found, String> {
+) -> Result<found::Found, String> {
     let found = decided(bound, outcome, text, findings)?;
     // What has no finite value is told as that.
     let some = !matches!(found.value, labspec_expr::Value::Number(x) if !x.is_finite());
-    if some && found.evidence == Evidence::Simulated && !bound.could_differ(&found, None) {
+    let same = || found.evidence == Evidence::Simulated && !bound.could_differ(&found, None);
+    if some && (found.unread || same()) {
         return Err(empty(text, findings));
     }
     Ok(found)
@@ -294,7 +297,7 @@ fn decided(
     outcome: &Outcome,
     text: &Text,
     findings: &mut Vec<Finding>,
-) -> Result<bound::Found, String> {
+) -> Result<found::Found, String> {
     if condition::is_bare_constant(&text.value) {
         let message = format!("`{}` is a bare constant: evidence of nothing", text.value.trim());
         findings.push(
@@ -327,7 +330,7 @@ fn empty(text: &Text, findings: &mut Vec<Finding>) -> String {
 }
 
 /// An expression that a NaN decides.
-fn undecided_by_nan(text: &Text, undecided: &bound::Undecided, findings: &mut Vec<Finding>) -> String {
+fn undecided_by_nan(text: &Text, undecided: &found::Undecided, findings: &mut Vec<Finding>) -> String {
     let part = &undecided.part;
     let because = undecided.because.as_deref();
     let why = because.unwrap_or("a measure is NaN when its event never happens in the run").to_string();

@@ -4,12 +4,12 @@ use super::layout::{Layout, LayoutRun};
 use super::measure::Doubt;
 use crate::bind::{ModelNames, NUMBERS, Scope};
 use crate::run::Numerics;
-
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
     Schema, Words,
 };
+use std::cell::Cell;
 
 /// The measures of one run.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +81,8 @@ pub(super) struct OutcomeNames<'a> {
     claims: ModelNames<'a>,
     /// What the measures of each run measure, where that is asked for.
     units: Option<&'a Units>,
+    /// A number of a run was asked for by its name.
+    met: Cell<bool>,
 }
 
 /// What the measures of each run measure, by the place of the run.
@@ -90,12 +92,17 @@ impl<'a> OutcomeNames<'a> {
     pub(super) fn new(layout: &'a Layout, model: ModelNames<'a>) -> OutcomeNames<'a> {
         let mut claims = model;
         claims.scope = Scope::Claim;
-        OutcomeNames { layout, model, claims, units: None }
+        OutcomeNames { layout, model, claims, units: None, met: Cell::new(false) }
     }
 
     /// The same with the units of the measures.
     pub(super) fn measuring(self, units: &'a Units) -> OutcomeNames<'a> {
         OutcomeNames { units: Some(units), ..self }
+    }
+
+    /// Whether a text that was compiled with these names asked for a number of a run.
+    pub(super) fn met(&self) -> bool {
+        self.met.get()
     }
 
     /// Whether this is the name of a function that is called over the numbers of several runs.
@@ -117,6 +124,9 @@ impl<'a> OutcomeNames<'a> {
     /// The number, or the list of numbers, that a run has under a name.
     fn measured(&self, run: &LayoutRun, name: &str) -> Option<Entry> {
         let (_, first) = run.at.iter().find(|(known, _)| known == name)?;
+        if run.list.is_none() {
+            self.met.set(true);
+        }
         Some(number(format!("{}.{name}", run.name), *first, run.list))
     }
 }
@@ -143,6 +153,7 @@ impl Schema for OutcomeNames<'_> {
 
     fn root(&self, name: &str) -> Option<Entry> {
         if let Some((_, place)) = self.layout.found.iter().find(|(n, _)| n == name) {
+            self.met.set(true);
             return Some(number(name.to_string(), *place, None));
         }
         if let Some(i) = self.layout.runs.iter().position(|r| r.name == name) {

@@ -1,6 +1,6 @@
 //! What the text says: numbers and words that are quoted, and the cells of tables.
 
-use super::bound::Found;
+use super::found::Found;
 use super::outcome::Outcome;
 use super::quote::{self, Other, QuoteState};
 use super::{BoundVerify, Outcomes, ShownText, column, grounded, units};

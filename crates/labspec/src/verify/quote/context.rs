@@ -263,6 +263,10 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
         return Some("a number that the words before it change");
     }
     let last = line.rsplit(' ').next().unwrap_or("");
+    // `3 0.5 s`: two numbers without a word between them.
+    if last.starts_with(|c: char| c.is_ascii_digit()) && last.chars().all(|c| c.is_ascii_digit() || ".,'".contains(c)) {
+        return Some(ODD);
+    }
     // A command of TeX, or a symbol of a formula.
     let command = last.starts_with('\\') || last.contains('\\');
     let mut letters = last.chars();

@@ -26,8 +26,9 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
         let certain = found.is_exact() && !found.is_number();
         return if other && certain { Held::Wrong } else { Held::Unknown };
     };
-    // A radian is a number of its own only to the first power.
-    if found.is_exact() && found.has_angle() && has_power_of_angle(&unit.text) {
+    // A radian may be left out, and is no other power of a radian.
+    let angle = wanted.angle();
+    if found.is_exact() && found.has_angle() && angle != found.angle() && !(0.0..=1.0).contains(&angle) {
         return Held::Wrong;
     }
     // A turn is not a radian.
@@ -39,18 +40,6 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
         true => Held::Unsure,
         false => Held::Wrong,
     }
-}
-
-/// Whether a unit has a radian, or a degree, to another power than the first.
-fn has_power_of_angle(text: &str) -> bool {
-    ["rad", "deg", "°"].iter().any(|angle| {
-        let behind = text.match_indices(angle).filter_map(|(at, _)| text.get(at + angle.len()..));
-        let power = |rest: &str| {
-            rest.trim_start_matches([' ', '{'])
-                .starts_with(|c: char| c.is_ascii_digit() || "²³⁻^*-".contains(c))
-        };
-        behind.map(|rest| rest.trim_start_matches("ian").trim_start_matches("ians")).any(power)
-    })
 }
 
 /// What numbers of an expression are multiplied with to be numbers in a unit, where that is certain.
