@@ -13,11 +13,10 @@ use crate::bind::scene::{Models, check_model_file};
 use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Found, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
-use crate::lint::load_lesson_file;
-use crate::lint::{self, ModelFolder, load_lesson};
+use crate::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
 use crate::report::{Summary, human, printable_path};
 use crate::rules;
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Sources};
 use crate::spec::{FileKind, Lesson, kind_of};
 use crate::threads;
 use std::collections::{BTreeMap, BTreeSet};
@@ -404,7 +403,8 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     let piped = plan.stdin.filter(|(name, _)| name == path);
     let loaded = match piped {
         Some((name, text)) => {
-            Ok(load_lesson(SourceFile::new(name.display().to_string(), text.as_str()), models.folder()))
+            let file = SourceFile::new(name.display().to_string(), text.as_str());
+            Ok(load_lesson_at(file, name, &Sources::Disk, models.folder()))
         }
         None => load_lesson_file(path, models.folder()),
     };

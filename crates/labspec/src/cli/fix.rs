@@ -8,10 +8,9 @@ use super::target::model_folder_within;
 use super::{Failure, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::check;
-use crate::lint::{load_lesson, load_lesson_file};
+use crate::lint::{load_lesson_file, reload_lesson};
 use crate::repair::{Looked, repair, traces};
 use crate::report::{printable, printable_path};
-use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of};
 use similar::TextDiff;
 use std::path::Path;
@@ -62,10 +61,9 @@ pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
             Looked { text: checked.lesson.file.text().to_string(), findings, broken }
         };
         let old = lesson.file.text().to_string();
-        let name = lesson.file.path().clone();
-        let again = |text: &str| look(load_lesson(SourceFile::new(name.clone(), text), models.folder()));
-        let shows =
-            |text: &str| traces(&load_lesson(SourceFile::new(name.clone(), text), models.folder()), &models);
+        let first = lesson.clone();
+        let again = |text: &str| look(reload_lesson(&first, text, models.folder()));
+        let shows = |text: &str| traces(&reload_lesson(&first, text, models.folder()), &models);
         let (new, count) = repair(look(lesson), mode.guesses, &again, &shows);
         if count == 0 || interrupted() {
             continue;

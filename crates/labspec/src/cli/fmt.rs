@@ -5,9 +5,9 @@ use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::format;
-use crate::lint::load_lesson;
+use crate::lint::{load_lesson_at, reload_lesson};
 use crate::report::printable_path;
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Sources};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `fmt`.
@@ -54,7 +54,7 @@ pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
 fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
     let file = SourceFile::read(path)?;
     let folder = model_folder(&a.models, path)?;
-    let lesson = load_lesson(file, &folder);
+    let lesson = load_lesson_at(file, path, &Sources::Disk, &folder);
     if !named && is_other_json(&lesson) {
         return Ok(None);
     }
@@ -64,7 +64,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
         return Ok(None);
     }
     // The file as it would be is read once more before anything is replaced.
-    let again = load_lesson(SourceFile::new(lesson.file.path().clone(), done.text.as_str()), &folder);
+    let again = reload_lesson(&lesson, &done.text, &folder);
     if !format::says_the_same(&lesson, &again) {
         return Err(format!(
             "{} is left alone: laid out anew it would not be read as before; please report this lesson",

@@ -80,6 +80,16 @@ impl ModelFolder {
         Ok(ModelFolder { folder: Some(folder), root, names: Some(names), given: None })
     }
 
+    /// The same with models of the folder that are not saved yet.
+    pub(crate) fn with_unsaved(mut self, files: Vec<String>) -> ModelFolder {
+        if let Some(names) = &mut self.names {
+            names.extend(files.iter().filter_map(|file| file.strip_suffix(".xml")).map(String::from));
+            names.sort();
+            names.dedup();
+        }
+        self
+    }
+
     /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none. The root is
     /// what the folders around it say: `labspec.toml`, else the repository.
     pub fn near(lesson: &Path) -> ModelFolder {
