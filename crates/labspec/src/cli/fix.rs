@@ -5,7 +5,7 @@
 use super::course::{Plan, collect, is_other_json};
 use super::policy::Policies;
 use super::target::model_folder_within;
-use super::{Failure, interrupted, print, write_file};
+use super::{Failure, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::check;
 use crate::lint::{load_lesson_file, reload_lesson};
@@ -73,7 +73,7 @@ pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
         if mode.diff {
             print(&difference(&path, &old, &new))?;
         } else {
-            write_file(&path, &new)?;
+            write_file(&path, OutputKind::Lesson(&old), &new)?;
         }
     }
     Ok(repaired)

@@ -2,7 +2,7 @@
 
 use super::course::{collect, is_other_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
+use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::format;
 use crate::lint::{load_lesson_at, reload_lesson};
@@ -75,6 +75,6 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     if a.check {
         return Ok(Some(format!("{of} would change")));
     }
-    write_file(path, &done.text)?;
+    write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
     Ok(Some(format!("{of} changed")))
 }

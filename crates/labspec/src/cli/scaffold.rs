@@ -2,7 +2,7 @@
 
 use super::stdio::{Progress, print_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
+use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::lint::{load_lesson_file, reload_lesson};
 use crate::report::{printable, printable_lines, printable_path, report};
@@ -57,7 +57,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
                 printable_path(&a.lesson)
             ));
         }
-        write_file(&a.lesson, &text)?;
+        write_file(&a.lesson, OutputKind::Lesson(lesson.file.text()), &text)?;
     }
     match a.format {
         Format::Human => print(&human(a, &lesson, &all))?,
