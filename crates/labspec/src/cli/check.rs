@@ -2,7 +2,8 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Judge, Plan, STDIN, collect, look};
+use super::collect::{STDIN, collect};
+use super::course::{Course, Judge, Plan, look};
 use super::fix::{Mode, fix};
 use super::output::{Wanted, look_ahead, write_file};
 use super::policy::PolicyOptions;
@@ -168,7 +169,7 @@ fn work(
         .filter_map(|(kind, file)| Some(Wanted { kind, path: file?.to_path_buf() }))
         .collect();
     if !outputs.is_empty() {
-        let read: Vec<PathBuf> = collect(&a.paths).0.into_iter().map(|(path, _)| path).collect();
+        let read: Vec<PathBuf> = collect(&a.paths).files.into_iter().map(|(path, _)| path).collect();
         look_ahead(&read, &outputs)?;
     }
     // Read before anything is written: it may be the same file.
@@ -395,12 +396,8 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
 /// The last line: everything in numbers, and a judgement.
 fn last_line(course: &Course) -> String {
     let found = Summary::of(&course.findings);
-    let conclusion = course.ledger.conclusion();
-    let judgement = match (found.errors + found.warnings, course.ledger.outcome()) {
-        (0, _) if found.notes > 0 => format!("{conclusion}, {found}"),
-        (0, _) => conclusion,
-        _ => found.to_string(),
-    };
+    let found = if course.findings.is_empty() { String::new() } else { found.to_string() };
+    let judgement = course.ledger.conclusion(&found);
     format!("{}: {judgement}{}", course.ledger.summary(), put_aside(course))
 }
 

@@ -4,6 +4,7 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
+use super::collect::{Collected, collect, lost_snapshots};
 use super::digest;
 use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::{complain, print};
@@ -116,8 +117,15 @@ enum Done {
 
 /// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
 pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
-    let (mut files, problems) = collect(plan.paths);
-    files.extend(plan.stdin.map(|(name, _)| (name.clone(), true)));
+    let collected = collect(plan.paths);
+    collected.complain();
+    let Collected { mut files, problems, left_out } = collected;
+    if let Some((name, _)) = plan.stdin {
+        // What is piped stands for the file of its name.
+        let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        files.retain(|(path, _)| real(path) != real(name));
+        files.push((name.clone(), true));
+    }
     if files.is_empty() {
         return Err(nothing(plan.paths, &problems));
     }
@@ -232,6 +240,9 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let own = course.checked.iter().flat_map(|c| &c.findings);
     course.findings = own.chain(&course.last).cloned().collect();
     finding::sort(&mut course.findings);
+    for (path, why) in left_out {
+        course.ledger.add(left_out_entry(&path, why));
+    }
     let models = std::mem::take(&mut course.ledger);
     course.ledger = check::ledger(&course.checked, &course.findings);
     course.ledger.break_off(|path| broken_off.contains(path));
@@ -292,16 +303,22 @@ fn settle(course: &mut Course) {
     course.ledger.know(|e| meets(e, known.get(&e.path)) && !meets(e, told.get(&e.path)));
     let ignored = course.aside.ignored.iter().filter(|f| f.is_error()).cloned().collect();
     for (path, all) in by_path(ignored) {
-        course.ledger.add(Entry {
-            subject: Subject::File,
-            owner: path.to_string(),
-            path,
-            span: 0..0,
-            state: State::LeftOut,
-            word: "left out",
-            what: String::new(),
-            remark: format!("{} ignored", Summary::of(&all)),
-        });
+        course.ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::of(&all))));
+    }
+}
+
+/// A file that was not checked in full, and why.
+fn left_out_entry(path: &Path, remark: String) -> Entry {
+    let path: Arc<str> = Arc::from(path.display().to_string());
+    Entry {
+        subject: Subject::File,
+        owner: path.to_string(),
+        path,
+        span: 0..0,
+        state: State::LeftOut,
+        word: "left out",
+        what: String::new(),
+        remark,
     }
 }
 
@@ -446,26 +463,6 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     }
 }
 
-/// The snapshots below these folders, or named themselves, whose lessons are gone, in a fixed order.
-pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
-    let is_lost = |path: &Path| {
-        let name = path.file_name().and_then(|name| name.to_str());
-        let lesson =
-            name.and_then(|name| name.strip_suffix(lint::SNAPSHOT)).map(|name| path.with_file_name(name));
-        lesson
-            .is_some_and(|path| matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) && !path.exists())
-    };
-    let mut all = Vec::new();
-    for path in paths {
-        if path.is_dir() {
-            walk(path, &is_lost, &mut all, &mut Vec::new());
-        } else if path.exists() && is_lost(path) {
-            all.push((path.clone(), true));
-        }
-    }
-    all.into_iter().map(|(path, _)| path).collect()
-}
-
 fn lost(path: &Path) -> Finding {
     let shown = printable_path(path);
     let lesson = shown.strip_suffix(lint::SNAPSHOT).unwrap_or(&shown);
@@ -508,76 +505,4 @@ fn nothing(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
 /// Other JSON lies in folders of lessons; a file that was named is always ours.
 pub(super) fn is_other_json(lesson: &Lesson) -> bool {
     lesson.findings.iter().any(|f| f.code == "unknown-spec")
-}
-
-/// A file to check, and whether it was named itself.
-type ToCheck = (PathBuf, bool);
-/// What could not be read, and why.
-type Unread = (PathBuf, String);
-
-/// What stands for standard input.
-pub(super) const STDIN: &str = "-";
-
-/// The files to check, in a fixed order; and what could not be read.
-pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
-    let (mut files, mut problems) = (Vec::new(), Vec::new());
-    let is_lesson = |path: &Path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
-    for path in paths {
-        match std::fs::metadata(path) {
-            // Standard input is read by whoever called.
-            _ if path.as_os_str() == STDIN => {}
-            Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
-            Ok(meta) if meta.is_dir() => walk(path, &is_lesson, &mut files, &mut problems),
-            Ok(_) => files.push((path.clone(), true)),
-        }
-    }
-    (once(files), problems)
-}
-
-/// Each file once, however often and under whatever paths it was given: under the first of them.
-fn once(files: Vec<ToCheck>) -> Vec<ToCheck> {
-    let mut places: BTreeMap<PathBuf, usize> = BTreeMap::new();
-    let mut all: Vec<ToCheck> = Vec::new();
-    for (path, named) in files {
-        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
-        let place = *places.entry(real).or_insert(all.len());
-        match all.get_mut(place) {
-            Some((_, before)) => *before |= named,
-            None => all.push((path, named)),
-        }
-    }
-    all
-}
-
-/// Deepest nesting of folders.
-const MAX_DEPTH: usize = 32;
-
-/// The files of a folder that are wanted, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
-/// they may lead out of the folder, or round in a circle.
-fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
-    let all = ignore::WalkBuilder::new(folder)
-        .follow_links(false)
-        .require_git(false)
-        .git_global(false)
-        .max_depth(Some(MAX_DEPTH + 1))
-        .filter_entry(|e| e.file_name() != "node_modules")
-        .sort_by_file_path(Path::cmp)
-        .build();
-    for entry in all {
-        let entry = match entry {
-            Ok(entry) => entry,
-            Err(e) => {
-                problems.push((folder.to_path_buf(), format!("cannot read {e}")));
-                continue;
-            }
-        };
-        let path = entry.path();
-        let Some(kind) = entry.file_type() else { continue };
-        if kind.is_dir() && entry.depth() > MAX_DEPTH {
-            let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
-            problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && wanted(path) {
-            files.push((path.to_path_buf(), false));
-        }
-    }
 }

@@ -2,7 +2,8 @@
 //!
 //! Which repairs are kept, and how they are proven, is decided in [`crate::repair`]. All other bytes of the file stay what they are.
 
-use super::course::{Plan, collect, is_other_json};
+use super::collect::collect;
+use super::course::{Plan, is_other_json};
 use super::policy::Policies;
 use super::target::model_folder_within;
 use super::{Failure, OutputKind, interrupted, print, write_file};
@@ -38,7 +39,7 @@ pub(super) struct Repaired {
 pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
     let mut policies = Policies::new(plan.policy)?;
     let mut repaired = Repaired::default();
-    for (path, named) in collect(plan.paths).0 {
+    for (path, named) in collect(plan.paths).files {
         if interrupted() {
             break;
         }

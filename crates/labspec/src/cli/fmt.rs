@@ -1,6 +1,7 @@
 //! `labspec fmt`.
 
-use super::course::{collect, is_other_json};
+use super::collect::{Collected, collect};
+use super::course::is_other_json;
 use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
@@ -29,7 +30,9 @@ pub(super) struct Arguments {
 pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::Clean;
     let mut failures: Vec<String> = Vec::new();
-    let (files, problems) = collect(&a.paths);
+    let collected = collect(&a.paths);
+    collected.complain();
+    let Collected { files, problems, .. } = collected;
     failures.extend(problems.into_iter().map(|(_, why)| why));
     for (path, named) in files {
         if interrupted() {

@@ -4,6 +4,7 @@ mod baseline;
 mod bench;
 mod cache;
 mod check;
+mod collect;
 mod completions;
 mod course;
 mod digest;

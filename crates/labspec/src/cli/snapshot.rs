@@ -1,6 +1,7 @@
 //! `labspec snapshot`: what the labs of lessons show, stored beside them; and the review of what has changed.
 
-use super::course::{collect, is_other_json, lost_snapshots};
+use super::collect::{Collected, collect, lost_snapshots};
+use super::course::is_other_json;
 use super::output::{remove_file, write_file};
 use super::output_kind::OutputKind;
 use super::stdio::{print, print_json};
@@ -117,7 +118,9 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
 
 /// Reads every lesson, runs its labs, and compares.
 fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
-    let (files, problems) = collect(&a.paths);
+    let collected = collect(&a.paths);
+    collected.complain();
+    let Collected { files, problems, .. } = collected;
     if let Some((_, why)) = problems.first() {
         return Err(why.clone());
     }

@@ -90,13 +90,15 @@ const MOST_OF_OTHER: u64 = 4 << 20;
 /// The labs of other lessons that this one names.
 fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     let mut texts: BTreeMap<PathBuf, Result<String, String>> = BTreeMap::new();
+    let place = sources.followed(path);
+    let folder = place.parent().unwrap_or(Path::new(""));
     let mut left = MOST_OF_OTHERS;
     let named = lesson.verifies().flat_map(Verify::labs).filter_map(|lab| match lab {
         VerifyLab::Elsewhere(text, file, address) => Some((text.span(), file, address)),
         _ => None,
     });
     let mut read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
-        let there = path.parent().unwrap_or(Path::new("")).join(file);
+        let there = folder.join(file);
         let shown = there.display().to_string();
         // A lesson of somebody else may name any file of this machine.
         let inside = Path::new(file).is_relative();

@@ -172,6 +172,16 @@ impl Sources {
         }
     }
 
+    /// A path, and where it is a link, the path that this leads to.
+    pub(crate) fn followed(&self, path: &Path) -> PathBuf {
+        let is_link = || std::fs::symlink_metadata(path).is_ok_and(|meta| meta.is_symlink());
+        let real = match self {
+            Sources::Disk if is_link() => path.canonicalize().ok(),
+            _ => None,
+        };
+        real.unwrap_or_else(|| path.to_path_buf())
+    }
+
     /// What `find` finds about a path, which is kept where somebody types.
     pub(crate) fn place(
         &self,
