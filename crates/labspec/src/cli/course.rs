@@ -10,6 +10,7 @@ use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
+use crate::bind::parts::Mark;
 use crate::bind::scene::{Models, check_model_file};
 use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Found, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
@@ -117,6 +118,11 @@ enum Done {
 
 /// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
 pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
+    look_marked(plan, cache, digest::hex_of)
+}
+
+/// The same with another way to mark the files of models.
+fn look_marked(plan: &Plan<'_>, cache: &Cache, mark: Mark) -> Result<Course, Failure> {
     let collected = collect(plan.paths);
     collected.complain();
     let Collected { mut files, problems, left_out } = collected;
@@ -129,7 +135,7 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     if files.is_empty() {
         return Err(nothing(plan.paths, &problems));
     }
-    let (tasks, mut by_folder) = tasks(plan, &files)?;
+    let (tasks, mut by_folder) = tasks(plan, &files, mark)?;
     let mut policies = Policies::new(plan.policy)?;
     let of_files: Vec<Policy> = files.iter().map(|(path, _)| policies.of(path)).collect::<Result<_, _>>()?;
     let next = AtomicUsize::new(0);
@@ -353,7 +359,11 @@ fn tell(told: &Mutex<Told>, file: usize, text: String, progress: bool) {
 }
 
 /// What is to be done with each file, and the models that lessons share, compiled once for each folder.
-fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<Models>), Failure> {
+fn tasks(
+    plan: &Plan<'_>,
+    files: &[(PathBuf, bool)],
+    mark: Mark,
+) -> Result<(Vec<Task>, Vec<Models>), Failure> {
     let mut tasks = Vec::new();
     // Lessons of one folder have one folder of models, which is found and listed once.
     let mut near: BTreeMap<PathBuf, String> = BTreeMap::new();
@@ -392,7 +402,7 @@ fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<M
             *task = Task::Lesson(*number);
         }
     }
-    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, digest::hex_of)).collect()))
+    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, mark)).collect()))
 }
 
 /// What is said where a mistake of the program ended the check of a file.
@@ -505,4 +515,60 @@ fn nothing(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
 /// Other JSON lies in folders of lessons; a file that was named is always ours.
 pub(super) fn is_other_json(lesson: &Lesson) -> bool {
     lesson.findings.iter().any(|f| f.code == "unknown-spec")
+}
+
+#[cfg(test)]
+#[allow(clippy::panic, clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// A mistake of the program ends the check of one lesson, and is told there; the others are checked, on one thread or several.
+    #[test]
+    fn a_panic_in_one_lesson_is_its_finding_and_no_other_lesson_is_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("models")).unwrap();
+        for name in ["ball", "odd"] {
+            let model = format!(
+                "<mujoco model='{name}'><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>"
+            );
+            std::fs::write(folder.path().join(format!("models/{name}.xml")), model).unwrap();
+        }
+        let lab = |model: &str| {
+            format!(
+                "```lab simlab\n{{\"model\": \"{model}\", \"stopAt\": 0.01, \"readouts\": [{{\"label\": \"z\", \"expr\": \"data.qpos[2]\"}}]}}\n```\n"
+            )
+        };
+        for (name, model) in [("a.md", "ball"), ("b.md", "odd"), ("c.md", "ball")] {
+            std::fs::write(folder.path().join(name), lab(model)).unwrap();
+        }
+        let mark: Mark = |parts: &[&[u8]]| {
+            let is_odd = parts.iter().any(|part| String::from_utf8_lossy(part).contains("model='odd'"));
+            if is_odd { panic!("nobody thought of this model") } else { digest::hex_of(parts) }
+        };
+        for jobs in [1, 3] {
+            let plan = Plan {
+                paths: &[folder.path().to_path_buf()],
+                stdin: None,
+                models: &ModelOptions { models: None, root: None },
+                depth: Depth::FULL,
+                policy: &PolicyOptions::default(),
+                baseline: None,
+                basis: false,
+                judge: Judge::default(),
+                curves: false,
+                jobs,
+                progress: false,
+                told: None,
+            };
+            let course = look_marked(&plan, &Cache::open(true, false), mark).unwrap();
+            let errors: Vec<&Finding> = course.findings.iter().filter(|f| f.is_error()).collect();
+            let [error] = errors.as_slice() else { panic!("{errors:?}") };
+            assert!(error.path.ends_with("b.md") && error.message.contains("nobody thought of"), "{error:?}");
+            let labs = course.ledger.entries().iter().filter(|e| e.subject == Subject::Lab);
+            let labs: Vec<(bool, State)> = labs.map(|e| (e.path.ends_with("b.md"), e.state)).collect();
+            let run = State::True(Evidence::Simulated);
+            assert_eq!(labs, [(false, run), (true, State::Unchecked), (false, run)]);
+            assert_eq!(course.ledger.outcome(), crate::ledger::Outcome::Findings);
+        }
+    }
 }
