@@ -365,14 +365,15 @@ const ALSO: &str = "stability --png";
 
 /// Every option of every command that names a file, from the help of the program itself.
 fn file_options(folder: &Path) -> Vec<String> {
-    let help = run_in(folder, &["--help"]).stdout;
-    let commands = help.lines().skip_while(|l| *l != "Commands:").skip(1).take_while(|l| !l.is_empty());
+    let help =
+        |arguments: &[&str]| String::from_utf8(program(folder, arguments).output().unwrap().stdout).unwrap();
+    let all_help = help(&["--help"]);
+    let commands = all_help.lines().skip_while(|l| *l != "Commands:").skip(1).take_while(|l| !l.is_empty());
     let names =
         commands.filter_map(|l| l.strip_prefix("  ")?.split(' ').next().filter(|name| !name.is_empty()));
     let mut all = Vec::new();
     for command in names.filter(|name| *name != "help") {
-        let help = run_in(folder, &[command, "--help"]).stdout;
-        for line in help.lines().map(str::trim_start) {
+        for line in help(&[command, "--help"]).lines().map(str::trim_start) {
             let Some((option, value)) = line.strip_prefix("--").and_then(|l| l.split_once(" <")) else {
                 continue;
             };
@@ -463,40 +464,49 @@ fn no_command_replaces_a_file_of_another_kind() {
     }
 }
 
-/// Files are written, removed and renamed in one place, which asks what they are.
-#[test]
-fn files_are_written_in_one_place() {
+/// Every file of the program by its name, without tests.
+fn sources() -> Vec<(String, String)> {
     let source = crate::support::workspace().join("crates/labspec/src");
-    let mut open = vec![source.clone()];
-    let mut found = Vec::new();
+    let (mut open, mut all) = (vec![source.clone()], Vec::new());
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
+            let name = path.strip_prefix(&source).unwrap().display().to_string();
             if path.is_dir() {
                 open.push(path);
-                continue;
+            } else if !name.ends_with("tests.rs") && name.ends_with(".rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let code = text.split("#[cfg(test)]\n#[allow").next().unwrap();
+                all.push((name, code.split("#[cfg(test)]\nmod").next().unwrap().to_string()));
             }
-            let text = std::fs::read_to_string(&path).unwrap();
-            let code = text
-                .split("#[cfg(test)]\n#[allow")
-                .next()
-                .unwrap()
-                .split("#[cfg(test)]\nmod")
-                .next()
-                .unwrap();
-            let name = path.strip_prefix(&source).unwrap().display().to_string();
-            let writes =
-                ["fs::write(", "File::create", "OpenOptions", "fs::rename(", "fs::remove_", "fs::copy("];
-            if writes.iter().any(|call| code.contains(call)) {
-                found.push(name.clone());
-            }
-            // Lessons are read with their neighbours by all but those that have a text alone.
-            let alone = code.lines().any(|l| l.contains(" load_lesson(") || l.contains("(load_lesson("));
-            assert!(!alone || ["lint/load.rs", "player/load.rs"].contains(&name.as_str()), "{name}");
         }
     }
-    found.sort();
-    assert_eq!(found, ["cli/cache.rs", "cli/output.rs"]);
+    all.sort();
+    all
+}
+
+/// The files whose code has one of these texts.
+fn with(texts: &[&str]) -> Vec<String> {
+    let has = |code: &str| texts.iter().any(|text| code.contains(text));
+    sources().into_iter().filter(|(_, code)| has(code)).map(|(name, _)| name).collect()
+}
+
+/// Files are written, removed and renamed in one place, which asks what they are; the cache has a folder of its own. Lessons are read by
+/// one loader, and a text alone is what a page plays. Threads are made in one place, which gives them their stack.
+#[test]
+fn files_lessons_and_threads_have_one_place_each() {
+    let writes = [
+        "fs::write(",
+        "File::create",
+        "OpenOptions",
+        "fs::rename(",
+        "fs::remove_",
+        "remove_dir",
+        "fs::copy(",
+    ];
+    assert_eq!(with(&writes), ["cli/cache.rs", "cli/output.rs"]);
+    assert_eq!(with(&[" load_lesson(", "(load_lesson("]), ["lint/load.rs", "player/load.rs"]);
+    assert_eq!(with(&["thread::spawn", "Builder::new().s"]), ["threads.rs"]);
 }
 
 /// A link to a lesson is followed below the root, and named where it leads out.

@@ -2,7 +2,7 @@
 
 use crate::report::number_in_table;
 use std::fs::{self, File};
-use std::io::{BufReader, Read};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 
 /// What is written.
@@ -111,8 +111,7 @@ impl OutputKind<'_> {
                     && start.contains(",\"report\":\"run\",\"version\":\"labspec ")
             }
             OutputKind::Page => {
-                text.starts_with("<!DOCTYPE html>")
-                    && fs::read_to_string(place).is_ok_and(|text| text.contains("<footer><p>labspec "))
+                text.starts_with("<!DOCTYPE html>") && tail(place, size).contains("<footer><p><bdi>labspec ")
             }
             OutputKind::Table | OutputKind::Settings => is_table(place),
             OutputKind::Plot => {
@@ -138,6 +137,16 @@ impl OutputKind<'_> {
 fn head(place: &Path) -> String {
     let mut bytes = Vec::new();
     let read = File::open(place).and_then(|file| file.take(HEAD).read_to_end(&mut bytes));
+    read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// The last bytes of a file, as text.
+fn tail(place: &Path, size: u64) -> String {
+    let mut bytes = Vec::new();
+    let read = File::open(place).and_then(|mut file| {
+        file.seek(SeekFrom::Start(size.saturating_sub(HEAD)))?;
+        file.take(HEAD).read_to_end(&mut bytes)
+    });
     read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
 }
 

@@ -15,6 +15,7 @@ mod markup;
 pub(crate) mod model;
 mod models;
 
+#[cfg(feature = "lsp")]
 pub(crate) use links::links_to;
 pub use load::{
     MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, reload_lesson,

@@ -65,6 +65,7 @@ impl Overlay {
     }
 
     /// The open texts of a folder, by their names.
+    #[cfg(feature = "lsp")]
     pub(crate) fn names_in(&self, folder: &Path) -> Vec<String> {
         let open = locked(&self.open);
         let inside = open.keys().filter(|path| path.parent() == Some(folder));
