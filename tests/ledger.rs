@@ -284,8 +284,12 @@ fn a_lesson_with_neighbours_is_the_same_everywhere() {
     let alone = Checker::new(models.clone()).check("reader.md", READER);
     let unknown = alone.findings.iter().find(|f| f.code == "unknown-lab").unwrap();
     assert!(unknown.message.contains("only this lesson was given"), "{}", unknown.message);
-    let missing = Checker::new(models).neighbours([("others.md", LABS)]).check("reader.md", READER);
+    let missing = Checker::new(models.clone()).neighbours([("others.md", LABS)]).check("reader.md", READER);
     assert!(missing.findings.iter().any(|f| f.message.contains("that lesson was not given")));
+    // A page plays a lab of it; claims of another lesson's lab are none of its business.
+    let player = labspec::Player::of_lesson("reader.md", READER, "#1", models.clone()).unwrap();
+    let codes: Vec<&str> = player.findings().iter().map(|f| f.code).collect();
+    assert_eq!(codes, ["duplicate-readout"]);
     // Commands that read one lab, lay out code, and repair.
     assert_eq!(run_in(folder.path(), &["run", "reader.md#1", "--steps", "2"]).code, 0);
     assert_eq!(run_in(folder.path(), &["fmt", "--check", "reader.md"]).code, 0);

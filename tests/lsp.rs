@@ -977,5 +977,13 @@ fn a_keystroke_asks_the_disk_nothing() {
     for code in ["unknown-lab", "no-model-folder"] {
         assert!(codes(&now).contains(&code), "{code}: {now}");
     }
+    // So do the settings.
+    let counts = |found: &Value| codes(found).contains(&"duplicate-readout");
+    std::fs::write(folder.path().join("labspec.toml"), "ignore = [\"duplicate-readout\"]\n").unwrap();
+    editor.change("reader.md", 3, text, 2..2, "");
+    assert!(counts(&editor.found("reader.md", 3)));
+    let changed = json!({"changes": [{"uri": editor.uri("labspec.toml"), "type": 1}]});
+    editor.tell("workspace/didChangeWatchedFiles", changed);
+    assert!(!counts(&editor.found("reader.md", 3)));
     assert_eq!(editor.end(), 0);
 }

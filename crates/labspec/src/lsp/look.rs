@@ -12,6 +12,7 @@ use crate::lint::{load_lesson_at, root_of};
 use crate::source::Asked;
 use crate::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab};
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -59,8 +60,9 @@ fn read(document: &Document, around: &Around) -> Lesson {
 fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &Models) -> Vec<Finding> {
     let mut kept = BTreeMap::new();
     let mut findings = Vec::new();
+    let models_now = models_hash(models);
     for unit in units(lesson) {
-        let key = key(lesson, &unit);
+        let key = format!("{models_now}\0{}", key(lesson, &unit));
         let known = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
         let found = known.unwrap_or_else(|| examine(lesson, &unit, models));
         findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
@@ -72,6 +74,13 @@ fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &
     *blocks = kept;
     let found = Found { findings, ..Found::default() };
     check::join(lesson.clone(), found, Depth::STATIC).findings
+}
+
+/// By what it is known that there are other models now.
+fn models_hash(models: &Models) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (models.folder().path_of_folder(), models.folder().names()).hash(&mut hasher);
+    hasher.finish()
 }
 
 /// The labs, quizzes and claims in comments of a lesson, as bytes.

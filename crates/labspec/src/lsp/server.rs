@@ -33,6 +33,8 @@ pub struct Course<'c> {
     pub models: &'c dyn Fn(&Path) -> ModelFolder,
     /// Takes out what is not to be told of a file.
     pub policy: &'c mut dyn FnMut(&Path, &mut Vec<Finding>),
+    /// Files may have changed: what is known of settings is asked again.
+    pub refresh: &'c dyn Fn(),
 }
 
 /// What wakes the server.
@@ -258,7 +260,7 @@ impl Server<'_> {
                 {
                     self.stop_for(uri);
                     let document = Document::new(uri, places::real(&path), text, version);
-                    self.arounds.refresh();
+                    self.refresh();
                     let (path, text) = (document.path.clone(), document.file.text().to_string());
                     self.documents.insert(uri.to_string(), document);
                     self.hold(&path, Some(&text));
@@ -277,7 +279,7 @@ impl Server<'_> {
             "textDocument/didClose" => {
                 self.stop_for(uri);
                 if let Some(document) = self.documents.remove(uri) {
-                    self.arounds.refresh();
+                    self.refresh();
                     self.hold(&document.path, None);
                     let empty: [Value; 0] = [];
                     return self.notify(
@@ -286,10 +288,7 @@ impl Server<'_> {
                     );
                 }
             }
-            "workspace/didChangeWatchedFiles" => {
-                self.arounds.refresh();
-                self.forget();
-            }
+            "workspace/didChangeWatchedFiles" => self.changed(&n.params),
             "workspace/didChangeConfiguration" => {
                 if let Some(said) = n.params.get("settings") {
                     self.settings.take(said);
@@ -322,11 +321,37 @@ impl Server<'_> {
     fn renew_readers(&mut self, path: &Path) {
         let sources = self.arounds.sources();
         for document in self.documents.values_mut() {
-            let rests = |o: &Other| sources.real(Path::new(&o.path)).as_deref() == Some(path);
+            let rests = |o: &Other| {
+                let other = Path::new(&o.path);
+                sources.real(other).as_deref().unwrap_or(other) == path
+            };
             let names = |lesson: &Arc<Lesson>| lesson.others.iter().any(rests) || links_to(lesson, path);
             if document.path != path && document.lesson.as_ref().is_some_and(names) {
                 document.lesson = None;
                 document.stale = true;
+            }
+        }
+    }
+
+    /// The disk is asked again for what is there.
+    fn refresh(&mut self) {
+        self.arounds.refresh();
+        (self.course.refresh)();
+    }
+
+    /// Files that somebody else changed. Of one that is open, the editor's text counts.
+    fn changed(&mut self, params: &Value) {
+        self.refresh();
+        let changes = params.get("changes").and_then(Value::as_array).into_iter().flatten();
+        let uris = changes.filter_map(|change| change.get("uri")?.as_str());
+        let paths: Vec<PathBuf> = uris.filter_map(places::path_of).map(|path| places::real(&path)).collect();
+        let is_lesson = |path: &PathBuf| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
+        if paths.is_empty() || !paths.iter().all(is_lesson) {
+            return self.forget();
+        }
+        for path in paths {
+            if !self.documents.values().any(|document| document.path == path) {
+                self.renew_readers(&path);
             }
         }
     }
@@ -343,7 +368,7 @@ impl Server<'_> {
     }
 
     fn saved(&mut self, uri: &str) {
-        self.arounds.refresh();
+        self.refresh();
         let Some(document) = self.documents.get(uri) else { return };
         match document.kind {
             FileKind::Model => self.forget(),
