@@ -1,12 +1,13 @@
 //! The program itself: exit codes, what it prints to people and to programs, and what it says when it cannot run.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::panic, clippy::unwrap_used)]
 
 use crate::needs::needs;
-use crate::program::{folder, json_of, keys, program, run, run_in, shown, snapshot};
+use crate::program::{CLEAN, Done, FALL, folder, json_of, keys, program, run, run_in, shown, snapshot};
 use crate::support::workspace;
 use serde_json::{Value, json};
 use std::io::Read;
+use std::path::Path;
 use std::process::Stdio;
 
 #[test]
@@ -201,5 +202,222 @@ fn a_pipe_that_is_closed_early() {
         let errors = String::from_utf8(output.stderr).unwrap();
         assert_eq!(errors, "", "{arguments:?}");
         assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments:?}: {:?}", output.status);
+    }
+}
+
+/// The program as it goes on, line by line, until it is told to stop.
+#[cfg(unix)]
+struct Watched {
+    child: std::process::Child,
+    lines: std::sync::mpsc::Receiver<String>,
+}
+
+#[cfg(unix)]
+impl Watched {
+    fn start(folder: &Path, arguments: &[&str]) -> Watched {
+        use std::io::{BufRead, BufReader};
+        let mut command = program(folder, arguments);
+        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let (sender, lines) = std::sync::mpsc::channel();
+        let streams: [Box<dyn Read + Send>; 2] =
+            [Box::new(child.stdout.take().unwrap()), Box::new(child.stderr.take().unwrap())];
+        for stream in streams {
+            let sender = sender.clone();
+            std::thread::spawn(move || {
+                for line in BufReader::new(stream).lines().map_while(Result::ok) {
+                    let _ = sender.send(line);
+                }
+            });
+        }
+        Watched { child, lines }
+    }
+
+    fn wait_for(&self, what: &str) {
+        let mut seen = Vec::new();
+        loop {
+            match self.lines.recv_timeout(std::time::Duration::from_secs(60)) {
+                Ok(line) if line.contains(what) => return,
+                Ok(line) => seen.push(line),
+                Err(e) => panic!("{what}: {e}\n{}", seen.join("\n")),
+            }
+        }
+    }
+
+    /// Presses Ctrl-C; the exit code.
+    fn interrupt(mut self) -> i32 {
+        let id = self.child.id().to_string();
+        assert!(std::process::Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        self.child.wait().unwrap().code().unwrap()
+    }
+}
+
+#[cfg(unix)]
+impl Drop for Watched {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+    }
+}
+
+/// Settings, the snapshot and a lesson whose lab is named are parts of a lesson, from the moment at which they come.
+#[cfg(unix)]
+#[test]
+fn watching_sees_settings_snapshots_and_neighbours() {
+    let folder = crate::ledger::with_neighbours();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("clean.md", CLEAN);
+    let watched = Watched::start(folder.path(), &["check", "clean.md", "reader.md", "--watch"]);
+    watched.wait_for("error[quote-wrong]");
+    write("labspec.toml", "ignore = [\"quote-wrongg\"]\n");
+    watched.wait_for("quote-wrongg");
+    write("labspec.toml", "ignore = [\"duplicate-readout\"]\n");
+    watched.wait_for("1 warning ignored");
+    std::fs::remove_file(folder.path().join("labspec.toml")).unwrap();
+    watched.wait_for("warning[duplicate-readout]");
+    write("clean.md.snap", "a text of somebody\n");
+    watched.wait_for("snapshot");
+    std::fs::remove_file(folder.path().join("labs.md")).unwrap();
+    watched.wait_for("error[unknown-lab]");
+    assert_eq!(watched.interrupt(), 130);
+}
+
+/// The rows of a table of docs/checking.md: a code, and when.
+fn exit_codes() -> Vec<(i32, String)> {
+    let text = std::fs::read_to_string(workspace().join("docs/checking.md")).unwrap();
+    let section = text.split("\n## Exit codes\n").nth(1).unwrap().split("\n## ").next().unwrap();
+    let row = |line: &str| {
+        let (code, when) = line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | ")?;
+        Some((code.parse().ok()?, when.to_string()))
+    };
+    section.lines().filter_map(row).collect()
+}
+
+/// A lesson for a row of the table, and what came of it.
+fn done_for(when: &str, folder: &Path) -> Option<Done> {
+    let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).unwrap();
+    let check = |arguments: &[&str]| Some(run_in(folder, &[&["check"], arguments].concat()));
+    let lab = |more: &str| {
+        format!(
+            "{{\"title\": \"A fall\", \"model\": \"free_fall\", \"stopAt\": 0.1, \"readouts\": [{{\"label\": \"z\", \"expr\": \"data.qpos[2]\"}}]{more}}}"
+        )
+    };
+    let twice = lab("").replace("}]", "}, {\"label\": \"z\", \"expr\": \"data.qvel[2]\"}]");
+    let false_claim = CLEAN.replace("\"answer\": 2", "\"answer\": 0");
+    let breaks = FALL.replace("\"stopAt\": 0.4", "\"stopAt\": 0.4, \"setup\": \"data.qvel[2] = 1e11\"");
+    match when {
+        "every claim is true" => check(&["clean.md"]),
+        "nobody claims anything, and every lab runs" => {
+            write("a.json", &lab(""));
+            check(&["a.json"])
+        }
+        "there are only notes" => {
+            write(
+                "a.md",
+                &format!(
+                    "# A fall\n\nIt touches the floor after 0.442 s, at 4.43 m/s, and falls 1 m.\n\n```lab simlab\n{}\n```\n",
+                    lab("")
+                ),
+            );
+            let done = check(&["a.md", "--format", "json"])?;
+            let summary = &serde_json::from_str::<Value>(&done.stdout).unwrap()["summary"];
+            let counts = ["errors", "warnings"].map(|key| summary[key].as_u64().unwrap());
+            assert!(counts == [0, 0] && summary["notes"].as_u64().unwrap() > 0, "{summary}");
+            Some(done)
+        }
+        "the lessons allow every finding: the last line counts them, and they change nothing" => {
+            let lint = ", \"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"both are read aloud\"}}";
+            let text = twice.strip_suffix('}').unwrap().to_string() + lint;
+            write("a.json", &text);
+            let done = check(&["a.json"])?;
+            assert!(done.stdout.contains("(1 finding allowed by the lessons)"), "{}", done.stdout);
+            Some(done)
+        }
+        "the baseline has every finding and every claim that is not true, as they are: the last line counts them" =>
+        {
+            write("a.md", &false_claim);
+            check(&["a.md", "--baseline", "known.json", "--update-baseline"])?;
+            let done = check(&["a.md", "--baseline", "known.json"])?;
+            assert!(done.stdout.contains("in the baseline)"), "{}", done.stdout);
+            Some(done)
+        }
+        "there is an error or a warning" => {
+            write("a.json", &twice);
+            write("b.json", &lab("").replace("data.qpos", "data.qops"));
+            assert_eq!(check(&["b.json"])?.code, 1);
+            check(&["a.json"])
+        }
+        "a claim is false" => {
+            write("a.md", &false_claim);
+            check(&["a.md"])
+        }
+        "a claim could not be checked: a run breaks" => {
+            let broken = "\"runs\": {\"drop\": {\"until\": 1, \"setup\": \"data.qvel[2] = 1e11\"}}";
+            write("a.md", &CLEAN.replace("\"runs\": {\"drop\": {\"until\": 1}}", broken));
+            check(&["a.md"])
+        }
+        "a lab does not run in full" => {
+            write("a.json", &breaks);
+            check(&["a.json"])
+        }
+        "a claim in the baseline has another key, or another value" => {
+            write("a.md", &false_claim);
+            check(&["a.md", "--baseline", "known.json", "--update-baseline"])?;
+            write("a.md", &CLEAN.replace("\"answer\": 2", "\"answer\": 1"));
+            check(&["a.md", "--baseline", "known.json"])
+        }
+        "an option or a path is wrong" => {
+            assert_eq!(check(&["nowhere.md"])?.code, 2);
+            check(&["clean.md", "--no-such-option"])
+        }
+        "there is nothing to check" => {
+            assert_eq!(check(&["empty"])?.code, 2);
+            write("a.md", "# Only prose\n");
+            check(&["a.md"])
+        }
+        "the result could not be written" => check(&["fall.json", "--record", "clean.md"]),
+        "a block of an unknown widget was left out" => {
+            write("a.md", &format!("{CLEAN}\n```lab playground\n{{}}\n```\n"));
+            check(&["a.md"])
+        }
+        "an error is ignored by a setting" => {
+            write("a.json", &lab(", \"titel\": \"A fall\""));
+            assert_eq!(check(&["a.json"])?.code, 1);
+            let done = check(&["a.json", "--ignore", "all"])?;
+            assert!(done.stdout.contains(" ignored)"), "{}", done.stdout);
+            Some(done)
+        }
+        "a part was not asked for: `--no-run`" => check(&["clean.md", "--no-run"]),
+        #[cfg(unix)]
+        "a link in a folder leads out of it" => {
+            std::os::unix::fs::symlink("../clean.md", folder.join("course/out.md")).unwrap();
+            check(&["course"])
+        }
+        "a second judge has not judged every claim" => {
+            let recording = json!({"recording": "judge", "version": 1, "engine": "somebody", "runs": []});
+            write("judge.json", &recording.to_string());
+            check(&["clean.md", "--judge", "judge.json"])
+        }
+        #[cfg(unix)]
+        "Ctrl-C, after what was finished has been printed" => {
+            let watched = Watched::start(folder, &["check", "clean.md", "--watch"]);
+            watched.wait_for("nothing to complain about");
+            let (stdout, stderr) = Default::default();
+            Some(Done { code: watched.interrupt(), stdout, stderr })
+        }
+        _ => None,
+    }
+}
+
+#[test]
+fn the_table_of_exit_codes_is_so() {
+    let rows = exit_codes();
+    assert_eq!(rows.len(), 19);
+    for (code, when) in rows {
+        if cfg!(not(unix)) && (when.starts_with("a link") || when.starts_with("Ctrl-C")) {
+            continue;
+        }
+        let folder = folder();
+        let done =
+            done_for(&when, folder.path()).unwrap_or_else(|| panic!("no lesson is written for: {when}"));
+        assert_eq!(done.code, code, "{when}: {}{}", done.stdout, done.stderr);
     }
 }

@@ -309,3 +309,265 @@ fn no_lesson_of_16_mb_takes_more_than_a_gigabyte() {
     std::fs::write(folder.path().join("lab.json"), lab.to_string()).unwrap();
     within_memory(folder.path(), "check lab.json");
 }
+
+/// Files that somebody else wrote, or that another option writes: under which names, and with what.
+fn of_others(folder: &Path) -> Vec<String> {
+    let texts: [(&str, &str); 12] = [
+        ("notes.txt", "written by hand\n"),
+        ("measured.csv", "time,height\n0,1\n0.1,0.95\n"),
+        ("times.csv", "time\n0.10\n0.20\n"),
+        ("page.html", "<!DOCTYPE html>\n<p>A page of the course.</p>\n"),
+        ("drawn.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\"><rect/></svg>\n"),
+        ("data.json", "{\"a\": 1}\n"),
+        ("list.json", "[{\"report\": \"run\"}]\n"),
+        ("labspec.toml", "ignore = []\n"),
+        ("empty.md", ""),
+        ("clean.md.snap", "labspec snapshot, or so\n"),
+        ("photo.png", "\u{89}PNG of a mountain"),
+        ("no-ending", "a text\n"),
+    ];
+    for (name, text) in texts {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    let mut all: Vec<String> = texts.iter().map(|(name, _)| (*name).to_string()).collect();
+    all.extend(["clean.md", "fall.json", "models/free_fall.xml"].map(String::from));
+    all
+}
+
+/// Options that name a file: those that write it, with a command that needs nothing else, and those that only read it.
+const WRITERS: [(&str, &[&str]); 14] = [
+    ("check --record", &["check", "fall.json", "--record"]),
+    ("check --html", &["check", "fall.json", "--html"]),
+    ("check --judge-request", &["check", "fall.json", "--judge-request"]),
+    ("check --baseline", &["check", "fall.json", "--update-baseline", "--baseline"]),
+    ("verify --judge-request", &["verify", "fall.json", "--judge-request"]),
+    ("verify --baseline", &["verify", "fall.json", "--update-baseline", "--baseline"]),
+    ("run --csv", &["run", "fall.json", "--steps", "2", "--csv"]),
+    ("run --json", &["run", "fall.json", "--steps", "2", "--json"]),
+    ("run --svg", &["run", "fall.json", "--steps", "2", "--svg"]),
+    ("run --png", &["run", "fall.json", "--steps", "2", "--png"]),
+    ("precision --csv", &["precision", "fall.json", "--until", "0.02", "--csv"]),
+    ("precision --svg", &["precision", "fall.json", "--until", "0.02", "--svg"]),
+    ("precision --png", &["precision", "fall.json", "--until", "0.02", "--png"]),
+    ("stability --svg", &["stability", "map.json", "--until", "0.02", "--map", "a,b", "--svg"]),
+];
+const READERS: [&str; 7] = [
+    "check --config",
+    "check --judge",
+    "check --since",
+    "verify --config",
+    "verify --judge",
+    "lsp --config",
+    "precision --beside",
+];
+/// It is drawn as `stability --svg` is.
+const ALSO: &str = "stability --png";
+
+/// Every option of every command that names a file, from the help of the program itself.
+fn file_options(folder: &Path) -> Vec<String> {
+    let help =
+        |arguments: &[&str]| String::from_utf8(program(folder, arguments).output().unwrap().stdout).unwrap();
+    let all_help = help(&["--help"]);
+    let commands = all_help.lines().skip_while(|l| *l != "Commands:").skip(1).take_while(|l| !l.is_empty());
+    let names =
+        commands.filter_map(|l| l.strip_prefix("  ")?.split(' ').next().filter(|name| !name.is_empty()));
+    let mut all = Vec::new();
+    for command in names.filter(|name| *name != "help") {
+        for line in help(&[command, "--help"]).lines().map(str::trim_start) {
+            let Some((option, value)) = line.strip_prefix("--").and_then(|l| l.split_once(" <")) else {
+                continue;
+            };
+            if value.contains("FILE") {
+                all.push(format!("{command} --{option}"));
+            }
+        }
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn no_option_replaces_a_file_of_another_kind() {
+    let folder = folder();
+    let knobs = json!([{"label": "a", "set": "model.opt.gravity[2]", "min": -10, "max": -9, "value": -9.81},
+        {"label": "b", "set": "model.opt.timestep", "min": 0.001, "max": 0.002, "value": 0.002}]);
+    let lab = json!({"model": "free_fall", "stopAt": 0.02, "controls": knobs});
+    std::fs::write(folder.path().join("map.json"), lab.to_string()).unwrap();
+    // An option that is new in the program has to be put into one of the lists.
+    let mut known: Vec<String> = WRITERS.iter().map(|(option, _)| (*option).to_string()).collect();
+    known.extend(READERS.iter().chain([&ALSO]).map(|option| (*option).to_string()));
+    known.sort();
+    assert_eq!(file_options(folder.path()), known);
+    let others = of_others(folder.path());
+    // What the other options write is foreign, too.
+    let mut written: Vec<(String, &str)> = Vec::new();
+    for (i, (option, arguments)) in WRITERS.iter().enumerate() {
+        let name = format!("out-{i}.dat");
+        for _ in 0..2 {
+            let done = run_in(folder.path(), &[*arguments, &[&name]].concat());
+            assert_ne!(done.code, 2, "{option} does not replace its own: {}", done.stderr);
+        }
+        written.push((name, option));
+    }
+    // Tables of runs and of settings are one kind to whoever reads them; so are plots.
+    let kind = |option: &str| option.split(" --").nth(1).unwrap_or_default().to_string();
+    for (option, arguments) in &WRITERS {
+        let foreign = written.iter().filter(|(_, by)| kind(by) != kind(option)).map(|(name, _)| name);
+        for name in others.iter().chain(foreign) {
+            let before = std::fs::read(folder.path().join(name)).unwrap();
+            let done = run_in(folder.path(), &[*arguments, &[name]].concat());
+            assert_eq!(done.code, 2, "{option} {name}: {}", done.stdout);
+            assert!(done.stderr.contains("would overwrite"), "{option} {name}: {}", done.stderr);
+            assert!(std::fs::read(folder.path().join(name)).unwrap() == before, "{option} {name} is changed");
+        }
+    }
+}
+
+/// Commands that write without an option that names the file.
+#[test]
+fn no_command_replaces_a_file_of_another_kind() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let same = |arguments: &[&str], name: &str, text: &str| {
+        let done = run_in(folder.path(), arguments);
+        assert_eq!(done.code, 2, "{arguments:?}: {}{}", done.stdout, done.stderr);
+        assert_eq!(read(folder.path(), name), text, "{arguments:?}");
+    };
+    // Snapshots: neither written over nor removed.
+    write("clean.md.snap", "notes of a photographer\n");
+    same(&["snapshot", "clean.md", "--accept"], "clean.md.snap", "notes of a photographer\n");
+    std::fs::create_dir(folder.path().join("old")).unwrap();
+    write("old/gone.md.snap", "notes of a photographer\n");
+    same(&["snapshot", "old", "--accept"], "old/gone.md.snap", "notes of a photographer\n");
+    // A folder that has a page of another hand.
+    std::fs::create_dir_all(folder.path().join("site/pages")).unwrap();
+    write("site/pages/codes.md", "# Codes of conduct\n");
+    same(&["reference", "site/pages"], "site/pages/codes.md", "# Codes of conduct\n");
+    write("labspec.toml", "deny = [\"warnings\"]\n");
+    same(&["init", "."], "labspec.toml", "deny = [\"warnings\"]\n");
+    // A lesson that is no UTF-8 is not what was read of it.
+    let latin =
+        b"# A caf\xe9\n\n```lab simlab\n{\"model\": \"free_fall\", \"setup\": \"data.qpos[2]=1\"}\n```\n";
+    std::fs::write(folder.path().join("latin.md"), latin).unwrap();
+    for arguments in
+        [&["fmt", "latin.md"][..], &["check", "latin.md", "--fix"], &["scaffold", "latin.md", "--write"]]
+    {
+        run_in(folder.path(), arguments);
+        assert!(std::fs::read(folder.path().join("latin.md")).unwrap() == latin, "{arguments:?}");
+    }
+    // What is no lesson is left alone by those that change lessons.
+    let model = read(folder.path(), "models/free_fall.xml");
+    for command in [&["fmt"][..], &["check", "--fix"], &["check", "--unsafe-fixes"], &["scaffold", "--write"]]
+    {
+        run_in(folder.path(), &[command, &["models/free_fall.xml"]].concat());
+        assert_eq!(read(folder.path(), "models/free_fall.xml"), model, "{command:?}");
+    }
+}
+
+/// Every file of the program by its name, without tests.
+fn sources() -> Vec<(String, String)> {
+    let source = crate::support::workspace().join("crates/labspec/src");
+    let (mut open, mut all) = (vec![source.clone()], Vec::new());
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            let name = path.strip_prefix(&source).unwrap().display().to_string();
+            if path.is_dir() {
+                open.push(path);
+            } else if !name.ends_with("tests.rs") && name.ends_with(".rs") {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let code = text.split("#[cfg(test)]\n#[allow").next().unwrap();
+                all.push((name, code.split("#[cfg(test)]\nmod").next().unwrap().to_string()));
+            }
+        }
+    }
+    all.sort();
+    all
+}
+
+/// The files whose code has one of these texts.
+fn with(texts: &[&str]) -> Vec<String> {
+    let has = |code: &str| texts.iter().any(|text| code.contains(text));
+    sources().into_iter().filter(|(_, code)| has(code)).map(|(name, _)| name).collect()
+}
+
+/// Files are written, removed and renamed in one place, which asks what they are; the cache has a folder of its own. Lessons are read by
+/// one loader, and a text alone is what a page plays. Threads are made in one place, which gives them their stack.
+#[test]
+fn files_lessons_and_threads_have_one_place_each() {
+    let writes = [
+        "fs::write(",
+        "File::create",
+        "OpenOptions",
+        "fs::rename(",
+        "fs::remove_",
+        "remove_dir",
+        "fs::copy(",
+    ];
+    assert_eq!(with(&writes), ["cli/cache.rs", "cli/output.rs"]);
+    assert_eq!(with(&[" load_lesson(", "(load_lesson("]), ["lint/load.rs", "player/load.rs"]);
+    assert_eq!(with(&["thread::spawn", "Builder::new().s"]), ["threads.rs"]);
+}
+
+/// A link to a lesson is followed below the root, and named where it leads out.
+#[cfg(unix)]
+#[test]
+fn links_in_folders_are_followed_or_named() {
+    use std::os::unix::fs::symlink;
+    let folder = folder();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir_all(at("week/shared")).unwrap();
+    std::fs::create_dir_all(at("outside")).unwrap();
+    std::fs::write(at("week/shared/fall.json"), crate::program::FALL).unwrap();
+    std::fs::write(at("outside/far.md"), "# Far\n").unwrap();
+    symlink("shared/fall.json", at("week/again.json")).unwrap();
+    let done = run_in(folder.path(), &["check", "week"]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    // It is one file under two names.
+    assert!(done.stdout.contains("\n1 file, 1 lab run"), "{}", done.stdout);
+    symlink("../fall.json", at("week/out.json")).unwrap();
+    symlink("../outside", at("week/far")).unwrap();
+    let done = run_in(folder.path(), &["check", "week"]);
+    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
+    for name in ["week/out.json is left out: it is a link that leads out of", "week/far is left out"] {
+        assert!(done.stderr.contains(name), "{}", done.stderr);
+    }
+    assert!(done.stdout.contains("but not everything was"), "{}", done.stdout);
+    let json: serde_json::Value =
+        serde_json::from_str(&run_in(folder.path(), &["check", "week", "--format", "json"]).stdout).unwrap();
+    let left: Vec<&serde_json::Value> =
+        json["ledger"].as_array().unwrap().iter().filter(|e| e["owner"] == "week/out.json").collect();
+    assert_eq!(left.len(), 1, "{json:#}");
+    // With a root that holds both it is read.
+    std::fs::write(at("labspec.toml"), "").unwrap();
+    let done = run_in(folder.path(), &["check", "week"]);
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    assert!(done.stdout.contains("\n2 files, 2 labs run"), "{}", done.stdout);
+    // One that leads nowhere is no silence either.
+    symlink("nowhere.md", at("week/lost.md")).unwrap();
+    let done = run_in(folder.path(), &["check", "week"]);
+    assert!(done.code == 1 && done.stdout.contains("cannot read week/lost.md"), "{}", done.stdout);
+}
+
+/// However it is named, a file is one file.
+#[test]
+fn a_path_that_is_given_twice_is_one_file() {
+    let folder = folder();
+    for arguments in [
+        &["check", "course/a.md", "course/../course/a.md"][..],
+        &["check", "course", "course/a.md", "./course"],
+    ] {
+        let done = run_in(folder.path(), arguments);
+        assert!(done.code == 0 && done.stdout.contains("\n1 file, 2 labs run"), "{}", done.stdout);
+    }
+    // What is piped stands for the file of its name.
+    let arguments = ["check", "course/a.md", "-", "--stdin-name", "./course/a.md"];
+    let done = crate::program::run_with_input(folder.path(), &arguments, &crate::program::wrong());
+    assert!(done.code == 1 && done.stdout.contains("\n1 file, "), "{}", done.stdout);
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("a.md", folder.path().join("course/b.md")).unwrap();
+        let done = run_in(folder.path(), &["check", "course/b.md", "course/a.md"]);
+        assert!(done.code == 0 && done.stdout.contains("\n1 file, 2 labs run"), "{}", done.stdout);
+    }
+}

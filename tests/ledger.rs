@@ -3,9 +3,12 @@
 
 #![allow(clippy::unwrap_used)]
 
+use crate::program::{CLEAN, Done, FALL, folder, run_in, run_with_input};
 use crate::support::check_text;
+use labspec::Checker;
 use labspec::check;
 use labspec::ledger::{Entry, Ledger, Outcome, State, Subject};
+use labspec::lint::ModelFolder;
 use proptest::prelude::*;
 use serde_json::{Value as Json, json};
 
@@ -200,5 +203,212 @@ proptest! {
             damage.retain(|d| *d != Damage::ProseChanged);
         }
         holds(height, steps, &damage)?;
+    }
+}
+
+/// A lab that other lessons name, and a lesson that says something right and something wrong of it.
+pub(crate) const LABS: &str = r#"# Labs
+
+```lab simlab
+{"title": "A fall", "model": "free_fall", "setup": "data.qpos[2] = 1", "stopAt": 0.4,
+ "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}
+```
+"#;
+pub(crate) const READER: &str = r##"# Reader
+
+See [the labs](labs.md#labs) and [what is not there](labs.md#elsewhere).
+
+<!-- labspec verify {"lab": "labs.md#1", "runs": {"fall": {"until": 0.3}}, "measure": {"low": "final(data.qpos[2])"}, "says": [["0.56 m", "low"], ["0.77 m", "low"]]} -->
+The ball is at 0.56 m after 0.3 s, and not at 0.77 m.
+
+```lab simlab
+{"title": "Twice", "model": "free_fall", "stopAt": 0.1, "readouts": [{"label": "a", "expr": "data.qpos[2]"}, {"label": "a", "expr": "data.qvel[2]"}]}
+```
+"##;
+
+pub(crate) fn with_neighbours() -> tempfile::TempDir {
+    let folder = folder();
+    for (name, text) in [("labs.md", LABS), ("reader.md", READER)] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+/// Rule and line of every finding about a lesson.
+pub(crate) fn found(report: &Json) -> Vec<(String, u64)> {
+    let one = |f: &Json| (f["code"].as_str().unwrap().to_string(), f["line"].as_u64().unwrap());
+    let mut all: Vec<(String, u64)> = report["findings"].as_array().unwrap().iter().map(one).collect();
+    all.sort();
+    all
+}
+
+fn parsed(done: &Done) -> Json {
+    serde_json::from_str(&done.stdout).unwrap()
+}
+
+fn last_line(done: &Done) -> &str {
+    done.stdout.trim_end().lines().last().unwrap_or_default()
+}
+
+/// One loader: a lesson that names another one is the same lesson in a folder, alone, piped, repaired and in memory.
+#[test]
+fn a_lesson_with_neighbours_is_the_same_everywhere() {
+    let folder = with_neighbours();
+    let named = parsed(&run_in(folder.path(), &["check", "reader.md", "--format", "json"]));
+    let all = found(&named);
+    let codes: Vec<&str> = all.iter().map(|(code, _)| code.as_str()).collect();
+    assert_eq!(codes, ["dead-link", "duplicate-readout", "quote-wrong"], "{named:#}");
+    let piped = run_with_input(
+        folder.path(),
+        &["check", "-", "--stdin-name", "reader.md", "--format", "json"],
+        READER,
+    );
+    assert_eq!(found(&parsed(&piped)), all);
+    // From a folder above, too.
+    std::fs::create_dir(folder.path().join("week")).unwrap();
+    std::fs::write(folder.path().join("week/labs.md"), LABS).unwrap();
+    let arguments = ["check", "-", "--stdin-name", "week/reader.md", "--format", "json"];
+    assert_eq!(found(&parsed(&run_with_input(folder.path(), &arguments, READER))), all);
+    let models = ModelFolder::open(&folder.path().join("models")).unwrap();
+    let report = Checker::new(models.clone()).neighbours([("labs.md", LABS)]).check("reader.md", READER);
+    let mut in_memory: Vec<(String, u64)> = Vec::new();
+    for f in &report.findings {
+        in_memory.push((f.code.to_string(), f.position.unwrap().line as u64));
+    }
+    in_memory.sort();
+    assert_eq!(in_memory, all);
+    let below =
+        Checker::new(models.clone()).neighbours([("week/labs.md", LABS)]).check("week/./reader.md", READER);
+    assert_eq!(below.findings.len(), all.len());
+    // Without its neighbour nothing is said of it that nobody looked at.
+    let alone = Checker::new(models.clone()).check("reader.md", READER);
+    let unknown = alone.findings.iter().find(|f| f.code == "unknown-lab").unwrap();
+    assert!(unknown.message.contains("only this lesson was given"), "{}", unknown.message);
+    let missing = Checker::new(models.clone()).neighbours([("others.md", LABS)]).check("reader.md", READER);
+    assert!(missing.findings.iter().any(|f| f.message.contains("that lesson was not given")));
+    // A page plays a lab of it; claims of another lesson's lab are none of its business.
+    let player = labspec::Player::of_lesson("reader.md", READER, "#1", models.clone()).unwrap();
+    let codes: Vec<&str> = player.findings().iter().map(|f| f.code).collect();
+    assert_eq!(codes, ["duplicate-readout"]);
+    // Commands that read one lab, lay out code, and repair.
+    assert_eq!(run_in(folder.path(), &["run", "reader.md#1", "--steps", "2"]).code, 0);
+    assert_eq!(run_in(folder.path(), &["fmt", "--check", "reader.md"]).code, 0);
+    assert_eq!(run_in(folder.path(), &["check", "reader.md", "--fix", "--diff"]).code, 0);
+}
+
+/// A repair in a lesson that names others is judged with them.
+#[test]
+fn a_repair_keeps_the_neighbours_in_sight() {
+    let folder = with_neighbours();
+    let text = READER
+        .replace("\"title\": \"Twice\"", "\"titel\": \"Twice\"")
+        .replace("[\"0.77 m\", \"low\"]", "[\"0.56 m\", \"low\"]");
+    std::fs::write(folder.path().join("reader.md"), &text).unwrap();
+    let done = run_in(folder.path(), &["check", "reader.md", "--fix", "--unsafe-fixes"]);
+    assert!(done.stderr.contains("repaired 1 finding in 1 file"), "{}{}", done.stdout, done.stderr);
+    let after = std::fs::read_to_string(folder.path().join("reader.md")).unwrap();
+    assert_eq!(after, text.replace("titel", "title"));
+    assert!(!done.stdout.contains("unknown-lab"), "{}", done.stdout);
+}
+
+/// There is no number of other labs at which the next one is not looked for.
+#[test]
+fn the_thirty_third_lab_of_another_lesson_is_found() {
+    let folder = with_neighbours();
+    let claim = |i: usize| {
+        format!(
+            "<!-- labspec verify {{\"lab\": \"labs.md#1\", \"runs\": {{\"fall\": {{\"until\": 0.3}}}}, \"measure\": {{\"low\": \"final(data.qpos[2])\"}}, \"says\": [[\"0.56 m\", \"low\"]]}} -->\nPart {i}: the ball is at 0.56 m.\n\n"
+        )
+    };
+    let text: String = std::iter::once("# Many\n\n".to_string()).chain((0..40).map(claim)).collect();
+    std::fs::write(folder.path().join("many.md"), text).unwrap();
+    let done = run_in(folder.path(), &["check", "many.md"]);
+    assert_eq!(done.code, 0, "{}", done.stdout);
+    assert!(last_line(&done).contains("40 quoted numbers verified"), "{}", done.stdout);
+}
+
+/// What is known is known as it was claimed: a key that moves makes another claim, and what is refuted anew is told.
+#[test]
+fn a_baseline_hides_no_claim_that_changed() {
+    let folder = folder();
+    let write = |text: &str| std::fs::write(folder.path().join("a.md"), text).unwrap();
+    let check = |more: &[&str]| {
+        run_in(folder.path(), &[&["check", "a.md", "--baseline", "known.json"], more].concat())
+    };
+    write(&CLEAN.replace("\"answer\": 2", "\"answer\": 0"));
+    assert_eq!(check(&["--update-baseline"]).code, 0);
+    let known = check(&[]);
+    assert_eq!(known.code, 0, "{}", known.stdout);
+    assert!(
+        last_line(&known).contains("2 already in the baseline: nothing that is not in the baseline"),
+        "{}",
+        known.stdout
+    );
+    // Another key, which is refuted as well.
+    write(&CLEAN.replace("\"answer\": 2", "\"answer\": 1"));
+    let moved = check(&[]);
+    assert_eq!(moved.code, 1, "{}", moved.stdout);
+    assert!(moved.stdout.contains("error[answer-refuted]"), "{}", moved.stdout);
+    assert!(last_line(&moved).contains("1 claim is false"), "{}", moved.stdout);
+    // The same key, and other words of the option.
+    write(&CLEAN.replace("\"answer\": 2", "\"answer\": 0").replace("the heavy one", "the iron one"));
+    assert_eq!(check(&[]).code, 1);
+    // The same key, and a condition that says something else.
+    write(&CLEAN.replace("\"answer\": 2", "\"answer\": 0").replace("heavy < light", "heavy < light - 1"));
+    assert_eq!(check(&[]).code, 1);
+    // As it was, it is known again; in order, nothing is.
+    write(&format!("A line before it.\n\n{}", CLEAN.replace("\"answer\": 2", "\"answer\": 0")));
+    assert_eq!(check(&[]).code, 0);
+    write(CLEAN);
+    let clean = check(&[]);
+    assert!(clean.code == 0 && last_line(&clean).contains("nothing to complain about"), "{}", clean.stdout);
+}
+
+/// The last line says how many claims are false beside how much was found, and what the lessons allow.
+#[test]
+fn the_last_line_says_what_is_so() {
+    let folder = folder();
+    let done = run_in(folder.path(), &["check", "wrong.md"]);
+    let (claims, findings) = last_line(&done).rsplit_once(": ").unwrap().1.split_once(" false, ").unwrap();
+    let report = parsed(&run_in(folder.path(), &["check", "wrong.md", "--format", "json"]));
+    let count = |state: &str| {
+        let all = report["ledger"].as_array().unwrap().iter();
+        all.filter(|e| e["state"] == state && e["subject"] != "file").count()
+    };
+    let wrong = count("false");
+    let verb = if wrong == 1 { "1 claim is".to_string() } else { format!("{wrong} claims are") };
+    assert_eq!(claims, verb);
+    let summary = &report["summary"];
+    let errors = summary["errors"].as_u64().unwrap();
+    assert!(wrong > 0 && errors > 0, "{summary}");
+    assert!(findings.contains(&format!("{errors} error")), "{findings}");
+    // An answer that is wrong, and nothing else.
+    std::fs::write(folder.path().join("b.md"), CLEAN.replace("\"answer\": 2", "\"answer\": 0")).unwrap();
+    let one = run_in(folder.path(), &["check", "b.md"]);
+    assert!(
+        last_line(&one).contains("1 answer wrong, 1 quoted number verified: 1 claim is false, 1 error"),
+        "{}",
+        one.stdout
+    );
+    // What the lesson allows is counted, and changes nothing.
+    let twice = FALL.replace("\"stopAt\"", "\"readouts\": [{\"label\": \"a\", \"expr\": \"data.qpos[2]\"}, {\"label\": \"a\", \"expr\": \"data.qvel[2]\"}],\n \"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"both are read aloud\"},\n \"stopAt\"");
+    std::fs::write(folder.path().join("allowed.json"), twice).unwrap();
+    let allowed = run_in(folder.path(), &["check", "allowed.json"]);
+    assert_eq!(allowed.code, 0, "{}", allowed.stdout);
+    let end = "nothing to complain about (1 finding allowed by the lessons)";
+    assert!(last_line(&allowed).ends_with(end), "{}", allowed.stdout);
+}
+
+/// A fence that is nearly ours is told, also beside a lab that is in order.
+#[test]
+fn a_fence_that_is_nearly_ours_is_told_beside_a_lab() {
+    let folder = folder();
+    let lab = FALL.replace("\n", " ");
+    for near in ["lab-simlab", "labs", "simlab", "Lab simlab", "lab simlabs", "lab_simlab"] {
+        let text = format!("# Fall\n\n```lab simlab\n{lab}\n```\n\nAgain:\n\n```{near}\n{lab}\n```\n");
+        std::fs::write(folder.path().join("near.md"), text).unwrap();
+        let done = run_in(folder.path(), &["check", "near.md", "--format", "concise"]);
+        assert!(done.stdout.lines().any(|l| l.starts_with("near.md:9:")), "{near}: {}", done.stdout);
+        assert!(matches!(done.code, 1 | 3), "{near}: {}", done.code);
     }
 }

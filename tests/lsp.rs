@@ -877,3 +877,113 @@ fn a_hundred_labs_answer_at_once() {
     }
     assert_eq!(editor.end(), 0);
 }
+
+/// Rules and lines of what an editor shows.
+fn shown_in_editor(found: &Value) -> Vec<(String, u64)> {
+    let one = |f: &Value| {
+        let line = f["range"]["start"]["line"].as_u64().unwrap() + 1;
+        (f["code"].as_str().unwrap().to_string(), line)
+    };
+    let mut all: Vec<(String, u64)> = found.as_array().unwrap().iter().map(one).collect();
+    all.sort();
+    all
+}
+
+/// A lesson that names another one: what is told while one types is what `check --no-run` says, and what is told when it is saved is
+/// what `check` says.
+#[test]
+fn an_editor_says_of_a_lesson_with_neighbours_what_the_program_says() {
+    let folder = crate::ledger::with_neighbours();
+    let text = crate::ledger::READER;
+    let said = |more: &[&str]| {
+        let arguments = [&["check", "reader.md", "--format", "json"], more].concat();
+        let done = crate::program::run_in(folder.path(), &arguments);
+        crate::ledger::found(&serde_json::from_str(&done.stdout).unwrap())
+    };
+    let (typed, saved) = (said(&["--no-run"]), said(&[]));
+    assert!(typed != saved && typed.iter().any(|(code, _)| code == "dead-link"), "{typed:?}");
+    let mut editor = Editor::open(folder.path());
+    assert_eq!(shown_in_editor(&editor.did_open("reader.md", text)), typed);
+    editor.change("reader.md", 2, text, 2..2, "");
+    assert_eq!(shown_in_editor(&editor.found("reader.md", 2)), typed);
+    let document = json!({"textDocument": {"uri": editor.uri("reader.md")}});
+    editor.tell("textDocument/didSave", document);
+    assert_eq!(shown_in_editor(&editor.found("reader.md", 2)), saved);
+    assert_eq!(editor.end(), 0);
+}
+
+/// What other documents hold counts before it is saved: labs, headings, models, and files that are not there yet.
+#[test]
+fn unsaved_neighbours_are_seen() {
+    let folder = crate::ledger::with_neighbours();
+    let mut editor = Editor::open(folder.path());
+    let labs = crate::ledger::LABS;
+    let has = |found: &Value, code: &str| codes(found).contains(&code);
+    let first = editor.did_open("reader.md", crate::ledger::READER);
+    assert!(has(&first, "dead-link") && !has(&first, "unknown-lab"), "{first}");
+    // A heading that is not saved, and a lab that is gone.
+    editor.did_open("labs.md", labs);
+    let at = labs.len();
+    editor.change("labs.md", 2, labs, at..at, "\n## Elsewhere\n");
+    let told = editor.found("reader.md", 1);
+    assert!(!has(&told, "dead-link") && !has(&told, "unknown-lab"), "{told}");
+    let now = format!("{labs}\n## Elsewhere\n");
+    let lab = now.find("```lab").unwrap();
+    editor.change("labs.md", 3, &now, lab..now.len(), "");
+    assert!(has(&editor.found("reader.md", 1), "unknown-lab"));
+    let document = json!({"textDocument": {"uri": editor.uri("labs.md")}});
+    editor.tell("textDocument/didClose", document);
+    let closed = editor.found("reader.md", 1);
+    assert!(!has(&closed, "unknown-lab") && has(&closed, "dead-link"), "{closed}");
+    // The model as it is typed.
+    let model = std::fs::read_to_string(folder.path().join("models/free_fall.xml")).unwrap();
+    let open =
+        json!({"uri": editor.uri("models/free_fall.xml"), "languageId": "xml", "version": 1, "text": model});
+    editor.tell("textDocument/didOpen", json!({"textDocument": open}));
+    let body = model.find("<body").unwrap();
+    editor.change("models/free_fall.xml", 2, &model, body + 1..body + 5, "bodi");
+    assert!(has(&editor.found("reader.md", 1), "model-broken"));
+    let broken = model.replacen("<body", "<bodi", 1);
+    editor.change("models/free_fall.xml", 3, &broken, body + 1..body + 5, "body");
+    assert!(!has(&editor.found("reader.md", 1), "model-broken"));
+    // A model and a picture that are not there, and then are.
+    let text = "# New\n\nSee [it](soon.md).\n\n```lab simlab\n{\"model\": \"soon\", \"stopAt\": 0.1}\n```\n";
+    let new = editor.did_open("new.md", text);
+    assert!(has(&new, "unknown-model") && has(&new, "dead-link"), "{new}");
+    let open =
+        json!({"uri": editor.uri("models/soon.xml"), "languageId": "xml", "version": 1, "text": model});
+    editor.tell("textDocument/didOpen", json!({"textDocument": open}));
+    let told = editor.found("new.md", 1);
+    assert!(!has(&told, "unknown-model"), "{told}");
+    editor.did_open("soon.md", "# Soon\n");
+    assert!(!has(&editor.found("new.md", 1), "dead-link"));
+    assert_eq!(editor.end(), 0);
+}
+
+/// While one types nothing is asked of the disk: what was there stays there until something is saved, opened or closed.
+#[test]
+fn a_keystroke_asks_the_disk_nothing() {
+    let folder = crate::ledger::with_neighbours();
+    let text = crate::ledger::READER;
+    let mut editor = Editor::open(folder.path());
+    let first = shown_in_editor(&editor.did_open("reader.md", text));
+    std::fs::remove_file(folder.path().join("labs.md")).unwrap();
+    std::fs::remove_dir_all(folder.path().join("models")).unwrap();
+    editor.change("reader.md", 2, text, 2..2, "");
+    assert_eq!(shown_in_editor(&editor.found("reader.md", 2)), first);
+    let changed = json!({"changes": [{"uri": editor.uri("labs.md"), "type": 3}]});
+    editor.tell("workspace/didChangeWatchedFiles", changed);
+    let now = editor.found("reader.md", 2);
+    for code in ["unknown-lab", "no-model-folder"] {
+        assert!(codes(&now).contains(&code), "{code}: {now}");
+    }
+    // So do the settings.
+    let counts = |found: &Value| codes(found).contains(&"duplicate-readout");
+    std::fs::write(folder.path().join("labspec.toml"), "ignore = [\"duplicate-readout\"]\n").unwrap();
+    editor.change("reader.md", 3, text, 2..2, "");
+    assert!(counts(&editor.found("reader.md", 3)));
+    let changed = json!({"changes": [{"uri": editor.uri("labspec.toml"), "type": 1}]});
+    editor.tell("workspace/didChangeWatchedFiles", changed);
+    assert!(!counts(&editor.found("reader.md", 3)));
+    assert_eq!(editor.end(), 0);
+}

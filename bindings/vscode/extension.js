@@ -20,7 +20,7 @@ async function start() {
     initializationOptions: settings,
     synchronize: {
       configurationSection: "labspec",
-      fileEvents: workspace.createFileSystemWatcher("**/{*.xml,labspec.toml}"),
+      fileEvents: workspace.createFileSystemWatcher("**/{*.xml,*.md,*.json,labspec.toml}"),
     },
   });
   await client.start();

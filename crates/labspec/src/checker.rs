@@ -5,11 +5,11 @@ use crate::check::{self, Checked, Depth};
 use crate::error::located;
 use crate::finding::{self, Finding, InFile};
 use crate::ledger::{Entry, Ledger, Outcome};
-use crate::lint::load_lesson;
-use crate::lint::{self, ModelFolder};
-use crate::source::SourceFile;
+use crate::lint::{self, ModelFolder, load_lesson_at};
+use crate::source::{SourceFile, Sources};
 use crate::spec::Lesson;
 use std::fmt;
+use std::path::Path;
 
 /// Checks lessons, one after the other. Models are compiled once.
 #[derive(Debug)]
@@ -17,6 +17,7 @@ pub struct Checker {
     models: scene::Models,
     depth: Depth,
     rules: Rules,
+    sources: Sources,
 }
 
 /// A rule of the embedding program.
@@ -59,12 +60,23 @@ impl Checker {
     /// ([`ModelFolder`]). Only a folder is ever looked for among files.
     pub fn new(models: impl Into<ModelFolder>) -> Checker {
         let depth = Depth::FULL;
-        Checker { models: scene::Models::new(models.into()), depth, rules: Rules::default() }
+        let (rules, sources) = (Rules::default(), Sources::default());
+        Checker { models: scene::Models::new(models.into()), depth, rules, sources }
     }
 
     /// The same without runs of labs or without verdicts on claims: quicker, and it says less.
     pub fn depth(mut self, depth: Depth) -> Checker {
         self.depth = depth;
+        self
+    }
+
+    /// The same with neighbours: lessons whose labs others name, and snapshots, by their paths. A lesson that is checked finds them
+    /// from its own path. Files are never looked for.
+    pub fn neighbours<P: AsRef<Path>, T: Into<String>>(
+        mut self,
+        texts: impl IntoIterator<Item = (P, T)>,
+    ) -> Checker {
+        self.sources = Sources::given(texts);
         self
     }
 
@@ -83,7 +95,8 @@ impl Checker {
 
     /// Checks a lesson. `path` is its name in findings, and says by its ending what it is: Markdown, or JSON.
     pub fn check(&mut self, path: &str, text: &str) -> Report {
-        let mut lesson = load_lesson(SourceFile::new(path, text), self.models.folder());
+        let (file, folder) = (SourceFile::new(path, text), self.models.folder());
+        let mut lesson = load_lesson_at(file, Path::new(path), &self.sources, folder);
         let mut own: Vec<Finding> = self.rules.0.iter().flat_map(|rule| rule(&lesson)).collect();
         lint::withhold_fixes(&lesson, &mut own);
         lesson.findings.extend(own.into_iter().map(|f| f.at(&lesson.file)));

@@ -233,9 +233,9 @@ impl Ledger {
         self.entries.iter().filter(|e| e.state == state && e.subject != Subject::File).count()
     }
 
-    /// What it all comes to, in a sentence for people: what is false first, then what could not be checked, then what was left
-    /// out, then what the baseline knows.
-    pub fn conclusion(&self) -> String {
+    /// What it all comes to, in a sentence for people: what is false first, then what could not be checked, then the findings in
+    /// numbers (`findings`, empty where there are none), then what was left out, then what the baseline knows.
+    pub fn conclusion(&self, findings: &str) -> String {
         let claims = |n: usize, one: &str, more: &str| match n {
             1 => format!("1 claim {one}"),
             n => format!("{n} claims {more}"),
@@ -249,9 +249,12 @@ impl Ledger {
             parts.push(claims(open, "could not be checked", "could not be checked"));
         }
         let any = |state| self.entries.iter().any(|e| e.state == state);
-        // What is wrong with a file that claims nothing.
-        if parts.is_empty() && (any(State::False) || any(State::Unchecked)) {
-            parts.push("a file has faults".into());
+        let is_wrong = any(State::False) || any(State::Unchecked);
+        match (is_wrong, findings) {
+            // What is wrong with a file that claims nothing.
+            (true, "") if parts.is_empty() => parts.push("a file has faults".into()),
+            (true, findings) if !findings.is_empty() => parts.push(findings.into()),
+            _ => {}
         }
         if any(State::LeftOut) {
             let all_is_well = parts.is_empty();
@@ -267,10 +270,15 @@ impl Ledger {
             });
         }
         match (parts.is_empty(), self.outcome()) {
-            (false, _) => parts.join(", "),
-            (true, Outcome::Nothing) => "nothing to check".into(),
-            (true, _) => "nothing to complain about".into(),
+            (false, _) => {}
+            (true, Outcome::Nothing) => parts.push("nothing to check".into()),
+            (true, _) => parts.push("nothing to complain about".into()),
         }
+        // Notes alone are no fault.
+        if !is_wrong && !findings.is_empty() {
+            parts.push(findings.into());
+        }
+        parts.join(", ")
     }
 
     fn known(&self) -> usize {
@@ -424,7 +432,7 @@ mod tests {
             }
             let good = State::True(Evidence::Simulated);
             (0..count(4)).for_each(|_| ledger.add(entry(Subject::Quote, good)));
-            let said = ledger.conclusion();
+            let said = ledger.conclusion("");
             for (&(_, one, more), digit) in states.iter().zip(0..) {
                 assert_eq!(
                     said.contains(one),
@@ -446,7 +454,17 @@ mod tests {
         }
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::File, State::False));
-        assert_eq!(ledger.conclusion(), "a file has faults");
+        assert_eq!(ledger.conclusion(""), "a file has faults");
+        assert_eq!(ledger.conclusion("1 warning"), "1 warning");
+        ledger.add(entry(Subject::Answer, State::False));
+        ledger.add(entry(Subject::Answer, State::Unchecked));
+        ledger.add(entry(Subject::Widget, State::LeftOut));
+        let both =
+            "1 claim is false, 1 claim could not be checked, 2 errors, 1 warning, not everything was checked";
+        assert_eq!(ledger.conclusion("2 errors, 1 warning"), both);
+        let mut ledger = Ledger::default();
+        ledger.add(entry(Subject::Lab, State::True(Evidence::Simulated)));
+        assert_eq!(ledger.conclusion("1 note"), "nothing to complain about, 1 note");
     }
 
     #[test]

@@ -5,7 +5,7 @@
 //! * [`source`]: files, places, and maps from derived text back to the file
 //! * [`markdown`]: fences, also damaged ones
 //! * [`json`]: JSON with a place for every value
-//! * [`spec`]: labs, quizzes and lessons as typed values; [`lint::load_lesson`] is the way in
+//! * [`spec`]: labs, quizzes and lessons as typed values; [`lint::load_lesson_at`] is the way in
 //! * [`lint`]: the table of rules and the checks of structure
 //! * [`format`](mod@format): the code of a lesson laid out anew
 //! * [`ledger`]: every claim with what became of it, from which all verdicts and exit codes follow

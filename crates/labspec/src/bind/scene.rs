@@ -6,10 +6,10 @@ use crate::finding::{Finding, InFile, Severity};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
-use crate::source::{SourceFile, Text};
+use crate::source::{SourceFile, Sources, Text};
 use crate::spec::format::Asked;
 use crate::spec::{Lab, Scene};
-use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
+use labspec_core::xml::{self, FileProblem, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -27,6 +27,8 @@ pub struct Models {
     functions: Functions,
     /// How the files are marked; `None` when nobody keeps results.
     mark: Option<Mark>,
+    /// Texts that somebody holds in place of the folder's files.
+    sources: Sources,
     /// Marks of parts, looked at once.
     marks: Mutex<BTreeMap<(String, bool, usize), String>>,
     /// The files of the models whose findings were taken.
@@ -64,6 +66,11 @@ impl Models {
     /// The same, for labs that may call functions of the embedding program.
     pub fn with_functions(self, functions: Functions) -> Models {
         Models { functions, ..self }
+    }
+
+    /// The same, with the texts that an editor holds in place of files that it has not saved.
+    pub fn with_sources(self, sources: Sources) -> Models {
+        Models { sources, ..self }
     }
 
     /// Functions of the embedding program.
@@ -152,10 +159,9 @@ impl Models {
             return Some(of(&given.text(name)?, &FilesOf(given), file.as_deref()));
         }
         let path = self.folder.path(name)?;
-        let text = SourceFile::read(&path).ok()?;
-        let folder = Folder::at(self.folder.root(), path.parent().unwrap_or(Path::new(""))).ok();
-        let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-        Some(of(text.text(), files, file.as_deref()))
+        let text = read_file(&path, &self.sources).ok()?;
+        let files = Around::of(&path, self.folder.root(), &self.sources);
+        Some(of(text.text(), &files, file.as_deref()))
     }
 
     /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
@@ -228,14 +234,14 @@ impl Models {
         // The folder and the file: enough to find it, and the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
         let shown = format!("{folder}/{name}.xml");
-        let read = SourceFile::read(path);
+        let read = read_file(path, &self.sources);
         let text = read.as_ref().map(SourceFile::text).map_err(String::as_str);
         let own = |mark| Part { path: String::new(), limit: 0, mark: parts::mark_of_text(mark, text) };
         let mut made_of: Vec<Part> = self.mark.map(own).into_iter().collect();
         let (model, findings, files) = match read {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
-                let compiled = compile_file(&file, path, self.folder.root(), self.mark);
+                let compiled = compile_file(&file, path, self.folder.root(), &self.sources, self.mark);
                 made_of.extend(compiled.parts);
                 (compiled.model.map(Arc::new), compiled.findings, compiled.files)
             }
@@ -285,11 +291,51 @@ pub(crate) struct Compiled {
 
 /// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
 /// `path`, and opened when it lies below `root`.
-pub(crate) fn compile_file(file: &SourceFile, path: &Path, root: &Path, mark: Option<Mark>) -> Compiled {
-    let place = path.parent().unwrap_or(Path::new(""));
-    let folder = Folder::at(root, place).ok();
-    let files: &dyn Files = folder.as_ref().map_or(&NoFiles, |folder| folder);
-    compile_source(file, files, path.file_name().and_then(|n| n.to_str()), mark)
+pub(crate) fn compile_file(
+    file: &SourceFile,
+    path: &Path,
+    root: &Path,
+    sources: &Sources,
+    mark: Option<Mark>,
+) -> Compiled {
+    let files = Around::of(path, root, sources);
+    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
+}
+
+/// A model file, as an editor holds it or else as it is saved.
+fn read_file(path: &Path, sources: &Sources) -> Result<SourceFile, String> {
+    match sources.held(path) {
+        Some((_, text)) => Ok(SourceFile::new(path.display().to_string(), text)),
+        None => SourceFile::read(path),
+    }
+}
+
+/// The files around a model, each as an editor holds it or else as it is saved.
+struct Around<'s> {
+    /// `None` where the model lies outside of the root.
+    folder: Option<Folder>,
+    place: PathBuf,
+    root: &'s Path,
+    sources: &'s Sources,
+}
+
+impl<'s> Around<'s> {
+    fn of(model: &Path, root: &'s Path, sources: &'s Sources) -> Around<'s> {
+        let place = model.parent().unwrap_or(Path::new("")).to_path_buf();
+        Around { folder: Folder::at(root, &place).ok(), place, root, sources }
+    }
+}
+
+impl Files for Around<'_> {
+    fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
+        let Some(folder) = &self.folder else { return NoFiles.read(path, limit) };
+        match self.sources.held(&self.place.join(path)) {
+            Some((real, _)) if !real.starts_with(self.root) => Err(FileProblem::Outside),
+            Some((_, text)) if text.len() > limit => Err(FileProblem::TooLarge),
+            Some((_, text)) => Ok(text.into_bytes()),
+            None => folder.read(path, limit),
+        }
+    }
 }
 
 /// Compiles the text of a model, which `files` has as `name`.
@@ -327,7 +373,8 @@ pub fn check_model_file(
         }
     };
     let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
-    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root, None);
+    let sources = Sources::Disk;
+    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root, &sources, None);
     if files.is_empty() {
         files.push(file);
     }

@@ -6,6 +6,7 @@
 
 use super::Failure;
 use super::output::write_file;
+use super::output_kind::OutputKind;
 use crate::finding::Finding;
 use crate::report::{self, printable_path};
 use crate::source::{SourceFile, read_text};
@@ -105,7 +106,7 @@ impl Baseline {
         let list: Vec<Value> = self.known.iter().map(one).collect();
         let value = report::report("baseline", json!({"findings": list}));
         let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
-        write_file(path, &(text + "\n"))
+        write_file(path, OutputKind::Baseline, &(text + "\n"))
     }
 
     fn mark(&self, f: &Finding, files: &[&SourceFile]) -> Mark {

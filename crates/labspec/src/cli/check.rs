@@ -2,12 +2,13 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
-use super::course::{Course, Judge, Plan, STDIN, collect, look};
+use super::collect::{STDIN, collect};
+use super::course::{Course, Judge, Plan, look};
 use super::fix::{Mode, fix};
 use super::output::{Wanted, look_ahead, write_file};
 use super::policy::PolicyOptions;
 use super::stdio::{complain, print_json};
-use super::{Color, Failure, ModelOptions, Outcome, interrupted, machine, print, watch};
+use super::{Color, Failure, ModelOptions, Outcome, OutputKind, interrupted, machine, print, watch};
 use super::{judge, reproduction, since};
 use crate::check::{self, Depth};
 use crate::ledger::{self, Entry, State, Subject};
@@ -158,17 +159,17 @@ fn work(
         _ => None,
     };
     let outputs = [
-        ("--record", records.write),
-        ("--html", records.html),
-        ("--judge-request", a.judge_request.as_deref()),
-        ("--update-baseline", a.baseline.as_deref().filter(|_| a.update_baseline)),
+        (OutputKind::Record, records.write),
+        (OutputKind::Page, records.html),
+        (OutputKind::JudgeRequest, a.judge_request.as_deref()),
+        (OutputKind::Baseline, a.baseline.as_deref().filter(|_| a.update_baseline)),
     ];
     let outputs: Vec<Wanted> = outputs
         .into_iter()
-        .filter_map(|(option, file)| Some(Wanted { option, path: file?.to_path_buf() }))
+        .filter_map(|(kind, file)| Some(Wanted { kind, path: file?.to_path_buf() }))
         .collect();
     if !outputs.is_empty() {
-        let read: Vec<PathBuf> = collect(&a.paths).0.into_iter().map(|(path, _)| path).collect();
+        let read: Vec<PathBuf> = collect(&a.paths).files.into_iter().map(|(path, _)| path).collect();
         look_ahead(&read, &outputs)?;
     }
     // Read before anything is written: it may be the same file.
@@ -253,7 +254,7 @@ fn report(
             sources: &sources,
             summary: &last_line(course),
         };
-        write_file(file, &drawn::html::page(&material))?;
+        write_file(file, OutputKind::Page, &drawn::html::page(&material))?;
     }
     let changes = before.map(|(file, old)| (file, since::changes(old, &reproduction::now(file, course))));
     match a.format {
@@ -395,12 +396,8 @@ fn line(entry: &Entry, n: usize) -> Option<String> {
 /// The last line: everything in numbers, and a judgement.
 fn last_line(course: &Course) -> String {
     let found = Summary::of(&course.findings);
-    let conclusion = course.ledger.conclusion();
-    let judgement = match (found.errors + found.warnings, course.ledger.outcome()) {
-        (0, _) if found.notes > 0 => format!("{conclusion}, {found}"),
-        (0, _) => conclusion,
-        _ => found.to_string(),
-    };
+    let found = if course.findings.is_empty() { String::new() } else { found.to_string() };
+    let judgement = course.ledger.conclusion(&found);
     format!("{}: {judgement}{}", course.ledger.summary(), put_aside(course))
 }
 

@@ -4,20 +4,21 @@
 
 use super::baseline::Baseline;
 use super::cache::Cache;
+use super::collect::{Collected, collect, lost_snapshots};
 use super::digest;
 use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::{complain, print};
 use super::target::{model_folder_within, root};
 use super::{Failure, ModelOptions, interrupted};
+use crate::bind::parts::Mark;
 use crate::bind::scene::{Models, check_model_file};
 use crate::check::{self, Allowed, Basis, Checked, Depth, Drawn, Found, Hearing, Recording};
 use crate::finding::{self, Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
-use crate::lint::load_lesson_file;
-use crate::lint::{self, ModelFolder, load_lesson};
+use crate::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
 use crate::report::{Summary, human, printable_path};
 use crate::rules;
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Sources};
 use crate::spec::{FileKind, Lesson, kind_of};
 use crate::threads;
 use std::collections::{BTreeMap, BTreeSet};
@@ -117,12 +118,24 @@ enum Done {
 
 /// Reads and checks every file. One that cannot be read is a finding and hides nothing of the others.
 pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
-    let (mut files, problems) = collect(plan.paths);
-    files.extend(plan.stdin.map(|(name, _)| (name.clone(), true)));
+    look_marked(plan, cache, digest::hex_of)
+}
+
+/// The same with another way to mark the files of models.
+fn look_marked(plan: &Plan<'_>, cache: &Cache, mark: Mark) -> Result<Course, Failure> {
+    let collected = collect(plan.paths);
+    collected.complain();
+    let Collected { mut files, problems, left_out } = collected;
+    if let Some((name, _)) = plan.stdin {
+        // What is piped stands for the file of its name.
+        let real = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        files.retain(|(path, _)| real(path) != real(name));
+        files.push((name.clone(), true));
+    }
     if files.is_empty() {
         return Err(nothing(plan.paths, &problems));
     }
-    let (tasks, mut by_folder) = tasks(plan, &files)?;
+    let (tasks, mut by_folder) = tasks(plan, &files, mark)?;
     let mut policies = Policies::new(plan.policy)?;
     let of_files: Vec<Policy> = files.iter().map(|(path, _)| policies.of(path)).collect::<Result<_, _>>()?;
     let next = AtomicUsize::new(0);
@@ -233,6 +246,9 @@ pub(super) fn look(plan: &Plan<'_>, cache: &Cache) -> Result<Course, Failure> {
     let own = course.checked.iter().flat_map(|c| &c.findings);
     course.findings = own.chain(&course.last).cloned().collect();
     finding::sort(&mut course.findings);
+    for (path, why) in left_out {
+        course.ledger.add(left_out_entry(&path, why));
+    }
     let models = std::mem::take(&mut course.ledger);
     course.ledger = check::ledger(&course.checked, &course.findings);
     course.ledger.break_off(|path| broken_off.contains(path));
@@ -293,16 +309,22 @@ fn settle(course: &mut Course) {
     course.ledger.know(|e| meets(e, known.get(&e.path)) && !meets(e, told.get(&e.path)));
     let ignored = course.aside.ignored.iter().filter(|f| f.is_error()).cloned().collect();
     for (path, all) in by_path(ignored) {
-        course.ledger.add(Entry {
-            subject: Subject::File,
-            owner: path.to_string(),
-            path,
-            span: 0..0,
-            state: State::LeftOut,
-            word: "left out",
-            what: String::new(),
-            remark: format!("{} ignored", Summary::of(&all)),
-        });
+        course.ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::of(&all))));
+    }
+}
+
+/// A file that was not checked in full, and why.
+fn left_out_entry(path: &Path, remark: String) -> Entry {
+    let path: Arc<str> = Arc::from(path.display().to_string());
+    Entry {
+        subject: Subject::File,
+        owner: path.to_string(),
+        path,
+        span: 0..0,
+        state: State::LeftOut,
+        word: "left out",
+        what: String::new(),
+        remark,
     }
 }
 
@@ -337,7 +359,11 @@ fn tell(told: &Mutex<Told>, file: usize, text: String, progress: bool) {
 }
 
 /// What is to be done with each file, and the models that lessons share, compiled once for each folder.
-fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<Models>), Failure> {
+fn tasks(
+    plan: &Plan<'_>,
+    files: &[(PathBuf, bool)],
+    mark: Mark,
+) -> Result<(Vec<Task>, Vec<Models>), Failure> {
     let mut tasks = Vec::new();
     // Lessons of one folder have one folder of models, which is found and listed once.
     let mut near: BTreeMap<PathBuf, String> = BTreeMap::new();
@@ -376,7 +402,7 @@ fn tasks(plan: &Plan<'_>, files: &[(PathBuf, bool)]) -> Result<(Vec<Task>, Vec<M
             *task = Task::Lesson(*number);
         }
     }
-    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, digest::hex_of)).collect()))
+    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, mark)).collect()))
 }
 
 /// What is said where a mistake of the program ended the check of a file.
@@ -404,7 +430,8 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
     let piped = plan.stdin.filter(|(name, _)| name == path);
     let loaded = match piped {
         Some((name, text)) => {
-            Ok(load_lesson(SourceFile::new(name.display().to_string(), text.as_str()), models.folder()))
+            let file = SourceFile::new(name.display().to_string(), text.as_str());
+            Ok(load_lesson_at(file, name, &Sources::Disk, models.folder()))
         }
         None => load_lesson_file(path, models.folder()),
     };
@@ -444,26 +471,6 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
         let checked = Box::new(check::join(lesson, found, plan.depth));
         Done::Lesson(checked, Aside::default(), basis, curves, hearing)
     }
-}
-
-/// The snapshots below these folders, or named themselves, whose lessons are gone, in a fixed order.
-pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
-    let is_lost = |path: &Path| {
-        let name = path.file_name().and_then(|name| name.to_str());
-        let lesson =
-            name.and_then(|name| name.strip_suffix(lint::SNAPSHOT)).map(|name| path.with_file_name(name));
-        lesson
-            .is_some_and(|path| matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) && !path.exists())
-    };
-    let mut all = Vec::new();
-    for path in paths {
-        if path.is_dir() {
-            walk(path, &is_lost, &mut all, &mut Vec::new());
-        } else if path.exists() && is_lost(path) {
-            all.push((path.clone(), true));
-        }
-    }
-    all.into_iter().map(|(path, _)| path).collect()
 }
 
 fn lost(path: &Path) -> Finding {
@@ -510,74 +517,58 @@ pub(super) fn is_other_json(lesson: &Lesson) -> bool {
     lesson.findings.iter().any(|f| f.code == "unknown-spec")
 }
 
-/// A file to check, and whether it was named itself.
-type ToCheck = (PathBuf, bool);
-/// What could not be read, and why.
-type Unread = (PathBuf, String);
+#[cfg(test)]
+#[allow(clippy::panic, clippy::unwrap_used)]
+mod tests {
+    use super::*;
 
-/// What stands for standard input.
-pub(super) const STDIN: &str = "-";
-
-/// The files to check, in a fixed order; and what could not be read.
-pub(super) fn collect(paths: &[PathBuf]) -> (Vec<ToCheck>, Vec<Unread>) {
-    let (mut files, mut problems) = (Vec::new(), Vec::new());
-    let is_lesson = |path: &Path| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
-    for path in paths {
-        match std::fs::metadata(path) {
-            // Standard input is read by whoever called.
-            _ if path.as_os_str() == STDIN => {}
-            Err(e) => problems.push((path.clone(), format!("cannot read {}: {e}", printable_path(path)))),
-            Ok(meta) if meta.is_dir() => walk(path, &is_lesson, &mut files, &mut problems),
-            Ok(_) => files.push((path.clone(), true)),
+    /// A mistake of the program ends the check of one lesson, and is told there; the others are checked, on one thread or several.
+    #[test]
+    fn a_panic_in_one_lesson_is_its_finding_and_no_other_lesson_is_lost() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("models")).unwrap();
+        for name in ["ball", "odd"] {
+            let model = format!(
+                "<mujoco model='{name}'><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>"
+            );
+            std::fs::write(folder.path().join(format!("models/{name}.xml")), model).unwrap();
         }
-    }
-    (once(files), problems)
-}
-
-/// Each file once, however often and under whatever paths it was given: under the first of them.
-fn once(files: Vec<ToCheck>) -> Vec<ToCheck> {
-    let mut places: BTreeMap<PathBuf, usize> = BTreeMap::new();
-    let mut all: Vec<ToCheck> = Vec::new();
-    for (path, named) in files {
-        let real = path.canonicalize().unwrap_or_else(|_| path.clone());
-        let place = *places.entry(real).or_insert(all.len());
-        match all.get_mut(place) {
-            Some((_, before)) => *before |= named,
-            None => all.push((path, named)),
-        }
-    }
-    all
-}
-
-/// Deepest nesting of folders.
-const MAX_DEPTH: usize = 32;
-
-/// The files of a folder that are wanted, but for what is hidden, what `.gitignore` names, and the packages of node. Links are not followed:
-/// they may lead out of the folder, or round in a circle.
-fn walk(folder: &Path, wanted: &dyn Fn(&Path) -> bool, files: &mut Vec<ToCheck>, problems: &mut Vec<Unread>) {
-    let all = ignore::WalkBuilder::new(folder)
-        .follow_links(false)
-        .require_git(false)
-        .git_global(false)
-        .max_depth(Some(MAX_DEPTH + 1))
-        .filter_entry(|e| e.file_name() != "node_modules")
-        .sort_by_file_path(Path::cmp)
-        .build();
-    for entry in all {
-        let entry = match entry {
-            Ok(entry) => entry,
-            Err(e) => {
-                problems.push((folder.to_path_buf(), format!("cannot read {e}")));
-                continue;
-            }
+        let lab = |model: &str| {
+            format!(
+                "```lab simlab\n{{\"model\": \"{model}\", \"stopAt\": 0.01, \"readouts\": [{{\"label\": \"z\", \"expr\": \"data.qpos[2]\"}}]}}\n```\n"
+            )
         };
-        let path = entry.path();
-        let Some(kind) = entry.file_type() else { continue };
-        if kind.is_dir() && entry.depth() > MAX_DEPTH {
-            let why = format!("{} is nested more than {MAX_DEPTH} folders deep", printable_path(path));
-            problems.push((path.to_path_buf(), why));
-        } else if kind.is_file() && wanted(path) {
-            files.push((path.to_path_buf(), false));
+        for (name, model) in [("a.md", "ball"), ("b.md", "odd"), ("c.md", "ball")] {
+            std::fs::write(folder.path().join(name), lab(model)).unwrap();
+        }
+        let mark: Mark = |parts: &[&[u8]]| {
+            let is_odd = parts.iter().any(|part| String::from_utf8_lossy(part).contains("model='odd'"));
+            if is_odd { panic!("nobody thought of this model") } else { digest::hex_of(parts) }
+        };
+        for jobs in [1, 3] {
+            let plan = Plan {
+                paths: &[folder.path().to_path_buf()],
+                stdin: None,
+                models: &ModelOptions { models: None, root: None },
+                depth: Depth::FULL,
+                policy: &PolicyOptions::default(),
+                baseline: None,
+                basis: false,
+                judge: Judge::default(),
+                curves: false,
+                jobs,
+                progress: false,
+                told: None,
+            };
+            let course = look_marked(&plan, &Cache::open(true, false), mark).unwrap();
+            let errors: Vec<&Finding> = course.findings.iter().filter(|f| f.is_error()).collect();
+            let [error] = errors.as_slice() else { panic!("{errors:?}") };
+            assert!(error.path.ends_with("b.md") && error.message.contains("nobody thought of"), "{error:?}");
+            let labs = course.ledger.entries().iter().filter(|e| e.subject == Subject::Lab);
+            let labs: Vec<(bool, State)> = labs.map(|e| (e.path.ends_with("b.md"), e.state)).collect();
+            let run = State::True(Evidence::Simulated);
+            assert_eq!(labs, [(false, run), (true, State::Unchecked), (false, run)]);
+            assert_eq!(course.ledger.outcome(), crate::ledger::Outcome::Findings);
         }
     }
 }

@@ -2,16 +2,16 @@
 //!
 //! Which repairs are kept, and how they are proven, is decided in [`crate::repair`]. All other bytes of the file stay what they are.
 
-use super::course::{Plan, collect, is_other_json};
+use super::collect::collect;
+use super::course::{Plan, is_other_json};
 use super::policy::Policies;
 use super::target::model_folder_within;
-use super::{Failure, interrupted, print, write_file};
+use super::{Failure, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::check;
-use crate::lint::{load_lesson, load_lesson_file};
+use crate::lint::{load_lesson_file, reload_lesson};
 use crate::repair::{Looked, repair, traces};
 use crate::report::{printable, printable_path};
-use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson, kind_of};
 use similar::TextDiff;
 use std::path::Path;
@@ -39,7 +39,7 @@ pub(super) struct Repaired {
 pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
     let mut policies = Policies::new(plan.policy)?;
     let mut repaired = Repaired::default();
-    for (path, named) in collect(plan.paths).0 {
+    for (path, named) in collect(plan.paths).files {
         if interrupted() {
             break;
         }
@@ -62,10 +62,9 @@ pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
             Looked { text: checked.lesson.file.text().to_string(), findings, broken }
         };
         let old = lesson.file.text().to_string();
-        let name = lesson.file.path().clone();
-        let again = |text: &str| look(load_lesson(SourceFile::new(name.clone(), text), models.folder()));
-        let shows =
-            |text: &str| traces(&load_lesson(SourceFile::new(name.clone(), text), models.folder()), &models);
+        let first = lesson.clone();
+        let again = |text: &str| look(reload_lesson(&first, text, models.folder()));
+        let shows = |text: &str| traces(&reload_lesson(&first, text, models.folder()), &models);
         let (new, count) = repair(look(lesson), mode.guesses, &again, &shows);
         if count == 0 || interrupted() {
             continue;
@@ -75,7 +74,7 @@ pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
         if mode.diff {
             print(&difference(&path, &old, &new))?;
         } else {
-            write_file(&path, &new)?;
+            write_file(&path, OutputKind::Lesson(&old), &new)?;
         }
     }
     Ok(repaired)

@@ -1,13 +1,14 @@
 //! `labspec fmt`.
 
-use super::course::{collect, is_other_json};
+use super::collect::{Collected, collect};
+use super::course::is_other_json;
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
+use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::format;
-use crate::lint::load_lesson;
+use crate::lint::{load_lesson_at, reload_lesson};
 use crate::report::printable_path;
-use crate::source::SourceFile;
+use crate::source::{SourceFile, Sources};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `fmt`.
@@ -29,7 +30,9 @@ pub(super) struct Arguments {
 pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
     let mut outcome = Outcome::Clean;
     let mut failures: Vec<String> = Vec::new();
-    let (files, problems) = collect(&a.paths);
+    let collected = collect(&a.paths);
+    collected.complain();
+    let Collected { files, problems, .. } = collected;
     failures.extend(problems.into_iter().map(|(_, why)| why));
     for (path, named) in files {
         if interrupted() {
@@ -54,7 +57,7 @@ pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
 fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
     let file = SourceFile::read(path)?;
     let folder = model_folder(&a.models, path)?;
-    let lesson = load_lesson(file, &folder);
+    let lesson = load_lesson_at(file, path, &Sources::Disk, &folder);
     if !named && is_other_json(&lesson) {
         return Ok(None);
     }
@@ -64,7 +67,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
         return Ok(None);
     }
     // The file as it would be is read once more before anything is replaced.
-    let again = load_lesson(SourceFile::new(lesson.file.path().clone(), done.text.as_str()), &folder);
+    let again = reload_lesson(&lesson, &done.text, &folder);
     if !format::says_the_same(&lesson, &again) {
         return Err(format!(
             "{} is left alone: laid out anew it would not be read as before; please report this lesson",
@@ -75,6 +78,6 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     if a.check {
         return Ok(Some(format!("{of} would change")));
     }
-    write_file(path, &done.text)?;
+    write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
     Ok(Some(format!("{of} changed")))
 }

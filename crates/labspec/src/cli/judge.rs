@@ -5,6 +5,7 @@
 use super::Failure;
 use super::course::Course;
 use super::output::write_file;
+use super::output_kind::OutputKind;
 use crate::check::{Hearing, Recording, file_name};
 use crate::printable::printable_lines;
 use crate::report::{printable_path, set_number};
@@ -36,7 +37,7 @@ pub(super) fn ask(file: &Path, course: &Course) -> Result<(), Failure> {
     let request =
         json!({"request": "judge", "version": VERSION, "labspec": env!("CARGO_PKG_VERSION"), "runs": runs});
     let text = serde_json::to_string_pretty(&request).map_err(|e| e.to_string())?;
-    write_file(file, &(text + "\n"))
+    write_file(file, OutputKind::JudgeRequest, &(text + "\n"))
 }
 
 /// Reads a recording.

@@ -1,6 +1,6 @@
 //! `labspec lsp`.
 
-use super::policy::{Policies, PolicyOptions};
+use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::complain;
 use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome};
@@ -8,9 +8,9 @@ use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::lsp::{Course, serve};
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `lsp`.
 #[derive(clap::Args, Debug)]
@@ -39,14 +39,22 @@ pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
             ModelFolder::unknown()
         })
     };
-    // Settings are read anew each time: they may change while the editor is open.
-    let mut policy = |path: &Path, findings: &mut Vec<Finding>| match Policies::new(&a.policy)
-        .and_then(|mut all| all.of(path))
-    {
-        Ok(policy) => drop(policy.apply(findings)),
-        Err(why) => say(why),
+    // Settings may change while the editor is open: they are read anew where files may have changed.
+    let known: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
+    let mut policy = |path: &Path, findings: &mut Vec<Finding>| {
+        if let Some(policy) = known.borrow().get(path) {
+            return drop(policy.apply(findings));
+        }
+        match Policies::new(&a.policy).and_then(|mut all| all.of(path)) {
+            Ok(policy) => {
+                drop(policy.apply(findings));
+                known.borrow_mut().insert(path.to_path_buf(), policy);
+            }
+            Err(why) => say(why),
+        }
     };
-    let course = Course { models: &models, policy: &mut policy };
+    let refresh = || known.borrow_mut().clear();
+    let course = Course { models: &models, policy: &mut policy, refresh: &refresh };
     let input = BufReader::new(std::io::stdin());
     match serve(course, input, &mut std::io::stdout().lock()) {
         Ok(true) => Ok(Outcome::Clean),

@@ -4,6 +4,7 @@ mod baseline;
 mod bench;
 mod cache;
 mod check;
+mod collect;
 mod completions;
 mod course;
 mod digest;
@@ -17,6 +18,7 @@ mod judge;
 mod lsp;
 mod machine;
 mod output;
+mod output_kind;
 mod plan;
 mod policy;
 mod precision;
@@ -38,6 +40,7 @@ use crate::report::{printable_lines, printable_path};
 use crate::threads;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use output::write_file;
+use output_kind::OutputKind;
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -241,10 +244,10 @@ fn reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
             .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
     }
     for (name, text) in crate::reference::pages() {
-        write_file(&folder.join(name), &text)?;
+        write_file(&folder.join(name), OutputKind::Reference, &text)?;
     }
     for (name, text) in crate::reference::schemas() {
-        write_file(&schemas.join(name), &text)?;
+        write_file(&schemas.join(name), OutputKind::Reference, &text)?;
     }
     Ok(Outcome::Clean)
 }

@@ -2,6 +2,7 @@
 //! over a file that was read, nor two outputs into one file.
 
 use super::Failure;
+use super::output_kind::OutputKind;
 use crate::report::printable_path;
 use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
@@ -10,75 +11,25 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Files that labspec reads: an output never replaces one of these, whoever wrote it.
-const READ: [&str; 13] =
-    ["md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml"];
+/// Writes a file whole or not at all. What is there is replaced when it is of the same kind, and never otherwise.
+pub(super) fn write_file(path: &Path, kind: OutputKind<'_>, text: &str) -> Result<(), Failure> {
+    write_with(path, kind, |out| out.write_all(text.as_bytes()))
+}
 
-/// What an option writes, as far as a file shows it: an output replaces files of its own kind alone.
-fn is_own(option: &str, old: &str) -> bool {
-    let object = || serde_json::from_str::<serde_json::Value>(old).ok();
-    let says = |key: &str, word: &str| object().is_some_and(|value| value[key] == word);
-    let text = old.trim_start_matches('\u{feff}').trim_start();
-    match option {
-        "snapshot" => text
-            .lines()
-            .take(8)
-            .any(|line| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot")),
-        "--update-baseline" => says("report", "baseline"),
-        "--record" => says("report", "reproduction"),
-        "--judge-request" => says("request", "judge"),
-        "--json" => says("report", "run"),
-        "--html" => text.starts_with("<!DOCTYPE html>") && text.contains("<footer><p>labspec "),
-        "--svg" => {
-            text.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"")
-                && text.contains("'DejaVu Sans'")
-        }
-        // A table of numbers has no mark of its own: what is a text of another kind is refused.
-        "--csv" => !text.starts_with(['{', '[', '<', '#']) && has_even_rows(text),
-        _ => false,
+/// Removes a file of this kind.
+pub(super) fn remove_file(path: &Path, kind: OutputKind<'_>) -> Result<(), Failure> {
+    let cannot = |e: io::Error| format!("cannot remove {}: {e}", printable_path(path));
+    let old = fs::symlink_metadata(path).map_err(cannot)?;
+    if let Some(why) = kind.refuses(path, &old) {
+        return Err(cannot(io::Error::new(io::ErrorKind::InvalidInput, why)));
     }
-}
-
-/// Whether the first row of a text names columns of ours, and the others have as many cells.
-fn has_even_rows(text: &str) -> bool {
-    let cells = |line: &str| line.split('"').step_by(2).map(|part| part.matches(',').count()).sum::<usize>();
-    if !text.starts_with("time,")
-        && text.lines().next() != Some("time")
-        && !text.starts_with("integrator,solver,")
-    {
-        return false;
-    }
-    let mut rows = text.lines().map(cells);
-    let first = rows.next().unwrap_or(0);
-    rows.all(|n| n == first)
-}
-
-/// Whether an option may replace what stands in a file: nothing, or a file of its own.
-fn may_replace(option: &str, place: &Path, old: &fs::Metadata) -> bool {
-    match option {
-        _ if old.len() == 0 => true,
-        "--png" => drawn_here(place),
-        _ => old.len() <= MOST_OF_OWN && fs::read_to_string(place).is_ok_and(|text| is_own(option, &text)),
-    }
-}
-
-/// Whether nothing stands in a file, or something that the same writer wrote.
-pub(super) fn is_free_or_own(option: &str, path: &Path) -> bool {
-    fs::metadata(path).map_or(true, |old| may_replace(option, path, &old))
-}
-
-/// Bytes of an output that is recognized, at most.
-const MOST_OF_OWN: u64 = 1 << 30;
-
-/// Writes a file whole or not at all.
-pub(super) fn write_file(path: &Path, text: &str) -> Result<(), Failure> {
-    write_with(path, |out| out.write_all(text.as_bytes()))
+    fs::remove_file(path).map_err(cannot)
 }
 
 /// A picture in pixels, twice as many across as its size says.
 pub(super) fn write_png(path: &Path, svg: &str) -> Result<(), Failure> {
     let bytes = pixels(svg).map_err(|e| format!("cannot draw {}: {e}", printable_path(path)))?;
-    write_with(path, |out| out.write_all(&bytes))
+    write_with(path, OutputKind::Picture, |out| out.write_all(&bytes))
 }
 
 #[cfg(feature = "png")]
@@ -91,32 +42,26 @@ fn pixels(_: &str) -> Result<Vec<u8>, String> {
     Err("this program was built without the feature `png`; --svg draws the same picture".into())
 }
 
-/// Whether a file is a picture that this program drew. Other pictures may be height fields of a model.
-#[cfg(feature = "png")]
-fn drawn_here(place: &Path) -> bool {
-    use std::io::Read;
-    let mut start = Vec::new();
-    let read = File::open(place).and_then(|file| file.take(512).read_to_end(&mut start));
-    read.is_ok() && labspec_plot::is_png_of_ours(&start)
-}
-
-#[cfg(not(feature = "png"))]
-fn drawn_here(_: &Path) -> bool {
-    false
-}
-
 /// The same, piece by piece.
 pub(super) fn write_with(
     path: &Path,
+    kind: OutputKind<'_>,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    replace(path, write)
+    replace(path, kind, write)
         .map_err(|e| format!("cannot write {}: {e}; what was there is unchanged", printable_path(path)))
 }
 
-fn replace(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+fn replace(
+    path: &Path,
+    kind: OutputKind<'_>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let place = place(path)?;
     let old = writable(&place)?;
+    if let Some(why) = old.as_ref().and_then(|old| kind.refuses(&place, old)) {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
     if let Some(folder) = place.parent() {
         clear_abandoned(folder, is_temporary);
     }
@@ -289,16 +234,16 @@ fn number(meta: &fs::Metadata) -> Option<(u64, u64)> {
     }
 }
 
-/// An output that was asked for: the option, and the file.
+/// An output that was asked for: what it is, and the file.
 pub(super) struct Wanted {
-    pub(super) option: &'static str,
+    pub(super) kind: OutputKind<'static>,
     pub(super) path: PathBuf,
 }
 
 /// Those of the outputs that were asked for.
-pub(super) fn wanted(outputs: &[(&'static str, &Option<PathBuf>)]) -> Vec<Wanted> {
+pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<Wanted> {
     let asked =
-        outputs.iter().filter_map(|(option, path)| Some(Wanted { option, path: path.as_ref()?.clone() }));
+        outputs.iter().filter_map(|(kind, path)| Some(Wanted { kind: *kind, path: path.as_ref()?.clone() }));
     asked.collect()
 }
 
@@ -314,21 +259,18 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
     if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
         taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "what is printed".into()));
     }
-    for Wanted { option, path } in outputs {
-        let named = format!("{option} {}", printable_path(path));
+    for Wanted { kind, path } in outputs {
+        let named = format!("{} {}", kind.option(), printable_path(path));
         let cannot = |e: io::Error| format!("cannot write {named}: {e}");
         let identity = Identity::of(path).map_err(cannot)?;
         let old = writable(&identity.place).map_err(cannot)?;
-        let ending = identity.place.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-        let is_read = old.is_some()
-            && ending.is_some_and(|e| READ.contains(&e.as_str()))
-            && !drawn_here(&identity.place);
+        let is_read = old.is_some() && kind.is_input(&identity.place);
         if is_read || inputs.iter().any(|input| input.is(&identity)) {
             return Err(format!(
                 "{named} would overwrite a lesson or a model; name another file, nothing was written"
             ));
         }
-        if old.as_ref().is_some_and(|old| !may_replace(option, &identity.place, old)) {
+        if old.as_ref().is_some_and(|old| kind.refuses(&identity.place, old).is_some()) {
             return Err(format!(
                 "{named} would overwrite a file that labspec did not write with this option; name another file, or remove \
                  that one first; nothing was written"
@@ -360,7 +302,7 @@ mod tests {
         for name in kept.into_iter().chain([".labspec-4294967295-0.tmp"]) {
             fs::write(at(name), "half").unwrap();
         }
-        write_file(&at("out.csv"), "whole").unwrap();
+        write_file(&at("out.csv"), OutputKind::Table, "whole").unwrap();
         assert_eq!(fs::read_to_string(at("out.csv")).unwrap(), "whole");
         assert!(!at(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
         for name in kept {

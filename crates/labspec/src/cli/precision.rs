@@ -3,7 +3,7 @@
 use super::handle::Handled;
 use super::output::{wanted, write_png, write_with};
 use super::stdio::{Progress, print_json, stream};
-use super::{Failure, Outcome, interrupted, print, write_file};
+use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
 use crate::precision::{
     Axis, Beside, BesideRow, Compared, Errors, Fate, INTEGRATORS, Integrator, Options, Recording, Report,
     Row, compare, milliseconds,
@@ -65,7 +65,10 @@ enum Format {
 
 pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
-    a.handled.look_ahead(&target, &wanted(&[("--csv", &a.csv), ("--svg", &a.svg), ("--png", &a.png)]))?;
+    a.handled.look_ahead(
+        &target,
+        &wanted(&[(OutputKind::Settings, &a.csv), (OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]),
+    )?;
     let options = Options {
         until: a.until,
         set: a.handled.set(&target.lab)?,
@@ -87,13 +90,13 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
         ));
     }
     if let Some(file) = &a.svg {
-        write_file(file, &chart(&report, target.lab.title()))?;
+        write_file(file, OutputKind::Plot, &chart(&report, target.lab.title()))?;
     }
     if let Some(file) = &a.png {
         write_png(file, &chart(&report, target.lab.title()))?;
     }
     if let Some(file) = &a.csv {
-        write_with(file, |out| csv(&report, out))?;
+        write_with(file, OutputKind::Settings, |out| csv(&report, out))?;
     }
     match a.format {
         Format::Human => print(&human(&report))?,

@@ -5,6 +5,7 @@
 use super::Failure;
 use super::course::Course;
 use super::output::write_file;
+use super::output_kind::OutputKind;
 use crate::check::{Basis, Checked, Claim, ClaimBasis, LabBasis, Settings};
 use crate::ledger::{Entry, Ledger};
 use crate::report::{self, key, printable_path, set_number};
@@ -45,7 +46,7 @@ pub(super) fn now(file: &Path, course: &Course) -> Value {
 /// The file cannot be written.
 pub(super) fn write(file: &Path, record: &Value) -> Result<(), Failure> {
     let text = serde_json::to_string_pretty(record).map_err(|e| e.to_string())?;
-    write_file(file, &(text + "\n"))
+    write_file(file, OutputKind::Record, &(text + "\n"))
 }
 
 /// Reads a record.

@@ -3,7 +3,7 @@
 use super::handle::Handled;
 use super::output::{Wanted, wanted, write_png, write_with};
 use super::stdio::stream;
-use super::{Failure, Outcome, print, write_file};
+use super::{Failure, Outcome, OutputKind, print, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{self, Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};
@@ -73,21 +73,21 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
             .map(Option::unwrap_or_default)
     };
     let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
-    let mut files = wanted(&[("--csv", &a.csv), ("--json", &a.json)]);
-    files.extend(drawn.iter().map(|path| Wanted { option: "--svg", path: path.clone() }));
-    files.extend(painted.iter().map(|path| Wanted { option: "--png", path: path.clone() }));
+    let mut files = wanted(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
+    files.extend(drawn.iter().map(|path| Wanted { kind: OutputKind::Plot, path: path.clone() }));
+    files.extend(painted.iter().map(|path| Wanted { kind: OutputKind::Picture, path: path.clone() }));
     a.handled.look_ahead(&target, &files)?;
     let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
-        write_with(file, |out| table.write_csv(out))?;
+        write_with(file, OutputKind::Table, |out| table.write_csv(out))?;
     }
     if let Some(file) = &a.json {
-        write_with(file, |out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?;
+        write_with(file, OutputKind::Run, |out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?;
     }
     let picture = |(i, plot)| line_chart(&chart(&target.lab, plot, i, &table));
     let pictures = || target.lab.plots.iter().enumerate().map(picture);
     for (svg, file) in pictures().zip(&drawn) {
-        write_file(file, &svg)?;
+        write_file(file, OutputKind::Plot, &svg)?;
     }
     for (svg, file) in pictures().zip(&painted) {
         write_png(file, &svg)?;

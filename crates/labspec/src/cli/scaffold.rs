@@ -2,13 +2,11 @@
 
 use super::stdio::{Progress, print_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, write_file};
+use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
-use crate::lint::load_lesson;
-use crate::lint::load_lesson_file;
+use crate::lint::{load_lesson_file, reload_lesson};
 use crate::report::{printable, printable_lines, printable_path, report};
 use crate::scaffold::{Found, Scaffold, scaffold as look, written};
-use crate::source::SourceFile;
 use crate::spec::Lesson;
 use crate::trace::laid_out;
 use crate::verify::{Verdict, significant};
@@ -52,14 +50,14 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     if a.write && proposals > 0 {
         let text = written(&lesson, &all);
         // The file as it would be is read once more before anything is replaced.
-        let again = load_lesson(SourceFile::new(lesson.file.path().clone(), text.as_str()), &folder);
+        let again = reload_lesson(&lesson, &text, &folder);
         if again.verifies().count() != lesson.verifies().count() + proposals {
             return Err(format!(
                 "{} is left alone: with the objects it would not be read as before; mend what `labspec check` finds first",
                 printable_path(&a.lesson)
             ));
         }
-        write_file(&a.lesson, &text)?;
+        write_file(&a.lesson, OutputKind::Lesson(lesson.file.text()), &text)?;
     }
     match a.format {
         Format::Human => print(&human(a, &lesson, &all))?,

@@ -1,7 +1,9 @@
 //! `labspec snapshot`: what the labs of lessons show, stored beside them; and the review of what has changed.
 
-use super::course::{collect, is_other_json, lost_snapshots};
-use super::output::write_file;
+use super::collect::{Collected, collect, lost_snapshots};
+use super::course::is_other_json;
+use super::output::{remove_file, write_file};
+use super::output_kind::OutputKind;
 use super::stdio::{print, print_json};
 use super::target::model_folder_within;
 use super::{Failure, ModelOptions, Outcome, interrupted, machine};
@@ -116,7 +118,9 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
 
 /// Reads every lesson, runs its labs, and compares.
 fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
-    let (files, problems) = collect(&a.paths);
+    let collected = collect(&a.paths);
+    collected.complain();
+    let Collected { files, problems, .. } = collected;
     if let Some((_, why)) = problems.first() {
         return Err(why.clone());
     }
@@ -220,8 +224,7 @@ fn review(
 fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     let Some(renewal) = &one.renewal else {
         if everything {
-            let cannot = |e| format!("cannot remove {}: {e}", printable_path(&one.file));
-            std::fs::remove_file(&one.file).map_err(cannot)?;
+            remove_file(&one.file, OutputKind::Snapshot)?;
             one.written = true;
         }
         return Ok(());
@@ -232,14 +235,8 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     let Some(text) = renewal.text(|lab| one.accepted.contains(&lab.kept.lab)) else { return Ok(()) };
     let old = std::fs::read_to_string(&one.file).ok();
     // Line breaks may have been changed on the way.
-    if !super::output::is_free_or_own("snapshot", &one.file) {
-        return Err(format!(
-            "{} is no snapshot that labspec wrote; rename or remove it, nothing was written",
-            printable_path(&one.file)
-        ));
-    }
     if old.is_none_or(|old| old.replace("\r\n", "\n") != text) {
-        write_file(&one.file, &text)?;
+        write_file(&one.file, OutputKind::Snapshot, &text)?;
         one.written = true;
     }
     Ok(())

@@ -3,7 +3,7 @@
 use super::handle::Handled;
 use super::output::{wanted, write_png};
 use super::stdio::{Progress, print_json};
-use super::{Failure, Outcome, interrupted, print, write_file};
+use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::Programs;
 use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
@@ -51,7 +51,7 @@ enum Format {
 
 pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
     let target = a.handled.open()?;
-    a.handled.look_ahead(&target, &wanted(&[("--svg", &a.svg), ("--png", &a.png)]))?;
+    a.handled.look_ahead(&target, &wanted(&[(OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]))?;
     let map = a.map.as_ref().map(|text| two_labels(&target.lab, text)).transpose()?;
     let (set, press) = (a.handled.set(&target.lab)?, a.handled.press(&target.lab)?);
     let options = Options { until: a.until, margins: a.margins, map, set, press };
@@ -63,7 +63,7 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
         write_png(file, &chart(map, target.lab.title()))?;
     }
     if let (Some(file), Some(map)) = (&a.svg, &report.map) {
-        write_file(file, &chart(map, target.lab.title()))?;
+        write_file(file, OutputKind::Plot, &chart(map, target.lab.title()))?;
     }
     match a.format {
         Format::Human => print(&human(&report, &target.programs))?,

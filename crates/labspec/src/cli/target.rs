@@ -4,10 +4,9 @@ use super::{Failure, ModelOptions};
 use crate::bind::Programs;
 use crate::bind::scene::{Compiled, Models, compile_file};
 use crate::finding::{Finding, InFile, Severity};
-use crate::lint::load_lesson;
-use crate::lint::{ModelFolder, lesson_folder, root_of};
+use crate::lint::{ModelFolder, lesson_folder, load_lesson_at, root_of};
 use crate::report::{self, printable};
-use crate::source::{SourceFile, SourceMap, Text};
+use crate::source::{SourceFile, SourceMap, Sources, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
 use labspec_core::Model;
 use std::path::{Path, PathBuf};
@@ -66,7 +65,7 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
     }
     let file = SourceFile::read(&path)?;
     let folder = model_folder(options, &path)?;
-    let lesson = load_lesson(file, &folder);
+    let lesson = load_lesson_at(file, &path, &Sources::Disk, &folder);
     let lab = choose(&lesson, address.as_ref(), argument)?.clone();
     let mut models = Models::new(folder);
     let mut findings: Vec<Finding> = lesson.findings.clone();
@@ -149,7 +148,7 @@ fn bare_model(path: &Path, options: &ModelOptions) -> Result<Target, Failure> {
 pub(super) fn load_model(path: &Path, options: &ModelOptions) -> Result<Model, Failure> {
     let file = SourceFile::read(path)?;
     let root = root(options, &lesson_folder(path), &[])?;
-    let Compiled { model, mut findings, files, .. } = compile_file(&file, path, &root, None);
+    let Compiled { model, mut findings, files, .. } = compile_file(&file, path, &root, &Sources::Disk, None);
     findings.retain(|f| f.severity == Severity::Error);
     model.ok_or_else(|| {
         let files: Vec<&SourceFile> = files.iter().collect();

@@ -1,6 +1,6 @@
 //! Waiting for files to change, by looking at their sizes and times.
 
-use super::course::collect;
+use super::collect::collect;
 use super::policy;
 use super::stdio::complain;
 use super::{Failure, Outcome, interrupted};
@@ -62,7 +62,7 @@ fn beside(path: &Path) -> Vec<PathBuf> {
 
 /// The files that were named or lie in folders that were named, and others.
 fn stamps(paths: &[PathBuf], also: &BTreeSet<PathBuf>) -> BTreeMap<PathBuf, Stamp> {
-    let found = collect(paths).0.into_iter().map(|(path, _)| path);
+    let found = collect(paths).files.into_iter().map(|(path, _)| path);
     found
         .flat_map(|path| beside(&path).into_iter().chain([path]))
         .chain(paths.iter().filter(|p| !p.is_dir()).cloned())

@@ -1,11 +1,10 @@
 //! Links of a lesson that lead to nothing: files of the course that are not there, headings that no lesson has.
 
-use super::Sources;
-use super::models::{lesson_folder, root_of};
+use super::models::root_of;
 use crate::finding::Finding;
 use crate::markdown::{self, Link, Scan};
 use crate::rules;
-use crate::source::{MAX_FILE, SourceFile};
+use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
 use crate::spec::Lesson;
 use std::path::{Path, PathBuf};
 
@@ -59,27 +58,65 @@ pub(super) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
     }
 }
 
+/// A link to a file of the course.
+struct Named<'l> {
+    link: &'l Link,
+    /// The file, as the link names it, from the folder of the lesson.
+    path: PathBuf,
+    extension: String,
+    anchor: Option<String>,
+}
+
+/// The files of the course that links of a lesson name; nothing that a site makes itself.
+fn named<'l>(lesson: &'l Lesson, folder: &Path) -> impl Iterator<Item = Named<'l>> {
+    lesson.scan.links.iter().take(MOST).filter_map(move |link| {
+        let (file, anchor) = inside(&link.target)?;
+        let path = joined(folder, &file).filter(|_| !file.ends_with('/'))?;
+        let extension = path.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+        let is_page = extension.is_empty() || PAGES.contains(&extension.as_str());
+        (!is_page).then_some(Named { link, path, extension, anchor })
+    })
+}
+
+/// The folder of a lesson, links resolved where it has one.
+fn folder_of(path: &Path, sources: &Sources) -> PathBuf {
+    let parent = |path: &Path| match path.parent() {
+        Some(folder) if folder != Path::new("") => folder.to_path_buf(),
+        _ => PathBuf::from("."),
+    };
+    match sources.real(path) {
+        Some(real) => parent(&real),
+        None => sources.real(&parent(path)).unwrap_or_else(|| parent(path)),
+    }
+}
+
+/// Whether a lesson links to a file.
+#[cfg(feature = "lsp")]
+pub(crate) fn links_to(lesson: &Lesson, file: &Path) -> bool {
+    let Some((path, sources)) = &lesson.place else { return false };
+    let folder = folder_of(path, sources);
+    named(lesson, &folder)
+        .any(|named| named.path == file || sources.real(&named.path).as_deref() == Some(file))
+}
+
 /// Files that links of a lesson name, and headings of those that are lessons. Nothing outside of the root is looked at.
 pub(super) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findings: &mut Vec<Finding>) {
-    let folder = lesson_folder(path);
+    let folder = folder_of(path, sources);
     let mut root = None;
-    for link in lesson.scan.links.iter().take(MOST) {
-        let Some((file, anchor)) = inside(&link.target) else { continue };
-        let (Some(target), false) = (joined(&folder, &file), file.ends_with('/')) else { continue };
-        let extension = target.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
-        if extension.is_empty() || PAGES.contains(&extension.as_str()) {
+    for Named { link, path, extension, anchor } in named(lesson, &folder) {
+        let root = root.get_or_insert_with(|| {
+            let found = sources.place(Asked::Root, &folder, || Some(root_of(&folder, &[])));
+            found.unwrap_or_default()
+        });
+        if !path.starts_with(&*root) {
             continue;
         }
-        let root = root.get_or_insert_with(|| root_of(&folder, &[]));
-        if !target.starts_with(&*root) {
-            continue;
-        }
-        match (target.canonicalize(), anchor) {
-            (Err(_), _) => findings.push(finding(
+        match (sources.real(&path), anchor) {
+            (None, _) if sources.has_files() => findings.push(finding(
                 link,
                 if link.image { "there is no such picture" } else { "there is no such file" },
             )),
-            (Ok(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
+            (Some(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
                 let Ok(text) = sources.text(&real, MAX_FILE, "a lesson") else { continue };
                 let other = SourceFile::new(real.display().to_string(), text);
                 if !has_anchor(other.text(), &markdown::scan(&other), &decoded(&anchor))
@@ -109,7 +146,7 @@ fn inside(target: &str) -> Option<(String, Option<String>)> {
 
 /// A path from a folder, without steps that lead back; `None` where it leads above everything.
 fn joined(folder: &Path, file: &str) -> Option<PathBuf> {
-    let mut path = folder.canonicalize().ok()?;
+    let mut path = folder.to_path_buf();
     for part in file.split('/') {
         match part {
             "" | "." => {}

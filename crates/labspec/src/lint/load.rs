@@ -1,9 +1,9 @@
 //! The way in: a lesson is read, and the rules of structure look at it.
 
-use super::{ModelFolder, Sources};
+use super::ModelFolder;
 use crate::finding::{self, Finding, InFile};
 use crate::rules;
-use crate::source::{BadText, SourceFile};
+use crate::source::{Asked, BadText, SourceFile, Sources};
 use crate::spec::{LabAddress, Lesson, Other, Verify, VerifyLab, read_lesson, read_other};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -14,40 +14,51 @@ pub const MAX_FINDINGS: usize = 1000;
 
 /// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them, and checks its
 /// structure. Nothing is run; this never fails, findings say what is wrong.
+///
+/// This is a text alone: what it names of other lessons was not given ([`load_lesson_at`] looks for it).
 pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
+    let path = PathBuf::from(&**file.path());
+    load_lesson_at(file, &path, &Sources::default(), models)
+}
+
+/// The one loader: a lesson that lies at this path, with its neighbours, as far as `sources` has them: the labs of other lessons that
+/// it names, the files that it links to, its snapshot. Programs, editors and checks from memory differ only in their sources.
+pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
     let mut lesson = read_lesson(file);
     let mut findings = super::check(&lesson, models);
+    super::links::check_files(&lesson, path, sources, &mut findings);
     withhold_fixes(&lesson, &mut findings);
     lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
     finding::sort(&mut lesson.findings);
-    if lesson.findings.len() > MAX_FINDINGS {
-        let more = lesson.findings.len() - MAX_FINDINGS;
-        lesson.findings.truncate(MAX_FINDINGS);
-        let end = lesson.file.text().len();
-        lesson.findings.push(
-            Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not shown"))
-                .help("fix the first ones, then check again")
-                .at(&lesson.file),
-        );
-    }
-    lesson
-}
-
-/// The same of a lesson that lies at this path, with its neighbours: the labs of other lessons that it names, the files that it
-/// links to, its snapshot. Every program that has files reads lessons by this, whether they are saved or not.
-pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
-    let lesson = load_lesson(file, models);
-    with_neighbours(lesson, path, sources)
-}
-
-fn with_neighbours(mut lesson: Lesson, path: &Path, sources: &Sources) -> Lesson {
-    let mut found = Vec::new();
-    super::links::check_files(&lesson, path, sources, &mut found);
-    lesson.findings.extend(found.into_iter().map(|f| f.at(&lesson.file)));
-    finding::sort(&mut lesson.findings);
+    limit(&mut lesson);
     lesson.snapshot = read_snapshot(path, sources);
     lesson.others = read_others(&lesson, path, sources);
+    lesson.place = Some((path.to_path_buf(), sources.clone()));
     lesson
+}
+
+/// Another text of a lesson, with the same neighbours.
+pub fn reload_lesson(lesson: &Lesson, text: &str, models: &ModelFolder) -> Lesson {
+    let file = SourceFile::new(lesson.file.path().clone(), text);
+    match &lesson.place {
+        Some((path, sources)) => load_lesson_at(file, path, sources, models),
+        None => load_lesson(file, models),
+    }
+}
+
+/// Leaves the first findings of a file that has too many.
+fn limit(lesson: &mut Lesson) {
+    if lesson.findings.len() <= MAX_FINDINGS {
+        return;
+    }
+    let more = lesson.findings.len() - MAX_FINDINGS;
+    lesson.findings.truncate(MAX_FINDINGS);
+    let end = lesson.file.text().len();
+    lesson.findings.push(
+        Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not shown"))
+            .help("fix the first ones, then check again")
+            .at(&lesson.file),
+    );
 }
 
 /// Takes the fixes of findings away that lie in a block whose JSON is broken. They were made for JSON: between
@@ -68,7 +79,7 @@ pub fn withhold_fixes(lesson: &Lesson, findings: &mut [Finding]) {
 /// A sentence for the author: the file cannot be read, is no file, or is too large.
 pub fn load_lesson_file(path: &Path, models: &ModelFolder) -> Result<Lesson, String> {
     let (file, bad) = SourceFile::read_lossy(path)?;
-    Ok(with_neighbours(load_bytes(file, bad, models), path, &Sources::Disk))
+    Ok(load_bytes(file, bad, path, &Sources::Disk, models))
 }
 
 /// Bytes of other lessons that are read through for the labs that one lesson names, at most: each name counts its lesson.
@@ -79,13 +90,15 @@ const MOST_OF_OTHER: u64 = 4 << 20;
 /// The labs of other lessons that this one names.
 fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     let mut texts: BTreeMap<PathBuf, Result<String, String>> = BTreeMap::new();
+    let place = sources.followed(path);
+    let folder = place.parent().unwrap_or(Path::new(""));
     let mut left = MOST_OF_OTHERS;
     let named = lesson.verifies().flat_map(Verify::labs).filter_map(|lab| match lab {
         VerifyLab::Elsewhere(text, file, address) => Some((text.span(), file, address)),
         _ => None,
     });
     let mut read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
-        let there = path.parent().unwrap_or(Path::new("")).join(file);
+        let there = folder.join(file);
         let shown = there.display().to_string();
         // A lesson of somebody else may name any file of this machine.
         let inside = Path::new(file).is_relative();
@@ -119,7 +132,8 @@ fn read_other_file(own: &Path, other: &Path, sources: &Sources) -> Result<String
     if !is_lesson(other) {
         return Err("a lab stands in a lesson (.md) or in a JSON file".into());
     }
-    if ModelFolder::find_near(own) != ModelFolder::find_near(other) {
+    let models = |path: &Path| sources.place(Asked::Models, path, || ModelFolder::find_near(path));
+    if models(own) != models(other) {
         return Err("that lesson has another folder of models".into());
     }
     sources.text(other, MOST_OF_OTHER, "a lesson")
@@ -144,13 +158,19 @@ const MOST: u64 = 4 << 20;
 fn read_snapshot(path: &Path, sources: &Sources) -> Option<Result<SourceFile, String>> {
     let path = snapshot_path(path);
     // A link that leads nowhere is there, and cannot be read.
-    std::fs::symlink_metadata(&path).ok()?;
+    sources.has(&path).then_some(())?;
     let text = sources.text(&path, MOST, "a snapshot");
     Some(text.map(|text| SourceFile::new(path.display().to_string(), text)))
 }
 
-fn load_bytes(file: SourceFile, bad: Option<BadText>, models: &ModelFolder) -> Lesson {
-    let mut lesson = load_lesson(file, models);
+fn load_bytes(
+    file: SourceFile,
+    bad: Option<BadText>,
+    path: &Path,
+    sources: &Sources,
+    models: &ModelFolder,
+) -> Lesson {
+    let mut lesson = load_lesson_at(file, path, sources, models);
     if let Some(bad) = bad {
         let finding = not_utf8(bad).at(&lesson.file);
         lesson.findings.push(finding);
@@ -185,7 +205,7 @@ mod tests {
 
     fn load(bytes: &[u8]) -> Lesson {
         let (file, bad) = SourceFile::from_bytes("t.md", bytes);
-        load_bytes(file, bad, &ModelFolder::with_names(["ball"]))
+        load_bytes(file, bad, Path::new("t.md"), &Sources::default(), &ModelFolder::with_names(["ball"]))
     }
 
     fn places(lesson: &Lesson) -> Vec<(&'static str, usize, usize)> {

@@ -14,15 +14,15 @@ mod load;
 mod markup;
 pub(crate) mod model;
 mod models;
-mod sources;
 
+#[cfg(feature = "lsp")]
+pub(crate) use links::links_to;
 pub use load::{
-    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, snapshot_path,
-    withhold_fixes,
+    MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, reload_lesson,
+    snapshot_path, withhold_fixes,
 };
 pub use models::ModelFolder;
 pub(crate) use models::{lesson_folder, root_of};
-pub use sources::{Overlay, Sources};
 
 use crate::finding::Finding;
 use crate::markdown::BlockKind;

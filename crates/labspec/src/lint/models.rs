@@ -80,6 +80,17 @@ impl ModelFolder {
         Ok(ModelFolder { folder: Some(folder), root, names: Some(names), given: None })
     }
 
+    /// The same with models of the folder that are not saved yet.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn with_unsaved(mut self, files: Vec<String>) -> ModelFolder {
+        if let Some(names) = &mut self.names {
+            names.extend(files.iter().filter_map(|file| file.strip_suffix(".xml")).map(String::from));
+            names.sort();
+            names.dedup();
+        }
+        self
+    }
+
     /// The folder `models` beside a lesson or above it, whichever is nearer; unknown when there is none. The root is
     /// what the folders around it say: `labspec.toml`, else the repository.
     pub fn near(lesson: &Path) -> ModelFolder {
@@ -89,8 +100,8 @@ impl ModelFolder {
 
     /// The folder `models` beside a lesson or above it.
     pub(crate) fn find_near(lesson: &Path) -> Option<PathBuf> {
-        let absolute = lesson.canonicalize().unwrap_or_else(|_| lesson.to_path_buf());
-        let mut folders = absolute.ancestors().skip(1).map(|folder| folder.join("models"));
+        let place = located(lesson);
+        let mut folders = place.ancestors().skip(1).map(|folder| folder.join("models"));
         folders.find(|f| f.is_dir())
     }
 
@@ -130,8 +141,17 @@ impl ModelFolder {
 
 /// The folder that a file lies in.
 pub(crate) fn lesson_folder(file: &Path) -> PathBuf {
-    let absolute = file.canonicalize().unwrap_or_else(|_| file.to_path_buf());
-    absolute.parent().unwrap_or(Path::new("")).to_path_buf()
+    located(file).parent().unwrap_or(Path::new("")).to_path_buf()
+}
+
+/// A file, links resolved; one that is not there yet (a new text of an editor, standard input) lies in its folder all the same.
+fn located(file: &Path) -> PathBuf {
+    let folder = || match file.parent() {
+        Some(folder) if folder != Path::new("") => folder.canonicalize(),
+        _ => Path::new(".").canonicalize(),
+    };
+    let new = || Some(folder().ok()?.join(file.file_name()?));
+    file.canonicalize().ok().or_else(new).unwrap_or_else(|| file.to_path_buf())
 }
 
 /// The file that marks the root of a course.

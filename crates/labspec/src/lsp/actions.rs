@@ -5,9 +5,8 @@ use super::places;
 use crate::bind::scene::Models;
 use crate::check::{self, Depth};
 use crate::finding::{Applicability, Finding, Fix};
-use crate::lint::load_lesson;
+use crate::lint::reload_lesson;
 use crate::repair::{Looked, repair as repair_text, traces};
-use crate::source::SourceFile;
 use crate::spec::{FileKind, Lesson};
 use serde_json::{Value, json};
 use std::ops::Range;
@@ -87,7 +86,7 @@ fn everything(document: &Document, lesson: &Lesson, models: &Models) -> Option<V
         return None;
     }
     let depth = Depth { programs: true, ..Depth::STATIC };
-    let load = |text: &str| load_lesson(SourceFile::new(document.file.path().clone(), text), models.folder());
+    let load = |text: &str| reload_lesson(lesson, text, models.folder());
     let look = |text: &str| {
         let lesson = load(text);
         let broken = lesson.broken.len();

@@ -4,8 +4,8 @@ use super::documents::Document;
 use super::places;
 use super::start::Started;
 use crate::bind::scene::Models;
-use crate::lint::{ModelFolder, Overlay, Sources};
-use crate::source::{MAX_FILE, SourceFile};
+use crate::lint::ModelFolder;
+use crate::source::{MAX_FILE, Overlay, SourceFile, Sources};
 use crate::spec::{FileKind, kind_of};
 use ignore::WalkBuilder;
 use std::collections::BTreeMap;
@@ -32,20 +32,34 @@ pub(super) struct Around {
 #[derive(Debug, Default)]
 pub(super) struct Arounds {
     by_folder: BTreeMap<Option<PathBuf>, Around>,
+    /// The folder of models of each document, as it was found.
+    folders: BTreeMap<PathBuf, ModelFolder>,
     /// The texts that the editor holds.
     pub(super) overlay: Arc<Overlay>,
 }
 
 impl Arounds {
+    /// Nothing is compiled yet; these are the texts that the editor holds.
+    pub(super) fn over(overlay: Arc<Overlay>) -> Arounds {
+        Arounds { overlay, ..Arounds::default() }
+    }
+
     /// What lies around a document.
-    pub(super) fn of(&mut self, folder: ModelFolder) -> &mut Around {
+    pub(super) fn of(&mut self, document: &Path, models_of: &dyn Fn(&Path) -> ModelFolder) -> &mut Around {
+        let sources = self.sources();
+        let find = || {
+            let folder = models_of(document);
+            let unsaved = folder.path_of_folder().map(|folder| self.overlay.names_in(folder));
+            folder.with_unsaved(unsaved.unwrap_or_default())
+        };
+        let folder = self.folders.entry(document.to_path_buf()).or_insert_with(find);
         let key = folder.path_of_folder().map(Path::to_path_buf);
-        let new = |folder: ModelFolder| Around {
-            models: Arc::new(Models::new(folder)),
-            sources: Sources::Over(self.overlay.clone()),
+        let new = |folder: &ModelFolder| Around {
+            models: Arc::new(Models::new(folder.clone()).with_sources(sources.clone())),
+            sources: sources.clone(),
             started: Vec::new(),
         };
-        let around = self.by_folder.entry(key).or_insert_with(|| new(folder.clone()));
+        let around = self.by_folder.entry(key).or_insert_with(|| new(folder));
         // A model that was added or taken away.
         if around.models.folder().names() != folder.names() {
             *around = new(folder);
@@ -53,9 +67,20 @@ impl Arounds {
         around
     }
 
-    /// Files of models changed: all are compiled anew.
+    /// The texts of the editor over files.
+    pub(super) fn sources(&self) -> Sources {
+        Sources::Over(self.overlay.clone())
+    }
+
+    /// Texts of models changed: all are compiled anew.
     pub(super) fn forget(&mut self) {
         self.by_folder.clear();
+    }
+
+    /// Files may have changed: the disk is asked again for what is there.
+    pub(super) fn refresh(&mut self) {
+        self.overlay.refresh();
+        self.folders.clear();
     }
 }
 

@@ -8,10 +8,13 @@ use super::documents::Document;
 use crate::bind::scene::{Models, compile_file};
 use crate::check::{self, Depth, Found};
 use crate::finding::Finding;
-use crate::lint::{lesson_folder, load_lesson_at, root_of};
+use crate::lint::{load_lesson_at, root_of};
+use crate::source::Asked;
 use crate::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab};
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Looks at a document: what is found of it is in the document then.
@@ -28,8 +31,10 @@ pub(super) fn look(document: &mut Document, around: &Around) {
             document.lesson = Some(Arc::new(lesson));
         }
         FileKind::Model => {
-            let root = root_of(&lesson_folder(&document.path), &[]);
-            let found = compile_file(&document.file, &document.path, &root, None).findings;
+            let folder = document.path.parent().unwrap_or(Path::new(""));
+            let find = || Some(root_of(folder, &[]));
+            let root = around.sources.place(Asked::Root, folder, find).unwrap_or_default();
+            let found = compile_file(&document.file, &document.path, &root, &around.sources, None).findings;
             let own = |f: &Finding| f.path == *document.file.path();
             document.findings = found.into_iter().filter(own).collect();
         }
@@ -55,8 +60,9 @@ fn read(document: &Document, around: &Around) -> Lesson {
 fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &Models) -> Vec<Finding> {
     let mut kept = BTreeMap::new();
     let mut findings = Vec::new();
+    let models_now = models_hash(models);
     for unit in units(lesson) {
-        let key = key(lesson, &unit);
+        let key = format!("{models_now}\0{}", key(lesson, &unit));
         let known = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
         let found = known.unwrap_or_else(|| examine(lesson, &unit, models));
         findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
@@ -68,6 +74,13 @@ fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &
     *blocks = kept;
     let found = Found { findings, ..Found::default() };
     check::join(lesson.clone(), found, Depth::STATIC).findings
+}
+
+/// By what it is known that there are other models now.
+fn models_hash(models: &Models) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (models.folder().path_of_folder(), models.folder().names()).hash(&mut hasher);
+    hasher.finish()
 }
 
 /// The labs, quizzes and claims in comments of a lesson, as bytes.
@@ -143,6 +156,7 @@ fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding
         problems: Vec::new(),
         findings: Vec::new(),
         snapshot: None,
+        place: None,
     };
     let found = check::examine(&part, models, Depth::STATIC).findings;
     let own = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
@@ -173,8 +187,8 @@ fn spans(f: &Finding) -> impl Iterator<Item = &Range<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lint::{ModelFolder, Sources};
-    use crate::source::SourceFile;
+    use crate::lint::ModelFolder;
+    use crate::source::{SourceFile, Sources};
     use std::path::Path;
 
     /// What a lesson says without anything kept: what [`look`] must find, too.

@@ -8,13 +8,14 @@ use super::places;
 use crate::bind::ModelNames;
 use crate::bind::scene::Models;
 use crate::lint::{ModelFolder, load_lesson_at};
-use crate::source::{SourceFile, Text};
+use crate::source::{Overlay, SourceFile, Text};
 use crate::spec::{FileKind, Lab, Lesson, Scene};
 use labspec_expr::{Schema, names_in, texts_in};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// A name, and in which model it has its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -67,6 +68,7 @@ pub(super) struct Ground<'a> {
     pub(super) open: &'a BTreeMap<String, Document>,
     pub(super) folders: &'a [Opened],
     pub(super) models_of: &'a dyn Fn(&Path) -> ModelFolder,
+    pub(super) overlay: &'a Arc<Overlay>,
 }
 
 impl Ground<'_> {
@@ -136,7 +138,7 @@ fn home(lab: &Lab, path: &Path, models: &Models) -> Option<Home> {
 /// Every place of a name in its model, and in the labs and claims that are about this model.
 pub(super) fn places_of(name: &Name, ground: &Ground<'_>) -> Places {
     let mut found = Places::default();
-    let mut arounds = Arounds::default();
+    let mut arounds = Arounds::over(ground.overlay.clone());
     let files = match &name.model {
         Home::Lab(path, _) => {
             text_of(path, ground.open).into_iter().map(|file| (path.clone(), file)).collect()
@@ -152,7 +154,7 @@ pub(super) fn places_of(name: &Name, ground: &Ground<'_>) -> Places {
         if !file.text().contains(&name.name) {
             continue;
         }
-        let around = arounds.of((ground.models_of)(&path));
+        let around = arounds.of(&path, ground.models_of);
         let lesson = load_lesson_at(file, &path, &around.sources, around.models.folder());
         in_lesson(name, &lesson, &path, &around.models, &mut found);
     }

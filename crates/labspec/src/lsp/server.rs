@@ -14,8 +14,10 @@ use super::rename::rename;
 use super::runs::{Job, Ran};
 use super::wire::{self, Incoming};
 use crate::finding::Finding;
-use crate::lint::ModelFolder;
-use crate::spec::{FileKind, Lesson};
+use crate::lint::{ModelFolder, links_to};
+use crate::source::MAX_FILE;
+use crate::spec::{FileKind, Lesson, Other, kind_of};
+use crate::threads;
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -31,6 +33,8 @@ pub struct Course<'c> {
     pub models: &'c dyn Fn(&Path) -> ModelFolder,
     /// Takes out what is not to be told of a file.
     pub policy: &'c mut dyn FnMut(&Path, &mut Vec<Finding>),
+    /// Files may have changed: what is known of settings is asked again.
+    pub refresh: &'c dyn Fn(),
 }
 
 /// What wakes the server.
@@ -51,7 +55,7 @@ pub fn serve<'c>(
     let (sender, events) = channel();
     let incoming = sender.clone();
     // It ends with the input, or with the program.
-    std::thread::Builder::new().spawn(move || {
+    threads::checking().spawn(move || {
         loop {
             let read = wire::read(&mut input).unwrap_or(Incoming::End);
             let last = matches!(read, Incoming::End);
@@ -256,10 +260,10 @@ impl Server<'_> {
                 {
                     self.stop_for(uri);
                     let document = Document::new(uri, places::real(&path), text, version);
-                    let path = document.path.clone();
-                    self.arounds.overlay.put(&path, document.file.text());
+                    self.refresh();
+                    let (path, text) = (document.path.clone(), document.file.text().to_string());
                     self.documents.insert(uri.to_string(), document);
-                    self.renew_readers(&path);
+                    self.hold(&path, Some(&text));
                 }
             }
             "textDocument/didChange" => {
@@ -267,17 +271,16 @@ impl Server<'_> {
                 let changes = n.params.get("contentChanges").and_then(Value::as_array);
                 if let (Some(document), Some(changes)) = (self.documents.get_mut(uri), changes) {
                     document.change(changes, version);
-                    let path = document.path.clone();
-                    self.arounds.overlay.put(&path, document.file.text());
-                    self.renew_readers(&path);
+                    let (path, text) = (document.path.clone(), document.file.text().to_string());
+                    self.hold(&path, Some(&text));
                 }
             }
             "textDocument/didSave" => self.saved(uri),
             "textDocument/didClose" => {
                 self.stop_for(uri);
                 if let Some(document) = self.documents.remove(uri) {
-                    self.arounds.overlay.close(&document.path);
-                    self.renew_readers(&document.path);
+                    self.refresh();
+                    self.hold(&document.path, None);
                     let empty: [Value; 0] = [];
                     return self.notify(
                         "textDocument/publishDiagnostics",
@@ -285,7 +288,7 @@ impl Server<'_> {
                     );
                 }
             }
-            "workspace/didChangeWatchedFiles" => self.forget(),
+            "workspace/didChangeWatchedFiles" => self.changed(&n.params),
             "workspace/didChangeConfiguration" => {
                 if let Some(said) = n.params.get("settings") {
                     self.settings.take(said);
@@ -296,14 +299,59 @@ impl Server<'_> {
         Ok(())
     }
 
-    /// Lessons that name labs of this one are read again.
+    /// The text that the editor holds of a file now, or that it holds none; whoever rests on the file is looked at again.
+    fn hold(&mut self, path: &Path, text: Option<&str>) {
+        let sources = self.arounds.sources();
+        let now = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
+        let before = now();
+        match text {
+            Some(text) => self.arounds.overlay.put(path, text),
+            None => self.arounds.overlay.close(path),
+        }
+        if before == now() {
+            return;
+        }
+        match kind_of(path) {
+            FileKind::Model => self.forget(),
+            _ => self.renew_readers(path),
+        }
+    }
+
+    /// Lessons that name labs of this one, or link to it, are read again.
     fn renew_readers(&mut self, path: &Path) {
+        let sources = self.arounds.sources();
         for document in self.documents.values_mut() {
-            let names =
-                |lesson: &Arc<Lesson>| lesson.others.iter().any(|o| places::real(Path::new(&o.path)) == path);
+            let rests = |o: &Other| {
+                let other = Path::new(&o.path);
+                sources.real(other).as_deref().unwrap_or(other) == path
+            };
+            let names = |lesson: &Arc<Lesson>| lesson.others.iter().any(rests) || links_to(lesson, path);
             if document.path != path && document.lesson.as_ref().is_some_and(names) {
                 document.lesson = None;
                 document.stale = true;
+            }
+        }
+    }
+
+    /// The disk is asked again for what is there.
+    fn refresh(&mut self) {
+        self.arounds.refresh();
+        (self.course.refresh)();
+    }
+
+    /// Files that somebody else changed. Of one that is open, the editor's text counts.
+    fn changed(&mut self, params: &Value) {
+        self.refresh();
+        let changes = params.get("changes").and_then(Value::as_array).into_iter().flatten();
+        let uris = changes.filter_map(|change| change.get("uri")?.as_str());
+        let paths: Vec<PathBuf> = uris.filter_map(places::path_of).map(|path| places::real(&path)).collect();
+        let is_lesson = |path: &PathBuf| matches!(kind_of(path), FileKind::Lesson | FileKind::Json);
+        if paths.is_empty() || !paths.iter().all(is_lesson) {
+            return self.forget();
+        }
+        for path in paths {
+            if !self.documents.values().any(|document| document.path == path) {
+                self.renew_readers(&path);
             }
         }
     }
@@ -320,13 +368,14 @@ impl Server<'_> {
     }
 
     fn saved(&mut self, uri: &str) {
+        self.refresh();
         let Some(document) = self.documents.get(uri) else { return };
         match document.kind {
             FileKind::Model => self.forget(),
             FileKind::Lesson | FileKind::Json if self.settings.run_on_save => {
                 self.stop();
                 let Some(document) = self.documents.get(uri) else { return };
-                let around = self.arounds.of((self.course.models)(&document.path));
+                let around = self.arounds.of(&document.path, self.course.models);
                 let around = (around.models.clone(), around.sources.clone());
                 let text = (document.file.clone(), document.path.clone());
                 let sender = self.sender.clone();
@@ -373,7 +422,7 @@ impl Server<'_> {
         let stale: Vec<String> = self.documents.values().filter(|d| d.stale).map(|d| d.uri.clone()).collect();
         for uri in stale {
             let Some(document) = self.documents.get_mut(&uri) else { continue };
-            let around = self.arounds.of((self.course.models)(&document.path));
+            let around = self.arounds.of(&document.path, self.course.models);
             let looked = catch_unwind(AssertUnwindSafe(|| look(document, around)));
             document.stale = false;
             if looked.is_err() {
@@ -408,14 +457,14 @@ impl Server<'_> {
     fn completion(&mut self, params: &Value) -> Answer {
         let (uri, byte) = self.place(params)?;
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
-        let around = self.arounds.of((self.course.models)(&document.path));
+        let around = self.arounds.of(&document.path, self.course.models);
         Ok(completions(document, around, byte))
     }
 
     fn hover(&mut self, params: &Value) -> Answer {
         let (uri, byte) = self.place(params)?;
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
-        let around = self.arounds.of((self.course.models)(&document.path));
+        let around = self.arounds.of(&document.path, self.course.models);
         Ok(hover(document, around, byte).unwrap_or_default())
     }
 
@@ -425,13 +474,14 @@ impl Server<'_> {
         if names::is_model(document) {
             return names::name_in_model(&document.file, &document.path, byte);
         }
-        let around = self.arounds.of((self.course.models)(&document.path));
+        let around = self.arounds.of(&document.path, self.course.models);
         let lesson = lesson(document, around)?;
         names::name_in_lesson(&lesson, &document.path, &around.models, byte).map(|name| (name, false))
     }
 
     fn ground(&self) -> Ground<'_> {
-        Ground { open: &self.documents, folders: &self.folders, models_of: self.course.models }
+        let (open, overlay) = (&self.documents, &self.arounds.overlay);
+        Ground { open, folders: &self.folders, models_of: self.course.models, overlay }
     }
 
     fn places_of(&self, name: &Name) -> Places {
@@ -449,7 +499,7 @@ impl Server<'_> {
             ));
         }
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
-        let around = self.arounds.of((self.course.models)(&document.path));
+        let around = self.arounds.of(&document.path, self.course.models);
         let Some(lesson) = lesson(document, around) else { return Ok(Value::Null) };
         let named = names::model_named(&lesson, &around.models, byte);
         let uri = |path: PathBuf| uri_of(&path, &self.documents, &self.folders);
@@ -499,7 +549,7 @@ impl Server<'_> {
         }
         let uri = self.document(params)?.uri.clone();
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
-        let around = self.arounds.of((self.course.models)(&document.path));
+        let around = self.arounds.of(&document.path, self.course.models);
         let lesson = lesson(document, around);
         Ok(actions(document, lesson.as_deref(), &span, &only, &around.models))
     }
@@ -514,7 +564,7 @@ impl Server<'_> {
         let span = span.ok_or_else(|| invalid("there is no such range"))?;
         let uri = document.uri.clone();
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };
-        let around = self.arounds.of((self.course.models)(&document.path));
+        let around = self.arounds.of(&document.path, self.course.models);
         Ok(hints(document, around, &span))
     }
 }

@@ -17,6 +17,8 @@ pub use formats::{concise, github, gitlab, jsonl, junit, page, sarif, statistics
 #[cfg(feature = "cli")]
 pub use human::human;
 pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
+#[cfg(feature = "cli")]
+pub(crate) use table::number_in_table;
 
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;

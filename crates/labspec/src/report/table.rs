@@ -55,13 +55,13 @@ fn types(table: &Table) -> Vec<Type> {
 }
 
 /// A number in words: those of JavaScript, and `-0`, which it writes as `0`.
-fn number(x: f64) -> String {
+pub(crate) fn number_in_table(x: f64) -> String {
     if x == 0.0 && x.is_sign_negative() { "-0".into() } else { Value::Number(x).to_string() }
 }
 
 fn write_cell(cell: &Cell, of: Type, out: &mut dyn Write) -> io::Result<()> {
     match cell {
-        Cell::Number(x) if of == Type::Text => write_text(&number(*x), out),
+        Cell::Number(x) if of == Type::Text => write_text(&number_in_table(*x), out),
         Cell::Bool(b) if of == Type::Text => write_text(&b.to_string(), out),
         Cell::Number(x) if x.is_finite() => Ok(serde_json::to_writer(out, x)?),
         Cell::Text(t) => write_text(t, out),
@@ -157,7 +157,7 @@ impl Table {
         out.write_all(b"\n")?;
         for row in &self.rows {
             separated(row, out, |cell, out| match cell {
-                Cell::Number(x) => out.write_all(number(*x).as_bytes()),
+                Cell::Number(x) => out.write_all(number_in_table(*x).as_bytes()),
                 Cell::Text(t) => write_csv_text(t, out),
                 Cell::Bool(b) => write!(out, "{b}"),
                 Cell::Nothing => Ok(()),

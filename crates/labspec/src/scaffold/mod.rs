@@ -16,8 +16,7 @@ mod relation;
 
 use crate::bind::scene::Models;
 use crate::check::{self, Depth};
-use crate::lint::load_lesson;
-use crate::source::SourceFile;
+use crate::lint::reload_lesson;
 use crate::spec::{LabAddress, Lesson, Question, QuestionKind};
 use crate::trace::{self, Block, Origin, Traces, Tried, trace};
 use crate::verify::{Stage, Verdict};
@@ -232,9 +231,8 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
 /// Checks what is proposed, as it would stand in the lesson.
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
     let text = written(lesson, all);
-    let file = SourceFile::new(lesson.file.path().to_string(), text);
     let depth = Depth { labs: false, ..Depth::FULL };
-    let checked = check::check(load_lesson(file, models.folder()), models, depth);
+    let checked = check::check(reload_lesson(lesson, &text, models.folder()), models, depth);
     for one in all {
         let Found::Proposed { verdict, .. } = &mut one.found else { continue };
         let claim = checked.claims.iter().find(|c| c.name == one.name);

@@ -5,11 +5,14 @@
 //! the layer below; composed, they turn a byte of an expression into a line and column of the lesson.
 
 mod map;
+mod sources;
 
 use crate::printable::printable_path;
 use labspec_finding::Lines;
 pub use labspec_finding::{EditorPosition, Position};
 pub use map::{Piece, SourceMap};
+pub(crate) use sources::Asked;
+pub use sources::{Overlay, Sources};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;

@@ -7,9 +7,9 @@ use super::{Lab, Quiz, Verify, VerifyLab, lab, quiz, shared};
 use crate::finding::{Finding, Severity};
 use crate::json::{self, Json, Node};
 use crate::markdown::{self, Block, BlockKind, Scan};
-use crate::source::{MAX_FILE, SourceFile, SourceMap, Text};
+use crate::source::{MAX_FILE, SourceFile, SourceMap, Sources, Text};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Most problems that are looked for in a file: more than anybody reads.
 const MAX_PROBLEMS: usize = 10_000;
@@ -41,6 +41,8 @@ pub struct Lesson {
     pub findings: Vec<Finding>,
     /// What is stored beside it of what its labs show, or why that cannot be read; `None` where nothing is.
     pub snapshot: Option<Result<SourceFile, String>>,
+    /// Where it lies, and where its neighbours were read from; `None` until somebody has looked for them.
+    pub place: Option<(PathBuf, Sources)>,
 }
 
 /// A lab of a lesson.
@@ -252,6 +254,7 @@ fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
         problems: Vec::new(),
         findings: Vec::new(),
         snapshot: None,
+        place: None,
     };
     if lesson.file.text().len() as u64 > MAX_FILE {
         lesson.problems.push(Mistake::TooLarge.at(0..0));

@@ -1,6 +1,6 @@
 //! `labspec init`: a folder for lessons, with one that is true.
 
-use super::{Failure, Outcome, print, write_file};
+use super::{Failure, Outcome, OutputKind, print, write_file};
 use crate::report::printable_path;
 use std::path::{Path, PathBuf};
 
@@ -35,7 +35,7 @@ pub(super) fn init(a: &Arguments) -> Result<Outcome, Failure> {
         let folder = path.parent().unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)
             .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
-        write_file(&path, text)?;
+        write_file(&path, OutputKind::New, text)?;
         told.push_str(&format!("wrote {}\n", printable_path(&path)));
     }
     let lessons = a.folder.join("lessons");

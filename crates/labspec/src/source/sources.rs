@@ -1,0 +1,259 @@
+//! Where a lesson's neighbours are read from: its snapshot, the lessons whose labs it names, the files that it links to, the texts of
+//! models that an editor has not saved.
+
+use super::read_text;
+use std::collections::BTreeMap;
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Where texts come from.
+#[derive(Clone, Debug)]
+pub enum Sources {
+    /// Texts in memory, by their paths, and nothing else: no file is looked for.
+    Given(Arc<BTreeMap<PathBuf, String>>),
+    /// Files, as they are saved.
+    Disk,
+    /// Texts that an editor holds, and files where it holds none.
+    Over(Arc<Overlay>),
+}
+
+impl Default for Sources {
+    /// A text alone.
+    fn default() -> Sources {
+        Sources::Given(Arc::default())
+    }
+}
+
+/// Texts that are not saved yet over files. What was asked of the disk is kept until [`Overlay::refresh`], so that a keystroke asks
+/// it nothing.
+#[derive(Debug, Default)]
+pub struct Overlay {
+    open: Mutex<BTreeMap<PathBuf, String>>,
+    read: Mutex<BTreeMap<PathBuf, Result<String, String>>>,
+    places: Mutex<BTreeMap<(Asked, PathBuf), Option<PathBuf>>>,
+}
+
+/// What is asked of the disk about a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Asked {
+    /// The file or folder itself, links resolved.
+    Real,
+    /// The folder of models of a lesson.
+    Models,
+    /// The root around a folder.
+    Root,
+}
+
+impl Overlay {
+    /// The text that the editor holds of a file, links resolved.
+    pub fn put(&self, path: &Path, text: &str) {
+        if locked(&self.open).insert(path.to_path_buf(), text.to_string()).is_none() {
+            locked(&self.places).clear();
+        }
+    }
+
+    /// The editor holds no text of it any more.
+    pub fn close(&self, path: &Path) {
+        locked(&self.open).remove(path);
+        self.refresh();
+    }
+
+    /// Files may have changed: what was asked of the disk is asked again.
+    pub fn refresh(&self) {
+        locked(&self.read).clear();
+        locked(&self.places).clear();
+    }
+
+    /// The open texts of a folder, by their names.
+    #[cfg(feature = "lsp")]
+    pub(crate) fn names_in(&self, folder: &Path) -> Vec<String> {
+        let open = locked(&self.open);
+        let inside = open.keys().filter(|path| path.parent() == Some(folder));
+        inside.filter_map(|path| Some(path.file_name()?.to_str()?.to_string())).collect()
+    }
+
+    fn held(&self, real: &Path) -> Option<String> {
+        locked(&self.open).get(real).cloned()
+    }
+
+    fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
+        let real = self.place(Asked::Real, path, || self.real(path)).unwrap_or_else(|| path.to_path_buf());
+        if let Some(text) = self.held(&real) {
+            return Ok(text);
+        }
+        let known = locked(&self.read).get(&real).cloned();
+        known.unwrap_or_else(|| {
+            let text = read_text(path, most, what);
+            locked(&self.read).insert(real, text.clone());
+            text
+        })
+    }
+
+    /// A text that the editor holds is there, saved or not.
+    fn real(&self, path: &Path) -> Option<PathBuf> {
+        path.canonicalize().ok().or_else(|| {
+            let place = path.parent()?.canonicalize().ok()?.join(path.file_name()?);
+            locked(&self.open).contains_key(&place).then_some(place)
+        })
+    }
+
+    fn place(&self, asked: Asked, path: &Path, find: impl FnOnce() -> Option<PathBuf>) -> Option<PathBuf> {
+        let key = (asked, path.to_path_buf());
+        let known = locked(&self.places).get(&key).cloned();
+        known.unwrap_or_else(|| {
+            let found = find();
+            locked(&self.places).insert(key, found.clone());
+            found
+        })
+    }
+}
+
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A path without the steps that only lead back, as texts in memory are named.
+fn plain(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(plain.components().next_back(), Some(Component::Normal(_))) => {
+                plain.pop();
+            }
+            part => plain.push(part),
+        }
+    }
+    plain
+}
+
+impl Sources {
+    /// Lessons and snapshots in memory, by their paths.
+    pub fn given<P: AsRef<Path>, T: Into<String>>(texts: impl IntoIterator<Item = (P, T)>) -> Sources {
+        let texts = texts.into_iter().map(|(path, text)| (plain(path.as_ref()), text.into()));
+        Sources::Given(Arc::new(texts.collect()))
+    }
+
+    /// A text of at most so many bytes; `what` says what it is.
+    ///
+    /// # Errors
+    /// A sentence that says why it cannot be read.
+    pub(crate) fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
+        match self {
+            Sources::Given(texts) if texts.is_empty() => Err("only this lesson was given".into()),
+            Sources::Given(texts) => match texts.get(&plain(path)) {
+                Some(text) if text.len() as u64 > most => Err(format!("{what} may have {most} bytes")),
+                Some(text) => Ok(text.clone()),
+                None => Err("that lesson was not given".into()),
+            },
+            Sources::Disk => read_text(path, most, what),
+            Sources::Over(overlay) => overlay.text(path, most, what),
+        }
+    }
+
+    /// Whether there are files besides the texts: then a link to one that is missing is dead.
+    pub(crate) fn has_files(&self) -> bool {
+        !matches!(self, Sources::Given(_))
+    }
+
+    /// Whether there is something of this name, be it a link that leads nowhere.
+    pub(crate) fn has(&self, path: &Path) -> bool {
+        match self {
+            Sources::Disk => std::fs::symlink_metadata(path).is_ok(),
+            sources => sources.real(path).is_some(),
+        }
+    }
+
+    /// The file or folder of this path, links resolved; `None` where there is none.
+    pub(crate) fn real(&self, path: &Path) -> Option<PathBuf> {
+        match self {
+            Sources::Given(texts) => texts.contains_key(&plain(path)).then(|| plain(path)),
+            Sources::Disk => path.canonicalize().ok(),
+            Sources::Over(overlay) => overlay.place(Asked::Real, path, || overlay.real(path)),
+        }
+    }
+
+    /// A path, and where it is a link, the path that this leads to.
+    pub(crate) fn followed(&self, path: &Path) -> PathBuf {
+        let is_link = || std::fs::symlink_metadata(path).is_ok_and(|meta| meta.is_symlink());
+        let real = match self {
+            Sources::Disk if is_link() => path.canonicalize().ok(),
+            _ => None,
+        };
+        real.unwrap_or_else(|| path.to_path_buf())
+    }
+
+    /// What `find` finds about a path, which is kept where somebody types.
+    pub(crate) fn place(
+        &self,
+        asked: Asked,
+        path: &Path,
+        find: impl FnOnce() -> Option<PathBuf>,
+    ) -> Option<PathBuf> {
+        match self {
+            Sources::Given(_) => None,
+            Sources::Disk => find(),
+            Sources::Over(overlay) => overlay.place(asked, path, find),
+        }
+    }
+
+    /// A text that is not saved, and its file with links resolved.
+    pub(crate) fn held(&self, path: &Path) -> Option<(PathBuf, String)> {
+        let Sources::Over(overlay) = self else { return None };
+        let real = self.real(path)?;
+        let text = overlay.held(&real)?;
+        Some((real, text))
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_open_text_stands_for_its_file_until_it_is_closed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().canonicalize().unwrap().join("a.md");
+        std::fs::write(&path, "saved").unwrap();
+        let overlay = Arc::new(Overlay::default());
+        let sources = Sources::Over(overlay.clone());
+        let text = || sources.text(&path, 100, "a lesson").unwrap();
+        assert_eq!(text(), "saved");
+        overlay.put(&path, "typed");
+        assert_eq!(text(), "typed");
+        overlay.close(&path);
+        std::fs::write(&path, "saved again").unwrap();
+        assert_eq!(text(), "saved again");
+    }
+
+    #[test]
+    fn the_disk_is_asked_once_until_something_may_have_changed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().canonicalize().unwrap().join("a.md");
+        let overlay = Arc::new(Overlay::default());
+        let sources = Sources::Over(overlay.clone());
+        let seen = || (sources.has(&path), sources.text(&path, 100, "a lesson").ok());
+        assert_eq!(seen(), (false, None));
+        std::fs::write(&path, "written beside").unwrap();
+        assert_eq!(seen(), (false, None));
+        overlay.refresh();
+        assert_eq!(seen(), (true, Some("written beside".into())));
+        // What the editor holds is there before it is saved.
+        let new = path.with_file_name("new.md");
+        assert!(!sources.has(&new));
+        overlay.put(&new, "typed");
+        assert!(sources.has(&new));
+    }
+
+    #[test]
+    fn texts_in_memory_are_found_by_their_plain_paths() {
+        let sources = Sources::given([("week/labs.md", "labs")]);
+        let text = |path: &str| sources.text(Path::new(path), 100, "a lesson");
+        assert_eq!(text("week/../week/./labs.md").unwrap(), "labs");
+        assert_eq!(text("labs.md").unwrap_err(), "that lesson was not given");
+        let alone = Sources::default().text(Path::new("labs.md"), 100, "a lesson");
+        assert_eq!(alone.unwrap_err(), "only this lesson was given");
+        assert!(!sources.has(Path::new("/etc/passwd")));
+    }
+}
