@@ -38,7 +38,11 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
     let armature = checked(&p, "armature", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(0.0);
     if armature > 0.0 && wraps_geoms(&path) {
         cx.report
-            .error(rules::TENDON, p.span("armature").unwrap_or(0..0), format!("{owner} has armature and wraps around a geom"))
+            .error(
+                rules::TENDON,
+                p.span("armature").unwrap_or(0..0),
+                format!("{owner} has armature and wraps around a geom"),
+            )
             .why(NO_SECOND_DERIVATIVE)
             .help("remove `armature`, or lead the tendon through sites only");
     }
@@ -86,7 +90,8 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
         let tendon = usize::try_from(t.id[0]).ok().and_then(|t| tendons.get(t));
         if let Some(tendon) = tendon.filter(|t| wraps_geoms(&t.path)) {
             let of = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
-            let message = format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.shown);
+            let message =
+                format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.shown);
             report
                 .error(rules::TENDON, a.span.clone(), message)
                 .why(NO_SECOND_DERIVATIVE)
