@@ -338,9 +338,13 @@ impl Scene {
                 tendon.write(&format!("t{i}"), self.bodies.len(), &scalars, &mut text);
             }
             text.push_str("</tendon><actuator>");
-            let joints = scalars.iter().map(|j| format!("joint='{j}'"));
-            let on: Vec<String> =
-                joints.chain((0..self.tendons.len()).map(|i| format!("tendon='t{i}'"))).collect();
+            let joints = scalars.iter().map(|j| (format!("joint='{j}'"), true));
+            // A tendon around geoms, or without inertia of its own, takes none of an actuator.
+            let tendons = self.tendons.iter().enumerate().map(|(i, t)| {
+                let takes = t.armature != 0.0 || t.fixed && scalars.len() > 1;
+                (format!("tendon='t{i}'"), takes)
+            });
+            let on: Vec<(String, bool)> = joints.chain(tendons).collect();
             self.actuators.iter().for_each(|a| a.write(&on, &mut text));
             text.push_str("</actuator><equality>");
             self.ties.list.iter().for_each(|&tie| self.tie(tie, &scalars, &mut text));
@@ -463,15 +467,17 @@ impl Tendon {
 }
 
 impl Actuator {
-    fn write(&self, on: &[String], text: &mut String) {
+    fn write(&self, on: &[(String, bool)], text: &mut String) {
         if on.is_empty() {
             return;
         }
-        let _ = write!(text, "<{} {}", ACTUATORS[self.kind], on[self.on % on.len()]);
+        let (target, takes_inertia) = &on[self.on % on.len()];
+        let armature = if *takes_inertia { self.armature } else { 0.0 };
+        let _ = write!(text, "<{} {target}", ACTUATORS[self.kind]);
         if let Some(most) = self.most {
             let _ = write!(text, " forcerange='-{most} {most}'");
         }
-        let _ = write!(text, " damping='{}' armature='{}'/>", self.damping, self.armature);
+        let _ = write!(text, " damping='{}' armature='{armature}'/>", self.damping);
     }
 }
 

@@ -74,7 +74,7 @@ fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFat
     let rules = !named;
     match () {
         () if rules && ba == bb => PairFate::SameBody,
-        () if still => PairFate::Static,
+        () if still && (rules || m.nbody == 1) => PairFate::Static,
         () if rules && wa == wb => PairFate::Welded,
         () if rules && excluded(m, ba, bb) => PairFate::Excluded,
         () if rules && !may_change && parent_and_child(m, a, b) => PairFate::ParentAndChild,

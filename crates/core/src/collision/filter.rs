@@ -71,12 +71,13 @@ pub(super) fn parent_and_child(m: &Model, g1: usize, g2: usize) -> bool {
     !m.opt.disabled(disable::FILTERPARENT) && ((w1 != 0 && w1 == above(w2)) || (w2 != 0 && w2 == above(w1)))
 }
 
-/// The explicit pairs that can make contacts, in their order.
+/// The explicit pairs that can make contacts, in their order. Geoms that do not move, and geoms of one body, make contacts
+/// like all others, without effect; a model of the world alone has none (measured on MuJoCo 3.14.0).
 pub(super) fn explicit_pairs(m: &Model) -> impl Iterator<Item = Pair> + '_ {
-    let still = |g: usize| m.body_treeid[m.body_weldid[m.geom_bodyid[g] as usize] as usize] < 0;
-    (0..m.npair).filter_map(move |p| {
+    let pairs = if m.nbody > 1 { m.npair } else { 0 };
+    (0..pairs).filter_map(move |p| {
         let (a, b) = (m.pair_geom1[p] as usize, m.pair_geom2[p] as usize);
-        if still(a) && still(b) { None } else { Pair::of(m, a, b, p as u32) }
+        Pair::of(m, a, b, p as u32)
     })
 }
 

@@ -172,7 +172,7 @@ fn narrow(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Pa
 fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &Params) {
     let (g1, g2) = (pair.geom1 as usize, pair.geom2 as usize);
     work.touches.clear();
-    work.room.cost = 0;
+    (work.room.cost, work.room.most) = (0, Some(d.meter.left()));
     let (a, b) = (Shape::geom(m, d, g1), Shape::geom(m, d, g2));
     pair::contacts(
         pair.method,

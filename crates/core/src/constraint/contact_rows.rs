@@ -26,6 +26,9 @@ pub(super) fn count(m: &Model, d: &Fields) -> usize {
 }
 
 /// Rows of all contacts that touch, in their order.
+///
+/// A contact that no joint opens or closes has no rows, but for two geoms that move as one body: with dense matrices they
+/// have rows of zeros, as in MuJoCo, whose forces act on nothing.
 pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let mut list = std::mem::take(&mut d.contact);
     let Scratch { jac, columns, .. } = w;
@@ -36,8 +39,9 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
         let bodies = [m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize];
         jacobian::point_difference(m, d, bodies, c.pos, &c.frame, columns);
-        if columns.dofs().is_empty() {
-            c.exclude = 3;
+        if columns.dofs().is_empty() && !(super::is_dense(m) && columns.stand_still(m, bodies[0])) {
+            // Where nothing moves, nothing asks which contacts have rows.
+            c.exclude = if m.nv > 0 { 3 } else { 0 };
             continue;
         }
         c.efc_address = Some(d.nefc);

@@ -378,11 +378,10 @@ impl Jacobian {
         }
     }
 
-    /// Keeps the last block if it moves anything, otherwise takes it back. The library asks for values where it works
-    /// with dense matrices, for columns where with sparse ones.
+    /// Keeps the last block if it moves anything, otherwise takes it back.
     pub(super) fn keep_moving(&mut self, m: &Model) -> bool {
-        let sparse = m.opt.jacobian == 1 || m.opt.jacobian == 2 && m.nv >= 60;
-        let moves = |b: &Block| if sparse { b.ncol > 0 } else { self.values(b).iter().any(|&v| v != 0.0) };
+        let dense = super::is_dense(m);
+        let moves = |b: &Block| if dense { self.values(b).iter().any(|&v| v != 0.0) } else { b.ncol > 0 };
         let keep = self.blocks.last().is_some_and(moves);
         if !keep {
             self.pop();

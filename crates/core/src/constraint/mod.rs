@@ -65,6 +65,11 @@ impl Scratch {
     }
 }
 
+/// Whether the library works with dense matrices: it asks whether values are zero, with sparse ones whether there are columns.
+fn is_dense(m: &Model) -> bool {
+    m.opt.jacobian == 0 || m.opt.jacobian == 2 && m.nv < 60
+}
+
 /// Values of `efc_type` (mjtConstraint).
 pub(crate) mod kind {
     pub(crate) const EQUALITY: i32 = 0;

@@ -53,6 +53,8 @@ pub(crate) struct Scratch {
     border: Vec<u32>,
     /// Work done with it.
     pub(crate) cost: u64,
+    /// Most work that may be done with it: grids end where it is done.
+    pub(crate) most: Option<u64>,
 }
 
 /// Of round bodies the depth is known to `ccd_tolerance`, but at least to this part of it: two that hardly touch would have

@@ -60,6 +60,7 @@ pub(super) fn build(
         context::Context { tree: &tree, classes: &classes, parts: &parts, assets: &assets, compiler, report };
     let tendons = read_tendon::tendons(&mut cx, refs);
     let actuators = read_actuator::actuators(&mut cx, refs, &bodies, &tendons);
+    read_tendon::check_rotors(&tendons, &actuators, cx.report);
     let equalities = read_equality::equalities(&mut cx, refs);
     let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
     let mut scene = fill_scene::Scene {
@@ -141,7 +142,7 @@ pub(super) fn build(
         return None;
     }
     let mut simple = layout::simple(&bodies, &inertias);
-    fill_tendon::demote_simple(&mut simple, &bodies, &tendons, &actuators);
+    fill_tendon::demote_simple(&mut simple, &bodies, &tendons);
     let pattern = layout::pattern(&layout, &simple, report)?;
     let whole = layout::whole_pattern(&layout, report)?;
 

@@ -39,6 +39,8 @@ pub(crate) struct Scratch {
     matches: Vec<Match>,
     /// Distances.
     pub(crate) narrow: Narrow,
+    /// Centres and radii of the bounding spheres of a body's geoms.
+    bounds: Vec<([f64; 3], f64)>,
 }
 
 /// The unit of a sensor's values, as its row has it: `m or rad` is that of a slide or of a hinge. Empty where it is none, or not known.

@@ -10,7 +10,7 @@ use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
 
 /// Work of two geoms that turn out to be too far apart.
-const LOOKED_AT: u64 = 20;
+const LOOKED_AT: u64 = 4;
 /// Part of a distance that is left to rounding before it counts as too far.
 const ROUNDING: f64 = 1e-9;
 
@@ -29,13 +29,21 @@ pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> 
 fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3; 2]) {
     let cutoff = m.sensor_cutoff[s];
     let mut best = (cutoff, [[0.0; 3]; 2]);
+    let others = geoms(m, m.sensor_reftype[s], m.sensor_refid[s]);
+    // Their bounds once, not once for every partner.
+    w.bounds.clear();
+    w.bounds.extend(others.clone().map(|g| (rows::<3>(&d.geom_xpos)[g], bound(m, d, g))));
     for g1 in geoms(m, m.sensor_objtype[s], m.sensor_objid[s]) {
-        for g2 in geoms(m, m.sensor_reftype[s], m.sensor_refid[s]) {
+        let (centre, radius) = (rows::<3>(&d.geom_xpos)[g1], bound(m, d, g1));
+        for (i, g2) in others.clone().enumerate() {
             d.meter.add(LOOKED_AT);
             if d.meter.over() {
                 return best;
             }
-            if are_beyond(m, d, [g1, g2], best.0) {
+            let (other, another) = w.bounds[i];
+            let reach = (best.0.max(0.0) + radius + another) * (1.0 + ROUNDING);
+            let apart = sub(other, centre);
+            if dot(apart, apart) > reach * reach {
                 continue;
             }
             // A model that needs what this build has not is refused when it is read: see `needs_search`.
@@ -50,17 +58,13 @@ fn nearest(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize) -> (f64, [Vec3;
     best
 }
 
-/// Whether the bounding spheres of two geoms say that they are farther apart than that. Planes and height fields have none.
-fn are_beyond(m: &Model, d: &Fields, geoms: [usize; 2], most: f64) -> bool {
-    let [ra, rb] = geoms.map(|g| match m.geom_type[g] {
+/// The radius of the bounding sphere of a geom. Planes and height fields have none.
+fn bound(m: &Model, d: &Fields, g: usize) -> f64 {
+    match m.geom_type[g] {
         geom::PLANE | geom::HFIELD => f64::INFINITY,
         geom::MESH => m.geom_rbound[g],
         _ => Shape::geom(m, d, g).bounding_radius(),
-    });
-    let [a, b] = geoms.map(|g| rows::<3>(&d.geom_xpos)[g]);
-    let reach = (most.max(0.0) + ra + rb) * (1.0 + ROUNDING);
-    let apart = sub(b, a);
-    dot(apart, apart) > reach * reach
+    }
 }
 
 pub(super) fn distance(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {

@@ -64,6 +64,8 @@ struct Camera {
     focal: [f64; 2],
     /// The point of the image on the optical axis.
     principal: [f64; 2],
+    /// How far the middle of the image is from the optical axis, to the right and down.
+    shift: [f64; 2],
     /// Side of the square that a camera without perspective sees, m.
     extent: Option<f64>,
 }
@@ -77,13 +79,20 @@ impl Camera {
         // Lengths on the sensor to pixels, in the single precision that MuJoCo stores optics with.
         let pixels =
             |length: f64, axis: usize| f64::from(length as f32 / size[axis] as f32 * resolution[axis] as f32);
-        let (focal, principal) = if size[0] != 0.0 && size[1] != 0.0 {
-            ([pixels(fx, 0), pixels(fy, 1)], [pixels(px, 0), pixels(py, 1)])
+        let (focal, principal, shift) = if size[0] != 0.0 && size[1] != 0.0 {
+            let principal = [pixels(px, 0), pixels(py, 1)];
+            ([pixels(fx, 0), pixels(fy, 1)], principal, principal)
         } else {
             let f = 0.5 / libm::tan(m.cam_fovy[id] * std::f64::consts::PI / 360.0) * height;
-            ([f, f], [width / 2.0, height / 2.0])
+            ([f, f], [width / 2.0, height / 2.0], [0.0; 2])
         };
-        Camera { resolution, focal, principal, extent: (m.cam_projection[id] == 1).then_some(m.cam_fovy[id]) }
+        Camera {
+            resolution,
+            focal,
+            principal,
+            shift,
+            extent: (m.cam_projection[id] == 1).then_some(m.cam_fovy[id]),
+        }
     }
 
     /// The ray through the centre of a pixel, of a camera at `f`.
@@ -100,7 +109,10 @@ impl Camera {
     }
 }
 
-/// Pixel coordinates of a site: its direction times the focal lengths, from the middle of the image.
+/// Pixel coordinates of a site: its direction times the focal lengths, from where the optical axis meets the image.
+///
+/// The picture that MuJoCo 3.14.0 draws is shifted by the principal point, to the right and down (`frustum_center` and
+/// `frustum_top` of `mjvGLCamera`); its sensor leaves that out, ours does not.
 pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
     let (Ok(site), Ok(id)) = (usize::try_from(m.sensor_objid[s]), usize::try_from(m.sensor_refid[s])) else {
         return;
@@ -111,5 +123,7 @@ pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [
     // In the plane of the camera there is no image: the pixel is far outside.
     let depth = if z.abs() < MINVAL { MINVAL.copysign(z) } else { z };
     let [width, height] = camera.resolution.map(|n| n as f64);
-    put(out, [width / 2.0 - camera.focal[0] * x / depth, height / 2.0 + camera.focal[1] * y / depth]);
+    let [fx, fy] = camera.focal;
+    let [right, down] = camera.shift;
+    put(out, [width / 2.0 - right - fx * x / depth, height / 2.0 - down + fy * y / depth]);
 }

@@ -81,6 +81,14 @@ impl Columns {
         &mut self.turns[..self.len]
     }
 
+    /// One column of zeros for a body that moves, so that a row belongs to its tree; whether it moves.
+    pub(crate) fn stand_still(&mut self, m: &Model, body: usize) -> bool {
+        let Ok(last) = usize::try_from(last_dof(m, body)) else { return false };
+        (self.dofs[0], self.values[0], self.turns[0]) = (last as u32, [0.0; 3], [0.0; 3]);
+        self.len = 1;
+        true
+    }
+
     /// Appends N columns, of which the first belongs to degree of freedom `last`.
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn push<const N: usize>(&mut self, last: usize, values: [Lane3; N]) {

@@ -10,13 +10,14 @@ fn site_body(m: &Model, s: usize) -> usize {
     m.site_bodyid[s] as usize
 }
 
-/// The rotation vector from a reference site to a site.
+/// The rotation vector from a reference site to a site, in the frame of the reference site.
 ///
 /// MuJoCo 3.14.0 composes the orientation of a site in the order site, body, which is that of the site in the world only
-/// where one of both does not turn. Its numbers are ours: moments are those of the sites as they are.
+/// where one of both does not turn: its length is not that of the motion whose speed its moment gives
+/// (`docs/measured/parity.md`).
 fn relative_rotation(m: &Model, d: &Fields, sites: [usize; 2]) -> Vec3 {
     let [s, reference] =
-        sites.map(|s| quat_mul(rows::<4>(&m.site_quat)[s], rows::<4>(&d.xquat)[site_body(m, s)]));
+        sites.map(|s| quat_mul(rows::<4>(&d.xquat)[site_body(m, s)], rows::<4>(&m.site_quat)[s]));
     quat_to_vel(quat_mul(quat_conj(reference), s))
 }
 

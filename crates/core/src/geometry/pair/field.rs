@@ -8,8 +8,9 @@ use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
 
-/// Work of a prism that is passed over.
+/// Work of a prism that is passed over, and of a sample of the grid that is looked at.
 const PASSED: u64 = 30;
+const SAMPLED: u64 = 4;
 
 /// Contacts with the prisms under a shape, in the order of the grid.
 ///
@@ -32,7 +33,7 @@ pub(super) fn field(
     }
     let half = 0.5 * margin;
     let start = out.len();
-    each_prism(&ground.field(), &bounds, 0.0, margin, |corners| {
+    each_prism(&ground.field(), &bounds, [0.0, margin], room, |corners, room| {
         let found = nearest(&mut Convex::prism(corners), &mut body, half, settings.effort, room);
         if let Some(found) = found.filter(|n| n.dist < half) {
             let [on_a, on_b] = found.witness;
@@ -60,9 +61,8 @@ pub(crate) fn field_distance(
         return None;
     }
     let mut best: Option<Nearest> = None;
-    each_prism(&ground.field(), &bounds, most, 0.0, |corners| {
+    each_prism(&ground.field(), &bounds, [most, 0.0], room, |corners, room| {
         let cutoff = best.map_or(most, |n| n.dist.min(most));
-        room.cost += PASSED;
         if gap(&corners, &bounds) > cutoff.max(0.0) {
             return ControlFlow::Continue(());
         }
@@ -115,13 +115,14 @@ fn gap(corners: &[Vec3; 6], bounds: &[[f64; 2]; 3]) -> f64 {
 }
 
 /// Calls `visit` with the corners, the bottom first, of every prism that is under something within these bounds, `around` it
-/// included, and whose top, higher by `raise`, is not below it.
+/// included, and whose top, higher by `raise`, is not below it. Samples and prisms count as work, and the work that is
+/// left ends the visit.
 fn each_prism(
     field: &Field,
     [x, y, [z0, _]]: &[[f64; 2]; 3],
-    around: f64,
-    raise: f64,
-    mut visit: impl FnMut([Vec3; 6]) -> ControlFlow<()>,
+    [around, raise]: [f64; 2],
+    room: &mut Room,
+    mut visit: impl FnMut([Vec3; 6], &mut Room) -> ControlFlow<()>,
 ) {
     let [sx, sy, _, base] = field.size;
     let cells = |[low, high]: &[f64; 2], half: f64, n: usize| -> RangeInclusive<usize> {
@@ -137,6 +138,10 @@ fn each_prism(
         let mut corners = [[0.0; 3]; 3];
         let mut seen = 0;
         for c in cols.clone() {
+            room.cost += 2 * SAMPLED;
+            if room.most.is_some_and(|most| room.cost > most) {
+                return;
+            }
             for row in [r + 1, r] {
                 let mut sample = field.point(row, c);
                 sample[2] += raise;
@@ -147,7 +152,8 @@ fn each_prism(
                 }
                 let [p, q, s] = corners;
                 let [u, v, w] = corners.map(|p| [p[0], p[1], -base]);
-                if visit([u, v, w, p, q, s]).is_break() {
+                room.cost += PASSED;
+                if visit([u, v, w, p, q, s], room).is_break() {
                     return;
                 }
             }

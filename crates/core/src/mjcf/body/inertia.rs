@@ -78,14 +78,17 @@ pub(crate) fn principal(m: [f64; 6]) -> (Vec3, Quat) {
     principal_to(0.0, m)
 }
 
-/// The same, as long as an element off the diagonal is larger than `error`; moments that differ by less are equal, and keep
+/// The same, as long as an element off the diagonal is larger than `error`. Axes whose moments and product differ by less than
+/// `2 error` are equally good: they stay, so that rounding does not choose among them. Moments that differ by less than `error` keep
 /// their order.
 pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
     const MAX_ROTATIONS: usize = 100;
+    const EQUAL: f64 = 2.0;
     // The two axes of each off-diagonal element, and the unit vector from the first to the second turned.
     const PLANES: [(usize, usize, Vec3); 3] =
         [(0, 1, [0.0, 0.0, 1.0]), (0, 2, [0.0, -1.0, 0.0]), (1, 2, [1.0, 0.0, 0.0])];
 
+    let same = EQUAL * error;
     let mut quat = IDENTITY;
     let mut d = m;
     for _ in 0..MAX_ROTATIONS {
@@ -95,7 +98,9 @@ pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
         let size = diagonal.iter().fold(0.0_f64, |s, x| s.max(x.abs()));
         let (mut largest, mut at) = (0.0_f64, 0);
         for (i, x) in off.iter().enumerate() {
-            if x.abs() > largest {
+            let (r, c, _) = PLANES[i];
+            let equal = x.abs() <= same && (diagonal[r] - diagonal[c]).abs() <= same;
+            if x.abs() > largest && !equal {
                 (largest, at) = (x.abs(), i);
             }
         }
@@ -103,7 +108,10 @@ pub(crate) fn principal_to(error: f64, m: [f64; 6]) -> (Vec3, Quat) {
             break;
         }
         let (r, c, axis) = PLANES[at];
-        let tau = (diagonal[c] - diagonal[r]) / (2.0 * off[at]);
+        let difference = diagonal[c] - diagonal[r];
+        // Halfway between two frames rounding does not choose either.
+        let difference = if difference.abs() <= error { 0.0 } else { difference };
+        let tau = difference / (2.0 * off[at]);
         let root = libm::sqrt(1.0 + tau * tau);
         let tangent = if tau >= 0.0 { 1.0 / (tau + root) } else { -1.0 / (root - tau) };
         let turn = quat_axis_angle(axis, -libm::atan(tangent));

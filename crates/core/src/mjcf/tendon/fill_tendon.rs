@@ -1,11 +1,11 @@
 //! Tendons to the arrays of [`Model`].
 
 use crate::forces::tendon;
-use crate::kinds::{trntype, wraptype};
+use crate::kinds::wraptype;
 use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::spec::{ActuatorSpec, BodySpec, TendonSpec};
+use crate::mjcf::spec::{BodySpec, TendonSpec};
 use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 
@@ -18,23 +18,13 @@ pub(crate) fn count(m: &mut Model, list: &[TendonSpec]) {
     m.nwrap = list.iter().map(|t| t.path.len()).sum();
 }
 
-/// Bodies that a spatial tendon with inertia touches do not have a diagonal mass matrix.
-pub(crate) fn demote_simple(
-    simple: &mut [i32],
-    bodies: &[BodySpec],
-    list: &[TendonSpec],
-    actuators: &[ActuatorSpec],
-) {
+/// A spatial tendon with inertia of its own couples the degrees of freedom of the bodies that it touches: they do not have
+/// a diagonal mass matrix. The inertia that an actuator adds to a tendon leaves them as they are, as in MuJoCo: of a simple
+/// body, M takes the diagonal of that term alone.
+pub(crate) fn demote_simple(simple: &mut [i32], bodies: &[BodySpec], list: &[TendonSpec]) {
     let site_body: Vec<usize> =
         listed(bodies.iter().enumerate().flat_map(|(i, b)| b.sites.iter().map(move |_| i)));
-    let rotors: Vec<i32> = listed(
-        actuators
-            .iter()
-            .filter_map(|a| a.transmission.filter(|t| a.armature != 0.0 && t.kind == trntype::TENDON))
-            .map(|t| t.id[0]),
-    );
-    let heavy = |&(t, spec): &(usize, &TendonSpec)| spec.armature > 0.0 || rotors.contains(&(t as i32));
-    let sites = list.iter().enumerate().filter(heavy).flat_map(|(_, t)| &t.path);
+    let sites = list.iter().filter(|t| t.armature > 0.0).flat_map(|t| &t.path);
     for site in sites.filter(|w| w.kind == wraptype::SITE) {
         let body = usize::try_from(site.id).ok().and_then(|s| site_body.get(s));
         if let Some(s) = body.and_then(|&b| simple.get_mut(b)) {

@@ -1,6 +1,6 @@
 //! Tendons: attributes and paths.
 
-use crate::kinds::{geom, wraptype};
+use crate::kinds::{geom, trntype, wraptype};
 use crate::mjcf::body::limits;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
@@ -8,7 +8,7 @@ use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
 use crate::mjcf::rules;
 use crate::mjcf::settings::checked;
-use crate::mjcf::spec::{List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
+use crate::mjcf::spec::{ActuatorSpec, List, SOLIMP, SOLREF, TendonSpec, WrapSpec};
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::{Node, name};
 
@@ -36,10 +36,14 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
     let path = path(cx, refs, i, node);
     let owner = node.shown();
     let armature = checked(&p, "armature", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(0.0);
-    if armature > 0.0 && path.iter().any(|w| matches!(w.kind, wraptype::SPHERE | wraptype::CYLINDER)) {
+    if armature > 0.0 && wraps_geoms(&path) {
         cx.report
-            .error(rules::TENDON, p.span("armature").unwrap_or(0..0), format!("{owner} has armature and wraps around a geom"))
-            .why("the inertia of a tendon needs the second derivative of its length, which is not known for wrapping")
+            .error(
+                rules::TENDON,
+                p.span("armature").unwrap_or(0..0),
+                format!("{owner} has armature and wraps around a geom"),
+            )
+            .why(NO_SECOND_DERIVATIVE)
             .help("remove `armature`, or lead the tendon through sites only");
     }
     let width = if spatial {
@@ -69,6 +73,30 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
         width: width.unwrap_or(0.003),
         rgba: p.reals("rgba", [0.5, 0.5, 0.5, 1.0]),
         user: List::read(&p, "user"),
+    }
+}
+
+const NO_SECOND_DERIVATIVE: &str =
+    "the inertia of a tendon needs the second derivative of its length, which is not known for wrapping";
+
+fn wraps_geoms(path: &[WrapSpec]) -> bool {
+    path.iter().any(|w| matches!(w.kind, wraptype::SPHERE | wraptype::CYLINDER))
+}
+
+/// Refuses the inertia that actuators add to tendons that wrap around geoms.
+pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], report: &mut Report) {
+    for a in actuators.iter().filter(|a| a.armature != 0.0 && a.gear[0] != 0.0) {
+        let Some(t) = a.transmission.filter(|t| t.kind == trntype::TENDON) else { continue };
+        let tendon = usize::try_from(t.id[0]).ok().and_then(|t| tendons.get(t));
+        if let Some(tendon) = tendon.filter(|t| wraps_geoms(&t.path)) {
+            let of = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
+            let message =
+                format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.shown);
+            report
+                .error(rules::TENDON, a.span.clone(), message)
+                .why(NO_SECOND_DERIVATIVE)
+                .help("remove `armature`, or lead the tendon through sites only");
+        }
     }
 }
 

@@ -257,6 +257,7 @@ mistakes! {
     tendon_unknown_site: tied("<tendon>\n<spatial><site site=\"s\"/><site site=\"tt\"/></spatial></tendon>");
     tendon_range: tied("<tendon>\n<spatial range=\"2 1\" springlength=\"2 1\" actuatorfrcrange=\"1 2\" width=\"0\"><site site=\"s\"/><site site=\"t\"/></spatial></tendon>");
     tendon_armature_wrapped: tied("<tendon>\n<spatial armature=\"1\"><site site=\"s\"/><geom geom=\"g\"/><site site=\"t\"/></spatial></tendon>");
+    tendon_rotor_wrapped: tied("<tendon>\n<spatial name=\"rope\"><site site=\"s\"/><geom geom=\"g\"/><site site=\"t\"/></spatial></tendon>\n<actuator><motor tendon=\"rope\" armature=\"1\"/></actuator>");
     // Equality constraints, contact pairs
     connect_without_anchor: tied("<equality>\n<connect body1=\"b\"/></equality>");
     connect_to_itself: tied("<equality>\n<connect body1=\"b\" body2=\"b\" anchor=\"0 0 0\"/></equality>");
