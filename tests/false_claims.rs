@@ -1,7 +1,7 @@
 //! A generator of false claims: of random labs true claims are made by simulation, and then made false or empty; none of these may be
 //! verified, and each true one is, or is reported with its reason.
 //!
-//! `LABSPEC_FALSE_CLAIMS=100000` makes so many, `LABSPEC_SEED` chooses others.
+//! `LABSPEC_FALSE_CLAIMS=100000` makes so many, `LABSPEC_SEED` chooses others; `docs/measured/false-claims.md` has what came of it.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::indexing_slicing)]
 
@@ -23,7 +23,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// Lessons without a wish for more, and their seed.
-const LESSONS: usize = 40;
+const LESSONS: usize = 60;
 const SEED: u64 = 32;
 /// Draws of claims of each kind in a lesson.
 const DRAWS: usize = 6;
@@ -226,7 +226,6 @@ fn variable(name: &str) -> Option<u64> {
 }
 
 #[test]
-#[ignore = "not yet green: what is open is found by running it, and not all of it stands under KNOWN"]
 fn false_claims_are_never_verified() {
     let seed = variable("LABSPEC_SEED");
     let wanted = variable("LABSPEC_FALSE_CLAIMS");

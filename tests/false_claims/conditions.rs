@@ -321,8 +321,15 @@ pub(super) fn texts(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     };
     let times = |f: f64| format!("{:.*}", if k.x * f < 1.0 { 4 } else { 2 }, k.x * f);
     let say = |number: &str, unit: &str, random: &mut Random| {
-        let forms =
-            ["about {}", "It comes to {}", "{}", "roughly {}, no more", "Just {}.", "**{}**", "They are {} apart"];
+        let forms = [
+            "about {}",
+            "It comes to {}",
+            "{}",
+            "roughly {}, no more",
+            "Just {}.",
+            "**{}**",
+            "They are {} apart",
+        ];
         random.pick(&forms).replace("{}", &format!("{number} {unit}"))
     };
     let mut all = vec![claim("", Truth::True, &say(&x, unit, random))];

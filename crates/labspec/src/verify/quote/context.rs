@@ -264,7 +264,9 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     }
     let last = line.rsplit(' ').next().unwrap_or("");
     // `3 0.5 s`: two numbers without a word between them.
-    if last.starts_with(|c: char| c.is_ascii_digit()) && last.chars().all(|c| c.is_ascii_digit() || ".,'".contains(c)) {
+    if last.starts_with(|c: char| c.is_ascii_digit())
+        && last.chars().all(|c| c.is_ascii_digit() || ".,'".contains(c))
+    {
         return Some(ODD);
     }
     // A command of TeX, or a symbol of a formula.

@@ -44,6 +44,8 @@ const ELSE: [&str; 14] = [
 pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let (shown, _) = html::strip(option);
     let (folded, _) = fold::fold(&shown, false);
+    // Bold and italic marks are no signs of a product.
+    let folded = folded.replace("**", "").replace("__", "");
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     let all = quantities(chars);
@@ -57,10 +59,14 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let ends =
         |word: &str| before.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
     let behind = chars.text(q.whole.end, q.whole.end + 40).to_lowercase();
-    let mut words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));
-    // `7 m farther` is a change.
-    let compares = words
-        .any(|w| matches!(w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && w != "under");
+    let words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));
+    let words: Vec<&str> = words.collect();
+    // `7 m farther` is a change; `7 m, no more` is none.
+    let compares = words.iter().enumerate().any(|(i, w)| {
+        let denied = i.checked_sub(1).and_then(|k| words.get(k)).is_some_and(|before| *before == "no");
+        !denied
+            && (matches!(*w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && *w != "under")
+    });
     if compares || q.refused != Some(BOUND) && ELSE.into_iter().any(ends) {
         return None;
     }
@@ -142,6 +148,8 @@ mod tests {
         is("about 7 m", 6.3, 7.7);
         is("It rises to 1.23 m, as it must", 1.1685, 1.2915);
         is("0.4 to 0.5 s", 0.4, 0.5);
+        is("**7 m**", 6.65, 7.35);
+        is("roughly 7 m, no more", 6.3, 7.7);
         assert_eq!(of("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
         for text in [
             "7 m farther",
