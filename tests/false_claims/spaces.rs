@@ -162,6 +162,13 @@ pub(super) fn find(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         ),
         claim("a condition that cannot fail", Truth::Empty, object("largest", &format!("{m} === {m}")), to),
         claim("decided by what is no number", Truth::Empty, object("largest", "!(never < 1)"), to),
+        claim("a number instead of a condition", Truth::Empty, object("largest", m), to),
+        claim(
+            "a number instead of a condition",
+            Truth::Empty,
+            object("largest", &format!("{m} * 0 + 1")),
+            to,
+        ),
     ];
     for (truth, text) in [(Truth::True, limit), (Truth::False, 1.2 * limit)] {
         let quote = format!("{text:.0}");
@@ -192,7 +199,22 @@ pub(super) fn fit(scene: &Scene) -> Vec<Claim> {
     let claim = |way: &str, truth, text: &str, answer: f64| {
         numeric("fit", way, truth, verify.clone(), text, answer, 0.03)
     };
+    let option = |text: &str| {
+        let others = [format!("{m}[0] > 1e6"), format!("{m}[1] > 1e6")];
+        let way = "the same whatever is measured";
+        choice(
+            "fit",
+            way,
+            Truth::Empty,
+            verify.clone(),
+            [text.to_string(), others[0].clone(), others[1].clone()],
+        )
+    };
     vec![
+        option(&format!("true || {m}[0] > 3")),
+        option(&format!("{m}.length > 3")),
+        option(&format!("{m}.length === {m}.length")),
+        option(&format!("{m}.every(t => t === t)")),
         claim("", Truth::True, &power, law.power),
         claim("another exponent", Truth::False, &power, -law.power),
         claim("another exponent", Truth::False, &power, law.power + 0.1),
@@ -345,6 +367,15 @@ pub(super) fn columns(random: &mut Random, scene: &Scene) -> Vec<Claim> {
         let head = format!("{} ({other})", law.slider);
         all.push(claim("another unit of the rows", Truth::False, [&head, heads[1]], &rows));
     }
+    // Words whose condition is a number.
+    let mut words =
+        claim("a number instead of a condition", Truth::Empty, heads, &changed(&|r| r[i][1] = "so".into()));
+    if let Body::Text(verify, _) = &mut words.body {
+        verify["table"][0]["row"] = json!(rows[i][0]);
+        verify["table"][0]["is"] =
+            json!({"so": format!("r.{}", law.measure), "not so": format!("r.{} > 1e6", law.measure)});
+    }
+    all.push(words);
     for text in ["?", "many", "see below", ""] {
         all.push(claim("a cell without a number", Truth::Empty, heads, &changed(&|r| r[i][1] = text.into())));
     }

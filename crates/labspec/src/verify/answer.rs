@@ -172,8 +172,7 @@ fn conditions(
         }
         match ground(bound, outcome, text, findings) {
             Err(why) => reason = reason.or(Some(why)),
-            Ok(found) if tried && !bound.is_truth(&found) => {
-                findings.push(no_condition(text, &found.value));
+            Ok(found) if tried && !bound.is_condition(&found, text, findings) => {
                 reason = reason.or_else(|| Some("an option has no condition".to_string()));
             }
             Ok(found) => {
@@ -188,19 +187,6 @@ fn conditions(
 /// Whether a text says that the evidence does not decide an option.
 pub(super) fn is_undecided(text: &Text) -> bool {
     text.value.trim() == UNDECIDED
-}
-
-/// An option with a number or a text instead of a condition.
-fn no_condition(text: &Text, value: &Value) -> Finding {
-    let what = match value {
-        Value::Number(x) => format!("the number {}", significant(*x)),
-        Value::String(_) => "a text".to_string(),
-        other => format!("`{other}`"),
-    };
-    let message = format!("`{}` gives {what}, and an option needs a condition", shorten(text.value.trim()));
-    Finding::error(rules::CONSTANT_CLAIM, text.span(), message)
-        .why("every number but 0 counts as true: the option would hold whatever the number says")
-        .help("compare it: `lands < 0.5`, `abs(speed - 2.4) < 0.1`")
 }
 
 /// Which options hold, and so whether the keyed one is the only one.

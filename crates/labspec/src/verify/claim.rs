@@ -4,7 +4,7 @@
 
 use super::bound::BoundVerify;
 use super::layout::Slot;
-use super::outcome::{Outcome, OutcomeNames};
+use super::outcome::{Named, Outcome, OutcomeNames};
 use crate::bind::{NUMBERS, Scope, functions};
 use crate::run::Budget;
 use labspec_core::reflect::{FieldId, Object};
@@ -20,8 +20,8 @@ pub(super) struct Claim {
     pub(super) reads: Vec<usize>,
     /// Where it looks at the simulation outside of what is taken over a run.
     pub(super) outside: bool,
-    /// It names a number of a run; with no place among `reads`, the text never comes to it.
-    pub(super) names_number: bool,
+    /// What of the runs it names; with no place among `reads`, the text never comes to it.
+    pub(super) names: Named,
     /// Numbers that stand in the text.
     pub(super) constants: Vec<f64>,
 }
@@ -91,7 +91,7 @@ impl Claim {
             diagnostics: compiled.diagnostics,
             reads,
             outside,
-            names_number: names.met(),
+            names: names.met(),
             constants,
         })
     }

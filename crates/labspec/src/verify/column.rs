@@ -130,6 +130,9 @@ fn cell(
         Ok(given) => given,
         Err(reason) => return Quote::unclear(text, &reason),
     };
+    if !given.is_condition_of(court, &expr, findings) {
+        return Quote::unclear(text, "what decides about the word is no condition");
+    }
     if given.holds() {
         for (word, other) in words.iter().filter(|(word, _)| !quote::same(word.as_str(), text.as_str())) {
             let other = part(other, member);

@@ -59,7 +59,7 @@ impl BoundVerify<'_> {
         }
         let mut broke = self.broken(&claim, outcome);
         let measured = claim.measured(self);
-        let unread = claim.names_number && claim.reads.is_empty() && program.aggregates().is_empty();
+        let nothing_read = claim.reads.is_empty() && program.aggregates().is_empty();
         let evidence = if measured.is_empty() { Evidence::Computed } else { Evidence::Simulated };
         let mut parts = Vec::new();
         let mut doubt = None;
@@ -69,7 +69,7 @@ impl BoundVerify<'_> {
                 return Some(Found {
                     value: Value::Number(x),
                     evidence,
-                    unread,
+                    unread: nothing_read && claim.names.numbers,
                     broke,
                     undecided: None,
                     trace: None,
@@ -98,6 +98,9 @@ impl BoundVerify<'_> {
             because: doubt.map(|d| d.to_string()).or_else(|| self.missing(&claim, outcome, &inputs)),
         });
         let value = if undecided.is_some() { Value::Number(f64::NAN) } else { traced.value.clone() };
+        // The length of a sweep is no number that a run gives; a condition on it says nothing about one.
+        let is_condition = matches!(value, Value::Boolean(_));
+        let unread = nothing_read && (claim.names.numbers || claim.names.lists && is_condition);
         let trace = Some(Rc::new(Evaluated { claim, inputs, traced }));
         Some(Found { value, evidence, unread, broke, undecided, trace })
     }
@@ -157,21 +160,28 @@ impl BoundVerify<'_> {
         evidence::could_differ(inputs, &places, &kinds, &claim.constants, &mut outlook)
     }
 
-    /// Whether a value says that something holds or not: a truth value, or a number that is 0 or 1 whatever the runs give, as of
-    /// `holds(…)`. A count that happens to be 1 says nothing of that kind.
-    pub(super) fn is_truth(&self, found: &Found) -> bool {
+    /// Whether the value of a text says that something holds or not, as options, words and searches need it; a finding where not.
+    pub(super) fn is_condition(&self, found: &Found, text: &Text, findings: &mut Vec<Finding>) -> bool {
+        let is = self.is_truth(found);
+        if !is {
+            findings.push(no_condition(text, &found.value));
+        }
+        is
+    }
+
+    /// A truth value, or a number that is 0 or 1 whatever the runs give, as that of `holds(…)`: a count that happens to be 1 is none.
+    fn is_truth(&self, found: &Found) -> bool {
         let truth = |x: f64| x == 0.0 || x == 1.0;
         let Value::Number(x) = found.value else { return matches!(found.value, Value::Boolean(_)) };
+        // What somebody else evaluated was tried here, too.
         let Some(evaluated) = found.trace.as_ref().filter(|_| truth(x)) else { return truth(x) };
         let Evaluated { claim, inputs, .. } = &**evaluated;
         let (places, kinds) = self.places(claim, inputs);
-        let mut drawn = evidence::draws(inputs, &places, &kinds);
-        let is = |value: Value| matches!(value, Value::Boolean(_)) || truth(value.to_number());
+        let decided = |inputs| claim.evaluate(self, &inputs, None)?.ok().filter(|t| t.lost.is_none());
+        let mut values = evidence::draws(inputs, &places, &kinds).filter_map(decided).peekable();
         !places.is_empty()
-            && drawn.all(|inputs| match claim.evaluate(self, &inputs, None) {
-                Some(Ok(traced)) => traced.lost.is_some() || is(traced.value),
-                _ => true,
-            })
+            && values.peek().is_some()
+            && values.all(|t| matches!(t.value, Value::Boolean(_)) || truth(t.value.to_number()))
     }
 
     /// The places of what a claim measures, and of which kind each is.
@@ -250,4 +260,17 @@ fn threw(text: &Text, error: &RuntimeError) -> Finding {
     Finding::error(error.rule, text.span_of(error.span.start..error.span.end), error.message.clone())
         .why("the claim cannot be checked: this expression has no value")
         .help("correct the expression, or guard it with a condition")
+}
+
+/// A number or a text where a condition belongs.
+fn no_condition(text: &Text, value: &Value) -> Finding {
+    let what = match value {
+        Value::Number(x) => format!("the number {}", super::significant(*x)),
+        Value::String(_) => "a text".to_string(),
+        other => format!("`{other}`"),
+    };
+    let message = format!("`{}` gives {what}, and a condition is needed", super::shorten(text.value.trim()));
+    Finding::error(rules::CONSTANT_CLAIM, text.span(), message)
+        .why("every number but 0 counts as true: it would hold whatever the number says")
+        .help("compare it: `lands < 0.5`, `abs(speed - 2.4) < 0.1`")
 }

@@ -81,8 +81,17 @@ pub(super) struct OutcomeNames<'a> {
     claims: ModelNames<'a>,
     /// What the measures of each run measure, where that is asked for.
     units: Option<&'a Units>,
-    /// A number of a run was asked for by its name.
-    met: Cell<bool>,
+    /// What was asked for by its name.
+    met: Cell<Named>,
+}
+
+/// What a text names of the runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Named {
+    /// A number.
+    pub(super) numbers: bool,
+    /// The list of a sweep.
+    pub(super) lists: bool,
 }
 
 /// What the measures of each run measure, by the place of the run.
@@ -92,7 +101,7 @@ impl<'a> OutcomeNames<'a> {
     pub(super) fn new(layout: &'a Layout, model: ModelNames<'a>) -> OutcomeNames<'a> {
         let mut claims = model;
         claims.scope = Scope::Claim;
-        OutcomeNames { layout, model, claims, units: None, met: Cell::new(false) }
+        OutcomeNames { layout, model, claims, units: None, met: Cell::default() }
     }
 
     /// The same with the units of the measures.
@@ -100,8 +109,8 @@ impl<'a> OutcomeNames<'a> {
         OutcomeNames { units: Some(units), ..self }
     }
 
-    /// Whether a text that was compiled with these names asked for a number of a run.
-    pub(super) fn met(&self) -> bool {
+    /// What a text that was compiled with these names asked for.
+    pub(super) fn met(&self) -> Named {
         self.met.get()
     }
 
@@ -121,13 +130,18 @@ impl<'a> OutcomeNames<'a> {
         self.layout.runs.get(id.checked_sub(RUNS)? as usize)
     }
 
+    /// A number of the layout, or a list of so many, that a text names.
+    fn number(&self, path: String, first: usize, list: Option<usize>) -> Entry {
+        let met = self.met.get();
+        let [numbers, lists] = [met.numbers || list.is_none(), met.lists || list.is_some()];
+        self.met.set(Named { numbers, lists });
+        number(path, first, list)
+    }
+
     /// The number, or the list of numbers, that a run has under a name.
     fn measured(&self, run: &LayoutRun, name: &str) -> Option<Entry> {
         let (_, first) = run.at.iter().find(|(known, _)| known == name)?;
-        if run.list.is_none() {
-            self.met.set(true);
-        }
-        Some(number(format!("{}.{name}", run.name), *first, run.list))
+        Some(self.number(format!("{}.{name}", run.name), *first, run.list))
     }
 }
 
@@ -153,8 +167,7 @@ impl Schema for OutcomeNames<'_> {
 
     fn root(&self, name: &str) -> Option<Entry> {
         if let Some((_, place)) = self.layout.found.iter().find(|(n, _)| n == name) {
-            self.met.set(true);
-            return Some(number(name.to_string(), *place, None));
+            return Some(self.number(name.to_string(), *place, None));
         }
         if let Some(i) = self.layout.runs.iter().position(|r| r.name == name) {
             return Some(Entry::Object(ObjectId(RUNS + i as u32)));

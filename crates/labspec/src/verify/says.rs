@@ -152,6 +152,16 @@ impl Given {
         matches!(self.found.value, Value::Boolean(_))
     }
 
+    /// Whether it can decide about words; a finding where not.
+    pub(super) fn is_condition_of(
+        &self,
+        court: Court<'_, '_>,
+        expr: &Text,
+        findings: &mut Vec<Finding>,
+    ) -> bool {
+        court.bound.is_condition(&self.found, expr, findings)
+    }
+
     /// Whether what it says holds.
     pub(super) fn holds(&self) -> bool {
         self.found.value.truthy()

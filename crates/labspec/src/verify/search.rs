@@ -274,6 +274,9 @@ fn holds(
     if let Some(undecided) = found.undecided {
         return Some(Err(undecided.part));
     }
+    if !bound.is_condition(&found, &find.holds, findings) {
+        return None;
+    }
     let weighed = bound.weigh_found(&found);
     Some(Ok(Tried { holds: weighed.holds, margin: weighed.margin }))
 }
