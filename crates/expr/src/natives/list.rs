@@ -1,7 +1,7 @@
 //! Methods of lists, typed arrays and arrays of the host (ECMAScript, "Array Objects", "TypedArray Objects").
 
 use super::env::{arg, integer, range, relative};
-use super::{Env, MANY, Outcome, Row, Trouble, table};
+use super::{Env, MANY, Outcome, Row, Trouble, no_method, table};
 use crate::heap::Object;
 use crate::rules;
 use crate::schema::Elem;
@@ -10,11 +10,11 @@ use crate::value::{Value, View};
 pub(super) static ROWS: &[Row] = table! {
     "at" List (1, 1) Item at: "[1, 2, 3].at(-1)" => "3",
         "element at an index, which counts from the end when negative";
-    "concat" List (0, MANY) List concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
+    "concat" Untyped (0, MANY) List concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
         "a list of all elements";
     "fill" List changes (1, 3) Receiver fill: "[1, 2, 3].fill(0, 1)" => "1,0,0",
         "stores one value in all elements, or in those from one index up to another";
-    "flat" List (0, 1) List flat: "[1, [2, 3]].flat()" => "1,2,3",
+    "flat" Untyped (0, 1) List flat: "[1, [2, 3]].flat()" => "1,2,3",
         "the elements, and the elements of the lists among them";
     "includes" List (1, 2) Boolean includes: "[1, 2].includes(2)" => "true",
         "whether a value is among the elements";
@@ -54,6 +54,8 @@ pub(super) static ROWS: &[Row] = table! {
     "_kind" Nothing (2, 2) List kind: "" => "", "";
     "_empty" Nothing (0, 0) Element empty: "" => "", "";
     "_copy" Nothing (1, 1) List copy: "" => "", "";
+    "_list" Nothing (2, 2) Any only_list: "" => "", "";
+    "_untyped" Nothing (1, 1) List untyped: "" => "", "";
     "_parts" Nothing (1, 1) List parts: "" => "", "";
 };
 
@@ -216,12 +218,13 @@ fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
         other => env.text(other)?,
     };
     let mut text = String::new();
+    let mut lists = vec![list.clone()];
     for (i, item) in env.items(list)?.iter().enumerate() {
         if i > 0 {
             text.push_str(&between);
         }
         if !item.is_nothing() {
-            text.push_str(&env.text(item)?);
+            text.push_str(&env.text_within(item, &mut lists)?);
         }
         if text.len() > crate::heap::MAX_TEXT {
             return Err(super::env::too_long());
@@ -415,6 +418,23 @@ fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 /// What `reduce` of nothing does.
 fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
     Err(Trouble::new(rules::NO_PARTS, "`reduce` of a list without elements needs a first value"))
+}
+
+/// A list or an array, on which a method of this name is called.
+fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    match arg(args, 0) {
+        list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
+        other => Err(no_method(other, &arg(args, 1).to_string())),
+    }
+}
+
+/// Lists have `flatMap`, typed arrays not.
+fn untyped(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    let list = arg(args, 0);
+    match env.heap.object(list) {
+        Object::List(_) => Ok(list.clone()),
+        _ => Err(no_method(list, "flatMap")),
+    }
 }
 
 fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {

@@ -30,6 +30,8 @@ pub(crate) enum On {
     List,
     /// Lists alone: what changes the number of elements.
     Growing,
+    /// Lists alone: typed arrays do not have it.
+    Untyped,
     Text,
     Number,
     /// `Array.name`, `Number.name`; a name without a point stands alone.
@@ -192,7 +194,7 @@ impl Row {
         matches!(ty, Type::Any | Type::Never)
             || match self.on {
                 On::List => matches!(ty, Type::List | Type::View),
-                On::Growing => ty == Type::List,
+                On::Growing | On::Untyped => ty == Type::List,
                 On::Text => ty == Type::String,
                 On::Number => matches!(ty, Type::Number | Type::Element),
                 On::Nothing => false,
@@ -279,18 +281,21 @@ pub(crate) fn call(env: &mut Env<'_>, name: Name, receiver: &Value, args: &[Valu
         (Body::Run(run, ..), On::List, Value::List(_) | Value::View(_))
         | (Body::Run(run, ..), On::Text, Value::String(_))
         | (Body::Run(run, ..), On::Number, Value::Number(_)) => Some(run),
-        (Body::Run(run, ..), On::Growing, Value::List(_)) if list => Some(run),
+        (Body::Run(run, ..), On::Growing | On::Untyped, Value::List(_)) if list => Some(run),
         _ => None,
     });
     match run {
         // A typed array alone has `set` and `subarray`.
         Some(run) if !(list && matches!(name.text(), "set" | "subarray")) => run(env, receiver, args),
-        _ => {
-            let what = receiver.type_of().describe();
-            let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
-            Err(Trouble::new(rules::NOT_CALLABLE, format!("{what} has no method `{}`", name.text())))
-        }
+        _ => Err(no_method(receiver, name.text())),
     }
+}
+
+/// Why a method is not called.
+fn no_method(receiver: &Value, name: &str) -> Trouble {
+    let what = receiver.type_of().describe();
+    let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
+    Trouble::new(rules::NOT_CALLABLE, format!("{what} has no method `{name}`"))
 }
 
 /// Calls a function.

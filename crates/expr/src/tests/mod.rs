@@ -10,4 +10,5 @@ mod operations;
 mod programs;
 pub(crate) mod roundtrip;
 mod semantics;
+mod writes;
 mod written;
