@@ -7,33 +7,33 @@ use crate::rules;
 use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
-    "toExponential" Number (0, 1) String to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
+    "toExponential" Number (0, 1) String Looks to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
         "in exponential form with so many decimals";
-    "toFixed" Number (0, 1) String to_fixed_method: "(2.345).toFixed(1)" => "2.3",
+    "toFixed" Number (0, 1) String Looks to_fixed_method: "(2.345).toFixed(1)" => "2.3",
         "with so many decimals";
-    "toPrecision" Number (0, 1) String to_precision_method: "(1234.5).toPrecision(2)" => "1.2e+3",
+    "toPrecision" Number (0, 1) String Looks to_precision_method: "(1234.5).toPrecision(2)" => "1.2e+3",
         "with so many significant digits";
-    "toString" Number (0, 1) String to_string_method: "(255).toString(16)" => "ff",
+    "toString" Number (0, 1) String Looks to_string_method: "(255).toString(16)" => "ff",
         "as text, in base 10 or another base";
-    "Number" Nothing (0, 1) Number number: "Number('12') + 1" => "13",
+    "Number" Nothing (0, 1) Number Looks number: "Number('12') + 1" => "13",
         "a value as number";
-    "Number.isFinite" Nothing (1, 1) Boolean is_finite: "Number.isFinite('1')" => "false",
+    "Number.isFinite" Nothing (1, 1) Boolean Asks is_finite: "Number.isFinite('1')" => "false",
         "whether a value is a number and finite";
-    "Number.isInteger" Nothing (1, 1) Boolean is_integer: "Number.isInteger(2)" => "true",
+    "Number.isInteger" Nothing (1, 1) Boolean Looks is_integer: "Number.isInteger(2)" => "true",
         "whether a value is a whole number";
-    "Number.isNaN" Nothing (1, 1) Boolean is_nan: "Number.isNaN('a')" => "false",
+    "Number.isNaN" Nothing (1, 1) Boolean Asks is_nan: "Number.isNaN('a')" => "false",
         "whether a value is NaN";
-    "Number.parseFloat" Nothing (1, 1) Number parse_float: "Number.parseFloat('1.5 m')" => "1.5",
+    "Number.parseFloat" Nothing (1, 1) Number Looks parse_float: "Number.parseFloat('1.5 m')" => "1.5",
         "the number at the start of a text";
-    "Number.parseInt" Nothing (1, 2) Number parse_int: "Number.parseInt('12px')" => "12",
+    "Number.parseInt" Nothing (1, 2) Number Looks parse_int: "Number.parseInt('12px')" => "12",
         "the whole number at the start of a text";
-    "parseFloat" Nothing (1, 1) Number parse_float: "parseFloat('1.5 m')" => "1.5",
+    "parseFloat" Nothing (1, 1) Number Looks parse_float: "parseFloat('1.5 m')" => "1.5",
         "the number at the start of a text";
-    "parseInt" Nothing (1, 2) Number parse_int: "parseInt('ff', 16)" => "255",
+    "parseInt" Nothing (1, 2) Number Looks parse_int: "parseInt('ff', 16)" => "255",
         "the whole number at the start of a text, in base 10 or another base";
-    "String" Nothing (0, 1) String string: "String([1, 2])" => "1,2",
+    "String" Nothing (0, 1) String Looks string: "String([1, 2])" => "1,2",
         "a value as text";
-    "Boolean" Nothing (0, 1) Boolean boolean: "Boolean('')" => "false",
+    "Boolean" Nothing (0, 1) Boolean Looks boolean: "Boolean('')" => "false",
         "whether a value counts as true";
 };
 
