@@ -1,5 +1,6 @@
 //! The one table of functions that programs may call: signature, effects, documentation, and what they do.
 
+pub(super) mod access;
 mod lib;
 mod measure;
 mod mj;
@@ -15,7 +16,7 @@ use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
 use labspec_expr::dimension::Dimension;
-use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Heap, Param, Touch, Type, Value};
+use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Param, Touch, Type, Value};
 
 /// The objects that hold functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -114,7 +115,7 @@ pub(super) struct Function {
     pub(super) doc: &'static str,
     /// Statements and a last expression on `specs/models/pendulum.xml`, or a measure over 0.1 s of it, and its value.
     pub(super) example: (&'static str, &'static str),
-    pub(super) run: fn(&mut World, &mut Heap, &[Value]) -> Result<Value, String>,
+    pub(super) run: access::Run,
 }
 
 /// Of no function: what the rows below do not say.
@@ -144,6 +145,12 @@ pub(super) static TABLE: LazyLock<Vec<&'static Function>> = LazyLock::new(|| {
 
 /// The result of a function that gives nothing back.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
+
+/// The result of a pass of the engine.
+fn done(result: Result<(), access::Failed>) -> Result<Value, String> {
+    result?;
+    NOTHING
+}
 
 /// What a call costs when it is no pass of the engine, in the unit of [`labspec_core::cost`].
 pub(super) fn price(f: &Function, w: &World) -> u64 {

@@ -50,7 +50,7 @@ impl Host for World {
         match functions::TABLE.get(f as usize) {
             Some(function) => {
                 let before = core::cost(&self.data);
-                let result = (function.run)(self, heap, args);
+                let result = functions::access::call(function.run, self, heap, args);
                 // Passes of the engine have counted themselves.
                 let price =
                     if core::cost(&self.data) == before { functions::price(function, self) } else { 0 };
@@ -76,15 +76,6 @@ impl Host for World {
 }
 
 impl World {
-    /// A function of the engine over the model and the data.
-    pub(crate) fn call_engine(
-        &mut self,
-        function: fn(&Model, &mut Data<Planned>) -> Result<(), Error>,
-    ) -> Result<Value, String> {
-        function(&self.model, &mut self.data)?;
-        Ok(Value::Undefined)
-    }
-
     /// Back to a keyframe, or to the default configuration.
     ///
     /// # Errors
