@@ -14,7 +14,7 @@ use super::handle::{self, Side};
 use super::shown::LABELS;
 use super::units;
 use labspec_core::Obj;
-use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
+use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_expr::dimension::Dimension;
 use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Param, Touch, Type, Value};
 
@@ -105,7 +105,7 @@ pub(super) struct Function {
     /// Number of elements of a list that it gives.
     pub(super) length: Option<usize>,
     /// The field of the data whose part for an object of this kind it gives.
-    pub(super) gives: Option<(&'static str, Obj)>,
+    pub(super) gives: Option<(FieldId, Obj)>,
     pub(super) reads: Touches,
     pub(super) writes: &'static [Touches],
     pub(super) place: Place,
@@ -229,6 +229,9 @@ fn path(f: &Function) -> String {
     if f.object.is_empty() { f.name.to_string() } else { format!("{}.{}", f.object, f.name) }
 }
 
+/// What the Jacobian of a site follows from.
+const MOTION: [FieldId; 5] = [data::xanchor, data::xaxis, data::xmat, data::xpos, data::site_xpos];
+
 fn touch(touches: &[Touches]) -> Touch {
     let is = |f: &FieldId, t: &Touches| {
         let i = f.info();
@@ -236,12 +239,12 @@ fn touch(touches: &[Touches]) -> Touch {
             Touches::Nothing | Touches::Shown => false,
             Touches::Derived => i.kind == Kind::Derived,
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
-            Touches::Coordinates => i.object == Object::Data && i.name == "qpos",
-            Touches::Contacts => i.stage == Stage::Collision || i.name == "efc_force",
-            Touches::Energy => i.name == "energy",
-            Touches::Flags => i.name == "enableflags",
-            Touches::Places => matches!(i.name, "xpos" | "site_xpos"),
-            Touches::Motion => labspec_core::JACOBIAN_READS.contains(&i.name) || i.name == "site_xpos",
+            Touches::Coordinates => *f == data::qpos,
+            Touches::Contacts => i.stage == Stage::Collision || *f == data::efc_force,
+            Touches::Energy => *f == data::energy,
+            Touches::Flags => *f == option::enableflags,
+            Touches::Places => [data::xpos, data::site_xpos].contains(f),
+            Touches::Motion => MOTION.contains(f),
             Touches::Mass => i.stage == Stage::MassMatrix,
         }
     };
@@ -297,4 +300,23 @@ pub fn reference() -> Vec<FunctionDoc> {
         }
     };
     TABLE.iter().map(|f| one(f)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jacobians_follow_from_what_the_engine_says() {
+        let names = MOTION.map(|f| f.info().name);
+        let engine = labspec_core::JACOBIAN_READS.iter().copied().chain(["site_xpos"]);
+        assert_eq!(engine.collect::<Vec<_>>(), names);
+    }
+
+    #[test]
+    fn every_touch_is_of_some_field() {
+        use Touches::*;
+        let all = [Derived, State, Coordinates, Contacts, Energy, Flags, Places, Motion, Mass];
+        assert!(all.iter().all(|t| matches!(touch(&[*t]), Touch::Fields(_))));
+    }
 }

@@ -2,6 +2,7 @@
 
 use super::access::EngineAccess;
 use super::{Arg, Function, ROW, Touches, Unit, index, number};
+use labspec_core::reflect::data;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
 
@@ -90,7 +91,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "sitePos",
         args: &[Arg::Name(Obj::Site)],
         length: Some(3),
-        gives: Some(("site_xpos", Obj::Site)),
+        gives: Some((data::site_xpos, Obj::Site)),
         reads: Touches::Places,
         unit: Unit::Of("m"),
         doc: "place of a site in the world, m",
@@ -102,7 +103,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "bodyPos",
         args: &[Arg::Name(Obj::Body)],
         length: Some(3),
-        gives: Some(("xpos", Obj::Body)),
+        gives: Some((data::xpos, Obj::Body)),
         reads: Touches::Places,
         unit: Unit::Of("m"),
         doc: "place of a body in the world, m",
