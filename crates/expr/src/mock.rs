@@ -14,8 +14,11 @@ const SENSORS: CollectionId = CollectionId(2);
 const JOINTS: [&str; 2] = ["light_free", "heavy_free"];
 const BODIES: [&str; 3] = ["world", "heavy", "light"];
 
-/// Fields in the order of their keys: path, shape, kind, elements, owner.
-const FIELDS: &[(&str, &[Option<usize>], &str, Elem, &str)] = &[
+/// A field: path, shape, kind, elements, owner.
+type Row = (&'static str, &'static [Option<usize>], &'static str, Elem, &'static str);
+
+/// Fields in the order of their keys.
+const FIELDS: &[Row] = &[
     ("data.time", &[], "state", Elem::Double, ""),
     ("data.qpos", &[Some(14)], "state", Elem::Double, "the model has 14 coordinates"),
     ("data.qvel", &[Some(12)], "state", Elem::Double, "the model has 12 degrees of freedom"),
