@@ -222,3 +222,52 @@ fn every_method_of_every_kind_of_list() {
     let count = compare(sources);
     println!("{} programs compared, refused by the compiler: {:?}", count.compared, count.refused);
 }
+
+/// What differed once.
+const MENDED: [&str; 17] = [
+    "let v = 3; ctx.k = -(data.eq_active[1] = v)",
+    "let v = 3; ctx.k = [+(data.eq_active[1] += v), typeof (data.qpos[0] = v), +(ctx.x = v)]",
+    "const f = v => ~(data.qpos[4] >>>= v); ctx.k = [f(3), -f(1)]",
+    "const a = [1]; a.push(a, [2]); ctx.k = [String(a), a.join('-'), Number([a]), `${[a, a]}`]",
+    "ctx.k = String([data.qpos.slice(0, 2), [null, [undefined]], {}])",
+    "ctx.k = String([data.eq_active, [data.qpos.subarray(1, 2)]])",
+    "const a = [[[]]]; let b = a; for (let i = 0; i < 30; i++) b = [b, i]; ctx.k = String(b)",
+    "ctx.v = [5]; ctx.k = ctx.v[0].map(x => x)",
+    "ctx.v = [{a: 1}]; ctx.k = ctx.v[0].some(x => x)",
+    "ctx.v = ['ab']; ctx.k = ctx.v[0].reduce((a, x) => a + x, '')",
+    "ctx.v = [data.qpos.slice()]; ctx.k = ctx.v[0].flatMap(x => [x])",
+    "ctx.k = [(NaN).toPrecision(0), (1 / 0).toExponential(101)]",
+    "ctx.k = [(2 ** 60 * 1.37).toString(36), (-1e100).toString(3), (5e-324).toString(2), (-0).toString(2)]",
+    "ctx.k = (-109.00000000000182).toFixed(38)",
+    "ctx.k = [(9.96875).toExponential(4), (99.5).toPrecision(2), (995).toPrecision(2), (0.5).toPrecision(1)]",
+    "ctx.k = [String(1.20481109619140625), 0.1 + 0.2, 2 ** -1074]",
+    "[data.qpos[0], 1].forEach(x => { model.geom_contype[0] += x / 3 })",
+];
+
+#[test]
+fn what_differed_once_is_as_in_node() {
+    if !needs("node") {
+        return;
+    }
+    let count = compare(MENDED.iter().map(|source| format!("{source}{SHOWN}")).collect());
+    assert_eq!(count.compared, MENDED.len(), "{count:?}");
+}
+
+#[test]
+fn functions_have_no_text() {
+    for source in [
+        "String(ctx.f)",
+        "'' + ctx.f",
+        "`${[1, ctx.f]}`",
+        "[ctx.f].join()",
+        "[ctx.f, 'a'].sort()",
+        "ctx.f == 'a'",
+    ] {
+        let source = format!("ctx.f = () => 1; ctx.out = {source}");
+        assert_eq!(here(&source), Err("not-a-value"), "{source}");
+    }
+    for source in ["Number([ctx.f])", "ctx.f === 'a'", "typeof ctx.f", "[ctx.f].length"] {
+        let source = format!("ctx.f = () => 1; ctx.out = {source}");
+        assert!(here(&source).is_ok(), "{source}");
+    }
+}
