@@ -126,6 +126,9 @@ impl Env<'_> {
 
     /// As [`Env::text`], inside of lists whose texts are being made: in their own text they are empty.
     pub(crate) fn text_within(&mut self, value: &Value, lists: &mut Vec<Value>) -> Result<String, Trouble> {
+        if let Value::String(text) = value {
+            return Ok(text.to_string());
+        }
         let mut text = String::new();
         self.write(value, lists, &mut text)?;
         self.spend(text.len() / 16)?;

@@ -1,6 +1,7 @@
 //! Tests of the whole road, from text to value, against a small host.
 
 mod arithmetic;
+mod generator;
 mod javascript;
 mod language;
 mod math;

@@ -1,7 +1,7 @@
 //! Writes into arrays of numbers against JavaScript's typed arrays: every kind of value into doubles, integers and bytes,
-//! by every form of assignment, bit for bit; and random programs of such writes.
+//! by every form of assignment, bit for bit.
 //!
-//! LABSPEC_NODE_PROGRAMS and LABSPEC_NODE_SEED as in `node.rs`.
+//! Random programs of such writes are in `node.rs`.
 
 use std::collections::BTreeMap;
 
