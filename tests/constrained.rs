@@ -11,6 +11,7 @@
 use crate::needs::needs;
 use crate::recorded::{Verdict, list, named, objects, set, trajectory, worst};
 use crate::support::{models, numbers, read_json, workspace};
+use crate::zoo::ORDER;
 use labspec_core::reflect::{self, Object};
 use labspec_core::xml::{self, MjcfFileError};
 use labspec_core::{self as core, Data, Error, Model};
@@ -31,7 +32,8 @@ const SOLUTION: [&str; 8] =
     ["qacc", "qfrc_constraint", "sensordata", "efc_force", "efc_state", "cfrc_ext", "cfrc_int", "cacc"];
 
 /// Why a trajectory differs that is no chaos.
-const REASONS: [(&str, &str); 4] = [
+const REASONS: [(&str, &str); 5] = [
+    ("conformance/engine__actuation__refsite_free", ORDER),
     (
         "conformance/engine__solver__humanoid",
         "the library's projected Gauss–Seidel stays at the apex of a cone where a push pays only with the friction that it \
@@ -43,7 +45,8 @@ const REASONS: [(&str, &str); 4] = [
 ];
 
 /// Why a forward pass differs, or has other contacts.
-const FORWARD: [(&str, &str); 2] = [
+const FORWARD: [(&str, &str); 3] = [
+    ("conformance/engine__actuation__refsite_free", ORDER),
     (
         "conformance/engine__sensor__fromto_capsule_ellipsoid",
         "the library stops within `ccd_tolerance` of the nearest points of a capsule and an ellipsoid",

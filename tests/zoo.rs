@@ -58,7 +58,7 @@ const EXCEPTIONS: &[Exception] = &[
 const RING: &str = "the library's point on the ring is the shortest path's to 1e-6 of its own equation";
 
 /// `crates/core/tests/library` holds lengths against velocities.
-const ORDER: &str = "the library composes the orientation of a site in the order site, body";
+pub(crate) const ORDER: &str = "the library composes the orientation of a site in the order site, body";
 
 /// Where the picture shows a site (`crates/core/tests/library`).
 const PRINCIPAL: &str = "the library leaves the principal point of a camera out of its projections";

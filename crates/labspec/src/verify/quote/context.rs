@@ -355,10 +355,11 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
             Some(FORMULA)
         }
         c if fraction(c).is_some() => Some("a product"),
-        // `0.5 10^3`
+        // `0.5 10^3`, `3 0.5 s`
         c if c.is_ascii_digit() => {
             let end = chars.digits(next);
-            (chars.at(end) == Some('^') || chars.has(end, "**")).then_some("a product")
+            let power = chars.at(end) == Some('^') || chars.has(end, "**");
+            if power { Some("a product") } else { (!has_unit).then_some(BESIDE) }
         }
         c if is_wide(c) => wide_after(chars, next),
         '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
@@ -400,6 +401,7 @@ fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     (figure || fraction || WIDE_BEHIND.into_iter().any(|w| near.starts_with(w))).then_some(ODD_BEHIND)
 }
 
+const BESIDE: &str = "a number with another one right behind it";
 const ODD_BEHIND: &str = "a number that the words behind it change";
 
 fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {

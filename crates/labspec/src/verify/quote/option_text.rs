@@ -148,7 +148,7 @@ mod tests {
         is("about 7 m", 6.3, 7.7);
         is("It rises to 1.23 m, as it must", 1.1685, 1.2915);
         is("0.4 to 0.5 s", 0.4, 0.5);
-        is("**7 m**", 6.65, 7.35);
+        is("**7 m**", 6.5, 7.5);
         is("roughly 7 m, no more", 6.3, 7.7);
         assert_eq!(of("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
         for text in [
