@@ -379,7 +379,8 @@ fn a_lab_of_everything_means_what_javascript_means() {
             {"label": "g", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "value": -9.81},
             {"label": "solver", "apply": "model.opt.iterations = value / 3; for (let g = 0; g < model.ngeom; g++) model.geom_solref[2 * g] = 0.02 + value / 1000; ctx.v = ~~(value / 2)", "min": 1, "max": 60, "value": 50},
             {"label": "mass", "apply": "model.body_mass[model.body('heavy').id] = value; mj.mj_setConst(model, data)", "min": 1, "max": 3, "value": 2},
-            {"type": "button", "label": "kick", "run": "data.qvel.set([0.1, 0.2], 6); ((a, b) => { ctx.sum = a + b; })(1, ctx.sum ?? 0.1)"}
+            {"type": "button", "label": "kick", "run": "data.qvel.set([0.1, 0.2], 6); ((a, b) => { ctx.sum = a + b; })(1, ctx.sum ?? 0.1)"},
+            {"type": "button", "label": "kinds", "run": "let i = 0; for (const x of [true, null, '3', -2.7, [2], undefined]) { data.qfrc_applied[i++] = x; model.geom_conaffinity[i % 2] = x; } ctx.kept = data.qfrc_applied.slice(0, 6); ctx.whole = [...model.geom_conaffinity]; data.qfrc_applied.fill(0); model.geom_conaffinity[0] = 2 ** 31; model.geom_conaffinity[0]++; model.geom_conaffinity[1] ^= 2.5; ctx.sign = -(model.geom_contype[0] = ctx.kept[3]); model.opt.iterations = '50'; const [a, b = 7] = ctx.kept; ctx.parts = [a, b]"}
         ],
         "plots": [{"traces": [
             {"label": "a", "expr": "[...data.qpos].reduce((a, x) => a + x * x, 0)"},

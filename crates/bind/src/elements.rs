@@ -2,7 +2,7 @@
 //! named access, the help on an element and the rewriting of bare indexes come from.
 
 use crate::rules::QUATERNION_AS_ANGLE;
-use labspec_core::reflect::{self, FieldId, Object};
+use labspec_core::reflect::{self, FieldId, data, model};
 use labspec_core::{Model, Obj, joint};
 use labspec_expr::{Advice, FieldKey, Role};
 
@@ -113,11 +113,11 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
             _ => None,
         };
         if let Some((what, unit)) = what {
-            let per = match info.name {
-                "qvel" => format!("{}/s", unit),
-                "qacc" | "qacc_smooth" | "qacc_warmstart" => format!("{}/s^2", unit),
-                n if n.starts_with("qfrc") => if unit == "m" { "N" } else { "N m" }.to_owned(),
-                "qpos" | "qpos0" | "qpos_spring" => unit.to_owned(),
+            let per = match f {
+                data::qvel => format!("{}/s", unit),
+                data::qacc | data::qacc_smooth | data::qacc_warmstart => format!("{}/s^2", unit),
+                _ if info.name.starts_with("qfrc") => if unit == "m" { "N" } else { "N m" }.to_owned(),
+                data::qpos | model::qpos0 | model::qpos_spring => unit.to_owned(),
                 _ => String::new(),
             };
             let unit = if per.is_empty() { String::new() } else { format!(", {per}") };
@@ -178,8 +178,7 @@ const QUATERNION: Advice = Advice {
 
 /// What an element measures: coordinates of joints are angles, parts of quaternions, or neither.
 pub(super) fn role(m: &Model, f: FieldId, index: usize) -> Role {
-    let info = f.info();
-    if info.object != Object::Data || info.name != "qpos" {
+    if f != data::qpos {
         return Role::Other;
     }
     let Some((Obj::Joint, object)) = owner(m, f, index) else { return Role::Other };

@@ -1,5 +1,6 @@
 //! The one table of functions that programs may call: signature, effects, documentation, and what they do.
 
+pub(super) mod access;
 mod lib;
 mod measure;
 mod mj;
@@ -13,9 +14,9 @@ use super::handle::{self, Side};
 use super::shown::LABELS;
 use super::units;
 use labspec_core::Obj;
-use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
+use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_expr::dimension::Dimension;
-use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Heap, Param, Touch, Type, Value};
+use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Param, Touch, Type, Value};
 
 /// The objects that hold functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -104,7 +105,7 @@ pub(super) struct Function {
     /// Number of elements of a list that it gives.
     pub(super) length: Option<usize>,
     /// The field of the data whose part for an object of this kind it gives.
-    pub(super) gives: Option<(&'static str, Obj)>,
+    pub(super) gives: Option<(FieldId, Obj)>,
     pub(super) reads: Touches,
     pub(super) writes: &'static [Touches],
     pub(super) place: Place,
@@ -114,7 +115,7 @@ pub(super) struct Function {
     pub(super) doc: &'static str,
     /// Statements and a last expression on `specs/models/pendulum.xml`, or a measure over 0.1 s of it, and its value.
     pub(super) example: (&'static str, &'static str),
-    pub(super) run: fn(&mut World, &mut Heap, &[Value]) -> Result<Value, String>,
+    pub(super) run: access::Run,
 }
 
 /// Of no function: what the rows below do not say.
@@ -144,6 +145,12 @@ pub(super) static TABLE: LazyLock<Vec<&'static Function>> = LazyLock::new(|| {
 
 /// The result of a function that gives nothing back.
 const NOTHING: Result<Value, String> = Ok(Value::Undefined);
+
+/// The result of a pass of the engine.
+fn done(result: Result<(), access::Failed>) -> Result<Value, String> {
+    result?;
+    NOTHING
+}
 
 /// What a call costs when it is no pass of the engine, in the unit of [`labspec_core::cost`].
 pub(super) fn price(f: &Function, w: &World) -> u64 {
@@ -222,6 +229,9 @@ fn path(f: &Function) -> String {
     if f.object.is_empty() { f.name.to_string() } else { format!("{}.{}", f.object, f.name) }
 }
 
+/// What the Jacobian of a site follows from.
+const MOTION: [FieldId; 5] = [data::xanchor, data::xaxis, data::xmat, data::xpos, data::site_xpos];
+
 fn touch(touches: &[Touches]) -> Touch {
     let is = |f: &FieldId, t: &Touches| {
         let i = f.info();
@@ -229,12 +239,12 @@ fn touch(touches: &[Touches]) -> Touch {
             Touches::Nothing | Touches::Shown => false,
             Touches::Derived => i.kind == Kind::Derived,
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
-            Touches::Coordinates => i.object == Object::Data && i.name == "qpos",
-            Touches::Contacts => i.stage == Stage::Collision || i.name == "efc_force",
-            Touches::Energy => i.name == "energy",
-            Touches::Flags => i.name == "enableflags",
-            Touches::Places => matches!(i.name, "xpos" | "site_xpos"),
-            Touches::Motion => labspec_core::JACOBIAN_READS.contains(&i.name) || i.name == "site_xpos",
+            Touches::Coordinates => *f == data::qpos,
+            Touches::Contacts => i.stage == Stage::Collision || *f == data::efc_force,
+            Touches::Energy => *f == data::energy,
+            Touches::Flags => *f == option::enableflags,
+            Touches::Places => [data::xpos, data::site_xpos].contains(f),
+            Touches::Motion => MOTION.contains(f),
             Touches::Mass => i.stage == Stage::MassMatrix,
         }
     };
@@ -290,4 +300,23 @@ pub fn reference() -> Vec<FunctionDoc> {
         }
     };
     TABLE.iter().map(|f| one(f)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn jacobians_follow_from_what_the_engine_says() {
+        let names = MOTION.map(|f| f.info().name);
+        let engine = labspec_core::JACOBIAN_READS.iter().copied().chain(["site_xpos"]);
+        assert_eq!(engine.collect::<Vec<_>>(), names);
+    }
+
+    #[test]
+    fn every_touch_is_of_some_field() {
+        use Touches::*;
+        let all = [Derived, State, Coordinates, Contacts, Energy, Flags, Places, Motion, Mass];
+        assert!(all.iter().all(|t| matches!(touch(&[*t]), Touch::Fields(_))));
+    }
 }

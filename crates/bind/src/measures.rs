@@ -2,7 +2,7 @@
 //! of the joint, actuator or sensor that it belongs to.
 
 use super::{elements, units};
-use labspec_core::reflect::{Elem, FieldId};
+use labspec_core::reflect::{Elem, FieldId, data, model};
 use labspec_core::{
     self as core, Model, Obj, biastype, dyntype, gaintype, joint, reflect, trntype, wraptype,
 };
@@ -49,10 +49,10 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
         return Measure::Unknown;
     }
     let dim = info.shape.first().copied().unwrap_or("");
-    match info.name {
-        "sensordata" => return sensor(m, f, at),
-        "ctrl" => return control(m, at),
-        "actuator_ctrlrange" => return control(m, at / 2),
+    match f {
+        data::sensordata => return sensor(m, f, at),
+        data::ctrl => return control(m, at),
+        model::actuator_ctrlrange => return control(m, at / 2),
         _ => {}
     }
     if f.unit().is_empty() {
@@ -65,7 +65,7 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
     let motion = match dim {
         "nq" | "nv" | "njnt" => joint_motion(m, f, dim, at),
         // A row of coordinates for every keyframe.
-        "nkey" => row_motion(m, info.name, at % width.max(1)),
+        "nkey" => row_motion(m, f, at % width.max(1)),
         "nout" | "nactuator" => elements::owner(m, f, at).and_then(|(_, i)| actuator_motion(m, i)),
         _ => None,
     };
@@ -117,10 +117,10 @@ fn motion(ty: i32, at: usize, dim: &str) -> Option<Motion> {
 }
 
 /// How a coordinate of a keyframe moves.
-fn row_motion(m: &Model, name: &str, at: usize) -> Option<Motion> {
-    let (starts, dim) = match name {
-        "key_qpos" => (&m.jnt_qposadr, "nq"),
-        "key_qvel" => (&m.jnt_dofadr, "nv"),
+fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<Motion> {
+    let (starts, dim) = match f {
+        model::key_qpos => (&m.jnt_qposadr, "nq"),
+        model::key_qvel => (&m.jnt_dofadr, "nv"),
         _ => return None,
     };
     let (object, first) = starts.iter().enumerate().rev().find(|(_, first)| **first as usize <= at)?;

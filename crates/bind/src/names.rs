@@ -8,7 +8,7 @@ use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
 use super::shown::{LABELS, Shown};
 use super::words::WORDS;
-use labspec_core::reflect::{self, FieldId, Kind, Object, Stage};
+use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
@@ -346,10 +346,10 @@ impl Schema for ModelNames<'_> {
             Thing::Functions(i) => {
                 let holder = OBJECTS.get(i)?;
                 match (*holder, name) {
-                    ("sim", "time") => reflect::field(Object::Data, "time")
-                        .map(|f| Entry::Field(self.whole(f, "sim.time".into()))),
-                    ("sim", "timestep") => reflect::field(Object::Option, "timestep")
-                        .map(|f| Entry::Field(self.whole(f, "sim.timestep".into()))),
+                    ("sim", "time") => Some(Entry::Field(self.whole(data::time, "sim.time".into()))),
+                    ("sim", "timestep") => {
+                        Some(Entry::Field(self.whole(option::timestep, "sim.timestep".into())))
+                    }
                     ("mj", _) if name.starts_with("mjt") => {
                         let i = ENUMS.iter().position(|(n, _)| *n == name)?;
                         Some(Entry::Object(handle::encode(Thing::Enum(i))))
@@ -488,11 +488,10 @@ impl Schema for ModelNames<'_> {
     }
 
     fn result_field(&self, FunctionId(i): FunctionId, object: ObjectId) -> Option<Field> {
-        let (name, kind) = TABLE.get(i as usize)?.gives?;
+        let (f, kind) = TABLE.get(i as usize)?.gives?;
         let Some(Thing::Named(_, of, index)) = handle::decode(object) else { return None };
-        let f = reflect::field(Object::Data, name)?;
         let (first, count) = elements::row(self.model, f, kind, index).filter(|_| of == kind)?;
-        let path = format!("{}.{}", self.path(Side::Data, kind, index), short_name(name));
+        let path = format!("{}.{}", self.path(Side::Data, kind, index), short_name(f.info().name));
         Some(field(f, path, first, vec![Some(count)], format!("a position has {count} of these")))
     }
 

@@ -14,21 +14,27 @@ const SENSORS: CollectionId = CollectionId(2);
 const JOINTS: [&str; 2] = ["light_free", "heavy_free"];
 const BODIES: [&str; 3] = ["world", "heavy", "light"];
 
-/// Fields in the order of their keys: path, shape, kind, owner.
-const FIELDS: &[(&str, &[Option<usize>], &str, &str)] = &[
-    ("data.time", &[], "state", ""),
-    ("data.qpos", &[Some(14)], "state", "the model has 14 coordinates"),
-    ("data.qvel", &[Some(12)], "state", "the model has 12 degrees of freedom"),
-    ("data.xpos", &[Some(3), Some(3)], "derived", "the model has 3 bodies"),
-    ("data.ncon", &[], "derived", ""),
-    ("data.ctrl", &[Some(0)], "input", "the model has no actuators"),
-    ("data.efc_force", &[None], "derived", ""),
-    ("model.body_mass", &[Some(3)], "inertial", "the model has 3 bodies"),
-    ("model.nq", &[], "structure", ""),
-    ("model.geom_solref", &[Some(2), Some(2)], "constant", "the model has 2 geoms"),
-    ("model.opt.gravity", &[Some(3)], "constant", ""),
-    ("model.opt.timestep", &[], "constant", ""),
-    ("run.touch", &[], "structure", ""),
+/// A field: path, shape, kind, elements, owner.
+type Row = (&'static str, &'static [Option<usize>], &'static str, Elem, &'static str);
+
+/// Fields in the order of their keys.
+const FIELDS: &[Row] = &[
+    ("data.time", &[], "state", Elem::Double, ""),
+    ("data.qpos", &[Some(14)], "state", Elem::Double, "the model has 14 coordinates"),
+    ("data.qvel", &[Some(12)], "state", Elem::Double, "the model has 12 degrees of freedom"),
+    ("data.xpos", &[Some(3), Some(3)], "derived", Elem::Double, "the model has 3 bodies"),
+    ("data.ncon", &[], "derived", Elem::Double, ""),
+    ("data.ctrl", &[Some(0)], "input", Elem::Double, "the model has no actuators"),
+    ("data.efc_force", &[None], "derived", Elem::Double, ""),
+    ("model.body_mass", &[Some(3)], "inertial", Elem::Double, "the model has 3 bodies"),
+    ("model.nq", &[], "structure", Elem::Double, ""),
+    ("model.geom_solref", &[Some(2), Some(2)], "constant", Elem::Double, "the model has 2 geoms"),
+    ("model.opt.gravity", &[Some(3)], "constant", Elem::Double, ""),
+    ("model.opt.timestep", &[], "constant", Elem::Double, ""),
+    ("run.touch", &[], "structure", Elem::Double, ""),
+    ("data.eq_active", &[Some(4)], "input", Elem::Byte, "the model has 4 equality constraints"),
+    ("model.geom_contype", &[Some(4)], "constant", Elem::Int, "the model has 4 geoms"),
+    ("model.opt.iterations", &[], "constant", Elem::Int, ""),
 ];
 
 /// What the host calls its things: those of a workbook. Names in examples are names that this host has.
@@ -73,7 +79,7 @@ pub(crate) struct Mock;
 
 fn field(path: &str) -> Option<Entry> {
     let key = FIELDS.iter().position(|f| f.0 == path)?;
-    Some(Entry::Field(view(key, path.into(), 0, FIELDS[key].1.to_vec(), FIELDS[key].3.into())))
+    Some(Entry::Field(view(key, path.into(), 0, FIELDS[key].1.to_vec(), FIELDS[key].4.into())))
 }
 
 fn view(key: usize, path: String, first: usize, shape: Vec<Option<usize>>, owner: String) -> Field {
@@ -92,7 +98,7 @@ fn view(key: usize, path: String, first: usize, shape: Vec<Option<usize>>, owner
         first,
         shape,
         kind,
-        elem: Elem::Double,
+        elem: FIELDS[key].3,
         unit: String::new(),
         doc: doc.into(),
         owner,
@@ -321,7 +327,7 @@ impl Schema for Mock {
     }
 }
 
-/// The running host: element i of field k is 100 k + i at first.
+/// The running host: element i of field k is 100 k + i at first, as far as its elements hold it.
 pub(crate) struct World {
     pub(crate) fields: Vec<Vec<f64>>,
     pub(crate) calls: Vec<(u32, Vec<Value>)>,
@@ -331,7 +337,7 @@ impl World {
     pub(crate) fn new() -> World {
         let numbers = |k: usize| {
             let n: usize = FIELDS[k].1.iter().map(|n| n.unwrap_or(2)).product();
-            (0..n).map(|i| (100 * k + i) as f64).collect()
+            (0..n).map(|i| FIELDS[k].3.keep((100 * k + i) as f64)).collect()
         };
         World { fields: (0..FIELDS.len()).map(numbers).collect(), calls: Vec::new() }
     }
@@ -346,7 +352,8 @@ impl Host for World {
         if field.0 == 11 && value <= 0.0 {
             return Err("the timestep must be positive".into());
         }
-        self.fields[field.0 as usize][index] = value;
+        let (_, _, _, elem, _) = FIELDS[field.0 as usize];
+        self.fields[field.0 as usize][index] = elem.keep(value);
         Ok(())
     }
 

@@ -15,10 +15,34 @@ pub(crate) fn to_text(x: f64) -> String {
     let scientific = format!("{:e}", x.abs());
     let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
     let digits: String = mantissa.chars().filter(|c| *c != '.').collect();
+    let digits = even_of_two(digits, exponent, x.abs());
     // The value is 0.digits × 10^point.
     let point = exponent.parse::<i32>().unwrap_or(0) + 1;
     let sign = if x < 0.0 { "-" } else { "" };
     format!("{sign}{}", layout(&digits, point))
+}
+
+/// The shortest digits; where the number lies exactly between two, the even ones. Rust gives either.
+fn even_of_two(digits: String, exponent: &str, x: f64) -> String {
+    let n: u64 = digits.parse().unwrap_or(0);
+    // Fewer digits are further apart than doubles.
+    if digits.len() < 15 || n.is_multiple_of(2) {
+        return digits;
+    }
+    // The digits before the middle between two, if the number lies there.
+    let below = |shown: usize| {
+        let exact = format!("{x:.shown$e}");
+        let exact = exact.split('e').next().unwrap_or("").replace('.', "");
+        let (below, rest) = exact.split_at_checked(digits.len())?;
+        let zeros = rest.strip_prefix('5')?;
+        zeros.bytes().all(|b| b == b'0').then(|| below.to_owned())
+    };
+    // 800 digits show every double in full.
+    let Some(below) = below(40).and_then(|_| below(800)) else { return digits };
+    let even = if below == digits { n + 1 } else { n - 1 }.to_string();
+    let (first, rest) = even.split_at(1);
+    let same = format!("{first}.{rest}e{exponent}").parse() == Ok(x);
+    if same { even } else { digits }
 }
 
 /// Writes 0.`digits` × 10^`point` as the standard's `Number::toString` does.
@@ -118,6 +142,9 @@ mod tests {
             (5e-324, "5e-324"),
             (f64::MAX, "1.7976931348623157e+308"),
             (123.456, "123.456"),
+            // Exactly between two: the even one.
+            (1.204_811_096_191_406_2, "1.2048110961914062"),
+            (-1.204_811_096_191_406_2, "-1.2048110961914062"),
             (f64::NAN, "NaN"),
             (f64::NEG_INFINITY, "-Infinity"),
         ] {

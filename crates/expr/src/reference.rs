@@ -96,7 +96,7 @@ pub fn language_page(words: &Words) -> String {
     }
     out.push_str("\n`**` groups from the right, all others from the left; a sign directly before `**` is refused, as in JavaScript.\n");
     let sections = [
-        ("Methods of lists and arrays", &[On::List, On::Growing][..]),
+        ("Methods of lists and arrays", &[On::List, On::Growing, On::Untyped][..]),
         ("Methods of texts", &[On::Text]),
         ("Methods of numbers", &[On::Number]),
         ("Functions", &[On::Nothing]),
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn the_examples_give_what_they_say() {
-        let all = rows(&[On::List, On::Growing, On::Text, On::Number, On::Nothing], "data.qpos");
+        let all = rows(&[On::List, On::Growing, On::Untyped, On::Text, On::Number, On::Nothing], "data.qpos");
         for Row { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");

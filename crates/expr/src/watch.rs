@@ -140,61 +140,6 @@ fn margin(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
     })
 }
 
-/// Functions that ask whether something is a number: their answer is what was asked for.
-const ASKING: [&str; 5] = ["isNaN", "isFinite", "Number.isNaN", "Number.isFinite", "Array.isArray"];
-
-/// Methods that move elements and look at none.
-const MOVING: [&str; 19] = [
-    "_copy",
-    "_kind",
-    "_like",
-    "Array.of",
-    "Array.from",
-    "Object.entries",
-    "Object.keys",
-    "Object.values",
-    "concat",
-    "flat",
-    "pop",
-    "push",
-    "reverse",
-    "shift",
-    "slice",
-    "splice",
-    "subarray",
-    "toReversed",
-    "unshift",
-];
-
-/// Methods whose arguments are elements, and no indexes.
-const TAKING: [&str; 10] = [
-    "_copy",
-    "_kind",
-    "_like",
-    "Array.of",
-    "Array.from",
-    "Object.entries",
-    "Object.keys",
-    "Object.values",
-    "concat",
-    "push",
-];
-
-/// Whether a function loses nothing, whatever it is called with.
-pub(crate) fn asks(name: &str) -> bool {
-    ASKING.contains(&name)
-}
-
-/// Whether a method looks at the elements of what it is called on, as comparisons and texts do.
-pub(crate) fn looks(name: &str) -> bool {
-    !MOVING.contains(&name) && name != "at" && name != "with" && name != "fill" && name != "set"
-}
-
-/// Whether a method looks at its arguments.
-pub(crate) fn looks_at_arguments(name: &str) -> bool {
-    !TAKING.contains(&name) && name != "unshift"
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

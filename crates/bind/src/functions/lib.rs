@@ -1,8 +1,9 @@
 //! The functions of `lib`: what lessons ask for most, in one word.
 
+use super::access::EngineAccess;
 use super::{Arg, Function, ROW, Touches, Unit, index, number};
-use crate::World;
-use labspec_core::{self as core, Obj, enable};
+use labspec_core::reflect::data;
+use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
 
 const LIST: Function = Function { object: "lib", returns: Type::List, ..ROW };
@@ -40,8 +41,8 @@ pub(super) const ROWS: &[Function] = &[
         doc: "first coordinate of a joint",
         example: ("data.qpos[0] = 0.1; lib.qpos('swing')", "0.1"),
         run: |w, _, args| {
-            let q = w.model.jnt_qposadr.get(index(args)?).map_or(0, |&a| a as usize);
-            Ok(w.data.fields().qpos.get(q).map_or(Value::Undefined, |&x| Value::Number(x)))
+            let x = w.qpos_of(index(args)?);
+            Ok(x.map_or(Value::Undefined, Value::Number))
         },
         ..ROW
     },
@@ -59,8 +60,8 @@ pub(super) const ROWS: &[Function] = &[
             let touching = |c: &&core::Contact| geom.is_none_or(|g| c.geom1 == g || c.geom2 == g);
             // JavaScript's reduce starts from 0, not from -0.
             let mut sum = 0.0;
-            for c in w.data.fields().contact.iter().filter(touching) {
-                sum += core::contact_force(&w.model, &w.data, c)?[0];
+            for c in w.contacts().iter().filter(touching) {
+                sum += w.contact_force(c)?[0];
             }
             Ok(Value::Number(sum))
         },
@@ -90,24 +91,24 @@ pub(super) const ROWS: &[Function] = &[
         name: "sitePos",
         args: &[Arg::Name(Obj::Site)],
         length: Some(3),
-        gives: Some(("site_xpos", Obj::Site)),
+        gives: Some((data::site_xpos, Obj::Site)),
         reads: Touches::Places,
         unit: Unit::Of("m"),
         doc: "place of a site in the world, m",
         example: ("lib.sitePos('tip')[2]", "0.5"),
-        run: |w, heap, args| place(heap, &w.data.fields().site_xpos, index(args)?),
+        run: |w, heap, args| place(heap, &w.fields().site_xpos, index(args)?),
         ..LIST
     },
     Function {
         name: "bodyPos",
         args: &[Arg::Name(Obj::Body)],
         length: Some(3),
-        gives: Some(("xpos", Obj::Body)),
+        gives: Some((data::xpos, Obj::Body)),
         reads: Touches::Places,
         unit: Unit::Of("m"),
         doc: "place of a body in the world, m",
         example: ("lib.bodyPos('bob')[2]", "1"),
-        run: |w, heap, args| place(heap, &w.data.fields().xpos, index(args)?),
+        run: |w, heap, args| place(heap, &w.fields().xpos, index(args)?),
         ..LIST
     },
     Function {
@@ -130,9 +131,7 @@ pub(super) const ROWS: &[Function] = &[
         example: ("lib.contactPairs().length", "0"),
         run: |w, heap, _| {
             let pairs = w
-                .data
-                .fields()
-                .contact
+                .contacts()
                 .iter()
                 .map(|c| Value::String(format!("{} / {}", label(w, c.geom1), label(w, c.geom2)).into()));
             let pairs = pairs.collect();
@@ -179,9 +178,9 @@ pub(super) const ROWS: &[Function] = &[
         doc: "the mass matrix, nv rows of nv numbers; computes all derived fields first",
         example: ("lib.massMatrix()[0][0].toFixed(5)", "0.25036"),
         run: |w, heap, _| {
-            core::forward(&w.model, &mut w.data)?;
-            let m = core::full_m(&w.model, &w.data)?;
-            let rows: Vec<Vec<f64>> = m.chunks(w.model.nv.max(1)).map(<[f64]>::to_vec).collect();
+            w.forward()?;
+            let m = w.full_m()?;
+            let rows: Vec<Vec<f64>> = m.chunks(w.nv().max(1)).map(<[f64]>::to_vec).collect();
             matrix(heap, &rows)
         },
         ..LIST
@@ -211,30 +210,26 @@ fn place(heap: &mut Heap, places: &[f64], index: usize) -> Result<Value, String>
 }
 
 /// Potential, kinetic and total energy.
-pub(super) fn energy(w: &mut World, heap: &mut Heap) -> Result<Value, String> {
-    if !w.model.opt.enabled(enable::ENERGY) {
-        w.model.set_enabled(enable::ENERGY, true);
-        core::forward(&w.model, &mut w.data)?;
-    }
-    let [potential, kinetic] = w.data.fields().energy;
+pub(super) fn energy(w: &mut EngineAccess<'_>, heap: &mut Heap) -> Result<Value, String> {
+    let [potential, kinetic] = w.energy()?;
     let numbers = [potential, kinetic, potential + kinetic];
     let entries = ENERGIES.iter().zip(numbers).map(|((name, _), x)| ((*name).into(), Value::Number(x)));
     heap.record(entries.collect()).map_err(|_| full())
 }
 
 /// The name of a geom, or of its body.
-fn label(w: &World, geom: usize) -> &str {
-    let names = &w.model.names;
+fn label<'w>(w: &'w EngineAccess<'_>, geom: usize) -> &'w str {
+    let names = w.names();
     let own = names.geom.get(geom).map_or("", String::as_str);
-    let body = w.model.geom_bodyid.get(geom).map_or(0, |&b| b as usize);
+    let body = w.body_of(geom).unwrap_or(0);
     if own.is_empty() { names.body.get(body).map_or("", String::as_str) } else { own }
 }
 
 /// The six rows of the Jacobian of a site, or their first columns.
-fn jacobian(w: &World, site: usize, columns: Option<f64>) -> Result<Vec<Vec<f64>>, String> {
-    let nv = w.model.nv;
+fn jacobian(w: &EngineAccess<'_>, site: usize, columns: Option<f64>) -> Result<Vec<Vec<f64>>, String> {
+    let nv = w.nv();
     let width = columns.map_or(nv, |c| c.clamp(0.0, nv as f64) as usize);
-    let j = core::jac_site(&w.model, &w.data, site)?;
+    let j = w.jac_site(site)?;
     let row = |all: &[f64], i: usize| all.get(i * nv..i * nv + width).unwrap_or(&[]).to_vec();
     Ok((0..3).map(|i| row(&j.jacp, i)).chain((0..3).map(|i| row(&j.jacr, i))).collect())
 }

@@ -1,8 +1,8 @@
 //! Functions of the measures of `verify`: over the samples of a run, and on the contacts of one sample.
 
+use super::access::EngineAccess;
 use super::lib::eigenvalues;
 use super::{Arg, Function, Place, ROW, Touches, Unit, index, number};
-use crate::World;
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
@@ -22,14 +22,14 @@ const CONTACT: &[(&str, Type)] = &[
 ];
 
 /// The deepest contact of two geoms.
-fn mixed(w: &mut World, heap: &mut Heap, args: &[Value]) -> Result<Value, String> {
+fn mixed(w: &mut EngineAccess<'_>, heap: &mut Heap, args: &[Value]) -> Result<Value, String> {
     let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
     let between =
         |c: &&core::Contact| [(c.geom1, c.geom2), (c.geom2, c.geom1)].contains(&(a, b.unwrap_or(a)));
-    let contacts = w.data.fields().contact.iter().filter(between);
+    let contacts = w.contacts().iter().filter(between);
     let deepest = contacts.min_by(|c, d| c.dist.total_cmp(&d.dist));
     let force = match deepest {
-        Some(c) => core::contact_force(&w.model, &w.data, c)?,
+        Some(c) => w.contact_force(c)?,
         None => [f64::NAN; 6],
     };
     let number = |get: fn(&core::Contact) -> f64| Value::Number(deepest.map_or(f64::NAN, get));
@@ -95,7 +95,7 @@ pub(super) const ROWS: &[Function] = &[
                 let pair = [c.geom1, c.geom2];
                 pair.contains(&a) && b.is_none_or(|b| b != a && pair.contains(&b))
             };
-            Ok(Value::Boolean(w.data.fields().contact.iter().any(touch)))
+            Ok(Value::Boolean(w.contacts().iter().any(touch)))
         },
         ..ROW
     },
@@ -137,7 +137,7 @@ pub(super) const ROWS: &[Function] = &[
         place: Place::Measures,
         doc: "what a student reads under the label of a readout, as it is printed, or the number of a trace; where both have the label, the trace is called as in a table of `labspec run`: `plot/0/label`",
         example: ("max(shown('time (s)'))", "0.1"),
-        run: |w, _, args| Ok(w.shown.get(index(args)?).cloned().unwrap_or_default()),
+        run: |w, _, args| Ok(w.shown(index(args)?).cloned().unwrap_or_default()),
         ..ROW
     },
     Function {

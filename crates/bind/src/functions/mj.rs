@@ -1,7 +1,7 @@
 //! The functions of `mj`: MuJoCo's own, over the model and the data of the lab.
 
-use super::{Arg, Function, NOTHING, ROW, Touches, number};
-use labspec_core::{self as core, Obj};
+use super::{Arg, Function, NOTHING, ROW, Touches, done, number};
+use labspec_core::Obj;
 use labspec_expr::{Heap, Type, Value};
 
 /// A function of `mj` that takes the model and the data.
@@ -14,10 +14,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Coordinates, Touches::Derived],
         doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
         example: ("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]", "2"),
-        run: |w, _, _| {
-            core::set_const(&mut w.model, &mut w.data)?;
-            NOTHING
-        },
+        run: |w, _, _| done(w.set_const()),
         ..ENGINE
     },
     Function {
@@ -28,7 +25,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qpos[0] = Math.PI / 2; mj.mj_forward(model, data); data.site_xpos[0].toFixed(3)",
             "-0.500",
         ),
-        run: |w, _, _| w.call_engine(core::forward),
+        run: |w, _, _| done(w.forward()),
         ..ENGINE
     },
     Function {
@@ -36,7 +33,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::State, Touches::Derived],
         doc: "advances the simulation by one step",
         example: ("mj.mj_step(model, data); data.time", "0.002"),
-        run: |w, _, _| w.call_engine(core::step),
+        run: |w, _, _| done(w.step()),
         ..ENGINE
     },
     Function {
@@ -44,7 +41,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::State, Touches::Derived],
         doc: "puts the data back to the default configuration",
         example: ("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]", "0"),
-        run: |w, _, _| w.call_engine(core::reset_data),
+        run: |w, _, _| done(w.reset_data()),
         ..ENGINE
     },
     Function {
@@ -55,11 +52,10 @@ pub(super) const ROWS: &[Function] = &[
         example: ("mj.mj_resetDataKeyframe(model, data, 1); data.qpos[0]", "1.5"),
         run: |w, _, args| {
             let key = args.first().map_or(0.0, Value::to_number);
-            if !(key >= 0.0 && key < w.model.nkey as f64) {
-                return Err(format!("there is no keyframe {key}: the model has {}", w.model.nkey));
+            if !(key >= 0.0 && key < w.nkey() as f64) {
+                return Err(format!("there is no keyframe {key}: the model has {}", w.nkey()));
             }
-            w.reset_to(Some(key as usize))?;
-            NOTHING
+            done(w.reset_to(Some(key as usize)))
         },
         ..ENGINE
     },
@@ -68,7 +64,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Derived],
         doc: "computes what follows from position and velocity: the first half of a step",
         example: ("mj.mj_step1(model, data); data.time", "0"),
-        run: |w, _, _| w.call_engine(core::step1),
+        run: |w, _, _| done(w.step1()),
         ..ENGINE
     },
     Function {
@@ -76,7 +72,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::State, Touches::Derived],
         doc: "computes forces and advances the simulation: the second half of a step",
         example: ("mj.mj_step1(model, data); mj.mj_step2(model, data); data.time", "0.002"),
-        run: |w, _, _| w.call_engine(core::step2),
+        run: |w, _, _| done(w.step2()),
         ..ENGINE
     },
     Function {
@@ -88,7 +84,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qpos[0] = Math.PI; mj.mj_kinematics(model, data); data.site_xpos[2].toFixed(2)",
             "1.50",
         ),
-        run: |w, _, _| w.call_engine(core::kinematics),
+        run: |w, _, _| done(w.kinematics()),
         ..ENGINE
     },
     Function {
@@ -99,7 +95,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qpos[0] = Math.PI; mj.mj_fwdPosition(model, data); data.site_xpos[2].toFixed(2)",
             "1.50",
         ),
-        run: |w, _, _| w.call_engine(core::fwd_position),
+        run: |w, _, _| done(w.fwd_position()),
         ..ENGINE
     },
     Function {
@@ -111,7 +107,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qvel[0] = 2; mj.mj_fwdPosition(model, data); mj.mj_fwdVelocity(model, data); data.cvel[7]",
             "2",
         ),
-        run: |w, _, _| w.call_engine(core::fwd_velocity),
+        run: |w, _, _| done(w.fwd_velocity()),
         ..ENGINE
     },
     Function {
@@ -120,7 +116,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Contacts],
         doc: "finds the contacts of geoms where they are now",
         example: ("mj.mj_kinematics(model, data); mj.mj_collision(model, data); data.ncon", "0"),
-        run: |w, _, _| w.call_engine(core::collision),
+        run: |w, _, _| done(w.collision()),
         ..ENGINE
     },
     Function {
@@ -130,8 +126,7 @@ pub(super) const ROWS: &[Function] = &[
         example: ("ctx.q = [0.5]; mj.mj_integratePos(model, ctx.q, [2], 0.1); ctx.q[0]", "0.7"),
         run: |w, heap, args| {
             let mut q = numbers(heap, args, 0)?;
-            core::integrate_pos(
-                &w.model,
+            w.integrate_pos(
                 &mut q,
                 &numbers(heap, args, 1)?,
                 args.get(2).map_or(f64::NAN, Value::to_number),
@@ -150,12 +145,7 @@ pub(super) const ROWS: &[Function] = &[
         ),
         run: |w, heap, args| {
             let [from, to] = [numbers(heap, args, 2)?, numbers(heap, args, 3)?];
-            let v = core::differentiate_pos(
-                &w.model,
-                args.get(1).map_or(f64::NAN, Value::to_number),
-                &from,
-                &to,
-            )?;
+            let v = w.differentiate_pos(args.get(1).map_or(f64::NAN, Value::to_number), &from, &to)?;
             written(
                 heap,
                 args,
@@ -171,7 +161,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Energy],
         doc: "computes the potential energy of the poses at hand into data.energy[0], J",
         example: ("mj.mj_energyPos(model, data); data.energy[0]", "4.905"),
-        run: |w, _, _| w.call_engine(core::energy_pos),
+        run: |w, _, _| done(w.energy_pos()),
         ..ENGINE
     },
     Function {
@@ -180,7 +170,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Energy],
         doc: "computes the kinetic energy of the velocities at hand into data.energy[1], J",
         example: ("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)", "0.50072"),
-        run: |w, _, _| w.call_engine(core::energy_vel),
+        run: |w, _, _| done(w.energy_vel()),
         ..ENGINE
     },
     Function {
@@ -189,10 +179,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Derived],
         doc: "computes qfrc_inverse, the generalized force that causes the acceleration in qacc",
         example: ("mj.mj_inverse(model, data); Math.abs(data.qfrc_inverse[0]).toFixed(4)", "0.0000"),
-        run: |w, _, _| {
-            core::inverse(&w.model, &mut w.data)?;
-            NOTHING
-        },
+        run: |w, _, _| done(w.inverse()),
         ..ENGINE
     },
     Function {
@@ -204,7 +191,7 @@ pub(super) const ROWS: &[Function] = &[
             "data.qvel[0] = 2; mj.mj_forward(model, data); mj.mj_subtreeVel(model, data); data.subtree_linvel[3].toFixed(3)",
             "-1.000",
         ),
-        run: |w, _, _| w.call_engine(core::subtree_vel),
+        run: |w, _, _| done(w.subtree_vel()),
         ..ENGINE
     },
     Function {
@@ -213,7 +200,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Derived],
         doc: "computes accelerations of bodies and the forces between them",
         example: ("mj.mj_rnePostConstraint(model, data); data.cfrc_int[11].toFixed(2)", "9.81"),
-        run: |w, _, _| w.call_engine(core::rne_post_constraint),
+        run: |w, _, _| done(w.rne_post_constraint()),
         ..ENGINE
     },
     Function {
@@ -227,14 +214,14 @@ pub(super) const ROWS: &[Function] = &[
         ),
         run: |w, heap, args| {
             let id = number(args)?;
-            let found = if id >= 0.0 { w.data.fields().contact.get(id as usize) } else { None };
+            let found = if id >= 0.0 { w.contacts().get(id as usize) } else { None };
             let Some(contact) = found else {
                 return Err(format!(
                     "there is no contact {id}: there are {} now; test `data.ncon` first",
-                    w.data.fields().ncon
+                    w.fields().ncon
                 ));
             };
-            let force = core::contact_force(&w.model, &w.data, contact)?;
+            let force = w.contact_force(contact)?;
             if !args.get(1).is_some_and(|list| heap.overwrite(list, &force)) {
                 return Err("the fourth argument takes the result: write `const f = [0, 0, 0, 0, 0, 0]` before, and `f` here".into());
             }
@@ -250,7 +237,7 @@ pub(super) const ROWS: &[Function] = &[
         example: ("mj.mj_name2id(model, mj.mjtObj.mjOBJ_BODY.value, 'bob')", "1"),
         run: |w, _, args| {
             let name = args.get(1).map(Value::to_string).unwrap_or_default();
-            let id = kind(number(args)?).and_then(|kind| w.model.names.id(kind, &name));
+            let id = kind(number(args)?).and_then(|kind| w.names().id(kind, &name));
             Ok(Value::Number(id.map_or(-1.0, |i| i as f64)))
         },
         ..ENGINE
@@ -263,7 +250,7 @@ pub(super) const ROWS: &[Function] = &[
         example: ("mj.mj_id2name(model, mj.mjtObj.mjOBJ_SITE.value, 0)", "tip"),
         run: |w, _, args| {
             let index = args.get(1).map_or(-1.0, Value::to_number);
-            let names = kind(number(args)?).map(|kind| w.model.names.of(kind)).unwrap_or(&[]);
+            let names = kind(number(args)?).map(|kind| w.names().of(kind)).unwrap_or(&[]);
             let name = if index >= 0.0 { names.get(index as usize) } else { None };
             let name = name.filter(|n| !n.is_empty());
             Ok(name.map_or(Value::Null, |n| Value::from(n.as_str())))

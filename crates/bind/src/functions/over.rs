@@ -1,8 +1,9 @@
 //! Functions of what `verify` claims of several runs: over the numbers that a measure has in the members of a sweep.
 
+use super::access::EngineAccess;
 use super::{Arg, Function, Place, ROW, Unit};
-use crate::world::{NUMBERS, World};
-use labspec_expr::{Heap, Host, Value};
+use crate::world::NUMBERS;
+use labspec_expr::{Heap, Value};
 
 const OVER: Function = Function { args: &[Arg::Any], place: Place::Claims, ..ROW };
 
@@ -79,11 +80,15 @@ fn ln(x: f64) -> f64 {
 }
 
 /// What an argument lists, and where that begins among the numbers of the sweeps.
-fn numbers(w: &World, heap: &Heap, arg: Option<&Value>) -> Result<(Vec<f64>, Option<usize>), String> {
+fn numbers(
+    w: &EngineAccess<'_>,
+    heap: &Heap,
+    arg: Option<&Value>,
+) -> Result<(Vec<f64>, Option<usize>), String> {
     match arg {
         Some(Value::View(view)) if view.field == NUMBERS => {
             let first = view.first as usize;
-            let all = (first..first + view.count().unwrap_or(0)).map_while(|i| w.get(NUMBERS, i));
+            let all = (first..first + view.count().unwrap_or(0)).map_while(|i| w.number(i));
             Ok((all.collect(), Some(first)))
         }
         Some(list) => heap.to_numbers(list).map(|list| (list, None)).ok_or_else(|| {
@@ -95,7 +100,7 @@ fn numbers(w: &World, heap: &Heap, arg: Option<&Value>) -> Result<(Vec<f64>, Opt
 
 /// The numbers of a measure, and the values that they belong to, which stand just before them.
 fn pairs(
-    w: &World,
+    w: &EngineAccess<'_>,
     heap: &Heap,
     y: Option<&Value>,
     x: Option<&Value>,
@@ -104,7 +109,7 @@ fn pairs(
     let x = match (x, first) {
         (Some(Value::Undefined) | None, Some(first)) => {
             let before = first.checked_sub(y.len()).ok_or("these numbers belong to no values")?;
-            (before..first).map_while(|i| w.get(NUMBERS, i)).collect()
+            (before..first).map_while(|i| w.number(i)).collect()
         }
         (Some(Value::Undefined) | None, None) => {
             return Err(
@@ -116,7 +121,7 @@ fn pairs(
     if x.len() == y.len() { Ok((y, x)) } else { Err("the two lists have different lengths".into()) }
 }
 
-fn fold(w: &World, heap: &Heap, args: &[Value], of: fn(f64, f64) -> f64) -> Result<Value, String> {
+fn fold(w: &EngineAccess<'_>, heap: &Heap, args: &[Value], of: fn(f64, f64) -> f64) -> Result<Value, String> {
     let (list, _) = numbers(w, heap, args.first())?;
     // What is no number in one member is no number of all.
     let all = list.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { of(a, b) });

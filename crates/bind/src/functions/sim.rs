@@ -1,8 +1,7 @@
 //! The functions of `sim`: the simulation as the page sees it. Playing and pausing mean nothing without a page.
 
 use super::lib::{ENERGIES, energy};
-use super::{Function, NOTHING, ROW, Touches, Unit};
-use labspec_core as core;
+use super::{Function, ROW, Touches, Unit, done};
 use labspec_expr::{Type, Value};
 
 const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
@@ -21,10 +20,7 @@ pub(super) const ROWS: &[Function] = &[
         writes: &[Touches::Derived],
         doc: "computes every derived field from the state",
         example: ("data.qpos[0] = Math.PI; sim.forward(); data.site_xpos[2].toFixed(2)", "1.50"),
-        run: |w, _, _| {
-            core::forward(&w.model, &mut w.data)?;
-            NOTHING
-        },
+        run: |w, _, _| done(w.forward()),
         ..SIM
     },
     Function {
@@ -33,9 +29,8 @@ pub(super) const ROWS: &[Function] = &[
         doc: "puts the data back to the start, or to the keyframe of the lab, and computes the derived fields",
         example: ("data.qpos[0] = 1; sim.reset(); data.qpos[0]", "0"),
         run: |w, _, _| {
-            w.reset_to(w.key)?;
-            core::forward(&w.model, &mut w.data)?;
-            NOTHING
+            w.reset()?;
+            done(w.forward())
         },
         ..SIM
     },
@@ -60,8 +55,8 @@ pub(super) const ROWS: &[Function] = &[
         run: |w, heap, _| {
             let full = |_| "the lists of this lab take too much memory".to_owned();
             let mut contacts = Vec::new();
-            for c in &w.data.fields().contact {
-                let force = core::contact_force(&w.model, &w.data, c)?;
+            for c in w.contacts() {
+                let force = w.contact_force(c)?;
                 let entries = vec![
                     ("geom1".into(), Value::Number(c.geom1 as f64)),
                     ("geom2".into(), Value::Number(c.geom2 as f64)),

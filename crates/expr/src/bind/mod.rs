@@ -159,6 +159,11 @@ impl<'s> Compiler<'s> {
         let bound = types::bind(self, source, tree, &names, id);
         found.extend(lints::look(self.schema, source, tree, &bound.typed));
         found.extend(bound.found);
+        // Nothing is left out of a program without a word.
+        if let Some(span) = bound.unresolved.filter(|_| !found.iter().any(Finding::is_error)) {
+            let name = source.get(span.start..span.end).unwrap_or("");
+            found.push(Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here")));
+        }
         let failed = told || found.iter().any(Finding::is_error);
         let parts = bound.program.filter(|_| !failed);
         let measured = parts.as_ref().zip(self.given).map(|(parts, given)| {

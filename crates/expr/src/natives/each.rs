@@ -38,9 +38,9 @@ pub(super) static ROWS: &[Row] = table! {
     "findLastIndex" List: "[1, 2, 3].findLastIndex(x => x > 1)" => "2",
         "index of the last element for which a condition holds, or -1",
         1 => "(v, f) => { for (let i = v.length - 1; i >= 0; i--) if (f(v[i], i, v)) return i; return -1 }";
-    "flatMap" List: "[1, 2].flatMap(x => [x, x])" => "1,1,2,2",
+    "flatMap" Untyped: "[1, 2].flatMap(x => [x, x])" => "1,1,2,2",
         "a list of what a function makes of each element; lists that it makes are taken apart",
-        1 => "(v, f) => { const n = v.length, r = []; for (let i = 0; i < n; i++) { const x = f(v[i], i, v); if (Array.isArray(x)) { for (const y of x) r.push(y) } else r.push(x) } return r }";
+        1 => "(v, f) => { const n = _untyped(v).length, r = []; for (let i = 0; i < n; i++) { const x = f(v[i], i, v); if (Array.isArray(x)) { for (const y of x) r.push(y) } else r.push(x) } return r }";
     "forEach" List: "[1, 2].forEach(x => x)" => "undefined",
         "calls a function for each element",
         1 => "(v, f) => { const n = v.length; for (let i = 0; i < n; i++) f(v[i], i, v) }";

@@ -35,6 +35,9 @@ pub(crate) struct Env<'a> {
     pub(crate) budget: &'a mut u64,
 }
 
+/// Lists inside of each other whose text is made.
+const MAX_DEPTH: usize = 200;
+
 /// What an element counts.
 const ELEMENT: u64 = 10;
 
@@ -116,25 +119,67 @@ impl Env<'_> {
         })
     }
 
-    /// JavaScript's `String(v)`.
+    /// JavaScript's `String(v)`. A function has a text there, that of its source, and none here.
     pub(crate) fn text(&mut self, value: &Value) -> Result<String, Trouble> {
-        let text = match value {
-            Value::View(_) => {
-                let items = self.items(value)?;
-                let parts: Vec<String> = items.iter().map(Value::to_string).collect();
-                parts.join(",")
-            }
-            Value::String(text) => return Ok(text.to_string()),
-            _ => self.heap.text(value),
-        };
+        self.text_within(value, &mut Vec::new())
+    }
+
+    /// As [`Env::text`], inside of lists whose texts are being made: in their own text they are empty.
+    pub(crate) fn text_within(&mut self, value: &Value, lists: &mut Vec<Value>) -> Result<String, Trouble> {
+        if let Value::String(text) = value {
+            return Ok(text.to_string());
+        }
+        let mut text = String::new();
+        self.write(value, lists, &mut text)?;
         self.spend(text.len() / 16)?;
         if text.len() > MAX_TEXT { Err(too_long()) } else { Ok(text) }
+    }
+
+    fn write(&mut self, value: &Value, lists: &mut Vec<Value>, out: &mut String) -> Result<(), Trouble> {
+        match value {
+            Value::String(text) => out.push_str(text),
+            Value::Function(_) => {
+                return Err(Trouble::new(
+                    rules::NOT_A_VALUE,
+                    "a function is used as a text: it is not called",
+                ));
+            }
+            Value::List(_) | Value::View(_) => {
+                if lists.iter().any(|list| list.strictly_equals(value)) {
+                    return Ok(());
+                }
+                if lists.len() >= MAX_DEPTH {
+                    let message = format!("lists stand in each other more than {MAX_DEPTH} deep");
+                    return Err(Trouble::new(rules::TEXT_TOO_LONG, message));
+                }
+                lists.push(value.clone());
+                for (i, item) in self.items(value)?.iter().enumerate() {
+                    if i > 0 {
+                        out.push(',');
+                    }
+                    if !item.is_nothing() {
+                        self.write(item, lists, out)?;
+                    }
+                    if out.len() > MAX_TEXT {
+                        return Err(too_long());
+                    }
+                }
+                lists.pop();
+            }
+            other => out.push_str(&other.to_string()),
+        }
+        Ok(())
     }
 
     /// JavaScript's `Number(v)`.
     pub(crate) fn number(&mut self, value: &Value) -> Result<f64, Trouble> {
         match value {
-            Value::List(_) | Value::View(_) => Ok(crate::number::from_text(&self.text(value)?)),
+            Value::List(_) | Value::View(_) => match self.text(value) {
+                Ok(text) => Ok(crate::number::from_text(&text)),
+                // The text of a function is never that of a number.
+                Err(trouble) if trouble.rule == rules::NOT_A_VALUE => Ok(f64::NAN),
+                Err(trouble) => Err(trouble),
+            },
             other => Ok(other.to_number()),
         }
     }

@@ -1,60 +1,62 @@
 //! Methods of lists, typed arrays and arrays of the host (ECMAScript, "Array Objects", "TypedArray Objects").
 
 use super::env::{arg, integer, range, relative};
-use super::{Env, MANY, Outcome, Row, Trouble, table};
+use super::{Env, MANY, Outcome, Row, Trouble, no_method, table};
 use crate::heap::Object;
 use crate::rules;
 use crate::schema::Elem;
 use crate::value::{Value, View};
 
 pub(super) static ROWS: &[Row] = table! {
-    "at" List (1, 1) Item at: "[1, 2, 3].at(-1)" => "3",
+    "at" List (1, 1) Item Moves at: "[1, 2, 3].at(-1)" => "3",
         "element at an index, which counts from the end when negative";
-    "concat" List (0, MANY) List concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
+    "concat" Untyped (0, MANY) List Keeps concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
         "a list of all elements";
-    "fill" List changes (1, 3) Receiver fill: "[1, 2, 3].fill(0, 1)" => "1,0,0",
+    "fill" List changes (1, 3) Receiver Moves fill: "[1, 2, 3].fill(0, 1)" => "1,0,0",
         "stores one value in all elements, or in those from one index up to another";
-    "flat" List (0, 1) List flat: "[1, [2, 3]].flat()" => "1,2,3",
+    "flat" Untyped (0, 1) List Moves flat: "[1, [2, 3]].flat()" => "1,2,3",
         "the elements, and the elements of the lists among them";
-    "includes" List (1, 2) Boolean includes: "[1, 2].includes(2)" => "true",
+    "includes" List (1, 2) Boolean Looks includes: "[1, 2].includes(2)" => "true",
         "whether a value is among the elements";
-    "indexOf" List (1, 2) Number index_of: "[5, 6].indexOf(6)" => "1",
+    "indexOf" List (1, 2) Number Looks index_of: "[5, 6].indexOf(6)" => "1",
         "index of the first element with a value, or -1";
-    "join" List (0, 1) String join: "[1, 2].join(' / ')" => "1 / 2",
+    "join" List (0, 1) String Looks join: "[1, 2].join(' / ')" => "1 / 2",
         "the elements as one text, with a text between them (a comma)";
-    "lastIndexOf" List (1, 2) Number last_index_of: "[5, 6, 5].lastIndexOf(5)" => "2",
+    "lastIndexOf" List (1, 2) Number Looks last_index_of: "[5, 6, 5].lastIndexOf(5)" => "2",
         "index of the last element with a value, or -1";
-    "pop" Growing changes (0, 0) Any pop: "[1, 2].pop()" => "2",
+    "pop" Growing changes (0, 0) Any Moves pop: "[1, 2].pop()" => "2",
         "takes the last element away, and gives it";
-    "push" Growing changes (0, MANY) Number push: "[1, 2].push(3)" => "3",
+    "push" Growing changes (0, MANY) Number Keeps push: "[1, 2].push(3)" => "3",
         "appends elements, and gives the new length";
-    "reverse" List changes (0, 0) Receiver reverse: "[1, 2, 3].reverse()" => "3,2,1",
+    "reverse" List changes (0, 0) Receiver Moves reverse: "[1, 2, 3].reverse()" => "3,2,1",
         "turns the order of the elements around";
-    "set" List changes (1, 2) Undefined set: "{array}.slice(0, 2).set([0, 1])" => "undefined",
+    "set" List changes (1, 2) Undefined Moves set: "{array}.slice(0, 2).set([0, 1])" => "undefined",
         "stores values one after the other, from an index on";
-    "shift" Growing changes (0, 0) Any shift: "[1, 2].shift()" => "1",
+    "shift" Growing changes (0, 0) Any Moves shift: "[1, 2].shift()" => "1",
         "takes the first element away, and gives it";
-    "slice" List (0, 2) List slice: "[1, 2, 3].slice(1)" => "2,3",
+    "slice" List (0, 2) List Moves slice: "[1, 2, 3].slice(1)" => "2,3",
         "a copy of the elements from one index up to another; indexes count from the end when negative";
-    "sort" List changes (0, 0) Receiver sort: "[3, 10, 2].sort()" => "10,2,3",
+    "sort" List changes (0, 0) Receiver Looks sort: "[3, 10, 2].sort()" => "10,2,3",
         "sorts the elements: of a list as texts, of an array as numbers; `sort((a, b) => a - b)` sorts by a function";
-    "splice" Growing changes (1, MANY) List splice: "[1, 2, 3].splice(1, 1)" => "2",
+    "splice" Growing changes (1, MANY) List Moves splice: "[1, 2, 3].splice(1, 1)" => "2",
         "takes elements away from an index on, puts others there, and gives those that were taken";
-    "subarray" List (0, 2) Receiver subarray: "{array}.subarray(0, 2).length" => "2",
+    "subarray" List (0, 2) Receiver Moves subarray: "{array}.subarray(0, 2).length" => "2",
         "a part of an array of the host, not a copy";
-    "toReversed" List (0, 0) List to_reversed: "[1, 2].toReversed()" => "2,1",
+    "toReversed" List (0, 0) List Moves to_reversed: "[1, 2].toReversed()" => "2,1",
         "a copy in reverse order";
-    "toSorted" List (0, 0) List to_sorted: "[3, 1, 2].toSorted()" => "1,2,3",
+    "toSorted" List (0, 0) List Looks to_sorted: "[3, 1, 2].toSorted()" => "1,2,3",
         "a sorted copy, see `sort`";
-    "unshift" Growing changes (0, MANY) Number unshift: "[2].unshift(1)" => "2",
+    "unshift" Growing changes (0, MANY) Number Keeps unshift: "[2].unshift(1)" => "2",
         "puts elements in front, and gives the new length";
-    "with" List (2, 2) List with: "[1, 2].with(0, 5)" => "5,2",
+    "with" List (2, 2) List Moves with: "[1, 2].with(0, 5)" => "5,2",
         "a copy with one element replaced";
-    "_like" Nothing (2, 2) List like: "" => "", "";
-    "_kind" Nothing (2, 2) List kind: "" => "", "";
-    "_empty" Nothing (0, 0) Element empty: "" => "", "";
-    "_copy" Nothing (1, 1) List copy: "" => "", "";
-    "_parts" Nothing (1, 1) List parts: "" => "", "";
+    "_like" Nothing (2, 2) List Keeps like: "" => "", "";
+    "_kind" Nothing (2, 2) List Keeps kind: "" => "", "";
+    "_empty" Nothing (0, 0) Element Keeps empty: "" => "", "";
+    "_copy" Nothing (1, 1) List Keeps copy: "" => "", "";
+    "_list" Nothing (2, 2) Any Keeps only_list: "" => "", "";
+    "_untyped" Nothing (1, 1) List Keeps untyped: "" => "", "";
+    "_parts" Nothing (1, 1) List Keeps parts: "" => "", "";
 };
 
 /// What the elements are when a value holds numbers only: a typed array, or an array of the host.
@@ -216,12 +218,13 @@ fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
         other => env.text(other)?,
     };
     let mut text = String::new();
+    let mut lists = vec![list.clone()];
     for (i, item) in env.items(list)?.iter().enumerate() {
         if i > 0 {
             text.push_str(&between);
         }
         if !item.is_nothing() {
-            text.push_str(&env.text(item)?);
+            text.push_str(&env.text_within(item, &mut lists)?);
         }
         if text.len() > crate::heap::MAX_TEXT {
             return Err(super::env::too_long());
@@ -415,6 +418,23 @@ fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 /// What `reduce` of nothing does.
 fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
     Err(Trouble::new(rules::NO_PARTS, "`reduce` of a list without elements needs a first value"))
+}
+
+/// A list or an array, on which a method of this name is called.
+fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    match arg(args, 0) {
+        list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
+        other => Err(no_method(other, &arg(args, 1).to_string())),
+    }
+}
+
+/// Lists have `flatMap`, typed arrays not.
+fn untyped(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+    let list = arg(args, 0);
+    match env.heap.object(list) {
+        Object::List(_) => Ok(list.clone()),
+        _ => Err(no_method(list, "flatMap")),
+    }
 }
 
 fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {

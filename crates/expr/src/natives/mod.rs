@@ -17,7 +17,7 @@ pub(crate) use text::whole;
 use std::sync::OnceLock;
 
 use crate::ast::{ExprKind, Function};
-use crate::heap::Object;
+use crate::heap::{Heap, Object};
 use crate::parse::parse_expression;
 use crate::rules;
 use crate::schema::Type;
@@ -30,6 +30,8 @@ pub(crate) enum On {
     List,
     /// Lists alone: what changes the number of elements.
     Growing,
+    /// Lists alone: typed arrays do not have it.
+    Untyped,
     Text,
     Number,
     /// `Array.name`, `Number.name`; a name without a point stands alone.
@@ -52,6 +54,34 @@ pub(crate) enum Gives {
     Item,
 }
 
+/// What becomes of NaN, and of `undefined` where that counts, among the elements of what a method is called on and among its
+/// arguments ([`crate::Watch`]). What is looked at is lost, unless the result is NaN again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Nan {
+    /// Elements and arguments decide the result, as comparisons and texts do.
+    Looks,
+    /// Elements are moved and none is looked at; the arguments say where.
+    Moves,
+    /// Elements and arguments are handed on.
+    Keeps,
+    /// Whether something is a number is what is asked for.
+    Asks,
+    /// It is lost where the text in the language loses it.
+    Written,
+}
+
+impl Nan {
+    /// Whether the elements of what it is called on are looked at.
+    pub(crate) fn of_elements(self) -> bool {
+        self == Nan::Looks
+    }
+
+    /// Whether the arguments are looked at.
+    pub(crate) fn of_arguments(self) -> bool {
+        matches!(self, Nan::Looks | Nan::Moves)
+    }
+}
+
 /// How a method is computed.
 pub(crate) enum Body {
     /// By the machine, with at least and at most so many arguments.
@@ -69,6 +99,8 @@ pub(crate) struct Row {
     pub(crate) gives: Gives,
     /// It changes the elements of what it is called on.
     pub(crate) changes: bool,
+    /// What becomes of NaN.
+    pub(crate) nan: Nan,
     pub(crate) doc: &'static str,
     /// An expression and its value, as text. `{array}` stands for an array of the host.
     example: (&'static str, &'static str),
@@ -82,16 +114,17 @@ type Outcome = Result<Value, Trouble>;
 const MANY: usize = usize::MAX;
 
 /// Rows, as they are written in the files beside this one: name, what it belongs to, the number of arguments, what it gives,
-/// the function, an example with its value, the meaning. Of those that are written in the language the texts stand last,
+/// what becomes of NaN, the function, an example with its value, the meaning. Of those that are written in the language the texts stand last,
 /// each with its number of arguments.
 macro_rules! table {
-    ($($name:literal $on:ident $($changes:ident)? ($least:expr, $most:expr) $gives:ident $run:ident:
+    ($($name:literal $on:ident $($changes:ident)? ($least:expr, $most:expr) $gives:ident $nan:ident $run:ident:
         $example:literal => $value:literal, $doc:literal;)*) => {
         &[$(Row {
             name: $name,
             on: super::On::$on,
             gives: super::Gives::$gives,
             changes: !stringify!($($changes)?).is_empty(),
+            nan: super::Nan::$nan,
             doc: $doc,
             example: ($example, $value),
             body: super::Body::Run($run, $least, $most),
@@ -104,6 +137,7 @@ macro_rules! table {
             on: super::On::$on,
             gives: super::Gives::Any,
             changes: !stringify!($($changes)?).is_empty(),
+            nan: super::Nan::Written,
             doc: $doc,
             example: ($example, $value),
             body: super::Body::Written(&[($first, $text) $(, ($next, $more))?]),
@@ -192,7 +226,7 @@ impl Row {
         matches!(ty, Type::Any | Type::Never)
             || match self.on {
                 On::List => matches!(ty, Type::List | Type::View),
-                On::Growing => ty == Type::List,
+                On::Growing | On::Untyped => ty == Type::List,
                 On::Text => ty == Type::String,
                 On::Number => matches!(ty, Type::Number | Type::Element),
                 On::Nothing => false,
@@ -272,25 +306,35 @@ fn function(text: &str) -> Option<Function> {
     }
 }
 
+/// The row by which the machine computes a method of a value, if it has it.
+pub(crate) fn row_of(heap: &Heap, name: Name, receiver: &Value) -> Option<&'static Row> {
+    let list = matches!(heap.object(receiver), Object::List(_));
+    // A typed array alone has `set` and `subarray`.
+    if list && matches!(name.text(), "set" | "subarray") {
+        return None;
+    }
+    name.rows().filter(|row| !row.calls()).find(|row| match (row.on, receiver) {
+        (On::List, Value::List(_) | Value::View(_))
+        | (On::Text, Value::String(_))
+        | (On::Number, Value::Number(_)) => true,
+        (On::Growing | On::Untyped, Value::List(_)) => list,
+        _ => false,
+    })
+}
+
 /// Calls a method.
 pub(crate) fn call(env: &mut Env<'_>, name: Name, receiver: &Value, args: &[Value]) -> Outcome {
-    let list = matches!(env.heap.object(receiver), Object::List(_));
-    let run = name.rows().find_map(|row| match (&row.body, row.on, receiver) {
-        (Body::Run(run, ..), On::List, Value::List(_) | Value::View(_))
-        | (Body::Run(run, ..), On::Text, Value::String(_))
-        | (Body::Run(run, ..), On::Number, Value::Number(_)) => Some(run),
-        (Body::Run(run, ..), On::Growing, Value::List(_)) if list => Some(run),
-        _ => None,
-    });
-    match run {
-        // A typed array alone has `set` and `subarray`.
-        Some(run) if !(list && matches!(name.text(), "set" | "subarray")) => run(env, receiver, args),
-        _ => {
-            let what = receiver.type_of().describe();
-            let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
-            Err(Trouble::new(rules::NOT_CALLABLE, format!("{what} has no method `{}`", name.text())))
-        }
+    match row_of(env.heap, name, receiver).map(|row| &row.body) {
+        Some(Body::Run(run, ..)) => run(env, receiver, args),
+        _ => Err(no_method(receiver, name.text())),
     }
+}
+
+/// Why a method is not called.
+fn no_method(receiver: &Value, name: &str) -> Trouble {
+    let what = receiver.type_of().describe();
+    let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
+    Trouble::new(rules::NOT_CALLABLE, format!("{what} has no method `{name}`"))
 }
 
 /// Calls a function.
@@ -304,6 +348,71 @@ pub(crate) fn call_free(env: &mut Env<'_>, function: Free, args: &[Value]) -> Ou
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mock::World;
+
+    /// What a row makes of `[9, element, 7]` and these arguments, with `X` in the place of each `element` and `argument`.
+    fn outcome(row: &Row, element: f64, argument: f64, args: &[f64]) -> String {
+        fn show(heap: &Heap, value: &Value, unknown: [f64; 2]) -> String {
+            match value {
+                Value::Number(x) if unknown.iter().any(|u| u.to_bits() == x.to_bits()) => "X".into(),
+                Value::List(_) => {
+                    let items = (0..heap.len(value).unwrap()).map(|i| heap.item(value, i).unwrap());
+                    format!("[{}]", items.map(|v| show(heap, &v, unknown)).collect::<Vec<_>>().join(" "))
+                }
+                other => other.to_string(),
+            }
+        }
+        let Body::Run(run, ..) = row.body else { return String::new() };
+        let (mut heap, mut host, mut budget) = (Heap::default(), World::new(), u64::MAX);
+        let items = [9.0, element, 7.0].map(Value::Number);
+        let receiver = match row.name {
+            "set" => heap.numbers(&[9.0, element, 7.0]).unwrap(),
+            _ => heap.list(items.to_vec()).unwrap(),
+        };
+        let number = |x: &f64| Value::Number(if *x == 8.0 { argument } else { *x });
+        let args: Vec<Value> = args.iter().map(number).collect();
+        let mut env = Env { heap: &mut heap, host: &mut host, views: &[], budget: &mut budget };
+        let result = run(&mut env, &receiver, &args).map_err(|e| e.message);
+        let shown = |value: &Value| show(&heap, value, [element, argument]);
+        format!("{} {}", result.as_ref().map_or_else(Clone::clone, &shown), shown(&receiver))
+    }
+
+    #[test]
+    fn every_row_states_what_becomes_of_nan() {
+        let arguments: [&[f64]; 10] = [
+            &[8.5],
+            &[],
+            &[1.0],
+            &[8.0],
+            &[0.0, 2.0],
+            &[0.0, 8.0],
+            &[8.0, 8.0],
+            &[8.0, 1.0],
+            &[1.0, 1.0, 8.0],
+            &[1.0, 2.0, 3.0],
+        ];
+        for row in all() {
+            let lists = matches!(row.on, On::List | On::Growing | On::Untyped);
+            // Every function written in the language states it by its text, and those alone.
+            assert_eq!(row.nan == Nan::Written, row.calls(), "{}", row.name);
+            // Names with an underscore are called with what the texts of methods hand them: a list, and its length.
+            if row.calls() || row.name.starts_with('_') || !(lists || row.on == On::Nothing) {
+                continue;
+            }
+            let (least, most) = row.arity();
+            let fitting = || arguments.into_iter().filter(|args| (least..=most).contains(&args.len()));
+            let of = |element, argument, args: &&[f64]| outcome(row, element, argument, args);
+            let elements = lists && fitting().any(|args| of(8.5, 1.5, &args) != of(f64::NAN, 1.5, &args));
+            let arguments = fitting().any(|args| of(8.5, 8.0, &args) != of(8.5, f64::NAN, &args));
+            let moved = lists
+                && fitting().filter(|a| !a.contains(&8.5)).any(|a| of(8.5, 1.5, &a) != of(f64::NAN, 1.5, &a));
+            let asks = row.nan == Nan::Asks;
+            assert!(row.nan.of_elements() || !moved || asks, "{} looks at elements", row.name);
+            assert!(row.nan.of_arguments() || !arguments || asks, "{} looks at arguments", row.name);
+            // What is said to look does.
+            assert!(!(lists && row.nan.of_elements()) || elements, "{} looks at no element", row.name);
+        }
+    }
 
     #[test]
     fn every_method_that_is_written_is_read_without_a_mistake() {

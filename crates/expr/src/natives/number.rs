@@ -7,33 +7,33 @@ use crate::rules;
 use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
-    "toExponential" Number (0, 1) String to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
+    "toExponential" Number (0, 1) String Looks to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
         "in exponential form with so many decimals";
-    "toFixed" Number (0, 1) String to_fixed_method: "(2.345).toFixed(1)" => "2.3",
+    "toFixed" Number (0, 1) String Looks to_fixed_method: "(2.345).toFixed(1)" => "2.3",
         "with so many decimals";
-    "toPrecision" Number (0, 1) String to_precision_method: "(1234.5).toPrecision(2)" => "1.2e+3",
+    "toPrecision" Number (0, 1) String Looks to_precision_method: "(1234.5).toPrecision(2)" => "1.2e+3",
         "with so many significant digits";
-    "toString" Number (0, 1) String to_string_method: "(255).toString(16)" => "ff",
+    "toString" Number (0, 1) String Looks to_string_method: "(255).toString(16)" => "ff",
         "as text, in base 10 or another base";
-    "Number" Nothing (0, 1) Number number: "Number('12') + 1" => "13",
+    "Number" Nothing (0, 1) Number Looks number: "Number('12') + 1" => "13",
         "a value as number";
-    "Number.isFinite" Nothing (1, 1) Boolean is_finite: "Number.isFinite('1')" => "false",
+    "Number.isFinite" Nothing (1, 1) Boolean Asks is_finite: "Number.isFinite('1')" => "false",
         "whether a value is a number and finite";
-    "Number.isInteger" Nothing (1, 1) Boolean is_integer: "Number.isInteger(2)" => "true",
+    "Number.isInteger" Nothing (1, 1) Boolean Looks is_integer: "Number.isInteger(2)" => "true",
         "whether a value is a whole number";
-    "Number.isNaN" Nothing (1, 1) Boolean is_nan: "Number.isNaN('a')" => "false",
+    "Number.isNaN" Nothing (1, 1) Boolean Asks is_nan: "Number.isNaN('a')" => "false",
         "whether a value is NaN";
-    "Number.parseFloat" Nothing (1, 1) Number parse_float: "Number.parseFloat('1.5 m')" => "1.5",
+    "Number.parseFloat" Nothing (1, 1) Number Looks parse_float: "Number.parseFloat('1.5 m')" => "1.5",
         "the number at the start of a text";
-    "Number.parseInt" Nothing (1, 2) Number parse_int: "Number.parseInt('12px')" => "12",
+    "Number.parseInt" Nothing (1, 2) Number Looks parse_int: "Number.parseInt('12px')" => "12",
         "the whole number at the start of a text";
-    "parseFloat" Nothing (1, 1) Number parse_float: "parseFloat('1.5 m')" => "1.5",
+    "parseFloat" Nothing (1, 1) Number Looks parse_float: "parseFloat('1.5 m')" => "1.5",
         "the number at the start of a text";
-    "parseInt" Nothing (1, 2) Number parse_int: "parseInt('ff', 16)" => "255",
+    "parseInt" Nothing (1, 2) Number Looks parse_int: "parseInt('ff', 16)" => "255",
         "the whole number at the start of a text, in base 10 or another base";
-    "String" Nothing (0, 1) String string: "String([1, 2])" => "1,2",
+    "String" Nothing (0, 1) String Looks string: "String([1, 2])" => "1,2",
         "a value as text";
-    "Boolean" Nothing (0, 1) Boolean boolean: "Boolean('')" => "false",
+    "Boolean" Nothing (0, 1) Boolean Looks boolean: "Boolean('')" => "false",
         "whether a value counts as true";
 };
 
@@ -82,27 +82,59 @@ pub fn to_fixed(x: f64, digits: usize) -> String {
     if !x.is_finite() || x.abs() >= 1e21 {
         return convert::to_text(x);
     }
-    // A number with k binary places has k decimal places, and the last one is a 5: a tie for k - 1 digits. Rust
-    // rounds it to even; the next number above is no tie any more.
-    let tie = fraction_bits(x) == digits as i64 + 1;
-    let magnitude = if tie { x.abs().next_up() } else { x.abs() };
     let sign = if x < 0.0 { "-" } else { "" };
-    format!("{sign}{magnitude:.digits$}")
+    let x = x.abs();
+    // A number with k binary places has k decimal places, and the last one is a 5: a tie for k - 1 digits.
+    if fraction_bits(x) != digits as i64 + 1 {
+        return format!("{sign}{x:.digits$}");
+    }
+    let exact = format!("{x:.*}", digits + 1);
+    format!("{sign}{}", without_last(&exact))
+}
+
+/// A decimal number without its last digit, a 5, which counts as more than half.
+fn without_last(exact: &str) -> String {
+    let kept = exact.strip_suffix('5').unwrap_or(exact);
+    let mut out: Vec<char> = kept.strip_suffix('.').unwrap_or(kept).chars().collect();
+    for c in out.iter_mut().rev() {
+        match c {
+            '9' => *c = '0',
+            '.' => {}
+            c => {
+                *c = char::from_digit(c.to_digit(10).unwrap_or(0) + 1, 10).unwrap_or('0');
+                return out.into_iter().collect();
+            }
+        }
+    }
+    out.insert(0, '1');
+    out.into_iter().collect()
 }
 
 /// Mantissa with so many decimals, and exponent; a tie goes away from zero.
 fn scientific(x: f64, digits: usize) -> (String, i32) {
     let x = x.abs();
     let longer = format!("{x:.*e}", digits + 1);
-    let mantissa = longer.split('e').next().unwrap_or("");
+    let (mantissa, exponent) = longer.split_once('e').unwrap_or((&longer, "0"));
+    let exponent = exponent.parse().unwrap_or(0);
     // 800 digits show every double in full.
     let tie = mantissa.ends_with('5')
         && format!("{x:.800e}")
             .split('e')
             .next()
-            .and_then(|m| m.get(mantissa.len()..))
+            .and_then(|m| m.strip_prefix(mantissa))
             .is_some_and(|rest| rest.bytes().all(|b| b == b'0'));
-    let text = format!("{:.digits$e}", if tie { x.next_up() } else { x });
+    if tie {
+        let rounded = without_last(mantissa);
+        // 9.95 becomes 10.0, which is 1.00 with the next exponent.
+        return match rounded.strip_prefix("10") {
+            Some(rest) if digits == 0 || rest.starts_with('.') => {
+                let zeros = "0".repeat(digits);
+                (if digits == 0 { "1".into() } else { format!("1.{zeros}") }, exponent + 1)
+            }
+            _ => (rounded, exponent),
+        };
+    }
+    let text = format!("{x:.digits$e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     (mantissa.to_owned(), exponent.parse().unwrap_or(0))
 }
@@ -118,11 +150,11 @@ fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
 }
 
 fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
-    let digits = digits(env, args, 0.0)?;
     let x = own(x);
     if !x.is_finite() {
         return env.string(convert::to_text(x));
     }
+    let digits = digits(env, args, 0.0)?;
     let sign = if x < 0.0 { "-" } else { "" };
     let (mantissa, exponent) = match digits {
         Some(digits) => scientific(x, digits),
@@ -136,9 +168,11 @@ fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcom
 }
 
 fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
-    let precision = digits(env, args, 1.0)?;
     let x = own(x);
-    let Some(precision) = precision.filter(|_| x.is_finite()) else { return env.string(convert::to_text(x)) };
+    if !x.is_finite() {
+        return env.string(convert::to_text(x));
+    }
+    let Some(precision) = digits(env, args, 1.0)? else { return env.string(convert::to_text(x)) };
     let sign = if x < 0.0 { "-" } else { "" };
     let (mantissa, exponent) = scientific(x, precision - 1);
     if exponent < -6 || exponent >= precision as i32 {
@@ -159,58 +193,71 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
         Value::Undefined => 10.0,
         radix => integer(env.number(radix)?),
     };
+    if !(2.0..=36.0).contains(&radix) {
+        let message = format!("base {}: between 2 and 36 are possible", convert::to_text(radix));
+        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
+    }
     let x = own(x);
     if radix == 10.0 || !x.is_finite() {
         return env.string(convert::to_text(x));
     }
-    if !(2.0..=36.0).contains(&radix) || x.abs() > 9007199254740992.0 {
-        let message = format!("{} cannot be written in base {radix}", convert::to_text(x));
-        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
-    }
-    let (mut rest, mut digits) = (x.abs() as u64, Vec::new());
-    while rest > 0 || digits.is_empty() {
-        digits.push(char::from_digit((rest % radix as u64) as u32, radix as u32).unwrap_or('0'));
-        rest /= radix as u64;
-    }
     let sign = if x < 0.0 { "-" } else { "" };
     let (fraction, carries) = fraction_in(x.abs(), radix);
-    if carries {
-        return env.string(format!("{sign}{}", (x.abs().trunc() + 1.0) as u64));
+    let whole = whole_in(x.abs().trunc() + if carries { 1.0 } else { 0.0 }, radix);
+    env.string(format!("{sign}{whole}{fraction}"))
+}
+
+fn digit_in(digit: f64, radix: f64) -> char {
+    char::from_digit(digit as u32, radix as u32).unwrap_or('0')
+}
+
+/// A whole number in another base. Places that a double does not tell apart are zeros; the standard leaves open which these
+/// are, and they are those of node.
+fn whole_in(x: f64, radix: f64) -> String {
+    let (mut rest, mut digits) = (x, Vec::new());
+    while rest / radix >= 9007199254740992.0 {
+        rest /= radix;
+        digits.push('0');
     }
-    env.string(format!("{sign}{}{fraction}", digits.iter().rev().collect::<String>()))
+    loop {
+        let digit = rest % radix;
+        digits.push(digit_in(digit, radix));
+        rest = (rest - digit) / radix;
+        if rest <= 0.0 {
+            return digits.iter().rev().collect();
+        }
+    }
 }
 
 /// The fraction of a number in another base, `.1`: the fewest digits that are nearer to it than to any other number
 /// (G. L. Steele and J. L. White 1990, fixed-point fractions); whether it rounds up to the next whole number.
 fn fraction_in(x: f64, radix: f64) -> (String, bool) {
     let (mut rest, mut digits) = (x.fract(), Vec::new());
-    if rest == 0.0 {
+    let mut unsure = 0.5 * (x.next_up() - x);
+    unsure = unsure.max(0f64.next_up());
+    if rest < unsure {
         return (String::new(), false);
     }
-    let mut unsure = (0.5 * (x.next_up() - x)).max(f64::MIN_POSITIVE);
-    loop {
+    while rest >= unsure {
         (rest, unsure) = (rest * radix, unsure * radix);
         let digit = rest.floor();
-        digits.push(digit as u32);
+        digits.push(digit);
         rest -= digit;
         if (rest > 0.5 || rest == 0.5 && digit % 2.0 == 1.0) && rest + unsure > 1.0 {
             // Up, and on to the left as long as a digit is full.
             while let Some(last) = digits.pop() {
-                if last + 1 < radix as u32 {
-                    digits.push(last + 1);
+                if last + 1.0 < radix {
+                    digits.push(last + 1.0);
                     break;
                 }
             }
-            break;
-        }
-        if rest < unsure {
             break;
         }
     }
     if digits.is_empty() {
         return (String::new(), true);
     }
-    let text: String = digits.iter().filter_map(|d| char::from_digit(*d, radix as u32)).collect();
+    let text: String = digits.iter().map(|d| digit_in(*d, radix)).collect();
     (format!(".{text}"), false)
 }
 
@@ -323,6 +370,9 @@ mod tests {
             (1.35, 1, "1.4"),
             (0.0, 2, "0.00"),
             (-0.0, 1, "0.0"),
+            (-109.00000000000182, 38, "-109.00000000000181898940354585647583007813"),
+            (99.5, 0, "100"),
+            (9.96875, 4, "9.9688"),
             (-1e-9, 2, "-0.00"),
             (1e21, 2, "1e+21"),
             (f64::NAN, 1, "NaN"),

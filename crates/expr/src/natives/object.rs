@@ -7,17 +7,17 @@ use crate::rules;
 use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
-    "Array.isArray" Nothing (1, 1) Boolean is_array: "Array.isArray([1])" => "true",
+    "Array.isArray" Nothing (1, 1) Boolean Asks is_array: "Array.isArray([1])" => "true",
         "whether a value is a list; an array of the host is none, as in JavaScript";
-    "Array.of" Nothing (0, MANY) List of: "Array.of(1, 2)" => "1,2",
+    "Array.of" Nothing (0, MANY) List Keeps of: "Array.of(1, 2)" => "1,2",
         "a list of the arguments";
-    "Array.from" Nothing (1, 1) List from: "Array.from('ab')" => "a,b",
+    "Array.from" Nothing (1, 1) List Keeps from: "Array.from('ab')" => "a,b",
         "a list of the elements of an array, the characters of a text, or as many elements as `{length: n}` says; with a function, what it makes of each";
-    "Object.keys" Nothing (1, 1) List keys: "Object.keys({b: 1, a: 2}).join()" => "b,a",
+    "Object.keys" Nothing (1, 1) List Keeps keys: "Object.keys({b: 1, a: 2}).join()" => "b,a",
         "the keys of a record";
-    "Object.values" Nothing (1, 1) List values: "Object.values({b: 1, a: 2}).join()" => "1,2",
+    "Object.values" Nothing (1, 1) List Keeps values: "Object.values({b: 1, a: 2}).join()" => "1,2",
         "the values of a record";
-    "Object.entries" Nothing (1, 1) List entries: "Object.entries({a: 1}).join()" => "a,1",
+    "Object.entries" Nothing (1, 1) List Keeps entries: "Object.entries({a: 1}).join()" => "a,1",
         "lists of key and value of a record";
 };
 

@@ -9,49 +9,49 @@ use crate::rules;
 use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
-    "at" Text (1, 1) Any at: "'abc'.at(-1)" => "c",
+    "at" Text (1, 1) Any Looks at: "'abc'.at(-1)" => "c",
         "character at an index, which counts from the end when negative";
-    "concat" Text (0, MANY) String concat: "'a'.concat('b', 1)" => "ab1",
+    "concat" Text (0, MANY) String Looks concat: "'a'.concat('b', 1)" => "ab1",
         "the texts joined";
-    "includes" Text (1, 2) Boolean includes: "'abc'.includes('bc')" => "true",
+    "includes" Text (1, 2) Boolean Looks includes: "'abc'.includes('bc')" => "true",
         "whether a text stands in it";
-    "indexOf" Text (1, 2) Number index_of: "'abc'.indexOf('c')" => "2",
+    "indexOf" Text (1, 2) Number Looks index_of: "'abc'.indexOf('c')" => "2",
         "index at which a text stands in it, or -1";
-    "lastIndexOf" Text (1, 1) Number last_index_of: "'abca'.lastIndexOf('a')" => "3",
+    "lastIndexOf" Text (1, 1) Number Looks last_index_of: "'abca'.lastIndexOf('a')" => "3",
         "index at which a text stands last, or -1";
-    "slice" Text (0, 2) String slice: "'abc'.slice(0, -1)" => "ab",
+    "slice" Text (0, 2) String Looks slice: "'abc'.slice(0, -1)" => "ab",
         "the part from one index up to another; indexes count from the end when negative";
-    "charAt" Text (0, 1) String char_at: "'abc'.charAt(1)" => "b",
+    "charAt" Text (0, 1) String Looks char_at: "'abc'.charAt(1)" => "b",
         "character at an index";
-    "charCodeAt" Text (0, 1) Number char_code_at: "'A'.charCodeAt(0)" => "65",
+    "charCodeAt" Text (0, 1) Number Looks char_code_at: "'A'.charCodeAt(0)" => "65",
         "number of the character at an index";
-    "endsWith" Text (1, 1) Boolean ends_with: "'abc'.endsWith('c')" => "true",
+    "endsWith" Text (1, 1) Boolean Looks ends_with: "'abc'.endsWith('c')" => "true",
         "whether it ends with a text";
-    "padEnd" Text (1, 2) String pad_end: "'7'.padEnd(3, '0')" => "700",
+    "padEnd" Text (1, 2) String Looks pad_end: "'7'.padEnd(3, '0')" => "700",
         "filled up to a length behind";
-    "padStart" Text (1, 2) String pad_start: "'7'.padStart(3)" => "  7",
+    "padStart" Text (1, 2) String Looks pad_start: "'7'.padStart(3)" => "  7",
         "filled up to a length in front";
-    "repeat" Text (1, 1) String repeat: "'ab'.repeat(2)" => "abab",
+    "repeat" Text (1, 1) String Looks repeat: "'ab'.repeat(2)" => "abab",
         "the text several times";
-    "replace" Text (2, 2) String replace: "'aa'.replace('a', 'b')" => "ba",
+    "replace" Text (2, 2) String Looks replace: "'aa'.replace('a', 'b')" => "ba",
         "with the first of a text replaced by another";
-    "replaceAll" Text (2, 2) String replace_all: "'aa'.replaceAll('a', 'b')" => "bb",
+    "replaceAll" Text (2, 2) String Looks replace_all: "'aa'.replaceAll('a', 'b')" => "bb",
         "with every one of a text replaced by another";
-    "split" Text (0, 2) List split: "'a,b'.split(',').length" => "2",
+    "split" Text (0, 2) List Looks split: "'a,b'.split(',').length" => "2",
         "the parts between a text";
-    "startsWith" Text (1, 2) Boolean starts_with: "'abc'.startsWith('a')" => "true",
+    "startsWith" Text (1, 2) Boolean Looks starts_with: "'abc'.startsWith('a')" => "true",
         "whether it starts with a text";
-    "substring" Text (1, 2) String substring: "'abc'.substring(2, 0)" => "ab",
+    "substring" Text (1, 2) String Looks substring: "'abc'.substring(2, 0)" => "ab",
         "the part between two indexes";
-    "toLowerCase" Text (0, 0) String to_lower_case: "'ABC'.toLowerCase()" => "abc",
+    "toLowerCase" Text (0, 0) String Looks to_lower_case: "'ABC'.toLowerCase()" => "abc",
         "in small letters";
-    "toUpperCase" Text (0, 0) String to_upper_case: "'abc'.toUpperCase()" => "ABC",
+    "toUpperCase" Text (0, 0) String Looks to_upper_case: "'abc'.toUpperCase()" => "ABC",
         "in capital letters";
-    "trim" Text (0, 0) String trim: "' a '.trim()" => "a",
+    "trim" Text (0, 0) String Looks trim: "' a '.trim()" => "a",
         "without white space at both ends";
-    "trimEnd" Text (0, 0) String trim_end: "'a '.trimEnd()" => "a",
+    "trimEnd" Text (0, 0) String Looks trim_end: "'a '.trimEnd()" => "a",
         "without white space at the end";
-    "trimStart" Text (0, 0) String trim_start: "' a'.trimStart()" => "a",
+    "trimStart" Text (0, 0) String Looks trim_start: "' a'.trimStart()" => "a",
         "without white space at the start";
 };
 

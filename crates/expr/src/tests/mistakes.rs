@@ -220,6 +220,7 @@ mistakes! {
     element_past_a_literal: expression("[1, 2, 3][3]");
     letter_of_a_list: expression("bodyPos('light').z");
     push_onto_an_array: statements("data.qpos.push(1)");
+    concat_of_an_array: expression("data.qpos.concat([1]).length");
     array_kept: statements("ctx.v = data.qpos");
     array_in_a_test: statements("if (data.qpos) data.time = 0");
     maximum_of_a_list: expression("Math.max(data.qpos)");

@@ -1,6 +1,7 @@
 //! Tests of the whole road, from text to value, against a small host.
 
 mod arithmetic;
+mod generator;
 mod javascript;
 mod language;
 mod math;
@@ -10,4 +11,5 @@ mod operations;
 mod programs;
 pub(crate) mod roundtrip;
 mod semantics;
+mod writes;
 mod written;

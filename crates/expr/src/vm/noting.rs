@@ -4,11 +4,10 @@
 use super::{CodeUnit, Frame, Machine, span_of, truth};
 use crate::form::{Args, Num, Op, Val};
 use crate::heap::Object;
-use crate::natives;
+use crate::natives::{self, Nan};
 use crate::operators::BinaryOp;
 use crate::schema::Elem;
 use crate::value::Value;
-use crate::watch;
 
 /// What is known of an operation before it runs: its result may take the place of an operand.
 #[derive(Clone, Copy)]
@@ -49,17 +48,14 @@ impl Machine<'_> {
             Op::CallHost(_, _, args) => self.any_without_number(args, unit, f),
             Op::Method(_, name, args) => self.method_looks(name, args, unit, f),
             Op::MethodList(_, name, receiver, list) => {
-                watch::looks(name.text()) && (self.has_no_number(f, receiver) || self.has_no_number(f, list))
+                self.becomes(name, self.val(f, receiver)).of_elements()
+                    && (self.has_no_number(f, receiver) || self.has_no_number(f, list))
             }
             Op::Native(_, function, args) => {
-                !watch::asks(function.row().name)
-                    && watch::looks_at_arguments(function.row().name)
-                    && self.any_without_number(args, unit, f)
+                function.row().nan.of_arguments() && self.any_without_number(args, unit, f)
             }
             Op::NativeList(_, function, list) => {
-                !watch::asks(function.row().name)
-                    && watch::looks_at_arguments(function.row().name)
-                    && self.has_no_number(f, list)
+                function.row().nan.of_arguments() && self.has_no_number(f, list)
             }
             _ => false,
         };
@@ -185,10 +181,13 @@ impl Machine<'_> {
 
     fn method_looks(&self, name: natives::Name, args: Args, unit: &CodeUnit, f: Frame) -> bool {
         let Some((receiver, args)) = args.of(&unit.args).split_first() else { return false };
-        let name = name.text();
-        let text = matches!(self.val(f, Val(*receiver)), Value::String(_));
-        watch::looks(name) && self.has_no_number(f, Val(*receiver))
-            || (text || watch::looks_at_arguments(name))
-                && args.iter().any(|a| self.has_no_number(f, Val(*a)))
+        let nan = self.becomes(name, self.val(f, Val(*receiver)));
+        nan.of_elements() && self.has_no_number(f, Val(*receiver))
+            || nan.of_arguments() && args.iter().any(|a| self.has_no_number(f, Val(*a)))
+    }
+
+    /// What becomes of NaN in a method of a value; a function that a record holds may do anything with it.
+    fn becomes(&self, name: natives::Name, receiver: &Value) -> Nan {
+        natives::row_of(&self.context.heap, name, receiver).map_or(Nan::Looks, |row| row.nan)
     }
 }

@@ -5,7 +5,7 @@ use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include, t
 use crate::finding::Finding;
 use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session};
 use crate::spec::{Lab, Plot};
-use labspec_core::reflect::{FieldId, Object, field};
+use labspec_core::reflect::{FieldId, option};
 use labspec_core::{self as core, Data, Demand, Full, Model, Warning, state};
 use labspec_expr::{Compiler, Type, Value};
 use std::ops::ControlFlow;
@@ -185,13 +185,10 @@ impl<'a> Case<'a> {
 
     fn take(&mut self, label: &str, shown: Shown, bound: &'a Bound, exact: Option<Bound>) {
         let effects = bound.program.effects();
-        let reads = |name| {
-            let id = field(Object::Option, name);
-            effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == id)
-        };
+        let reads = |id| effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == Some(id));
         let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any) {
             "it is no number"
-        } else if exact.is_none() && (reads("timestep") || reads("integrator")) {
+        } else if exact.is_none() && (reads(option::timestep) || reads(option::integrator)) {
             "it is a function of the timestep or the integrator, and has no closed form"
         } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.shown == shown) {
             AGAIN
@@ -212,7 +209,7 @@ impl<'a> Case<'a> {
 
     /// What sets the timestep while the lab runs, so that no other can be tried.
     pub(super) fn steps_itself(&self) -> Option<String> {
-        let timestep = field(Object::Option, "timestep");
+        let timestep = Some(option::timestep);
         let writes = |bound: &Bound| {
             let effects = bound.program.effects();
             effects.writes.iter().any(|w| FieldId::new(w.field.0 as usize) == timestep)

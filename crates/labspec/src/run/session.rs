@@ -9,7 +9,7 @@ use crate::advice::watch::{self, Noticed, Watch};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
-use labspec_core::reflect::{FieldId, Kind, Object};
+use labspec_core::reflect::{FieldId, Kind, data, option};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, FieldKey, Program, RuntimeError, Value};
@@ -81,18 +81,16 @@ const LOOKS: usize = 24;
 const BETWEEN: usize = 50;
 
 /// What a program may write in every step that moves nothing by itself.
-const PUSHES: [&str; 3] = ["ctrl", "qfrc_applied", "xfrc_applied"];
+const PUSHES: [FieldId; 3] = [data::ctrl, data::qfrc_applied, data::xfrc_applied];
 
 /// Whether a field is one that pushes.
 fn pushes(field: FieldKey) -> bool {
-    FieldId::new(field.0 as usize)
-        .is_some_and(|f| f.info().object == Object::Data && PUSHES.contains(&f.info().name))
+    FieldId::new(field.0 as usize).is_some_and(|f| PUSHES.contains(&f))
 }
 
 /// Whether a field follows from others, or says what of them is computed: writing it moves nothing.
 fn follows(field: FieldKey) -> bool {
-    FieldId::new(field.0 as usize)
-        .is_some_and(|f| f.info().kind == Kind::Derived || f.info().name == "enableflags")
+    FieldId::new(field.0 as usize).is_some_and(|f| f.info().kind == Kind::Derived || f == option::enableflags)
 }
 
 /// Whether a program may move things by itself, or change the model.

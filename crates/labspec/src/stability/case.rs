@@ -7,7 +7,7 @@ use crate::advice::stability;
 use crate::bind::{Bound, Programs};
 use crate::run::{self, Budget, End, Play, Session};
 use crate::spec::Lab;
-use labspec_core::reflect::{FieldId, Object, field};
+use labspec_core::reflect::{FieldId, data};
 use labspec_core::{Demand, Model, Warning, WarningStat, joint};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
@@ -96,9 +96,7 @@ pub(crate) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 impl<'a> Case<'a> {
     pub(crate) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Handling) -> Case<'a> {
         let mut demand = programs.demand;
-        for name in ["geom_xpos", "geom_xmat", "xpos"] {
-            field(Object::Data, name).into_iter().for_each(|f| demand.reads.insert(f));
-        }
+        [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| demand.reads.insert(f));
         let probes = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let stores = |b: &Bound| {
             let e = b.program.effects();
@@ -108,7 +106,7 @@ impl<'a> Case<'a> {
                 || e.any_ctx
                 || e.calls_values
         };
-        let places = field(Object::Data, "qpos");
+        let places = Some(data::qpos);
         let jumps = |b: &Bound| {
             let e = b.program.effects();
             e.writes_everything

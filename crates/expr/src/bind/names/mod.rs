@@ -12,7 +12,7 @@ mod unknown;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{MAX_LEVELS, Mode};
-use crate::ast::{Body, Expr, ExprKind, Function, Name, Property};
+use crate::ast::{Body, Expr, ExprKind, Function, Name, Property, UnaryOp};
 use crate::globals::Globals;
 use crate::rules;
 use crate::schema::{CollectionId, Entry, FunctionInfo, Param, Schema};
@@ -201,7 +201,8 @@ impl<'a> Walk<'a, '_> {
             }
             ExprKind::Call { callee, args, .. } => self.call(callee, args),
             ExprKind::Function(function) => self.inside(function),
-            ExprKind::Unary { operand, .. } => self.test(operand),
+            ExprKind::Unary { op: UnaryOp::Not, operand } => self.test(operand),
+            ExprKind::Unary { operand, .. } => self.value(operand),
             ExprKind::Binary { left, right, .. } => {
                 self.value(left);
                 self.value(right);

@@ -46,7 +46,10 @@ impl<'a> Binder<'a> {
             return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
         }
         // The first pass has told of what means nothing.
-        let entry = self.schema.root(name).ok_or(Reported)?;
+        let Some(entry) = self.schema.root(name) else {
+            self.unresolved.get_or_insert(span);
+            return Err(Reported);
+        };
         let thing = from_entry(entry, span);
         self.explain_thing(&thing, name, span);
         Ok(thing)
@@ -217,6 +220,11 @@ impl<'a> Binder<'a> {
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into a list of your own: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
+            text if array && self.is_method(text, Type::List) => self.refuse(
+                Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has no method `{text}`", field.path))
+                    .why(format!("it is a typed array in JavaScript, and lists alone have `{text}`"))
+                    .help(format!("call it on a list of its elements, as `[...{}].{text}(…)`", field.path)),
+            ),
             text if array => {
                 let report = Finding::error(
                     rules::UNKNOWN_FIELD,

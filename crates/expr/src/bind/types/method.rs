@@ -3,12 +3,20 @@
 use super::member::view_of;
 use super::{Attempt, Binder, Receiver, Thing, Want};
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, Kind};
+use crate::ir::{Ir, Item, Kind};
 use crate::natives::{self, On, Row};
 use crate::rules;
 use crate::schema::{Field, Type};
 use crate::value::Value;
 use crate::{Finding, Span};
+
+/// A value that is a list when it is computed, or the run ends: what is called on it is a method of lists.
+fn listed(ir: Ir, method: &str) -> Ir {
+    let Some(function) = natives::free("_list") else { return ir };
+    let span = ir.span;
+    let items = [ir, Ir::constant(method.into(), span)].map(|value| Item { value, spread: false });
+    Ir::new(Kind::Native(function, items.into()), Type::Any, span)
+}
 
 impl<'a> Binder<'a> {
     /// Whether values of a type have a method.
@@ -50,7 +58,8 @@ impl<'a> Binder<'a> {
             let function = self.written(row, args, span)?;
             let first = match receiver {
                 Receiver::Field(field) => Thing::Field(field),
-                Receiver::Value(ir) => Thing::Value(ir),
+                Receiver::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Thing::Value(ir),
+                Receiver::Value(ir) => Thing::Value(listed(ir, row.name)),
             };
             return self.call_written(function, row, first, args, span);
         }

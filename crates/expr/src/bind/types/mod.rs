@@ -50,6 +50,8 @@ pub(super) struct Bound {
     /// The program, when nothing was in the way.
     pub(super) program: Option<Parts>,
     pub(super) found: Vec<Finding>,
+    /// The first name that means nothing.
+    pub(super) unresolved: Option<Span>,
     pub(super) typed: Typed,
     pub(super) help: Vec<(Span, Help)>,
     pub(super) named: Vec<Fix>,
@@ -91,6 +93,7 @@ pub(super) fn bind(
         return Bound {
             program: done.ok().map(|result| Parts { tree, result, aggregates }),
             found: binder.diagnostics,
+            unresolved: binder.unresolved,
             typed: binder.typed,
             help: binder.help,
             named: binder.named,
@@ -156,6 +159,8 @@ struct Binder<'a> {
     names: &'a Names,
     program: ProgramId,
     diagnostics: Vec<Finding>,
+    /// A name that means nothing; the first pass has told of it.
+    unresolved: Option<Span>,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
     /// Whether the next two are wanted.
@@ -203,6 +208,7 @@ impl<'a> Binder<'a> {
             names,
             program,
             diagnostics: Vec::new(),
+            unresolved: None,
             aggregates: Vec::new(),
             next_aggregate: 0,
             explains: compiler.explains,
