@@ -18,7 +18,7 @@ use crate::rules;
 use crate::run::{Budget, Numerics, Session};
 use crate::source::Text;
 use crate::spec::{Find, Run, Sweep, Verify};
-use labspec_core::reflect::{FieldId, Object};
+use labspec_core::reflect::{FieldId, Object, option};
 use labspec_core::{self as core, Demand, Model};
 use labspec_expr::{Compiled, Compiler, Globals, Program, Value};
 use std::cell::{OnceCell, RefCell};
@@ -478,8 +478,9 @@ impl<'a> BoundVerify<'a> {
 
     /// Whether every run states its own timestep, so that half of it says nothing new.
     pub(super) fn states_every_timestep(&self) -> bool {
-        let states =
-            |run: &BoundRun<'_>| self.scene_of(run).is_some_and(|s| perform::states(s, run, "timestep"));
+        let states = |run: &BoundRun<'_>| {
+            self.scene_of(run).is_some_and(|s| perform::states(s, run, option::timestep))
+        };
         self.runs.iter().all(states)
     }
 

@@ -10,7 +10,7 @@ use crate::json::read::named;
 use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Numerics, Play, RunError, Session};
 use labspec_core::Model;
-use labspec_core::reflect::{self, FieldId, Object, option};
+use labspec_core::reflect::{FieldId, option};
 use labspec_expr::{Effects, Program, Value, Watch};
 use std::ops::{ControlFlow, Range};
 
@@ -41,8 +41,8 @@ pub(crate) struct Made {
 pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
     // What the lesson states is not another numerics for it; a run that states its timestep is about the numerics.
     let (timestep, integrator) = (
-        states_field(asked.scene, asked.run, option::timestep),
-        states_field(asked.scene, asked.run, option::integrator),
+        states(asked.scene, asked.run, option::timestep),
+        states(asked.scene, asked.run, option::integrator),
     );
     let Numerics { timestep: shorter, integrator: other, .. } = asked.numerics;
     let numerics = Numerics {
@@ -267,12 +267,7 @@ fn broke(session: &Session<'_>) -> Option<String> {
 }
 
 /// Whether the lesson itself states an option of a run: in the run, or in the lab's setup.
-pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, option: &str) -> bool {
-    reflect::field(Object::Option, option).is_some_and(|field| states_field(scene, run, field))
-}
-
-/// Whether the lesson itself states an option of a run.
-fn states_field(scene: &BoundScene<'_>, run: &BoundRun<'_>, field: FieldId) -> bool {
+pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, field: FieldId) -> bool {
     let option = field.info().name;
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == field.index());
     let programs = &scene.scene.programs;
