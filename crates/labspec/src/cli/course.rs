@@ -522,7 +522,7 @@ pub(super) fn is_other_json(lesson: &Lesson) -> bool {
 mod tests {
     use super::*;
 
-    /// A mistake of the program ends the check of one lesson, and is told there; the others are checked, on one thread or several.
+    /// A mistake of the program ends the check of one lesson, and is reported there; the others are checked, on one thread or several.
     #[test]
     fn a_panic_in_one_lesson_is_its_finding_and_no_other_lesson_is_lost() {
         let folder = tempfile::tempdir().unwrap();

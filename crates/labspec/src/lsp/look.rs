@@ -76,7 +76,7 @@ fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &
     check::join(lesson.clone(), found, Depth::STATIC).findings
 }
 
-/// By what it is known that there are other models now.
+/// A mark of the models, which changes when they do.
 fn models_hash(models: &Models) -> u64 {
     let mut hasher = DefaultHasher::new();
     (models.folder().path_of_folder(), models.folder().names()).hash(&mut hasher);

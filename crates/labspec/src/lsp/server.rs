@@ -33,7 +33,7 @@ pub struct Course<'c> {
     pub models: &'c dyn Fn(&Path) -> ModelFolder,
     /// Takes out what is not to be told of a file.
     pub policy: &'c mut dyn FnMut(&Path, &mut Vec<Finding>),
-    /// Files may have changed: what is known of settings is asked again.
+    /// Files may have changed: cached settings are read again.
     pub refresh: &'c dyn Fn(),
 }
 

@@ -81,8 +81,8 @@ impl Overlay {
         if let Some(text) = self.held(&real) {
             return Ok(text);
         }
-        let known = locked(&self.read).get(&real).cloned();
-        known.unwrap_or_else(|| {
+        let cached = locked(&self.read).get(&real).cloned();
+        cached.unwrap_or_else(|| {
             let text = read_text(path, most, what);
             locked(&self.read).insert(real, text.clone());
             text
@@ -99,8 +99,8 @@ impl Overlay {
 
     fn place(&self, asked: Asked, path: &Path, find: impl FnOnce() -> Option<PathBuf>) -> Option<PathBuf> {
         let key = (asked, path.to_path_buf());
-        let known = locked(&self.places).get(&key).cloned();
-        known.unwrap_or_else(|| {
+        let cached = locked(&self.places).get(&key).cloned();
+        cached.unwrap_or_else(|| {
             let found = find();
             locked(&self.places).insert(key, found.clone());
             found

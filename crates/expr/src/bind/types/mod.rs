@@ -159,7 +159,7 @@ struct Binder<'a> {
     names: &'a Names,
     program: ProgramId,
     diagnostics: Vec<Finding>,
-    /// A name that means nothing; the first pass has told of it.
+    /// A name that means nothing; the first pass has reported it.
     unresolved: Option<Span>,
     aggregates: Vec<Aggregate>,
     next_aggregate: usize,
