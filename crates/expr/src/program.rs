@@ -7,6 +7,7 @@ use std::sync::Arc;
 use crate::Span;
 use crate::dimension::Measure;
 use crate::effects::{Access, Effects};
+use crate::form::measure::{Given, Measured, measured};
 use crate::form::order::Order;
 use crate::form::{self, Form, pure};
 use crate::formula::Formula;
@@ -292,8 +293,14 @@ pub struct Aggregate {
     pub slot: usize,
     /// Where the call stands.
     pub span: Span,
-    /// What its result measures, where the compiler [measures](crate::Compiler::measuring).
-    pub measure: Measure,
+}
+
+impl Aggregate {
+    /// What its result measures.
+    fn measure(&self, schema: &dyn Schema, given: &Given) -> Measure {
+        let arg = |i: usize| self.args.get(i).map_or(Measure::Unknown, |p| p.measured(schema, given).value);
+        schema.function(self.function).gives.of(arg)
+    }
 }
 
 /// A compiled text.
@@ -349,6 +356,12 @@ impl Program {
     /// What it touches.
     pub fn effects(&self) -> &Effects {
         &self.effects
+    }
+
+    /// What its numbers measure. `schema` is what it was compiled for; it may know more of the units by now.
+    pub fn measured(&self, schema: &dyn Schema, given: &Given) -> Measured {
+        let aggregates = self.aggregates.iter().map(|a| (a.slot, a.measure(schema, given))).collect();
+        measured(&self.code.form, schema, given, &aggregates).of_type(self.result)
     }
 
     /// What every run stores after the last call of a function of the host that it may make; `None` when it never

@@ -7,8 +7,6 @@ mod names;
 mod types;
 
 use crate::ast::{Expr, Stmt};
-use crate::form::Form;
-use crate::form::measure::{Given, Measured, measured};
 use crate::globals::{Globals, ProgramId};
 use crate::parse::{self, Parsed, in_order};
 use crate::program::Program;
@@ -25,7 +23,6 @@ pub struct Compiler<'s> {
     value: Option<Type>,
     explains: bool,
     tells: bool,
-    given: Option<&'s Given>,
 }
 
 /// The result of compiling one text.
@@ -42,8 +39,6 @@ pub struct Compiled {
     /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
     /// `data.joint("light_free").qpos[2]`, if wanted. Both mean the same element of the model at hand.
     pub named: Vec<Fix>,
-    /// What its numbers measure, if wanted and if there is a program.
-    pub measured: Option<Measured>,
 }
 
 impl Compiled {
@@ -90,7 +85,7 @@ enum Tree<'t> {
 impl<'s> Compiler<'s> {
     /// A compiler for texts that name things of `schema` and share the variables `globals`.
     pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
-        Compiler { schema, globals, value: None, explains: false, tells: false, given: None }
+        Compiler { schema, globals, value: None, explains: false, tells: false }
     }
 
     /// A compiler for texts of a control, which gives a `value` of this type; `None` where no control gives one.
@@ -106,11 +101,6 @@ impl<'s> Compiler<'s> {
     /// A compiler for a host that tells of typographic quotes itself: there is no program where they stand, and no finding.
     pub fn without_quotes(self) -> Compiler<'s> {
         Compiler { tells: true, ..self }
-    }
-
-    /// A compiler that also makes [`Compiled::measured`].
-    pub fn measuring(self, given: &'s Given) -> Compiler<'s> {
-        Compiler { given: Some(given), ..self }
     }
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
@@ -153,7 +143,6 @@ impl<'s> Compiler<'s> {
                 diagnostics: in_order(found),
                 help: Vec::new(),
                 named: Vec::new(),
-                measured: None,
             };
         }
         let bound = types::bind(self, source, tree, &names, id);
@@ -166,14 +155,10 @@ impl<'s> Compiler<'s> {
         }
         let failed = told || found.iter().any(Finding::is_error);
         let parts = bound.program.filter(|_| !failed);
-        let measured = parts.as_ref().zip(self.given).map(|(parts, given)| {
-            let given = given.with(&parts.aggregates);
-            measured(&Form::of(&parts.tree), self.schema, &given).of_type(parts.result)
-        });
         let program = parts.map(|parts| {
             Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)
         });
-        Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named, measured }
+        Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named }
     }
 }
 

@@ -11,7 +11,6 @@ use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
 use crate::math;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::program::Aggregate;
 use crate::schema::{Schema, Type};
 use crate::value::{Value, View};
 
@@ -24,16 +23,6 @@ pub struct Given {
     pub variables: BTreeMap<u32, Measure>,
     /// What a control gives.
     pub value: Measure,
-    /// What the aggregates of the text give, by their slots.
-    pub aggregates: BTreeMap<usize, Measure>,
-}
-
-impl Given {
-    /// The same for a text with these aggregates.
-    pub(crate) fn with(&self, aggregates: &[Aggregate]) -> Given {
-        let aggregates = aggregates.iter().map(|a| (a.slot, a.measure)).collect();
-        Given { aggregates, ..self.clone() }
-    }
 }
 
 /// The dimensions in a text.
@@ -71,11 +60,14 @@ pub struct Clash {
     pub right: Dimension,
 }
 
+/// What the aggregates of a text give, by their slots.
+pub(crate) type Aggregates = BTreeMap<usize, Measure>;
+
 /// The dimensions in a text.
-pub(crate) fn measured(form: &Form, schema: &dyn Schema, given: &Given) -> Measured {
+pub(crate) fn measured(form: &Form, schema: &dyn Schema, given: &Given, aggregates: &Aggregates) -> Measured {
     let mut all = Measured::default();
     for (id, unit) in form.units.iter().enumerate() {
-        let mut work = Work { entry: id == 0, ..Work::new(form, unit, schema, given) };
+        let mut work = Work { entry: id == 0, ..Work::new(form, unit, schema, given, aggregates) };
         work.look();
         let found = work.found;
         if id == 0 {
@@ -97,6 +89,7 @@ struct Work<'f> {
     unit: &'f Unit,
     schema: &'f dyn Schema,
     given: &'f Given,
+    aggregates: &'f Aggregates,
     /// It is the text itself, and no function in it.
     entry: bool,
     numbers: BTreeMap<u32, Measure>,
@@ -105,12 +98,19 @@ struct Work<'f> {
 }
 
 impl<'f> Work<'f> {
-    fn new(form: &'f Form, unit: &'f Unit, schema: &'f dyn Schema, given: &'f Given) -> Work<'f> {
+    fn new(
+        form: &'f Form,
+        unit: &'f Unit,
+        schema: &'f dyn Schema,
+        given: &'f Given,
+        aggregates: &'f Aggregates,
+    ) -> Work<'f> {
         Work {
             form,
             unit,
             schema,
             given,
+            aggregates,
             entry: true,
             numbers: BTreeMap::new(),
             values: BTreeMap::new(),
@@ -274,7 +274,7 @@ impl<'f> Work<'f> {
                 of_value(d, m, self);
             }
             Op::Aggregate(d, slot) => {
-                let m = self.given.aggregates.get(&(slot as usize)).copied().unwrap_or_default();
+                let m = self.aggregates.get(&(slot as usize)).copied().unwrap_or_default();
                 of_number(d, m, self);
             }
             Op::Element(d, list, _) | Op::ElementAt(d, list, _) => of_value(d, self.value(list), self),

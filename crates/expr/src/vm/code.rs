@@ -1,23 +1,17 @@
 //! Programs for the machine.
 
-use std::sync::Arc;
-
 use crate::Span;
 use crate::form::{Form, Num, Op, Slot, Val};
-use crate::ir::{Picks, Shown};
 use crate::row::Row;
 use crate::value::Value;
 
 /// A program for the machine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Code {
+    /// What it was made from, with the names, tables and arrays that its operations name by number.
+    pub(crate) form: Form,
     /// The functions; the first is the text itself.
     pub(crate) units: Vec<CodeUnit>,
-    /// Names of members.
-    pub(crate) texts: Vec<Arc<str>>,
-    pub(crate) picks: Vec<Arc<Picks>>,
-    /// Arrays that become values.
-    pub(crate) views: Vec<Shown>,
 }
 
 /// A function for the machine. Its first registers hold its result, the next its parameters and what it uses of
@@ -47,7 +41,7 @@ pub(crate) struct CodeUnit {
 impl Code {
     /// The code of a form. `often`: it will run often enough for formulas within it.
     pub(crate) fn of(form: Form, often: bool) -> Code {
-        let units = form.units.into_iter().map(|unit| super::emit::unit(unit, often)).collect();
-        Code { units, texts: form.texts, picks: form.picks, views: form.views }
+        let units = form.units.iter().map(|unit| super::emit::unit(unit, often)).collect();
+        Code { form, units }
     }
 }

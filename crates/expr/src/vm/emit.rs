@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use super::OPERATION;
 use super::code::CodeUnit;
 use crate::Span;
-use crate::form::{Args, At, BlockId, Edge, End, Num, Op, Slot, Unit, Use, Val, pure};
+use crate::form::{Args, At, Block, BlockId, Edge, End, Num, Op, Slot, Unit, Use, Val, pure};
 use crate::row::{Row, Wanted};
 use crate::value::Value;
 
@@ -16,7 +16,7 @@ const WORTH: usize = 5;
 const MOST: usize = 64;
 
 /// The code of a function.
-pub(super) fn unit(form: Unit, often: bool) -> CodeUnit {
+pub(super) fn unit(form: &Unit, often: bool) -> CodeUnit {
     let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
@@ -71,10 +71,10 @@ impl File {
 }
 
 /// The work on one function.
-struct Emit {
+struct Emit<'f> {
     /// Operations that make a formula.
     worth: usize,
-    form: Unit,
+    form: &'f Unit,
     code: CodeUnit,
     numbers: File,
     values: File,
@@ -86,7 +86,7 @@ struct Emit {
     jumps: Vec<(usize, BlockId)>,
 }
 
-impl Emit {
+impl<'f> Emit<'f> {
     /// Counts how often each name is used, from the end on, so that what is needed by nothing needs nothing.
     fn count_uses(&mut self) {
         let Emit { form, numbers, values, kept, .. } = self;
@@ -170,8 +170,8 @@ impl Emit {
     }
 
     fn block(&mut self, at: BlockId) {
-        let Some(block) = self.form.blocks.get_mut(at as usize) else { return };
-        let (end, span) = (std::mem::replace(&mut block.end, End::Return(None)), block.span);
+        let form: &'f Unit = self.form;
+        let Some(Block { end, span, .. }) = form.blocks.get(at as usize) else { return };
         // A block that nothing leads to is left out. Ways lead forward, so they were seen before.
         let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
         if !reached {
@@ -180,7 +180,7 @@ impl Emit {
         if let Some(start) = self.starts.get_mut(at as usize) {
             *start = Some(self.code.ops.len() as u32);
         }
-        self.settle(at, &end);
+        self.settle(at, end);
         let range = self.form.range(at);
         let (mut i, end_of_block) = (range.start, range.end);
         while i < end_of_block {
@@ -192,7 +192,7 @@ impl Emit {
             }
             i = stop.max(i + 1);
         }
-        self.end(at, &end, span);
+        self.end(at, end, *span);
     }
 
     /// Numeric operations that follow each other, as one formula, where that is worth it; whether it was.
@@ -434,7 +434,8 @@ impl Emit {
         let register = |file: &File, name: u32| file.registers.get(name as usize).copied().flatten();
         let constants = form.numbers.iter().filter_map(|(n, x)| Some((Num(register(&numbers, n.0)?), *x)));
         code.numbers.extend(constants);
-        let constants = form.values.into_iter().filter_map(|(v, x)| Some((Val(register(&values, v.0)?), x)));
+        let constants =
+            form.values.iter().filter_map(|(v, x)| Some((Val(register(&values, v.0)?), x.clone())));
         code.values.extend(constants);
         // The cost of everything before each operation; a formula costs what is in it.
         let mut costs = vec![0];
@@ -451,7 +452,7 @@ impl Emit {
         }
         code.cost = before(code.ops.len()) + OPERATION * (code.numbers.len() + code.values.len()) as u64;
         (code.number_count, code.value_count) = (numbers.count, values.count);
-        (code.params, code.captures, code.result) = (form.params, form.captures, form.result);
+        (code.params, code.captures, code.result) = (form.params.clone(), form.captures.clone(), form.result);
         code
     }
 }

@@ -317,7 +317,12 @@ impl Machine<'_> {
 
     /// What natives work with.
     fn env<'e>(&'e mut self, code: &'e Code) -> Env<'e> {
-        Env { heap: &mut self.context.heap, host: self.host, views: &code.views, budget: &mut self.budget }
+        Env {
+            heap: &mut self.context.heap,
+            host: self.host,
+            views: &code.form.views,
+            budget: &mut self.budget,
+        }
     }
 
     /// Collects what no register and no variable refers to any more.

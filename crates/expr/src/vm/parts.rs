@@ -89,7 +89,7 @@ impl Machine<'_> {
                 self.put_value(f, dst, value);
             }
             Op::Member(dst, object, name) => {
-                let name = code.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
+                let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
                 let object = self.val(f, object).clone();
                 let value = self.member(code, &object, &name)?;
                 self.put_value(f, dst, value);
@@ -100,7 +100,7 @@ impl Machine<'_> {
                 self.store_item(code, &object, &index, value)?;
             }
             Op::StoreMember(object, name, value, _) => {
-                let name = code.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
+                let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
                 let (object, value) = (self.val(f, object).clone(), self.val(f, value).clone());
                 self.store_member(code, &object, name, value)?;
             }
@@ -192,7 +192,7 @@ impl Machine<'_> {
     fn pick(&mut self, code: &Arc<Code>, f: Frame, table: u32, name: Val) -> Result<Value, Trouble> {
         let name = self.val(f, name).clone();
         let name = self.env(code).text(&name)?;
-        let Some(picks) = code.picks.get(table as usize) else { return Ok(Value::Undefined) };
+        let Some(picks) = code.form.picks.get(table as usize) else { return Ok(Value::Undefined) };
         let Picks { noun, of, .. } = &**picks;
         match of.binary_search_by(|(n, _)| (**n).cmp(&name)) {
             Ok(at) => Ok(of.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),

@@ -1,11 +1,11 @@
 //! What the numbers of a lab measure: every text with the variables that the other texts store.
 
 use super::labels;
-use super::{ControlProgram, ModelNames, Programs, Scope};
+use super::{Bound, ControlProgram, ModelNames, Programs, Scope};
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_core::Model;
 use labspec_expr::dimension::{Dimension, Measure};
-use labspec_expr::{Compiler, Given, Globals, Measured, Type};
+use labspec_expr::{Compiler, Given, Measured};
 use std::collections::BTreeMap;
 
 /// What the texts of a lab measure, in the order of its [`Programs`]. A text with mistakes has nothing.
@@ -29,11 +29,11 @@ pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
 
 /// The dimension of an expression that names what a lab's texts name; `None` where it is not certain.
 pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -> Option<Dimension> {
-    let (mut work, variables, _) = settle(lab, model, programs);
+    let (work, variables, _) = settle(lab, model, programs);
     let given = Given { variables, ..Given::default() };
-    let measured =
-        Compiler::new(&work.names, &mut work.globals).measuring(&given).expression(code).measured?;
-    match measured.value {
+    let mut globals = programs.globals.clone();
+    let program = Compiler::new(&work.names, &mut globals).expression(code).program?;
+    match program.measured(&work.names, &given).value {
         Measure::Known(dimension) => Some(dimension),
         _ => None,
     }
@@ -52,7 +52,7 @@ fn settle<'l>(
     programs: &'l Programs,
 ) -> (Work<'l>, BTreeMap<u32, Measure>, Dimensions) {
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
-    let mut work = Work { names, globals: programs.globals.clone(), lab, programs };
+    let work = Work { names, lab, programs };
     let mut variables = BTreeMap::new();
     let computed = programs.bound().any(|b| b.program.effects().any_ctx);
     if computed {
@@ -84,48 +84,36 @@ pub(crate) fn given_by(control: &Control) -> Measure {
 
 struct Work<'l> {
     names: ModelNames<'l>,
-    globals: Globals,
     lab: &'l Lab,
     programs: &'l Programs,
 }
 
 impl Work<'_> {
     /// Every text once.
-    fn round(&mut self, variables: &BTreeMap<u32, Measure>) -> Dimensions {
+    fn round(&self, variables: &BTreeMap<u32, Measure>) -> Dimensions {
         let (lab, programs) = (self.lab, self.programs);
         let given = Given { variables: variables.clone(), ..Given::default() };
-        let probes = programs.probes.iter().map(|p| {
-            let text = &p.bound.as_ref()?.text;
-            Compiler::new(&self.names, &mut self.globals).measuring(&given).expression(&text.value).measured
-        });
-        let probes = probes.collect();
-        let others = [&programs.setup, &programs.controller].map(|bound| {
-            let text = &bound.as_ref()?.text;
-            Compiler::new(&self.names, &mut self.globals).measuring(&given).statements(&text.value).measured
-        });
+        let one = |bound: &Option<Bound>| self.one(bound, &given);
         let controls = lab.controls.iter().zip(&programs.controls);
-        let controls =
-            controls.map(|(control, (_, program))| self.control(control, program, &given)).collect();
-        Dimensions { probes, controls, others: others.into() }
+        Dimensions {
+            probes: programs.probes.iter().map(|p| one(&p.bound)).collect(),
+            controls: controls
+                .map(|(control, (_, program))| self.control(control, program, &given))
+                .collect(),
+            others: [&programs.setup, &programs.controller].map(one).into(),
+        }
     }
 
-    fn control(&mut self, control: &Control, program: &ControlProgram, given: &Given) -> Option<Measured> {
+    fn one(&self, bound: &Option<Bound>, given: &Given) -> Option<Measured> {
+        bound.as_ref().map(|bound| bound.program.measured(&self.names, given))
+    }
+
+    fn control(&self, control: &Control, program: &ControlProgram, given: &Given) -> Option<Measured> {
         let of_value = given_by(control);
         match program {
-            ControlProgram::Press(run) => {
-                let text = &run.as_ref()?.text;
-                let mut compiler = Compiler::new(&self.names, &mut self.globals).measuring(given);
-                compiler.statements(&text.value).measured
-            }
+            ControlProgram::Press(run) => self.one(run, given),
             ControlProgram::Change(_, action) => {
-                let given = Given { value: of_value, ..given.clone() };
-                let sets = control.action().is_some_and(|a| a.set.is_some());
-                let measured = action.run.as_ref().and_then(|bound| {
-                    let compiler = Compiler::new(&self.names, &mut self.globals);
-                    let mut compiler = compiler.with_value(Some(Type::Number)).measuring(&given);
-                    let text = &bound.text.value;
-                    if sets { compiler.assignment(text) } else { compiler.statements(text) }.measured
-                });
+                let measured = self.one(&action.run, &Given { value: of_value, ..given.clone() });
                 let mut measured = match (measured, action.param) {
                     (Some(measured), _) => measured,
                     (None, Some(_)) => Measured::default(),

@@ -29,11 +29,9 @@ impl Known {
 
 /// What a claim measures; `None` where that is not certain.
 pub(super) fn of_claim(bound: &BoundVerify<'_>, text: &Text) -> Option<Dimension> {
-    let (base, known) = (bound.base()?, bound.units()?);
+    let (base, known, claim) = (bound.base()?, bound.units()?, bound.claim(text)?);
     let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&known.runs);
-    let mut globals = base.globals.clone();
-    let compiled = Compiler::new(&names, &mut globals).measuring(&known.given).expression(&text.value);
-    match compiled.measured?.value {
+    match claim.program.as_ref()?.measured(&names, &known.given).value {
         Measure::Known(dimension) => Some(dimension),
         _ => None,
     }
@@ -43,39 +41,33 @@ pub(super) fn of_claim(bound: &BoundVerify<'_>, text: &Text) -> Option<Dimension
 fn swept(run: &BoundRun<'_>, scene: &BoundScene<'_>) -> Option<(String, Measure)> {
     let what = &run.spec?.sweep.as_ref()?.what;
     let lab = &scene.scene.lab;
-    let measure = match lab
-        .controls
-        .iter()
-        .find(|c| run.control.is_some() && c.label.as_str() == what.as_str())
-    {
-        Some(control) => match given_by(control) {
-            Measure::Unknown => {
-                let names = scene.names(Scope::Measure);
-                let mut globals = scene.globals.clone();
-                let set = control.action()?.set.as_ref()?;
-                let given = given(lab, &scene.scene.model, &scene.scene.programs);
-                Compiler::new(&names, &mut globals).measuring(&given).expression(&set.value).measured?.value
-            }
-            known => known,
-        },
-        None => Measure::Known(units::parse(match what.as_str().rsplit(' ').next()? {
-            "timestep" => "s",
-            "mass" => "kg",
-            "size" | "pos" => "m",
-            "density" => "kg/m^3",
-            _ => return None,
-        })?),
-    };
+    let measure =
+        match lab.controls.iter().find(|c| run.control.is_some() && c.label.as_str() == what.as_str()) {
+            Some(control) => match given_by(control) {
+                Measure::Unknown => {
+                    let names = scene.names(Scope::Measure);
+                    let mut globals = scene.globals.clone();
+                    let set = control.action()?.set.as_ref()?;
+                    let given = given(lab, &scene.scene.model, &scene.scene.programs);
+                    let field = Compiler::new(&names, &mut globals).expression(&set.value).program?;
+                    field.measured(&names, &given).value
+                }
+                known => known,
+            },
+            None => Measure::Known(units::parse(match what.as_str().rsplit(' ').next()? {
+                "timestep" => "s",
+                "mass" => "kg",
+                "size" | "pos" => "m",
+                "density" => "kg/m^3",
+                _ => return None,
+            })?),
+        };
     Some(("value".to_string(), measure))
 }
 
 fn of_scene(scene: &BoundScene<'_>) -> Vec<(String, Measure)> {
     let given = given(&scene.scene.lab, &scene.scene.model, &scene.scene.programs);
     let names = scene.names(Scope::Measure);
-    let one = |text: &Text| {
-        let mut globals = scene.globals.clone();
-        Compiler::new(&names, &mut globals).measuring(&given).expression(&text.value).measured
-    };
     let measures = scene.measures.iter();
-    measures.map(|(name, m)| (name.to_string(), one(m.text).unwrap_or_default().value)).collect()
+    measures.map(|(name, m)| (name.to_string(), m.program.measured(&names, &given).value)).collect()
 }

@@ -4,8 +4,6 @@ use super::access::Chosen;
 use super::member::quoted;
 use super::{Attempt, Binder, Reported, Thing, Want};
 use crate::ast::{Expr, ExprKind};
-use crate::form::Form;
-use crate::form::measure::measured;
 use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
 use crate::math;
 use crate::natives;
@@ -425,7 +423,7 @@ impl<'a> Binder<'a> {
             let report = self.wrong_count(info, args, None, span);
             return self.refuse(report);
         }
-        let (mut programs, mut measures) = (Vec::new(), Vec::new());
+        let mut programs = Vec::new();
         let mut failed = false;
         for (i, (param, arg)) in info.params.iter().zip(args).enumerate() {
             // Each argument reads and writes on its own account.
@@ -453,11 +451,6 @@ impl<'a> Binder<'a> {
             self.unit = unit;
             match bound {
                 Ok(Some(ir)) => {
-                    let found = self.given.map(|given| {
-                        let given = given.with(&aggregates);
-                        measured(&Form::of(&tree), self.schema, &given).of_type(ir.ty).value
-                    });
-                    measures.push(found.unwrap_or_default());
                     programs.push(Program::new(&tree, self.schema, ir.ty, aggregates, &self.globals));
                 }
                 Ok(None) => {}
@@ -469,8 +462,7 @@ impl<'a> Binder<'a> {
         }
         let slot = self.next_aggregate;
         self.next_aggregate += 1;
-        let measure = info.gives.of(|i| measures.get(i).copied().unwrap_or_default());
-        self.aggregates.push(Aggregate { function: id, args: programs, slot, span, measure });
+        self.aggregates.push(Aggregate { function: id, args: programs, slot, span });
         Ok(Ir::new(Kind::Aggregate(slot as u32), Type::Number, span))
     }
 }

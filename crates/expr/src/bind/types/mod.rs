@@ -29,7 +29,6 @@ use std::collections::BTreeMap;
 use super::names::Names;
 use super::{Compiler, MAX_LEVELS, Mode};
 use crate::ast::Expr;
-use crate::form::measure::Given;
 use crate::globals::{Globals, ProgramId};
 use crate::ir::{Ir, Step, Tree, Unit, UnitId};
 use crate::math;
@@ -153,7 +152,6 @@ struct Binder<'a> {
     globals: Globals,
     value: Option<Type>,
     /// What variables measure, where that is asked for.
-    given: Option<&'a Given>,
     source: &'a str,
     mode: Mode,
     names: &'a Names,
@@ -202,7 +200,6 @@ impl<'a> Binder<'a> {
             schema: compiler.schema,
             globals: std::mem::take(compiler.globals),
             value: compiler.value,
-            given: compiler.given,
             source,
             mode,
             names,
