@@ -11,71 +11,71 @@ use labspec_expr::{Advice, FieldKey, Role};
 pub(super) fn row(m: &Model, f: FieldId, kind: Obj, index: usize) -> Option<(usize, usize)> {
     let shape = reflect::shape(m, f);
     let width: usize = shape.iter().skip(1).try_fold(1usize, |n, d| n.checked_mul((*d)?))?;
-    let (first, count) = span(m, kind, f.info().shape.first()?, index)?;
+    let (first, count) = span(m, kind, f.rows()?, index)?;
     Some((first.checked_mul(width)?, count.checked_mul(width)?))
 }
 
 /// First and number of the rows of one object along a dimension.
-fn span(m: &Model, kind: Obj, dim: &str, index: usize) -> Option<(usize, usize)> {
+fn span(m: &Model, kind: Obj, dim: FieldId, index: usize) -> Option<(usize, usize)> {
     let at = |v: &[i32]| v.get(index).and_then(|&x| usize::try_from(x).ok());
-    let one = |wanted: &str| (dim == wanted).then_some((index, 1));
+    let one = |wanted: FieldId| (dim == wanted).then_some((index, 1));
     match (kind, dim) {
-        (Obj::Joint, "nq") => Some((at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?))),
-        (Obj::Joint, "nv") => Some((at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?))),
-        (Obj::Sensor, "nsensordata") => Some((at(&m.sensor_adr)?, at(&m.sensor_dim)?)),
-        (Obj::Actuator, "nu") => Some((at(&m.actuator_ctrladr)?, at(&m.actuator_ctrlnum)?)),
-        (Obj::Actuator, "nout") => Some((at(&m.actuator_outadr)?, at(&m.actuator_outnum)?)),
-        (Obj::Actuator, "na") => Some((at(&m.actuator_actadr)?, at(&m.actuator_actnum)?)),
-        (Obj::Numeric, "nnumericdata") => Some((at(&m.numeric_adr)?, at(&m.numeric_size)?)),
-        (Obj::Tuple, "ntupledata") => Some((at(&m.tuple_adr)?, at(&m.tuple_size)?)),
+        (Obj::Joint, model::nq) => Some((at(&m.jnt_qposadr)?, joint::nq(*m.jnt_type.get(index)?))),
+        (Obj::Joint, model::nv) => Some((at(&m.jnt_dofadr)?, joint::nv(*m.jnt_type.get(index)?))),
+        (Obj::Sensor, model::nsensordata) => Some((at(&m.sensor_adr)?, at(&m.sensor_dim)?)),
+        (Obj::Actuator, model::nu) => Some((at(&m.actuator_ctrladr)?, at(&m.actuator_ctrlnum)?)),
+        (Obj::Actuator, model::nout) => Some((at(&m.actuator_outadr)?, at(&m.actuator_outnum)?)),
+        (Obj::Actuator, model::na) => Some((at(&m.actuator_actadr)?, at(&m.actuator_actnum)?)),
+        (Obj::Numeric, model::nnumericdata) => Some((at(&m.numeric_adr)?, at(&m.numeric_size)?)),
+        (Obj::Tuple, model::ntupledata) => Some((at(&m.tuple_adr)?, at(&m.tuple_size)?)),
         (kind, _) => one(size_of(kind)?),
     }
 }
 
 /// Whether a dimension has rows of the objects of a kind.
-pub(super) fn has_rows(kind: Obj, dim: &str) -> bool {
-    let parts: &[&str] = match kind {
-        Obj::Joint => &["nq", "nv"],
-        Obj::Sensor => &["nsensordata"],
-        Obj::Actuator => &["nu", "nout", "na"],
-        Obj::Numeric => &["nnumericdata"],
-        Obj::Tuple => &["ntupledata"],
+pub(super) fn has_rows(kind: Obj, dim: FieldId) -> bool {
+    let parts: &[FieldId] = match kind {
+        Obj::Joint => &[model::nq, model::nv],
+        Obj::Sensor => &[model::nsensordata],
+        Obj::Actuator => &[model::nu, model::nout, model::na],
+        Obj::Numeric => &[model::nnumericdata],
+        Obj::Tuple => &[model::ntupledata],
         _ => &[],
     };
     size_of(kind) == Some(dim) || parts.contains(&dim)
 }
 
 /// The size that counts the objects of a kind.
-fn size_of(kind: Obj) -> Option<&'static str> {
+fn size_of(kind: Obj) -> Option<FieldId> {
     Some(match kind {
-        Obj::Body => "nbody",
-        Obj::Joint => "njnt",
-        Obj::Geom => "ngeom",
-        Obj::Site => "nsite",
-        Obj::Camera => "ncam",
-        Obj::Light => "nlight",
-        Obj::Mesh => "nmesh",
-        Obj::Skin => "nskin",
-        Obj::HField => "nhfield",
-        Obj::Texture => "ntex",
-        Obj::Material => "nmat",
-        Obj::Pair => "npair",
-        Obj::Exclude => "nexclude",
-        Obj::Equality => "neq",
-        Obj::Tendon => "ntendon",
-        Obj::Actuator => "nactuator",
-        Obj::Sensor => "nsensor",
-        Obj::Numeric => "nnumeric",
-        Obj::Text => "ntext",
-        Obj::Tuple => "ntuple",
-        Obj::Key => "nkey",
+        Obj::Body => model::nbody,
+        Obj::Joint => model::njnt,
+        Obj::Geom => model::ngeom,
+        Obj::Site => model::nsite,
+        Obj::Camera => model::ncam,
+        Obj::Light => model::nlight,
+        Obj::Mesh => model::nmesh,
+        Obj::Skin => model::nskin,
+        Obj::HField => model::nhfield,
+        Obj::Texture => model::ntex,
+        Obj::Material => model::nmat,
+        Obj::Pair => model::npair,
+        Obj::Exclude => model::nexclude,
+        Obj::Equality => model::neq,
+        Obj::Tendon => model::ntendon,
+        Obj::Actuator => model::nactuator,
+        Obj::Sensor => model::nsensor,
+        Obj::Numeric => model::nnumeric,
+        Obj::Text => model::ntext,
+        Obj::Tuple => model::ntuple,
+        Obj::Key => model::nkey,
         _ => return None,
     })
 }
 
 /// The object that an element of a field belongs to.
 pub(super) fn owner(m: &Model, f: FieldId, index: usize) -> Option<(Obj, usize)> {
-    let dim = *f.info().shape.first()?;
+    let dim = f.rows()?;
     let kinds = super::handle::KINDS.iter().map(|(kind, _)| *kind);
     for kind in kinds.filter(|kind| has_rows(*kind, dim)) {
         let count = m.names.of(kind).len();
@@ -107,9 +107,9 @@ pub(super) fn help(m: &Model, f: FieldId, index: usize) -> Option<String> {
     let info = f.info();
     if kind == Obj::Joint {
         let ty = *m.jnt_type.get(object)?;
-        let what = match (info.object, *info.shape.first()?) {
-            (_, "nq") => coordinate(ty, at),
-            (_, "nv") => rate(ty, at),
+        let what = match f.rows()? {
+            model::nq => coordinate(ty, at),
+            model::nv => rate(ty, at),
             _ => None,
         };
         if let Some((what, unit)) = what {
@@ -214,7 +214,7 @@ mod tests {
             let names = ModelNames::new(&m, Scope::Lab);
             for f in reflect::fields() {
                 let info = f.info();
-                let Some(dim) = info.shape.first() else { continue };
+                let Some(dim) = f.rows() else { continue };
                 let Some((kind, noun)) = KINDS.iter().find(|(kind, _)| has_rows(*kind, dim)) else {
                     continue;
                 };
@@ -227,7 +227,7 @@ mod tests {
                     if name.is_empty() || count == 0 || objects.iter().filter(|n| *n == name).count() > 1 {
                         continue;
                     }
-                    let short = crate::named_field(info.object, info.name, dim).unwrap();
+                    let short = crate::named_field(f).unwrap();
                     let member = short.rsplit('.').next().unwrap();
                     let text = format!("{holder}.{noun}('{name}').{member}[{}]", count - 1);
                     let mut globals = Globals::new();

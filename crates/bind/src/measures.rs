@@ -48,7 +48,7 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
     if info.name.contains("solref") {
         return Measure::Unknown;
     }
-    let dim = info.shape.first().copied().unwrap_or("");
+    let dim = f.rows();
     match f {
         data::sensordata => return sensor(m, f, at),
         data::ctrl => return control(m, at),
@@ -63,10 +63,12 @@ fn element(m: &Model, f: FieldId, shape: &[Option<usize>], at: usize) -> Measure
     let Some(unit) = part(f.unit(), at % width.max(1), width) else { return Measure::Unknown };
     let Some((along, turning)) = unit.split_once(" or ") else { return read(unit) };
     let motion = match dim {
-        "nq" | "nv" | "njnt" => joint_motion(m, f, dim, at),
+        Some(dim @ (model::nq | model::nv | model::njnt)) => joint_motion(m, f, dim, at),
         // A row of coordinates for every keyframe.
-        "nkey" => row_motion(m, f, at % width.max(1)),
-        "nout" | "nactuator" => elements::owner(m, f, at).and_then(|(_, i)| actuator_motion(m, i)),
+        Some(model::nkey) => row_motion(m, f, at % width.max(1)),
+        Some(model::nout | model::nactuator) => {
+            elements::owner(m, f, at).and_then(|(_, i)| actuator_motion(m, i))
+        }
         _ => None,
     };
     match motion {
@@ -96,22 +98,22 @@ fn part(unit: &str, at: usize, width: usize) -> Option<&str> {
 }
 
 /// How the joint moves that an element belongs to.
-fn joint_motion(m: &Model, f: FieldId, dim: &str, at: usize) -> Option<Motion> {
+fn joint_motion(m: &Model, f: FieldId, dim: FieldId, at: usize) -> Option<Motion> {
     let (Obj::Joint, object) = elements::owner(m, f, at)? else { return None };
     let (first, _) = elements::row(m, f, Obj::Joint, object)?;
     motion(*m.jnt_type.get(object)?, at - first, dim)
 }
 
 /// How a coordinate of a joint moves.
-fn motion(ty: i32, at: usize, dim: &str) -> Option<Motion> {
+fn motion(ty: i32, at: usize, dim: FieldId) -> Option<Motion> {
     Some(match (ty, dim) {
         (joint::SLIDE, _) => Motion::Along,
         (joint::HINGE, _) => Motion::Turning,
         // Limits of a ball are those of its angle.
-        (joint::BALL, "njnt") => Motion::Turning,
-        (joint::FREE, "nq" | "nv") if at < 3 => Motion::Along,
-        (joint::FREE | joint::BALL, "nq") => Motion::Number,
-        (joint::FREE | joint::BALL, "nv") => Motion::Turning,
+        (joint::BALL, model::njnt) => Motion::Turning,
+        (joint::FREE, model::nq | model::nv) if at < 3 => Motion::Along,
+        (joint::FREE | joint::BALL, model::nq) => Motion::Number,
+        (joint::FREE | joint::BALL, model::nv) => Motion::Turning,
         _ => return None,
     })
 }
@@ -119,8 +121,8 @@ fn motion(ty: i32, at: usize, dim: &str) -> Option<Motion> {
 /// How a coordinate of a keyframe moves.
 fn row_motion(m: &Model, f: FieldId, at: usize) -> Option<Motion> {
     let (starts, dim) = match f {
-        model::key_qpos => (&m.jnt_qposadr, "nq"),
-        model::key_qvel => (&m.jnt_dofadr, "nv"),
+        model::key_qpos => (&m.jnt_qposadr, model::nq),
+        model::key_qvel => (&m.jnt_dofadr, model::nv),
         _ => return None,
     };
     let (object, first) = starts.iter().enumerate().rev().find(|(_, first)| **first as usize <= at)?;
@@ -186,7 +188,9 @@ fn sensor(m: &Model, f: FieldId, at: usize) -> Measure {
     let object = m.sensor_objid.get(s).and_then(|o| usize::try_from(*o).ok());
     let kind = m.sensor_objtype.get(s).copied();
     let motion = match object {
-        Some(o) if kind == Some(Obj::Joint as i32) => m.jnt_type.get(o).and_then(|ty| motion(*ty, 0, "njnt")),
+        Some(o) if kind == Some(Obj::Joint as i32) => {
+            m.jnt_type.get(o).and_then(|ty| motion(*ty, 0, model::njnt))
+        }
         Some(o) if kind == Some(Obj::Actuator as i32) => actuator_motion(m, o),
         _ => None,
     };

@@ -8,7 +8,7 @@ use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
 use super::shown::{LABELS, Shown};
 use super::words::WORDS;
-use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
+use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, model, option};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
@@ -166,7 +166,8 @@ fn short_name(name: &str) -> &str {
 
 /// How a field of the table is written for one object that has a name: `data.joint('…').qpos`; `None` when it has no
 /// rows of one kind of object.
-pub fn named_field(object: Object, name: &'static str, dim: &str) -> Option<String> {
+pub fn named_field(f: FieldId) -> Option<String> {
+    let (object, name, dim) = (f.info().object, f.info().name, f.rows()?);
     let holder = match object {
         Object::Model => "model",
         Object::Data => "data",
@@ -182,7 +183,7 @@ fn member_name(object: Object, name: &'static str, kind: Obj) -> &'static str {
         return "data";
     }
     let short = short_name(name);
-    let has = |f: &FieldId| f.info().shape.first().is_some_and(|dim| elements::has_rows(kind, dim));
+    let has = |f: &FieldId| f.rows().is_some_and(|dim| elements::has_rows(kind, dim));
     let all = reflect::fields().filter(|f| f.info().object == object && short_name(f.info().name) == short);
     let first = all.filter(has).map(|f| f.info().name).next();
     if first.is_none_or(|f| f == name) { short } else { name }
@@ -253,30 +254,29 @@ fn stage_phrase(stage: Stage) -> &'static str {
 
 /// Whose index it is, in a sentence.
 fn owner(f: FieldId, shape: &[Option<usize>]) -> String {
-    let info = f.info();
-    let Some(Some(count)) = shape.first() else { return String::new() };
-    let things = match info.shape.first().copied().unwrap_or("") {
-        "nq" => "coordinates (nq)",
-        "nv" => "degrees of freedom (nv)",
-        "nu" => "controls (nu)",
-        "na" => "activations (na)",
-        "nbody" => "bodies (nbody, the world is body 0)",
-        "njnt" => "joints (njnt)",
-        "ngeom" => "geoms (ngeom)",
-        "nsite" => "sites (nsite)",
-        "nmocap" => "mocap bodies (nmocap)",
-        "nkey" => "keyframes (nkey)",
-        "ncam" => "cameras (ncam)",
-        "nlight" => "lights (nlight)",
-        "nactuator" => "actuators (nactuator)",
-        "nout" => "force outputs of actuators (nout)",
-        "nmesh" => "meshes (nmesh)",
-        "nwrap" => "objects on tendon paths (nwrap)",
-        "npair" => "contact pairs (npair)",
-        "nsensor" => "sensors (nsensor)",
-        "nsensordata" => "sensor values (nsensordata)",
-        "ntendon" => "tendons (ntendon)",
-        "neq" => "equality constraints (neq)",
+    let (Some(rows), Some(Some(count))) = (f.rows(), shape.first()) else { return String::new() };
+    let things = match rows {
+        model::nq => "coordinates (nq)",
+        model::nv => "degrees of freedom (nv)",
+        model::nu => "controls (nu)",
+        model::na => "activations (na)",
+        model::nbody => "bodies (nbody, the world is body 0)",
+        model::njnt => "joints (njnt)",
+        model::ngeom => "geoms (ngeom)",
+        model::nsite => "sites (nsite)",
+        model::nmocap => "mocap bodies (nmocap)",
+        model::nkey => "keyframes (nkey)",
+        model::ncam => "cameras (ncam)",
+        model::nlight => "lights (nlight)",
+        model::nactuator => "actuators (nactuator)",
+        model::nout => "force outputs of actuators (nout)",
+        model::nmesh => "meshes (nmesh)",
+        model::nwrap => "objects on tendon paths (nwrap)",
+        model::npair => "contact pairs (npair)",
+        model::nsensor => "sensors (nsensor)",
+        model::nsensordata => "sensor values (nsensordata)",
+        model::ntendon => "tendons (ntendon)",
+        model::neq => "equality constraints (neq)",
         _ => return String::new(),
     };
     let each: usize = shape.iter().skip(1).map(|d| d.unwrap_or(1)).product();

@@ -56,7 +56,7 @@ fn fields() -> String {
             let (f, unit, doc) = (id.info(), id.unit(), id.doc());
             let shape = if f.shape.is_empty() { "–".to_string() } else { f.shape.join(" × ") };
             let unit = if unit.is_empty() { "–" } else { unit };
-            let named = f.shape.first().and_then(|dim| by_name(f.object, f.name, dim));
+            let named = by_name(id);
             let named = named.map_or("–".to_string(), |path| format!("`{path}`"));
             let kind = kind(f.kind, f.stage);
             let _ = writeln!(text, "| `{}` | {shape} | {named} | {unit} | {kind} | {doc} |", f.name);

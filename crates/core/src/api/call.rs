@@ -12,7 +12,7 @@ use crate::forces::{actuation, energy};
 use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::Fact;
-use crate::model::reflect::{self, FieldId, Object, View, ViewMut};
+use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
 use crate::model::stopwatch::Laps;
 use crate::model::{Contact, Obj};
 use crate::query::{self, RayFilter, RayHit};
@@ -33,10 +33,10 @@ fn exists(kind: &'static str, id: usize, count: usize) -> Result<(), Error> {
 
 /// Functions that take the model and all of the data.
 macro_rules! passes {
-    ($($(#[$doc:meta])* $name:ident [$($needs:literal)*] |$m:ident, $d:ident| $call:expr;)*) => { $(
+    ($($(#[$doc:meta])* $name:ident [$($needs:ident)*] |$m:ident, $d:ident| $call:expr;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
-            d.has(&[$($needs),*])?;
+            d.has(&[$(data::$needs),*])?;
             let ($m, $d) = (m, d.engine(m)?);
             $call;
             Ok(())
@@ -106,13 +106,13 @@ passes! {
     /// The contacts of geoms where they are now (`mj_collision`).
     collision [] |m, d| step::forward::contacts(m, d);
     /// `energy[0]`: gravity and springs, J (`mj_energyPos`). Zero where every centre of mass is at the origin.
-    energy_pos ["xipos"] |m, d| energy::potential(m, d);
+    energy_pos [xipos] |m, d| energy::potential(m, d);
     /// `energy[1]` = ½ vᵀ M v, J (`mj_energyVel`).
-    energy_vel ["M"] |m, d| energy::kinetic(m, d);
+    energy_vel [M] |m, d| energy::kinetic(m, d);
     /// Momentum of subtrees (`mj_subtreeVel`): `subtree_linvel`, `subtree_angmom`.
-    subtree_vel ["cvel"] |m, d| subtree::subtree_vel(m, d);
+    subtree_vel [cvel] |m, d| subtree::subtree_vel(m, d);
     /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints (`mj_rnePostConstraint`).
-    rne_post_constraint ["cvel"] |m, d| body_force::rne_post_constraint(m, d);
+    rne_post_constraint [cvel] |m, d| body_force::rne_post_constraint(m, d);
 }
 
 /// Back to a keyframe (`mj_resetDataKeyframe`).
@@ -191,7 +191,7 @@ pub fn inverse<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
 ///
 /// It needs the position and velocity stages.
 pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result<Vec<f64>, Error> {
-    d.has(&["cdof", "cdof_dot", "cinert", "cvel"])?;
+    d.has(&[data::cdof, data::cdof_dot, data::cinert, data::cvel])?;
     if let Some(a) = qacc {
         wanted("an acceleration", m.nv, a.len())?;
     }
@@ -221,28 +221,28 @@ pub fn rne<S: Scope>(m: &Model, d: &mut Data<S>, qacc: Option<&[f64]>) -> Result
 /// ```
 pub fn contact_force<S: Scope>(m: &Model, d: &Data<S>, contact: &Contact) -> Result<[f64; 6], Error> {
     d.belongs_to(m)?;
-    d.has(&["efc_force"])?;
+    d.has(&[data::efc_force])?;
     Ok(crate::constraint::contact_force(m, &d.inner, contact))
 }
 
 /// The Jacobian of the constraints as a dense matrix, `nefc` x `nv`, row-major (`efc_J`).
 pub fn full_j<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
     d.belongs_to(m)?;
-    d.has(&["efc_force"])?;
+    d.has(&[data::efc_force])?;
     Ok(functions::full_j(m, &d.inner))
 }
 
 /// M as a dense symmetric matrix, `nv` x `nv`, row-major (`mj_fullM`).
 pub fn full_m<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<f64>, Error> {
     d.belongs_to(m)?;
-    d.has(&["M"])?;
+    d.has(&[data::M])?;
     Ok(mass::full_m(m, &d.inner))
 }
 
 /// out ← M v (`mj_mulM`), for vectors of nv numbers.
 pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
-    d.has(&["M"])?;
+    d.has(&[data::M])?;
     wanted("the vector", m.nv, v.len())?;
     wanted("the product", m.nv, out.len())?;
     mass::mul(m, &d.inner.M, v, out, 0..m.nv);
@@ -252,7 +252,7 @@ pub fn mul_m<S: Scope>(m: &Model, d: &Data<S>, v: &[f64], out: &mut [f64]) -> Re
 /// x ← M⁻¹ x (`mj_solveM`), for a vector of nv numbers.
 pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
-    d.has(&["qLD", "qLDiagInv"])?;
+    d.has(&[data::qLD, data::qLDiagInv])?;
     wanted("the vector", m.nv, x.len())?;
     mass::solve(m, &d.inner.qLD, &d.inner.qLDiagInv, x, 0..m.nv);
     Ok(())
@@ -261,23 +261,23 @@ pub fn solve_m<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Er
 /// x ← D^-½ L⁻ᵀ x (`mj_solveM2`): half of the solution, so that xᵀ M⁻¹ x is the square of its norm.
 pub fn solve_m2<S: Scope>(m: &Model, d: &Data<S>, x: &mut [f64]) -> Result<(), Error> {
     d.belongs_to(m)?;
-    d.has(&["qLD", "qLDiagInv"])?;
+    d.has(&[data::qLD, data::qLDiagInv])?;
     wanted("the vector", m.nv, x.len())?;
     mass::solve_m2(m, &d.inner, x);
     Ok(())
 }
 
 /// The fields of the data that a point's Jacobian follows from.
-pub const JACOBIAN_READS: [&str; 4] = ["xanchor", "xaxis", "xmat", "xpos"];
+pub const JACOBIAN_READS: [FieldId; 4] = [data::xanchor, data::xaxis, data::xmat, data::xpos];
 
 /// Jacobians by what they are of.
 macro_rules! jacobians {
-    ($($(#[$doc:meta])* $name:ident($($arg:ident: $ty:ty),*) $id:ident $noun:literal $count:ident [$($needs:literal)*] -> $ret:ty = $call:path;)*) => { $(
+    ($($(#[$doc:meta])* $name:ident($($arg:ident: $ty:ty),*) $id:ident $noun:literal $count:ident [$($needs:ident)*] -> $ret:ty = $call:path;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scope>(m: &Model, d: &Data<S>, $($arg: $ty,)* $id: usize) -> Result<$ret, Error> {
             d.belongs_to(m)?;
             d.has(&JACOBIAN_READS)?;
-            d.has(&[$($needs),*])?;
+            d.has(&[$(data::$needs),*])?;
             exists($noun, $id, m.$count)?;
             $call(m, &d.inner, $($arg,)* $id).ok_or(Error::NoId { kind: $noun, id: $id, count: m.$count })
         }
@@ -289,16 +289,16 @@ jacobians! {
     /// The Jacobian of the frame of a body (`mj_jacBody`).
     jac_body() body "body" nbody [] -> Jacobian = jacobian::jac_body;
     /// The Jacobian of a body's centre of mass (`mj_jacBodyCom`).
-    jac_body_com() body "body" nbody ["xipos"] -> Jacobian = jacobian::jac_body_com;
+    jac_body_com() body "body" nbody [xipos] -> Jacobian = jacobian::jac_body_com;
     /// The Jacobian of the frame of a geom (`mj_jacGeom`).
-    jac_geom() geom "geom" ngeom ["geom_xpos"] -> Jacobian = jacobian::jac_geom;
+    jac_geom() geom "geom" ngeom [geom_xpos] -> Jacobian = jacobian::jac_geom;
     /// The Jacobian of the frame of a site (`mj_jacSite`).
-    jac_site() site "site" nsite ["site_xpos"] -> Jacobian = jacobian::jac_site;
+    jac_site() site "site" nsite [site_xpos] -> Jacobian = jacobian::jac_site;
     /// `[3, nv]`: how the centre of mass of a body and all its descendants moves (`mj_jacSubtreeCom`).
-    jac_subtree_com() body "body" nbody ["xipos"] -> Vec<f64> = jacobian::jac_subtree_com;
+    jac_subtree_com() body "body" nbody [xipos] -> Vec<f64> = jacobian::jac_subtree_com;
     /// The time derivative of the Jacobian of a point that moves with a body (`mj_jacDot`): the acceleration of the point is
     /// J q̈ + J̇ q̇.
-    jac_dot(point: Vec3) body "body" nbody ["cvel" "cdof" "cdof_dot"] -> Jacobian = jacobian::jac_dot;
+    jac_dot(point: Vec3) body "body" nbody [cvel cdof cdof_dot] -> Jacobian = jacobian::jac_dot;
 }
 
 /// Adds to `qfrc` (nv) the generalized force of a force, N, at a point of a body and a torque, N m, all in world axes
@@ -329,7 +329,7 @@ pub fn object_velocity<S: Scope>(
     local: bool,
 ) -> Result<Spatial, Error> {
     d.belongs_to(m)?;
-    d.has(&["cvel"])?;
+    d.has(&[data::cvel])?;
     Ok(object::object_velocity(m, &d.inner, kind, id, local))
 }
 
@@ -344,7 +344,7 @@ pub fn object_acceleration<S: Scope>(
     local: bool,
 ) -> Result<Spatial, Error> {
     d.belongs_to(m)?;
-    d.has(&["cacc", "cvel"])?;
+    d.has(&[data::cacc, data::cvel])?;
     Ok(object::object_acceleration(m, &d.inner, kind, id, local))
 }
 
@@ -374,7 +374,7 @@ pub fn ray<S: Scope>(
     filter: &RayFilter,
 ) -> Result<Option<RayHit>, Error> {
     d.belongs_to(m)?;
-    d.has(&["geom_xpos", "geom_xmat"])?;
+    d.has(&[data::geom_xpos, data::geom_xmat])?;
     Ok(query::ray(m, &d.inner, from, along, filter))
 }
 
@@ -388,7 +388,7 @@ pub fn geom_distance<S: Scope>(
     geom2: usize,
     most: f64,
 ) -> Result<Distance, Error> {
-    d.has(&["geom_xpos", "geom_xmat"])?;
+    d.has(&[data::geom_xpos, data::geom_xmat])?;
     exists("geom", geom1, m.ngeom)?;
     exists("geom", geom2, m.ngeom)?;
     let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
@@ -398,7 +398,7 @@ pub fn geom_distance<S: Scope>(
 /// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
 pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -> Result<bool, Error> {
     d.belongs_to(m)?;
-    d.has(&["site_xpos", "site_xmat"])?;
+    d.has(&[data::site_xpos, data::site_xmat])?;
     exists("site", site, m.nsite)?;
     Ok(query::inside_site(m, &d.inner, site, point))
 }

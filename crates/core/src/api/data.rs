@@ -292,12 +292,12 @@ impl<S: Scope> Data<S> {
 
     /// That fields of the data are computed.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn has(&self, fields: &[&'static str]) -> Result<(), Error> {
+    pub(super) fn has(&self, fields: &[FieldId]) -> Result<(), Error> {
         if S::FULL { Ok(()) } else { self.lacks(fields) }
     }
 
-    fn lacks(&self, fields: &[&'static str]) -> Result<(), Error> {
-        fields.iter().try_for_each(|name| self.get(name).map(|_| ()))
+    fn lacks(&self, fields: &[FieldId]) -> Result<(), Error> {
+        fields.iter().try_for_each(|field| self.read(*field).map(|_| ()))
     }
 }
 

@@ -97,6 +97,14 @@ impl FieldId {
         FIELDS[self.0 as usize]
     }
 
+    /// The size of the model that counts its rows; `None` for a single number and for what changes with the state.
+    pub fn rows(self) -> Option<FieldId> {
+        match dimensions(self).first()? {
+            Dimension::Size(id) => Some(FieldId(*id as u16)),
+            Dimension::Fixed(_) | Dimension::Open => None,
+        }
+    }
+
     /// Its unit, empty when dimensionless.
     pub fn unit(self) -> &'static str {
         WORDS[self.0 as usize].unit

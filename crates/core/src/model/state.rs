@@ -2,7 +2,7 @@
 //!
 //! What a list holds is chosen by a signature, a sum of the bits below; its parts come in the order of the bits.
 
-use crate::model::reflect::{self, Cell, Object, View, ViewMut};
+use crate::model::reflect::{self, Cell, FieldId, View, ViewMut, data};
 use crate::model::{Fields, Model};
 use std::fmt;
 
@@ -10,7 +10,7 @@ macro_rules! elements {
     ($($bit:literal $name:ident $field:ident $doc:literal;)*) => {
         $(#[doc = $doc] pub const $name: i32 = 1 << $bit;)*
         /// The field of each part, by bit.
-        const FIELDS: &[&str] = &[$(stringify!($field)),*];
+        const FIELDS: &[FieldId] = &[$(data::$field),*];
         fn part(d: &Fields, bit: usize) -> View<'_> {
             match bit { $($bit => d.$field.view(),)* _ => View::F64(&[]) }
         }
@@ -161,8 +161,7 @@ fn bits(sig: i32) -> Result<impl Iterator<Item = usize>, StateError> {
 }
 
 fn length(m: &Model, bit: usize) -> usize {
-    let field = FIELDS.get(bit).and_then(|name| reflect::field(Object::Data, name));
-    field.map_or(0, |f| reflect::length(m, f))
+    FIELDS.get(bit).map_or(0, |field| reflect::length(m, *field))
 }
 
 fn fits(m: &Model, sig: i32, found: usize) -> Result<(), StateError> {

@@ -6,74 +6,81 @@
 use crate::dynamics::walk;
 use crate::geometry::Hull;
 use crate::kinds::{dyntype, eqtype, gaintype, geom, joint, trntype, wraptype};
-use crate::model::reflect::{self, Object, View};
+use crate::model::reflect::{self, FieldId, Object, View, model};
 use crate::model::{Model, Obj};
 use crate::sensor;
 
 /// A field, the size that its numbers are below, and the lowest of them.
-const IDS: [(&str, &str, i32); 32] = [
-    ("body_parentid", "nbody", 0),
-    ("body_rootid", "nbody", 0),
-    ("body_weldid", "nbody", 0),
-    ("body_mocapid", "nmocap", -1),
-    ("body_treeid", "ntree", -1),
-    ("jnt_bodyid", "nbody", 0),
-    ("jnt_actuatorid", "nactuator", -2),
-    ("dof_bodyid", "nbody", 0),
-    ("dof_jntid", "njnt", 0),
-    ("dof_parentid", "nv", -1),
-    ("dof_treeid", "ntree", 0),
-    ("M_colind", "nv", 0),
-    ("D_colind", "nv", 0),
-    ("geom_bodyid", "nbody", 0),
-    ("geom_matid", "nmat", -1),
-    ("site_bodyid", "nbody", 0),
-    ("site_dataid", "nmesh", -1),
-    ("cam_bodyid", "nbody", 0),
-    ("cam_targetbodyid", "nbody", -1),
-    ("light_bodyid", "nbody", 0),
-    ("light_targetbodyid", "nbody", -1),
-    ("mesh_face", "nmeshvert", 0),
-    ("skin_bonebodyid", "nbody", 0),
-    ("pair_geom1", "ngeom", 0),
-    ("pair_geom2", "ngeom", 0),
-    ("tendon_actuatorid", "nactuator", -2),
-    ("tendon_treeid", "ntree", -1),
-    ("ten_J_colind", "nv", 0),
-    ("jnt_qposadr", "nq", 0),
-    ("jnt_dofadr", "nv", 0),
-    ("actuator_historyadr", "nhistory", -1),
-    ("sensor_historyadr", "nhistory", -1),
+const IDS: [(FieldId, FieldId, i32); 32] = [
+    (model::body_parentid, model::nbody, 0),
+    (model::body_rootid, model::nbody, 0),
+    (model::body_weldid, model::nbody, 0),
+    (model::body_mocapid, model::nmocap, -1),
+    (model::body_treeid, model::ntree, -1),
+    (model::jnt_bodyid, model::nbody, 0),
+    (model::jnt_actuatorid, model::nactuator, -2),
+    (model::dof_bodyid, model::nbody, 0),
+    (model::dof_jntid, model::njnt, 0),
+    (model::dof_parentid, model::nv, -1),
+    (model::dof_treeid, model::ntree, 0),
+    (model::M_colind, model::nv, 0),
+    (model::D_colind, model::nv, 0),
+    (model::geom_bodyid, model::nbody, 0),
+    (model::geom_matid, model::nmat, -1),
+    (model::site_bodyid, model::nbody, 0),
+    (model::site_dataid, model::nmesh, -1),
+    (model::cam_bodyid, model::nbody, 0),
+    (model::cam_targetbodyid, model::nbody, -1),
+    (model::light_bodyid, model::nbody, 0),
+    (model::light_targetbodyid, model::nbody, -1),
+    (model::mesh_face, model::nmeshvert, 0),
+    (model::skin_bonebodyid, model::nbody, 0),
+    (model::pair_geom1, model::ngeom, 0),
+    (model::pair_geom2, model::ngeom, 0),
+    (model::tendon_actuatorid, model::nactuator, -2),
+    (model::tendon_treeid, model::ntree, -1),
+    (model::ten_J_colind, model::nv, 0),
+    (model::jnt_qposadr, model::nq, 0),
+    (model::jnt_dofadr, model::nv, 0),
+    (model::actuator_historyadr, model::nhistory, -1),
+    (model::sensor_historyadr, model::nhistory, -1),
 ];
 
 /// Where lists begin, how long they are, and the size of what they are part of.
-const SPANS: [(&str, &str, &str); 17] = [
-    ("body_jntadr", "body_jntnum", "njnt"),
-    ("body_dofadr", "body_dofnum", "nv"),
-    ("body_geomadr", "body_geomnum", "ngeom"),
-    ("tree_bodyadr", "tree_bodynum", "nbody"),
-    ("tree_dofadr", "tree_dofnum", "nv"),
-    ("M_rowadr", "M_rownnz", "nC"),
-    ("D_rowadr", "D_rownnz", "nD"),
-    ("mesh_vertadr", "mesh_vertnum", "nmeshvert"),
-    ("mesh_faceadr", "mesh_facenum", "nmeshface"),
-    ("tendon_adr", "tendon_num", "nwrap"),
-    ("ten_J_rowadr", "ten_J_rownnz", "nJten"),
-    ("actuator_ctrladr", "actuator_ctrlnum", "nu"),
-    ("actuator_outadr", "actuator_outnum", "nout"),
-    ("actuator_actadr", "actuator_actnum", "na"),
-    ("sensor_adr", "sensor_dim", "nsensordata"),
-    ("numeric_adr", "numeric_size", "nnumericdata"),
-    ("tuple_adr", "tuple_size", "ntupledata"),
+const SPANS: [(FieldId, FieldId, FieldId); 17] = [
+    (model::body_jntadr, model::body_jntnum, model::njnt),
+    (model::body_dofadr, model::body_dofnum, model::nv),
+    (model::body_geomadr, model::body_geomnum, model::ngeom),
+    (model::tree_bodyadr, model::tree_bodynum, model::nbody),
+    (model::tree_dofadr, model::tree_dofnum, model::nv),
+    (model::M_rowadr, model::M_rownnz, model::nC),
+    (model::D_rowadr, model::D_rownnz, model::nD),
+    (model::mesh_vertadr, model::mesh_vertnum, model::nmeshvert),
+    (model::mesh_faceadr, model::mesh_facenum, model::nmeshface),
+    (model::tendon_adr, model::tendon_num, model::nwrap),
+    (model::ten_J_rowadr, model::ten_J_rownnz, model::nJten),
+    (model::actuator_ctrladr, model::actuator_ctrlnum, model::nu),
+    (model::actuator_outadr, model::actuator_outnum, model::nout),
+    (model::actuator_actadr, model::actuator_actnum, model::na),
+    (model::sensor_adr, model::sensor_dim, model::nsensordata),
+    (model::numeric_adr, model::numeric_size, model::nnumericdata),
+    (model::tuple_adr, model::tuple_size, model::ntupledata),
 ];
 
 /// Sizes of arrays of the data that no array of the model is as long as.
 const MOST: usize = 1 << 24;
 
-fn list<'a>(m: &'a Model, name: &str) -> &'a [i32] {
-    match reflect::field(Object::Model, name).map(|f| reflect::view_model(m, f)) {
-        Some(View::I32(list)) => list,
+fn list(m: &Model, field: FieldId) -> &[i32] {
+    match reflect::view_model(m, field) {
+        View::I32(list) => list,
         _ => &[],
+    }
+}
+
+fn size(m: &Model, field: FieldId) -> usize {
+    match reflect::view_model(m, field) {
+        View::Size(n) => n,
+        _ => 0,
     }
 }
 
@@ -123,12 +130,12 @@ pub(crate) fn unsound(m: &Model) -> Option<&'static str> {
     ];
     let of_data = reflect::fields().filter(|f| f.info().object == Object::Data);
     let room = of_data.fold(0, |sum: usize, f| sum.saturating_add(reflect::length(m, f)));
-    let ids = IDS.iter().all(|&(name, size, low)| {
-        let end = reflect::size(m, size).unwrap_or(0);
-        list(m, name).iter().all(|&x| x >= low && (x < 0 || within(x, end)))
+    let ids = IDS.iter().all(|&(field, count, low)| {
+        let end = size(m, count);
+        list(m, field).iter().all(|&x| x >= low && (x < 0 || within(x, end)))
     });
-    let spans = SPANS.iter().all(|&(adr, num, size)| {
-        let end = reflect::size(m, size).unwrap_or(0) as i64;
+    let spans = SPANS.iter().all(|&(adr, num, count)| {
+        let end = size(m, count) as i64;
         let pairs = list(m, adr).iter().zip(list(m, num));
         pairs
             .map(|(&a, &n)| (i64::from(a), i64::from(n)))

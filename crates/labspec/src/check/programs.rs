@@ -7,7 +7,7 @@ use crate::rules;
 use crate::run::Session;
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_core::Model;
-use labspec_core::reflect::{FieldId, Kind, Object};
+use labspec_core::reflect::{FieldId, Kind, Object, data};
 use labspec_expr::{FieldKey, Host, Value};
 
 /// What programs do that a page lets pass in silence.
@@ -39,10 +39,11 @@ pub(super) fn sets(bound: &Bound, model: &Model) -> Option<FieldId> {
     let set_const = bound.program.effects().calls.iter().any(|&f| functions::name(f) == Some("mj_setConst"));
     let writes = bound.program.own_writes();
     let mut set = writes.iter().filter(|w| {
-        let Some(info) = FieldId::new(w.field.0 as usize).map(FieldId::info) else { return false };
+        let Some(field) = FieldId::new(w.field.0 as usize) else { return false };
+        let info = field.info();
         // Beside mj_setConst, all of qpos is put back to what it was: no choice of the student.
         let put_back =
-            set_const && info.name == "qpos" && w.first == 0 && w.count.is_none_or(|n| n == model.nq);
+            set_const && field == data::qpos && w.first == 0 && w.count.is_none_or(|n| n == model.nq);
         info.object == Object::Data && matches!(info.kind, Kind::State | Kind::Input) && !put_back
     });
     set.next().and_then(|w| FieldId::new(w.field.0 as usize))

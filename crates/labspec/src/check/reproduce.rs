@@ -9,7 +9,7 @@ use crate::precision::Integrator;
 use crate::run::{Budget, Session};
 use crate::spec::Lesson;
 use crate::verify::Stage;
-use labspec_core::reflect::{self, FieldId, Object};
+use labspec_core::reflect::{self, FieldId, Object, model};
 use labspec_core::{self as core, Data, Demand, Model, Obj, Plan, solver};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -140,19 +140,19 @@ fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
 }
 
 /// Parameters of a geom's contacts, with MuJoCo's defaults.
-const CONTACT: [(&str, &str, &[f64]); 6] = [
-    ("condim", "geom_condim", &[3.0]),
-    ("friction", "geom_friction", &[1.0, 0.005, 0.0001]),
-    ("gap", "geom_gap", &[0.0]),
-    ("margin", "geom_margin", &[0.0]),
-    ("solimp", "geom_solimp", &[0.9, 0.95, 0.001, 0.5, 2.0]),
-    ("solref", "geom_solref", &[0.02, 1.0]),
+const CONTACT: [(&str, FieldId, &[f64]); 6] = [
+    ("condim", model::geom_condim, &[3.0]),
+    ("friction", model::geom_friction, &[1.0, 0.005, 0.0001]),
+    ("gap", model::geom_gap, &[0.0]),
+    ("margin", model::geom_margin, &[0.0]),
+    ("solimp", model::geom_solimp, &[0.9, 0.95, 0.001, 0.5, 2.0]),
+    ("solref", model::geom_solref, &[0.02, 1.0]),
 ];
 
 fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> {
     let names = model.names.of(Obj::Geom);
     let mut all: BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> = BTreeMap::new();
-    let fields = CONTACT.iter().filter_map(|(_, field, _)| reflect::field(Object::Model, field));
+    let fields = CONTACT.iter().map(|(_, field, _)| *field);
     for ((key, _, default), (_, values)) in CONTACT.into_iter().zip(numbers(model, fields)) {
         for (geom, own) in values.chunks(default.len()).enumerate().filter(|(_, own)| *own != default) {
             let name = names.get(geom).filter(|name| !name.is_empty());

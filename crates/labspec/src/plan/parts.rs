@@ -1,7 +1,7 @@
 //! What of the engine a lab uses besides its stages: pairs of geoms, the solver, the integrator, ways of computing trees.
 
 use crate::precision::INTEGRATORS;
-use labspec_core::reflect::{Object, Stage, field};
+use labspec_core::reflect::{Stage, data, option};
 use labspec_core::{self as core, Demand, Model, PairFate, Plan, geom, solver};
 
 /// A piece of code of which a lab uses one or none.
@@ -96,15 +96,10 @@ fn shape(kind: i32) -> &'static str {
     }
 }
 
-fn writes(demand: &Demand, option: &str) -> bool {
-    field(Object::Option, option).is_some_and(|f| demand.writes.contains(f))
-}
-
 /// The sensors in their order.
 pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<Sensor> {
-    let field = field(Object::Data, "sensordata");
     let sensor = |sensor: core::SensorId| {
-        let read = |i| field.is_some_and(|f| plan.demand().reads.contains_element(f, i));
+        let read = |i| plan.demand().reads.contains_element(data::sensordata, i);
         let keep = plan.evaluates(model, sensor);
         let reason = match keep {
             true if sensor.values(model).any(read) => "its values are read",
@@ -124,7 +119,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
     let runs = plan.keeps(Stage::Solve);
     let nothing = plan.decisions().iter().find(|d| d.stage == Stage::Solve).map_or("", |d| d.reason.as_str());
     let named = METHODS.iter().find(|(_, id)| *id == model.opt.solver).map_or("newton", |(name, _)| name);
-    let written = writes(plan.demand(), "solver");
+    let written = plan.demand().writes.contains(option::solver);
     let methods = METHODS.iter().map(|&(name, _)| Code {
         name,
         keep: runs && (written || name == named),
@@ -135,7 +130,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
             () => format!("the options name {named}"),
         },
     });
-    let slips = writes(plan.demand(), "noslip_iterations");
+    let slips = plan.demand().writes.contains(option::noslip_iterations);
     let noslip = Code {
         name: "noslip",
         keep: runs && (slips || model.opt.noslip_iterations > 0),
@@ -152,7 +147,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
 /// The integrators.
 pub(super) fn integrators(model: &Model, demand: &Demand) -> Vec<Code> {
     let own = crate::precision::Integrator::of(model);
-    let written = writes(demand, "integrator");
+    let written = demand.writes.contains(option::integrator);
     let code = |i: crate::precision::Integrator| Code {
         name: i.name,
         keep: written || i == own,

@@ -2,7 +2,7 @@
 
 use crate::bind::{ModelNames, Programs, Scope, include};
 use crate::run::RunError;
-use labspec_core::reflect::{Object, Stage, field};
+use labspec_core::reflect::{Object, Stage, data, field};
 use labspec_core::{Demand, Model, Plan};
 use labspec_expr::Compiler;
 
@@ -50,9 +50,9 @@ fn read(model: &Model, programs: &Programs, text: &str, demand: &mut Demand) -> 
         demand.reads.insert(field);
         return Ok(());
     }
-    if let (Ok(sensor), Some(field)) = (model.sensor(text), field(Object::Data, "sensordata")) {
+    if let Ok(sensor) = model.sensor(text) {
         let places = sensor.values(model);
-        demand.reads.insert_elements(field, places.start, Some(places.len()));
+        demand.reads.insert_elements(data::sensordata, places.start, Some(places.len()));
         return Ok(());
     }
     let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);

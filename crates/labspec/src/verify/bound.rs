@@ -268,7 +268,7 @@ impl<'a> BoundVerify<'a> {
                 |s: &Session<'_>, i| core::element(&s.world.model, &s.world.data, f, i).map(f64::to_bits);
             count != other || (0..count).any(|i| bits(a, i) != bits(b, i))
         };
-        let computed = |f: &FieldId| f.info().object == Object::Data || f.info().name == "timestep";
+        let computed = |f: &FieldId| f.info().object == Object::Data || *f == option::timestep;
         let any = |a: &Session<'_>, b: &Session<'_>| {
             (0..).map_while(FieldId::new).filter(computed).any(|f| differs(a, b, f))
         };

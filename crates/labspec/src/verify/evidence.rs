@@ -5,7 +5,7 @@ use super::bound::Named;
 use super::claim::Inputs;
 use super::measure::How;
 use crate::bind::World;
-use labspec_core::reflect::{Elem, FieldId, Object};
+use labspec_core::reflect::{Elem, FieldId, Object, data};
 use labspec_expr::{Aggregate, Comparison, Context, FieldKey, FunctionId, Heap, Host, Program, Value};
 
 /// Which values a measure can have at all.
@@ -86,17 +86,18 @@ struct Anything<'w> {
 impl Host for Anything<'_> {
     fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
         let known = self.world.get(field, index);
-        let Some(info) = FieldId::new(field.0 as usize).map(|f| f.info()) else { return known };
+        let Some(id) = FieldId::new(field.0 as usize) else { return known };
+        let info = id.info();
         if info.object != Object::Data || known.is_none() && index > 4096 {
             return known;
         }
         let mut draws = Draws::new(self.seed ^ (u64::from(field.0) << 32) ^ index as u64);
         draws.unit();
         let x = draws.any();
-        let kinetic = info.name == "energy" && index == 1;
+        let kinetic = id == data::energy && index == 1;
         Some(if info.elem != Elem::F64 {
             x.abs().round()
-        } else if info.name == "time" || kinetic {
+        } else if id == data::time || kinetic {
             x.abs()
         } else {
             x

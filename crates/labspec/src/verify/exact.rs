@@ -14,7 +14,7 @@ use crate::ledger::{Evidence, State};
 use crate::rules;
 use crate::run::{self, Breakdown, Budget, End, Play, Session};
 use crate::spec::{Exact, Lab};
-use labspec_core::reflect::{FieldId, Object};
+use labspec_core::reflect::{FieldId, Object, data};
 use labspec_core::{Model, integrator};
 use labspec_expr::{Access, Compiler, Program};
 use std::ops::{ControlFlow, Range};
@@ -186,12 +186,12 @@ pub(super) fn bind<'b>(
 /// What a closed form reads of the simulation besides the time; `None` for a formula of time and parameters.
 fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
     let effects = form.effects();
-    let data = |access: &Access| {
+    let of_data = |access: &Access| {
         let field = FieldId::new(access.field.0 as usize)?;
-        (field.info().object == Object::Data && field.info().name != "time")
+        (field.info().object == Object::Data && field != data::time)
             .then(|| format!("`data.{}`", field.info().name))
     };
-    if let Some(field) = effects.reads.iter().find_map(data) {
+    if let Some(field) = effects.reads.iter().find_map(of_data) {
         return Some(field);
     }
     if effects.reads_everything || effects.calls_values || effects.calls.iter().any(|f| functions::reads(*f))

@@ -21,7 +21,7 @@ use table::PAIRS;
 
 use super::{Bound, ModelNames, Programs, Scope, World, functions, include};
 use crate::source::Text;
-use labspec_core::reflect::{FieldId, Kind, Object, View, field};
+use labspec_core::reflect::{FieldId, Kind, Object, View};
 use labspec_core::{self as core, Data, Demand, Error, Model, Plan};
 use labspec_expr::{Compiler, Globals, Program};
 
@@ -61,12 +61,11 @@ impl FromIterator<PairSet> for PairSet {
 }
 
 /// Whether a program may write a field of the model.
-fn writes(program: &Program, name: &str) -> bool {
+fn writes(program: &Program, field: FieldId) -> bool {
     let effects = program.effects();
-    let named = |f: FieldId| f.info().object == Object::Model && f.info().name == name;
     effects.writes_everything
         || effects.calls_values
-        || effects.writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(named)
+        || effects.writes.iter().any(|a| a.field.0 as usize == field.index())
 }
 
 /// How an element of a partner changes.
@@ -100,8 +99,7 @@ impl Coupled {
         if let Some(program) = Compiler::new(&names, &mut globals).statements(set_const).program {
             include(program.effects(), &mut programs.demand);
         }
-        let partners = PAIRS.iter().filter_map(|pair| field(Object::Model, pair.partner));
-        partners.for_each(|f| programs.demand.writes.insert(f));
+        PAIRS.iter().for_each(|pair| programs.demand.writes.insert(pair.partner));
         programs.coupled = Some(self);
     }
 
@@ -164,8 +162,7 @@ fn correct(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<b
 fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
     let mut changes: Vec<(FieldId, usize, Change)> = Vec::new();
     for (_, pair) in pairs.pairs() {
-        let Some(partner) = field(Object::Model, pair.partner) else { continue };
-        changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (partner, i, c)));
+        changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (pair.partner, i, c)));
     }
     let mut inertial = None;
     for (partner, index, change) in changes {
@@ -191,8 +188,8 @@ fn constants(world: &mut World) -> Result<(), Error> {
 
 /// Whether two models have the same parameters and partners, to rounding.
 pub(crate) fn agree(a: &Model, b: &Model) -> bool {
-    let fields = PAIRS.iter().flat_map(|pair| [pair.parameter, pair.partner]);
-    fields.filter_map(|name| field(Object::Model, name)).all(|f| match (a.field(f), b.field(f)) {
+    let mut fields = PAIRS.iter().flat_map(|pair| [pair.parameter, pair.partner]);
+    fields.all(|f| match (a.field(f), b.field(f)) {
         (Some(View::F64(a)), Some(View::F64(b))) => {
             let near = |(x, y): (&f64, &f64)| (x - y).abs() <= ROUNDING * x.abs().max(y.abs());
             a.len() == b.len() && a.iter().zip(b).all(near)
@@ -239,8 +236,7 @@ pub(crate) fn chosen_apart(programs: &Programs, bound: &Bound, pairs: PairSet) -
 const MOST_ELEMENTS: usize = 64;
 
 /// The elements of a field that a program writes itself, where it says which.
-fn elements(bound: &Bound, name: &str) -> Option<Vec<usize>> {
-    let field = field(Object::Model, name)?;
+fn elements(bound: &Bound, field: FieldId) -> Option<Vec<usize>> {
     let own = bound.program.own_writes();
     let mut all = Vec::new();
     for access in own.iter().filter(|a| a.field.0 as usize == field.index()) {

@@ -5,6 +5,7 @@ use super::repair::{self, Statements};
 use super::shape;
 use crate::rules::{self, Rule};
 use labspec_core::math::{norm, rows, sub};
+use labspec_core::reflect::{FieldId, model};
 use labspec_core::{Model, biastype, gaintype};
 use std::ops::Range;
 
@@ -18,9 +19,9 @@ type Repair = fn(&mut Statements<'_>, &[usize]) -> Option<()>;
 #[derive(Debug)]
 pub(crate) struct Pair {
     /// The field of the parameter.
-    pub(crate) parameter: &'static str,
+    pub(crate) parameter: FieldId,
     /// The field of the partner.
-    pub(crate) partner: &'static str,
+    pub(crate) partner: FieldId,
     /// The rule that a parameter without its partner breaks.
     pub(crate) rule: &'static Rule,
     /// The partner in words, where it is left behind.
@@ -40,8 +41,8 @@ pub(crate) struct Pair {
 /// All pairs.
 pub(crate) const PAIRS: &[Pair] = &[
     Pair {
-        parameter: "body_mass",
-        partner: "body_inertia",
+        parameter: model::body_mass,
+        partner: model::body_inertia,
         left: "`model.body_inertia`",
         rule: rules::MASS_ALONE,
         corrected: "the inertia that this mass has",
@@ -51,8 +52,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: Some(repair::inertia_of_mass),
     },
     Pair {
-        parameter: "body_inertia",
-        partner: "body_mass",
+        parameter: model::body_inertia,
+        partner: model::body_mass,
         left: "`model.body_mass`",
         rule: rules::INERTIA_ALONE,
         corrected: "the mass that this inertia takes",
@@ -62,8 +63,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: None,
     },
     Pair {
-        parameter: "body_inertia",
-        partner: "body_inertia",
+        parameter: model::body_inertia,
+        partner: model::body_inertia,
         left: "the other principal moments",
         rule: rules::INERTIA_ALONE,
         corrected: "all three principal moments changed alike",
@@ -73,8 +74,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: None,
     },
     Pair {
-        parameter: "geom_size",
-        partner: "geom_rbound",
+        parameter: model::geom_size,
+        partner: model::geom_rbound,
         left: "`model.geom_rbound`",
         rule: rules::SHAPE_ALONE,
         corrected: "the bounding radius of this size",
@@ -84,8 +85,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: Some(repair::bound_of_size),
     },
     Pair {
-        parameter: "geom_size",
-        partner: "body_inertia",
+        parameter: model::geom_size,
+        partner: model::body_inertia,
         left: "`model.body_inertia`",
         rule: rules::SHAPE_ALONE,
         corrected: "the inertia of this shape",
@@ -95,8 +96,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: Some(repair::inertia_of_size),
     },
     Pair {
-        parameter: "geom_pos",
-        partner: "body_ipos",
+        parameter: model::geom_pos,
+        partner: model::body_ipos,
         left: "`model.body_ipos`",
         rule: rules::SHAPE_ALONE,
         corrected: "the centre of mass where the geom is",
@@ -106,8 +107,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: Some(repair::centre_of_place),
     },
     Pair {
-        parameter: "actuator_gainprm",
-        partner: "actuator_biasprm",
+        parameter: model::actuator_gainprm,
+        partner: model::actuator_biasprm,
         left: "`model.actuator_biasprm`",
         rule: rules::GAIN_ALONE,
         corrected: "the bias of this gain",
@@ -117,8 +118,8 @@ pub(crate) const PAIRS: &[Pair] = &[
         repair: Some(repair::bias_of_gain),
     },
     Pair {
-        parameter: "actuator_biasprm",
-        partner: "actuator_gainprm",
+        parameter: model::actuator_biasprm,
+        partner: model::actuator_gainprm,
         left: "`model.actuator_gainprm`",
         rule: rules::GAIN_ALONE,
         corrected: "the gain of this bias",

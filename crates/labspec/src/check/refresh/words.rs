@@ -84,7 +84,7 @@ pub(in crate::check) fn left(
     let (mut parameters, mut partners, mut help) = (Vec::new(), Vec::new(), Vec::new());
     for pair in pairs {
         for (list, text) in [
-            (&mut parameters, format!("`model.{}`", pair.parameter)),
+            (&mut parameters, format!("`model.{}`", pair.parameter.info().name)),
             (&mut partners, pair.left.to_string()),
             (&mut help, pair.help.to_string()),
         ] {

@@ -7,7 +7,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Play};
 use crate::spec::ControlKind;
-use labspec_core::reflect::FieldId;
+use labspec_core::reflect::model;
 use std::ops::ControlFlow;
 
 /// Steps of the runs that are looked at.
@@ -23,10 +23,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let says = |text: &str| WORDS.iter().any(|w| text.to_lowercase().contains(w));
     let chosen = |effects: &labspec_expr::Effects| {
         effects.writes_everything
-            || effects
-                .writes
-                .iter()
-                .any(|w| FieldId::new(w.field.0 as usize).is_some_and(|f| f.info().name == "dof_damping"))
+            || effects.writes.iter().any(|w| w.field.0 as usize == model::dof_damping.index())
     };
     let programs = &ready.programs;
     let others = programs.bound().filter(|b| programs.setup.as_ref().is_none_or(|s| s.text != b.text));

@@ -5,7 +5,7 @@ use crate::check::refresh::digits;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::Cell;
-use labspec_core::reflect::FieldId;
+use labspec_core::reflect::data;
 
 /// A lab that runs for so many steps shows something.
 const FEW: usize = 50;
@@ -86,10 +86,9 @@ fn clock(looked: &Looked<'_>, c: usize) -> bool {
     let Some(effects) = probe.and_then(|p| p.bound.as_ref()).map(|b| b.program.effects()) else {
         return true;
     };
-    let time = |f: FieldId| f.info().name == "time";
     !effects.reads_everything
         && effects.ctx_reads.is_empty()
-        && effects.reads.iter().all(|a| FieldId::new(a.field.0 as usize).is_some_and(time))
+        && effects.reads.iter().all(|a| a.field.0 as usize == data::time.index())
 }
 
 /// How far a column goes; `None` for what is no number, and for a clock.

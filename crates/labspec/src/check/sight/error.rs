@@ -5,7 +5,7 @@ use crate::check::refresh::digits;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Cell, Numerics, Play};
-use labspec_core::reflect::{FieldId, Object};
+use labspec_core::reflect::option;
 use labspec_expr::Effects;
 use std::ops::ControlFlow;
 
@@ -21,11 +21,8 @@ const HALF: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
 pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     let ready = looked.bench.ready;
     let of_timestep = |e: &Effects| {
-        let is = |f: u32| {
-            FieldId::new(f as usize)
-                .is_some_and(|f| f.info().object == Object::Option && f.info().name == "timestep")
-        };
-        e.reads_everything || e.reads.iter().chain(&e.writes).any(|a| is(a.field.0))
+        let timestep = option::timestep.index();
+        e.reads_everything || e.reads.iter().chain(&e.writes).any(|a| a.field.0 as usize == timestep)
     };
     // Where a text speaks of the timestep, what it makes of the numbers is the lesson.
     if ready.lab.readouts.is_empty() || ready.programs.bound().any(|b| of_timestep(b.program.effects())) {

@@ -4,7 +4,7 @@ use super::Looked;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Play};
-use labspec_core::reflect::FieldId;
+use labspec_core::reflect::option;
 use std::ops::ControlFlow;
 
 /// Steps in which forces are looked for.
@@ -19,9 +19,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     // Somebody who chooses the number wants to see what it does.
     let programs = &ready.programs;
     let sets = |b: &crate::bind::Bound| {
-        let writes = |w: &labspec_expr::Access| {
-            FieldId::new(w.field.0 as usize).is_some_and(|f| f.info().name == "iterations")
-        };
+        let writes = |w: &labspec_expr::Access| w.field.0 as usize == option::iterations.index();
         b.program.effects().writes.iter().any(writes)
     };
     let own = programs.setup.as_ref().filter(|b| sets(b)).map(|b| b.text.span());

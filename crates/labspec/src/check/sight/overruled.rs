@@ -11,7 +11,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::run::Session;
 use crate::spec::Control;
-use labspec_core::reflect::{FieldId, Kind, Object};
+use labspec_core::reflect::{FieldId, Kind, Object, option};
 use labspec_expr::{FieldKey, Host, Value};
 
 /// Steps after which a control is moved, besides the start.
@@ -40,7 +40,7 @@ impl Element {
             Object::Model => "model.",
             _ => "model.opt.",
         };
-        if info.object == Object::Option && self.index == 0 && info.name != "gravity" {
+        if info.object == Object::Option && self.index == 0 && self.field != option::gravity {
             return format!("`{object}{}`", info.name);
         }
         format!("`{object}{}[{}]`", info.name, self.index)

@@ -5,7 +5,7 @@ use crate::precision::Integrator;
 use crate::run::{self, Budget, Cell, Numerics, Play, RunError, Session};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
 use crate::verify::significant;
-use labspec_core::reflect::{self, Object};
+use labspec_core::reflect::option;
 use labspec_core::{Model, solver};
 use labspec_expr::{Effects, Value};
 use std::ops::ControlFlow;
@@ -153,8 +153,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
 
 /// Whether the lesson itself states the timestep: then half of it says nothing of the digits.
 fn states_timestep(ready: &Ready<'_>, handling: &Handling) -> bool {
-    let Some(timestep) = reflect::field(Object::Option, "timestep") else { return false };
-    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == timestep.index());
+    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == option::timestep.index());
     let set = handling.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));
     set.chain(ready.programs.setup.iter().map(|b| b.program.effects())).any(writes)
 }

@@ -8,7 +8,7 @@ use crate::rules::{self, Rule};
 use crate::run::{self, Budget, Session};
 use crate::spec::Lab;
 use crate::stability::{self, Fault, FaultKind, Found, Handling, Kind};
-use labspec_core::reflect::{Object, field};
+use labspec_core::reflect::option;
 
 /// How many times longer than anybody looks the last run is.
 const LONGER: f64 = 10.0;
@@ -84,9 +84,9 @@ fn handlings(lab: &Lab, wanted: f64) -> (Vec<(Handling, f64)>, usize) {
 
 /// A lab that breaks at twice its timestep.
 fn near_its_limit(tour: &Tour<'_>) -> Option<Finding> {
-    let timestep = field(Object::Option, "timestep")?;
     let writes = |effects: &labspec_expr::Effects| {
-        effects.writes_everything || effects.writes.iter().any(|w| w.field.0 as usize == timestep.index())
+        effects.writes_everything
+            || effects.writes.iter().any(|w| w.field.0 as usize == option::timestep.index())
     };
     // Where a control chooses it, its ends were run.
     if tour.ready.programs.bound().any(|b| writes(b.program.effects())) {
