@@ -88,4 +88,18 @@ assert.throws(() => new Lab("{\"model\": \"drop\", \"plot\": []}", { drop: "<muj
 const report = check("fall.md", "```lab\n{\"model\": \"drop\", \"readouts\": [{\"label\": \"x\", \"expr\": \"data.qpso[2]\"}]}\n```\n", { drop });
 assert.equal(report.outcome, "findings");
 assert.deepEqual(report.findings.map((f) => [f.code, f.line]), [["unknown-field", 2]]);
+
+// A lab of another lesson is found among the neighbours, and only there.
+const block = (language, object) => `\`\`\`${language}\n${JSON.stringify(object)}\n\`\`\`\n`;
+const other = block("lab", { model: "drop", readouts: [{ label: "height (m)", expr: "data.qpos[2]" }] });
+const question = {
+  kind: "mcq", q: "Does it fall?", options: ["yes", "no"], answer: 0, explain: "<p>It does.</p>",
+  verify: { lab: "labs.md#1", runs: { run: { until: 0.1 } }, measure: { h: "final(shown('height (m)'))" }, options: ["h < 1", "h >= 1"] },
+};
+const lesson = block("quiz", { id: "fall", questions: [question] });
+const unknown = (neighbours) =>
+  check("week/fall.md", lesson, { drop }, neighbours).findings.filter((f) => f.code === "unknown-lab").length;
+assert.equal(unknown({ "week/labs.md": other }), 0);
+assert.ok(unknown({}) > 0 && unknown() > 0 && unknown({ "labs.md": other }) > 0);
+assert.throws(() => check("fall.md", lesson, { drop }, "labs.md"), /neighbours/);
 console.log(`${labs} labs, ${numbers} numbers with the same bits; controls, states, findings and a check as they should be`);

@@ -16,6 +16,9 @@ const TYPES: &str = r#"
 /** Models by their names: MJCF. */
 export type Models = Record<string, string>;
 
+/** Lessons whose labs others name, and snapshots, by their paths. */
+export type Neighbours = Record<string, string>;
+
 /** One thing that is wrong or doubtful, and where. */
 export interface Finding {
   code: string;
@@ -75,6 +78,8 @@ export interface Report {
 extern "C" {
     #[wasm_bindgen(typescript_type = "Models")]
     pub type Models;
+    #[wasm_bindgen(typescript_type = "Neighbours")]
+    pub type Neighbours;
     #[wasm_bindgen(typescript_type = "Control[]")]
     pub type Controls;
     #[wasm_bindgen(typescript_type = "Shown[]")]
@@ -104,7 +109,7 @@ impl Lab {
     /// Opens a lab from its JSON.
     #[wasm_bindgen(constructor)]
     pub fn new(json: &str, models: &Models) -> Result<Lab, JsValue> {
-        let player = Player::of_lab(json, named(models)?).map_err(|e| thrown(&e))?;
+        let player = Player::of_lab(json, named(models, MODELS)?).map_err(|e| thrown(&e))?;
         Ok(Lab { player, rows: Vec::new() })
     }
 
@@ -233,10 +238,21 @@ impl Lab {
     }
 }
 
-/// Checks a lesson from its text. `path` says by its ending what it is: Markdown, or JSON.
+/// Checks a lesson from its text. `path` says by its ending what it is: Markdown, or JSON. What it names in `neighbours` is found
+/// from that path, as files would be.
 #[wasm_bindgen]
-pub fn check(path: &str, text: &str, models: &Models) -> Result<Report, JsValue> {
-    let report = Checker::new(named(models)?).check(path, text);
+pub fn check(
+    path: &str,
+    text: &str,
+    models: &Models,
+    neighbours: Option<Neighbours>,
+) -> Result<Report, JsValue> {
+    let mut checker = Checker::new(named(models, MODELS)?);
+    if let Some(texts) = neighbours {
+        let wrong = "`neighbours` is an object: paths, and lessons or snapshots as text";
+        checker = checker.neighbours(named(&texts, wrong)?);
+    }
+    let report = checker.check(path, text);
     let entries = report.entries().iter().map(
         |e| json!({"owner": e.owner, "subject": e.subject.as_str(), "word": e.word, "remark": e.remark}),
     );
@@ -248,10 +264,13 @@ pub fn check(path: &str, text: &str, models: &Models) -> Result<Report, JsValue>
     Ok(object(&whole)?.unchecked_into())
 }
 
-/// Models from an object of JavaScript.
-fn named(models: &Models) -> Result<BTreeMap<String, String>, JsValue> {
-    let wrong = || JsValue::from(Error::new("`models` is an object: names, and MJCF as text"));
-    let object: &Object = models.dyn_ref().ok_or_else(wrong)?;
+/// What is said where models are given in another form.
+const MODELS: &str = "`models` is an object: names, and MJCF as text";
+
+/// Texts by their names from an object of JavaScript; `expected` says what it is when it is none.
+fn named(texts: &JsValue, expected: &str) -> Result<BTreeMap<String, String>, JsValue> {
+    let wrong = || JsValue::from(Error::new(expected));
+    let object: &Object = texts.dyn_ref().ok_or_else(wrong)?;
     let pair = |pair: JsValue| {
         let pair: Array = pair.dyn_into().ok()?;
         Some((pair.get(0).as_string()?, pair.get(1).as_string()?))
