@@ -164,6 +164,20 @@ fn a_thousand_sensors_of_four_million_pairs() {
     assert!(t.ended.unwrap().starts_with("first 0"));
 }
 
+/// A body that covers a grid of a million cells: the walk over them ends where the work of the run is done, within a step.
+#[test]
+fn a_grid_of_a_million_cells_ends() {
+    let xml =
+        "<mujoco><asset><hfield name='grid' nrow='1000' ncol='1000' size='500 500 1 1'/></asset><worldbody>
+        <geom type='hfield' hfield='grid'/>
+        <body pos='0 0 .9'><freejoint/><geom type='ellipsoid' size='600 600 1'/></body>
+        </worldbody></mujoco>";
+    let checked = look(xml, json!({"readouts": [{"label": "z", "expr": "data.qpos[2]"}]}));
+    let t = tried(&checked);
+    println!("{t:?}");
+    assert!(t.covered < 0.1 && t.ended.unwrap().starts_with("first 0"));
+}
+
 #[test]
 fn iterations_without_number_end() {
     let boxes = |option: &str| {

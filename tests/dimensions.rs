@@ -197,6 +197,41 @@ fn variables_and_loops_keep_what_is_stored() {
     }
 }
 
+/// What goes through lists, texts, functions and loops is the same quantity; where it is mixed with others, it is none for sure.
+#[test]
+fn lists_texts_and_functions_keep_what_they_are_given() {
+    let mut wrong = Vec::new();
+    for (expr, found) in [
+        ("[data.time][0]", true),
+        ("[data.time, data.time].slice(1)[0]", true),
+        ("[data.time, 0].reduce((a, b) => a + b, 0)", true),
+        ("[3].map(i => data.time + i)[0]", true),
+        ("Math.max(...[data.time, 1])", true),
+        ("(x => x)(data.time)", true),
+        ("(() => { const twice = x => x + x; return twice(twice(data.time)) })()", true),
+        ("(() => { let s = 0; for (const x of [data.time]) { s += x } return s })()", true),
+        ("(() => { let u = 0; const f = () => { u = data.time }; f(); return u })()", true),
+        ("(() => { const all = []; all.push(data.time); return all[0] })()", true),
+        ("+data.time.toFixed(3)", true),
+        ("parseFloat(String(data.time))", true),
+        ("Number(`${data.time}`)", true),
+        ("({t: data.time}).t", true),
+        ("[data.time, data.qpos[0]][0]", false),
+        ("(() => { const all = [data.time]; all.push(data.qpos[0]); return all[0] })()", false),
+        ("(() => { let u = data.time; const f = [() => { u = data.qpos[0] }]; f[0](); return u })()", false),
+        ("(() => { let u = data.time; const f = () => { u = data.qpos[0] }; f(); return u })()", false),
+        ("(() => { const f = n => n < 1 ? data.time : f(n - 1); return f(3) })()", false),
+        ("(() => { let x = data.time; for (let i = 0; i < 2; i++) { x = data.qpos[0] } return x })()", false),
+        ("data.time.toString(2) * 1", false),
+    ] {
+        let all = readout("x (kg)", expr);
+        if all.is_empty() == found {
+            wrong.push((expr, all));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
 #[test]
 fn controls_are_held_against_what_they_set() {
     let slider = |unit: &str, key: &str, text: &str| {

@@ -139,10 +139,10 @@ fn a_measure_without_numbers_says_how_many_are_missing() {
 #[test]
 fn what_is_decided_later_is_decided() {
     for (measure, holds) in [
-        ("final(Math.sqrt(data.time - 0.5))", "m > 0.7"),
-        ("last(Math.sqrt(data.time - 0.5) > 0.1)", "m > 0.9"),
+        ("final(Math.sqrt(data.time - 0.5) + data.qpos[2])", "m > 0.7"),
+        ("last(Math.sqrt(data.time - 0.5) > data.qpos[2])", "m > 0.9"),
         ("first(data.qvel[2] < previous(data.qvel[2]))", "m < 0.1"),
-        ("at(data.time > 0.6, Math.sqrt(data.time - 0.5))", "m > 0.3"),
+        ("at(data.time > 0.6, Math.sqrt(data.time - 0.5) + data.qpos[2])", "m > 0.3"),
         ("settles(data.qpos[2], 0.05, 0.02)", "m < 1"),
     ] {
         let checked = choice(holds, &json!({"measure": {"z": "final(data.qpos[2])", "m": measure}}));

@@ -104,7 +104,7 @@ const NAMED: [Row; 8] = [
 ];
 
 /// Names of units without an `s` behind them, in lower case: how large they are in the unit of a symbol, and that.
-const WORDS: [(&str, f64, &str); 54] = [
+const WORDS: [(&str, f64, &str); 67] = [
     ("radian", 1.0, "rad"),
     ("degree", 1.0, "°"),
     ("grad", 1.0, "°"),
@@ -123,6 +123,13 @@ const WORDS: [(&str, f64, &str); 54] = [
     ("feet", 0.3048, "m"),
     ("yard", 0.9144, "m"),
     ("mile", 1609.344, "m"),
+    ("furlong", 201.168, "m"),
+    ("fathom", 1.8288, "m"),
+    ("angstrom", 1e-10, "m"),
+    ("ångström", 1e-10, "m"),
+    ("parsec", 3.085_677_58e16, "m"),
+    ("lightyear", 9.460_730_47e15, "m"),
+    ("knot", 1.150_779_45, "mph"),
     ("second", 1.0, "s"),
     ("seconde", 1.0, "s"),
     ("segundo", 1.0, "s"),
@@ -143,7 +150,10 @@ const WORDS: [(&str, f64, &str); 54] = [
     ("stunden", 3600.0, "s"),
     ("day", 86400.0, "s"),
     ("week", 604_800.0, "s"),
+    ("fortnight", 1_209_600.0, "s"),
+    ("month", 2_629_800.0, "s"),
     ("year", 31_557_600.0, "s"),
+    ("decade", 315_576_000.0, "s"),
     ("gram", 1.0, "g"),
     ("gramm", 1.0, "g"),
     ("gramme", 1.0, "g"),
@@ -151,9 +161,12 @@ const WORDS: [(&str, f64, &str); 54] = [
     ("tonne", 1e6, "g"),
     ("pound", 453.592_37, "g"),
     ("ounce", 28.349_523, "g"),
+    ("carat", 0.2, "g"),
     ("kelvin", 1.0, "K"),
     ("newton", 1.0, "N"),
+    ("dyne", 1e-5, "N"),
     ("joule", 1.0, "J"),
+    ("erg", 1e-7, "J"),
     ("watt", 1.0, "W"),
     ("volt", 1.0, "V"),
     ("pascal", 1.0, "Pa"),
@@ -186,7 +199,7 @@ const NAMED_PREFIXES: [(&str, i32); 20] = [
 ];
 
 /// Units of what lessons of mechanics do not compute, or that differ by more than a factor: they are units, and none of ours.
-const OTHER: [&str; 31] = [
+const OTHER: [&str; 45] = [
     "°C",
     "°F",
     "℃",
@@ -217,6 +230,20 @@ const OTHER: [&str; 31] = [
     "bytes",
     "kWh",
     "celsius",
+    "acre",
+    "acres",
+    "hectare",
+    "hectares",
+    "gallon",
+    "gallons",
+    "pint",
+    "pints",
+    "horsepower",
+    "siemens",
+    "henry",
+    "farad",
+    "lumen",
+    "candela",
     "fahrenheit",
 ];
 

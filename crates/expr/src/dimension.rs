@@ -98,6 +98,11 @@ impl Dimension {
         (self.factor.abs() - 1.0).abs() < 1e-9
     }
 
+    /// The power of a base unit.
+    pub fn power_of(&self, base: usize) -> f64 {
+        self.powers.get(base).map_or(0.0, |p| f64::from(*p) / f64::from(SIXTHS))
+    }
+
     /// The power of the angle.
     pub fn angle(&self) -> f64 {
         f64::from(self.powers[ANGLE]) / f64::from(SIXTHS)
@@ -161,6 +166,16 @@ impl Measure {
             }
             (Measure::Known(a), Measure::Known(b)) => a.product(b).map_or(Measure::Unknown, Measure::Known),
             _ => Measure::Unknown,
+        }
+    }
+
+    /// Whether the same is known of both.
+    pub(crate) fn is(self, other: Measure) -> bool {
+        match (self, other) {
+            (Measure::Known(a), Measure::Known(b)) => {
+                a.powers == b.powers && (a.factor == b.factor || a.factor.is_nan() && b.factor.is_nan())
+            }
+            _ => self == other,
         }
     }
 

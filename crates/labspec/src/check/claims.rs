@@ -307,7 +307,12 @@ impl Court<'_> {
         findings: &mut Vec<Finding>,
     ) -> Judgement {
         let mut found = Vec::new();
-        let judgement = self.judge(verify, own, question, shown, &mut found);
+        let mut judgement = self.judge(verify, own, question, shown, &mut found);
+        // What is left of an object with mistakes may say something else than what was meant.
+        let inside = |f: &&Finding| verify.span.start <= f.span.start && f.span.end <= verify.span.end;
+        if self.lesson.findings.iter().filter(inside).any(Finding::is_error) {
+            judgement.withdraw("its `verify` has mistakes");
+        }
         claim_id::identify(name, self.lesson.whole(verify), question, &judgement, &mut found);
         findings.extend(found);
         judgement

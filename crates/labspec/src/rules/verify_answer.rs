@@ -10,7 +10,7 @@ pub const VERIFY_ANSWER: &Rule = &Rule {
     code: "verify-answer",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "`verify` has no condition for each option, or a value where no number is asked",
+    summary: "`verify` has no condition for each option, or a value where no number is asked, or none in a unit that is known",
     why: "exactly the condition of the right option must hold, so every option needs one",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["⟦z < 0.9⟧", "z > 1.1"]}}]}"#,

@@ -431,8 +431,18 @@ fn value(
         QuestionKind::Numeric { unit, .. } => unit.as_ref(),
         _ => None,
     };
-    let unit =
-        quote::answer_unit(asked.map(|u| u.as_str()), asked.and_then(|_| units::of_claim(bound, text)));
+    let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
+    let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
+    if let quote::AnswerUnit::Unread(asked_in, gives) = &unit {
+        let message = format!("\"{asked_in}\" is no unit that is known here, and the expression gives {gives}");
+        findings.push(
+            Finding::error(rules::VERIFY_ANSWER, keyed.span.clone(), message.clone())
+                .why("whether the answer is in this unit was compared with nothing")
+                .help("write the unit by its symbol: `s`, `mm`, `m/s^2`")
+                .related(text.span(), format!("this is in {gives}")),
+        );
+        return Answer::failed(message);
+    }
     if let quote::AnswerUnit::Wrong(asked_in, gives) = &unit {
         let message = format!("the question asks in {asked_in}, the expression gives {gives}");
         findings.push(wrong_unit(keyed.span.clone(), text, &message));
@@ -512,10 +522,15 @@ fn value(
     {
         return done(verdict, reason);
     }
-    let mut answer = Answer { verdict: held_by(Some(found.evidence)), reason: String::new(), weights };
+    let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(|u| quote::is_unit(u.as_str()));
+    let reason = if uncompared { UNIT_OPEN.to_string() } else { String::new() };
+    let mut answer = Answer { verdict: held_by(Some(found.evidence)), reason, weights };
     add_searches(bound, std::slice::from_ref(text), &outcomes.nominal, &mut answer);
     answer
 }
+
+/// Of a right number whose unit is held to nothing.
+const UNIT_OPEN: &str = "its unit was compared with nothing: what the expression measures is not certain";
 
 /// What a mistake gives, by an expression under `wrong`.
 fn taken(

@@ -66,8 +66,8 @@ pub struct BoundVerify<'a> {
     pub(super) runs: Vec<BoundRun<'a>>,
     verify: &'a Verify,
     stage: &'a Stage<'a>,
-    /// A lab at its start, for expressions over measures: they read nothing of it.
-    idle: RefCell<Option<Session<'a>>>,
+    /// Each lab at its start, for expressions over measures, which read nothing of it, and for imagined runs.
+    idle: RefCell<BTreeMap<usize, Session<'a>>>,
     /// What the measures measure, once somebody has asked.
     units: OnceCell<Option<units::Known>>,
     /// The places of all numbers, and of which kind each is.
@@ -78,6 +78,11 @@ pub struct BoundVerify<'a> {
 }
 
 impl BoundRun<'_> {
+    /// The place of its lab in the list.
+    pub(super) fn scene(&self) -> usize {
+        self.scene
+    }
+
     /// How conditions call it: `fall`, `fall[2]`.
     pub(super) fn title(&self) -> String {
         match self.swept {
@@ -187,10 +192,11 @@ impl<'a> BoundVerify<'a> {
 
     /// Whether a measure looks at a simulation.
     pub(super) fn is_simulated(&self, run: usize, measure: usize) -> bool {
-        self.measure_at(run, measure).is_some_and(|m| looks_over_run(&m.program))
+        let stops = self.runs.get(run).is_some_and(|run| run.stop.is_some());
+        self.measure_at(run, measure).is_some_and(|m| looks_over_run(&m.program, stops))
     }
 
-    fn measure_at(&self, run: usize, measure: usize) -> Option<&Named<'a>> {
+    pub(super) fn measure_at(&self, run: usize, measure: usize) -> Option<&Named<'a>> {
         let (_, named) = self.scene_of(self.runs.get(run)?)?.measures.get(measure)?;
         Some(named)
     }
@@ -198,28 +204,37 @@ impl<'a> BoundVerify<'a> {
     /// Of which kind each number is.
     pub(super) fn kinds(&self) -> &[Kind] {
         self.kinds.get_or_init(|| {
-            let all = self.idle(|session| {
-                let mut known: BTreeMap<String, Kind> = BTreeMap::new();
-                let mut one = |slot: &Slot| match *slot {
-                    Slot::Measure(run, m) => self.measure_at(run, m).map_or(Kind::ANY, |named| {
-                        let kind = || evidence::kind_of(named, &session.world, &session.context);
-                        *known.entry(named.text.value.clone()).or_insert_with(kind)
-                    }),
-                    Slot::Warnings(_) => Kind::COUNT,
-                    _ => Kind::ANY,
-                };
-                self.layout.slots.iter().map(&mut one).collect()
-            });
-            all.unwrap_or_default()
+            let mut known: BTreeMap<(usize, &str), Kind> = BTreeMap::new();
+            let mut measure = |run: usize, m: usize| {
+                let (named, scene) = (self.measure_at(run, m)?, self.runs.get(run)?.scene);
+                let kind =
+                    |session: &mut Session<'a>| evidence::kind_of(named, &session.world, &session.context);
+                let place = (scene, named.text.as_str());
+                if !known.contains_key(&place) {
+                    known.insert(place, self.idle_in(scene, kind)?);
+                }
+                known.get(&place).copied()
+            };
+            let mut one = |slot: &Slot| match *slot {
+                Slot::Measure(run, m) => measure(run, m).unwrap_or(Kind::ANY),
+                Slot::Warnings(_) => Kind::COUNT,
+                _ => Kind::ANY,
+            };
+            self.layout.slots.iter().map(&mut one).collect()
         })
     }
 
     /// Works with a lab at its start, for expressions over measures: they read nothing of its data.
     pub(super) fn idle<T>(&self, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
-        let scene = self.lab()?;
+        self.idle_in(0, work)
+    }
+
+    /// The same with the lab at a place of the list.
+    pub(super) fn idle_in<T>(&self, place: usize, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
+        let scene = &self.scenes.get(place)?.scene;
         let mut idle = self.idle.borrow_mut();
         let start = || Session::start(scene.programs.clone(), &scene.model, None, &Demand::ANY);
-        Some(work(idle.get_or_insert_with(start)))
+        Some(work(idle.entry(place).or_insert_with(start)))
     }
 
     /// The names of the runs that texts read; of one run that it is read on the spot.

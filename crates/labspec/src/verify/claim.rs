@@ -7,7 +7,7 @@ use super::layout::Slot;
 use super::outcome::{Named, Outcome, OutcomeNames};
 use crate::bind::{NUMBERS, Scope, functions};
 use crate::run::Budget;
-use labspec_core::reflect::{FieldId, Object};
+use labspec_core::reflect::{FieldId, Object, data};
 use labspec_expr::{Comparison, Compiler, Effects, Finding, Program, RuntimeError, Span, Value, Watch};
 
 /// A claim of a lesson, compiled.
@@ -110,7 +110,9 @@ impl Claim {
             Some(Slot::Swept(_) | Slot::Missing) | None => false,
         };
         let own = self.program.iter().flat_map(|p| p.aggregates().iter().enumerate());
-        let own = own.filter(|(_, a)| a.args.iter().any(looks_over_run)).map(|(i, _)| slots.len() + i);
+        let stops = bound.runs.first().is_some_and(|run| run.stop.is_some());
+        let own = own.filter(|(_, a)| a.args.iter().any(|arg| looks_over_run(arg, stops)));
+        let own = own.map(|(i, _)| slots.len() + i);
         self.reads.iter().copied().filter(simulated).chain(own).collect()
     }
 
@@ -143,16 +145,22 @@ impl Claim {
 
 /// Whether effects look at the data of a simulation.
 pub(super) fn looks(e: &Effects) -> bool {
-    let data = |a: &labspec_expr::Access| {
-        FieldId::new(a.field.0 as usize).is_some_and(|f| f.info().object == Object::Data)
-    };
+    looks_at(e, &|field| field.info().object == Object::Data)
+}
+
+/// Whether effects read a field of which this holds, or what may be any.
+fn looks_at(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
+    let read = |a: &labspec_expr::Access| FieldId::new(a.field.0 as usize).is_some_and(counts);
     e.reads_everything
         || e.calls.iter().any(|&f| functions::reads(f))
         || e.calls_values
-        || e.reads.iter().any(data)
+        || e.reads.iter().any(read)
 }
 
-/// Whether a program looks at the data of a simulation, itself or in what it takes over a run.
-pub(super) fn looks_over_run(program: &Program) -> bool {
-    looks(program.effects()) || program.aggregates().iter().flat_map(|a| &a.args).any(looks_over_run)
+/// Whether a program looks at what a simulation gives, itself or in what it takes over a run. The time goes on whatever is
+/// simulated: it says something only where the run ends by its own `stop`.
+pub(super) fn looks_over_run(program: &Program, stops: bool) -> bool {
+    let counts = |field: FieldId| field.info().object == Object::Data && (stops || field != data::time);
+    looks_at(program.effects(), &counts)
+        || program.aggregates().iter().flat_map(|a| &a.args).any(|arg| looks_over_run(arg, stops))
 }

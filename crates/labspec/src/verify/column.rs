@@ -45,7 +45,7 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
         Ok(values) => values,
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
-    let swept = units::of_claim(court.bound, &part(list, "[0]"));
+    let swept = units::of_claim(court.bound, &court.outcomes.nominal, &part(list, "[0]"));
     let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
     let mut all = Vec::new();
     for [key, text] in cells {

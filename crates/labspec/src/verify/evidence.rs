@@ -3,10 +3,10 @@
 
 use super::bound::Named;
 use super::claim::Inputs;
+use super::imagined::{Anything, Draws};
 use super::measure::How;
 use crate::bind::World;
-use labspec_core::reflect::{Elem, FieldId, Object, data};
-use labspec_expr::{Aggregate, Comparison, Context, FieldKey, FunctionId, Heap, Host, Program, Value};
+use labspec_expr::{Aggregate, Comparison, Context, Program};
 
 /// Which values a measure can have at all.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +34,7 @@ impl Kind {
     }
 
     /// The nearest value that it can have.
-    fn nearest(self, x: f64) -> f64 {
+    pub(super) fn nearest(self, x: f64) -> f64 {
         let x = if self.positive { x.abs() } else { x };
         let x = if self.whole { x.round() } else { x };
         if self.truth { x.min(1.0) } else { x }
@@ -54,81 +54,6 @@ impl Kind {
 
 /// Values that are tried of a program to see of which kind it is.
 const DRAWS: usize = 48;
-
-/// A sequence of numbers that look drawn by chance, the same everywhere (Knuth, MMIX).
-#[derive(Clone, Debug)]
-pub(super) struct Draws(u64);
-
-impl Draws {
-    pub(super) fn new(seed: u64) -> Draws {
-        Draws(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
-    }
-
-    /// From 0 to 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Of any size from 1e-3 to 1e3, either sign.
-    fn any(&mut self) -> f64 {
-        let size = 10f64.powf(6.0 * self.unit() - 3.0);
-        if self.unit() < 0.5 { -size } else { size }
-    }
-}
-
-/// A simulation in which everything has some value: whatever is read of the data is drawn.
-struct Anything<'w> {
-    world: &'w World,
-    seed: u64,
-}
-
-impl Host for Anything<'_> {
-    fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
-        let known = self.world.get(field, index);
-        let Some(id) = FieldId::new(field.0 as usize) else { return known };
-        let info = id.info();
-        if info.object != Object::Data || known.is_none() && index > 4096 {
-            return known;
-        }
-        let mut draws = Draws::new(self.seed ^ (u64::from(field.0) << 32) ^ index as u64);
-        draws.unit();
-        let x = draws.any();
-        let kinetic = id == data::energy && index == 1;
-        Some(if info.elem != Elem::F64 {
-            x.abs().round()
-        } else if id == data::time || kinetic {
-            x.abs()
-        } else {
-            x
-        })
-    }
-
-    fn set(&mut self, _: FieldKey, _: usize, _: f64) -> Result<(), String> {
-        Ok(())
-    }
-
-    fn len(&self, field: FieldKey) -> usize {
-        self.world.len(field)
-    }
-
-    fn call(&mut self, _: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String> {
-        if crate::bind::functions::name(function) == Some("abs") {
-            return Ok(Value::Number(args.first().map_or(f64::NAN, Value::to_number).abs()));
-        }
-        let of = args.iter().fold(u64::from(function.0), |h, a| h.wrapping_mul(31) ^ a.to_number().to_bits());
-        let mut draws = Draws::new(self.seed ^ of);
-        draws.unit();
-        Ok(match crate::bind::functions::name(function) {
-            Some("contact") => Value::Boolean(draws.any() > 0.0),
-            _ => Value::Number(draws.any()),
-        })
-    }
-
-    fn identity(&self) -> u64 {
-        self.world.identity()
-    }
-}
 
 /// The kind of a measure: what its program gives where everything that it looks at has any value.
 pub(super) fn kind_of(measure: &Named<'_>, world: &World, context: &Context) -> Kind {
@@ -150,7 +75,7 @@ fn kind(program: &Program, world: &World, context: &mut Context) -> Kind {
         for (a, kind) in program.aggregates().iter().zip(&kinds) {
             context.set_aggregate(a.slot, kind.nearest(draws.any()));
         }
-        let mut host = Anything { world, seed };
+        let mut host = Anything::of(world, seed);
         context.allow(100_000);
         if let Ok(value) = program.run(&mut host, context, None) {
             values.push(value.to_number());
@@ -204,7 +129,7 @@ pub(super) enum Outlook {
 
 impl Outlook {
     /// Whether two are different claims. Of a number, a part in a hundred is another one.
-    fn differs(self, other: Outlook) -> bool {
+    pub(super) fn differs(self, other: Outlook) -> bool {
         match (self, other) {
             (Outlook::Holds(a), Outlook::Holds(b)) => a != b,
             (Outlook::Number(a), Outlook::Number(b)) => {

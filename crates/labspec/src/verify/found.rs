@@ -144,7 +144,7 @@ impl BoundVerify<'_> {
         let Some(evaluated) = &found.trace else { return true };
         let Evaluated { claim, inputs, .. } = &**evaluated;
         let (places, kinds) = self.places(claim, inputs);
-        let mut outlook = |inputs: &Inputs| {
+        let outlook = |inputs: &Inputs| {
             let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
             // A number that is not there is no other number.
             if matches!(traced.value, Value::Number(x) if x.is_nan()) {
@@ -157,7 +157,16 @@ impl BoundVerify<'_> {
             };
             Some((look, traced.comparisons))
         };
-        evidence::could_differ(inputs, &places, &kinds, &claim.constants, &mut outlook)
+        if !evidence::could_differ(inputs, &places, &kinds, &claim.constants, &mut |inputs| outlook(inputs)) {
+            return false;
+        }
+        // What does not hold may be rare, and is looked for with each number alone.
+        match outlook(inputs) {
+            Some((now, _)) if now != Outlook::Holds(false) => {
+                self.differs_somewhere(claim, inputs, now, &mut |inputs| Some(outlook(inputs)?.0))
+            }
+            _ => true,
+        }
     }
 
     /// Whether the value of a text says that something holds or not, as options, words and searches need it; a finding where not.

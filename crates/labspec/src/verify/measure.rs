@@ -2,7 +2,7 @@
 
 use crate::run::Session;
 use crate::source::Text;
-use labspec_expr::{Aggregate, Program, Value, Watch};
+use labspec_expr::{Aggregate, Context, Program, Value, Watch};
 use std::cell::Cell;
 
 /// How the samples of a run become one number. The names are those of the function table.
@@ -55,6 +55,32 @@ impl How {
             "rms" => How::Rms,
             _ => return None,
         })
+    }
+}
+
+/// What a measure looks at: a simulation, sample after sample.
+pub(super) trait Sample {
+    /// Time of the sample, s.
+    fn time(&self) -> f64;
+
+    /// What programs run in.
+    fn context(&mut self) -> &mut Context;
+
+    /// The value of a program; `None` where it throws.
+    fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value>;
+}
+
+impl Sample for Session<'_> {
+    fn time(&self) -> f64 {
+        self.world.data.time()
+    }
+
+    fn context(&mut self) -> &mut Context {
+        &mut self.context
+    }
+
+    fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
+        Session::evaluate(self, program, text)
     }
 }
 
@@ -293,13 +319,13 @@ impl<'a> Running<'a> {
     }
 
     /// Looks at the current sample. What stands in its arguments is what it is up to this sample.
-    fn sample(&mut self, session: &mut Session<'_>, text: &Text) {
+    fn sample(&mut self, session: &mut dyn Sample, text: &Text) {
         let first = self.has_no_past();
         for inner in &mut self.inner {
             inner.sample(session, text);
-            session.context.set_aggregate(inner.slot, inner.known());
+            session.context().set_aggregate(inner.slot, inner.known());
         }
-        let (r, time) = (self, session.world.data.time());
+        let (r, time) = (self, session.time());
         if r.done && matches!(r.how, How::First | How::At | How::Before | How::Crossing | How::Initial) {
             return;
         }
@@ -308,7 +334,7 @@ impl<'a> Running<'a> {
             let value = r.args.get(i).and_then(|p| session.evaluate(p, text)).unwrap_or(Value::Undefined);
             let nothing =
                 matches!(value, Value::Undefined) || matches!(value, Value::Number(x) if x.is_nan());
-            let lost = || session.context.watched().is_some_and(|watch| watch.lost.is_some());
+            let mut lost = || session.context().watched().is_some_and(|watch| watch.lost.is_some());
             if nothing || lost() {
                 lacks.set(true);
             }
@@ -459,21 +485,26 @@ impl<'a> Measure<'a> {
     }
 
     /// Looks at the current sample.
-    pub(super) fn sample(&mut self, session: &mut Session<'_>) {
+    pub(super) fn sample(&mut self, session: &mut dyn Sample) {
         self.samples += 1;
-        session.context.watch(self.watch.take());
+        session.context().watch(self.watch.take());
         self.running.iter_mut().for_each(|r| r.sample(session, self.text));
-        self.watch = session.context.watch(None);
+        self.watch = session.context().watch(None);
+    }
+
+    /// The results of its aggregates, when the run is over.
+    pub(super) fn parts(&self) -> Vec<f64> {
+        self.running.iter().map(Running::known).collect()
     }
 
     /// The measure, when the run is over.
-    pub(super) fn finish(mut self, session: &mut Session<'_>) -> Sampled {
+    pub(super) fn finish(mut self, session: &mut dyn Sample) -> Sampled {
         for r in &self.running {
-            session.context.set_aggregate(r.slot, r.known());
+            session.context().set_aggregate(r.slot, r.known());
         }
-        session.context.watch(self.watch.take());
+        session.context().watch(self.watch.take());
         let value = session.evaluate(self.program, self.text).map_or(f64::NAN, |v| v.to_number());
-        let lost = session.context.watch(None).and_then(|watch| watch.lost);
+        let lost = session.context().watch(None).and_then(|watch| watch.lost);
         let part = |start: usize, end: usize| {
             self.text.value.get(start..end).unwrap_or(&self.text.value).to_string()
         };
@@ -490,7 +521,7 @@ impl<'a> Measure<'a> {
             }
             (None, None) => None,
         };
-        let parts = self.running.iter().map(Running::known).collect();
+        let parts = self.parts();
         Sampled { value: if doubt.is_some() { f64::NAN } else { value }, parts, doubt }
     }
 }

@@ -29,6 +29,7 @@ mod curves;
 mod evidence;
 mod exact;
 mod found;
+mod imagined;
 pub(crate) mod judge;
 mod layout;
 mod measure;
@@ -56,7 +57,7 @@ pub use says::Quote;
 pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
-use crate::ledger::Evidence;
+use crate::ledger::{Evidence, State};
 use crate::rules;
 use crate::run::Numerics;
 use crate::source::Text;
@@ -205,6 +206,22 @@ pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Jud
         runs: verify.runs.iter().map(run).collect(),
         measures: Vec::new(),
         unmade: Some(reason.to_string()),
+    }
+}
+
+impl Judgement {
+    /// Calls nothing true of what it holds, for a reason that belongs to all of it.
+    pub(crate) fn withdraw(&mut self, reason: &str) {
+        let is_true = |state: State| matches!(state, State::True(_));
+        for answer in self.answer.iter_mut().filter(|a| is_true(a.verdict.state())) {
+            *answer = Answer { verdict: Verdict::Failed, reason: reason.to_string(), ..answer.clone() };
+        }
+        for quote in self.quotes.iter_mut().filter(|q| q.state == QuoteState::Right) {
+            (quote.state, quote.reason) = (QuoteState::Unclear, reason.to_string());
+        }
+        for form in self.exact.iter_mut().filter(|form| is_true(form.state)) {
+            (form.state, form.remark) = (State::Unchecked, reason.to_string());
+        }
     }
 }
 

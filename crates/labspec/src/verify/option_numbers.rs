@@ -56,7 +56,7 @@ fn contradiction(
         .filter(|a| a.low.is_finite() && a.high.is_finite())?;
     let text =
         Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
-    let found = units::of_claim(bound, &text)?;
+    let found = units::of_claim(bound, outcome, &text)?;
     let wanted = said.unit.dimension?;
     if !found.agrees(&wanted) {
         return None;

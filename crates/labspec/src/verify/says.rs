@@ -182,7 +182,7 @@ pub(super) fn number(
     places: Vec<quote::Place>,
     findings: &mut Vec<Finding>,
 ) -> Quote {
-    let unit = &|| units::of_claim(court.bound, claim.expr);
+    let unit = &|| units::of_claim(court.bound, &court.outcomes.nominal, claim.expr);
     let computed = given.found.value.to_number();
     let value = quote::Value { computed, timestep: &given.timestep, start: &given.start, unit };
     let o = quote::check(claim, &part.reading, places, &value, court.shown, findings);

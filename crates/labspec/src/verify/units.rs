@@ -1,13 +1,14 @@
 //! What the numbers of claims measure, as far as the units of what they are computed from say it.
 
 use super::bound::{BoundRun, BoundScene, BoundVerify};
-use super::outcome::{OutcomeNames, Units};
+use super::claim::{Claim, Inputs};
+use super::outcome::{Outcome, OutcomeNames, Units};
 use crate::bind::Scope;
 use crate::bind::{given, given_by};
 use crate::source::Text;
 use crate::verify::Scene;
 use labspec_bind::units;
-use labspec_expr::dimension::{Dimension, Measure};
+use labspec_expr::dimension::{ANGLE, BASES, Dimension, Measure};
 use labspec_expr::{Compiler, Given};
 
 /// What is known of the numbers that claims read.
@@ -28,13 +29,56 @@ impl Known {
 }
 
 /// What a claim measures; `None` where that is not certain.
-pub(super) fn of_claim(bound: &BoundVerify<'_>, text: &Text) -> Option<Dimension> {
+pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &Outcome, text: &Text) -> Option<Dimension> {
     let (base, known, claim) = (bound.base()?, bound.units()?, bound.claim(text)?);
     let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&known.runs);
+    let nothing = |d: &Dimension| d.is_number() && d.factor.is_nan();
     match claim.program.as_ref()?.measured(&names, &known.given).value {
-        Measure::Known(dimension) => Some(dimension),
-        _ => None,
+        Measure::Known(dimension) if !nothing(&dimension) => Some(dimension),
+        Measure::Known(dimension) => by_scale(bound, outcome, &claim, known).or(Some(dimension)),
+        _ => by_scale(bound, outcome, &claim, known),
     }
+}
+
+/// Factors by which base units are made smaller.
+const SCALES: [f64; 2] = [2.0, 3.0];
+
+/// What a claim measures, seen from its numbers in other units: where those that it reads are in half seconds instead of seconds, a
+/// time is twice as large, whatever the text does with them. Only of texts without numbers that could be quantities themselves.
+fn by_scale(bound: &BoundVerify<'_>, outcome: &Outcome, claim: &Claim, known: &Known) -> Option<Dimension> {
+    let own = !claim.program.as_ref()?.aggregates().is_empty();
+    if own || claim.reads.is_empty() || claim.constants.iter().any(|x| ![0.0, 1.0].contains(x)) {
+        return None;
+    }
+    let inputs = claim.inputs(bound, outcome, Vec::new());
+    let value = |inputs: &Inputs| {
+        let traced = claim.evaluate(bound, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
+        Some(traced.value.to_number()).filter(|x| x.is_finite() && *x != 0.0)
+    };
+    let measure = |place: &usize| match bound.layout().unit_of(*place, &known.runs) {
+        Measure::Known(d) if d.is_exact() => Some((*place, d)),
+        _ => None,
+    };
+    let measures: Vec<(usize, Dimension)> = claim.reads.iter().map(measure).collect::<Option<_>>()?;
+    let now = value(&inputs)?;
+    let mut all = Dimension::NUMBER;
+    for base in (0..BASES).filter(|base| *base != ANGLE) {
+        let mut powers = SCALES.iter().map(|scale| {
+            let mut other = inputs.clone();
+            for (place, d) in &measures {
+                other.put(*place, inputs.at(*place)? * scale.powf(d.power_of(base)));
+            }
+            let ratio = value(&other)? / now;
+            (ratio > 0.0).then(|| ratio.ln() / scale.ln())
+        });
+        let (first, second) = (powers.next()??, powers.next()??);
+        let sixths = (6.0 * first).round();
+        if (6.0 * first - sixths).abs() > 1e-3 || (first - second).abs() > 1e-4 {
+            return None;
+        }
+        all = all.product(Dimension::base(base).power(sixths / 6.0)?)?;
+    }
+    Some(all)
 }
 
 /// What the values of a sweep are, under the name by which conditions read them.

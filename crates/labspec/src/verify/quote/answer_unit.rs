@@ -12,6 +12,8 @@ pub(in crate::verify) enum AnswerUnit {
     Equal(f64),
     /// It is another one: the unit of the question, and what the value is in.
     Wrong(String, String),
+    /// It is none that is known, and the value has one: what stands there, and what the value is in.
+    Unread(String, String),
     /// What the value measures is not certain, or there is no unit: the numbers are compared as they are.
     Unknown,
 }
@@ -21,16 +23,25 @@ impl AnswerUnit {
     pub(in crate::verify) fn factor(&self) -> f64 {
         match self {
             AnswerUnit::Equal(factor) => *factor,
-            AnswerUnit::Wrong(..) | AnswerUnit::Unknown => 1.0,
+            AnswerUnit::Wrong(..) | AnswerUnit::Unread(..) | AnswerUnit::Unknown => 1.0,
         }
     }
+}
+
+/// Whether a text is a unit that is known.
+pub(in crate::verify) fn is_unit(text: &str) -> bool {
+    let shown = super::table::shown(text);
+    !shown.is_empty() && units::read(&shown).is_some_and(|u| u.length == shown.len())
 }
 
 /// Holds the unit of a question to what its value measures.
 pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension>) -> AnswerUnit {
     let shown = text.map(super::table::shown).unwrap_or_default();
-    let (Some(found), Some(read)) = (found, units::read(&shown).filter(|u| u.length == shown.len())) else {
-        return AnswerUnit::Unknown;
+    let Some(found) = found else { return AnswerUnit::Unknown };
+    let Some(read) = units::read(&shown).filter(|u| u.length == shown.len()) else {
+        // What is counted has names of any kind: "bounces".
+        let counted = shown.trim().is_empty() || found.is_number() || !found.is_exact();
+        return if counted { AnswerUnit::Unknown } else { AnswerUnit::Unread(shown, written(&found)) };
     };
     // The g of an acceleration is none of a mass.
     if shown == "g" && !found.agrees(&Dimension::base(1)) {
@@ -73,7 +84,11 @@ mod tests {
         }
         assert_eq!(answer_unit(Some("ms"), None), AnswerUnit::Unknown);
         assert_eq!(answer_unit(None, d("s")), AnswerUnit::Unknown);
-        assert_eq!(of("bounces", "s"), AnswerUnit::Unknown);
+        assert_eq!(of("bounces", "1"), AnswerUnit::Unknown);
+        for unit in ["bounces", "S", "blinks of an eye"] {
+            assert!(matches!(of(unit, "s"), AnswerUnit::Unread(..)), "{unit}");
+        }
+        assert!(matches!(of("furlongs", "s"), AnswerUnit::Wrong(..)));
         // A number of the text that is a factor may have a unit of its own.
         assert_eq!(answer_unit(Some("m/s"), d("s").map(|s| s.times(9.81))), AnswerUnit::Equal(1.0));
         // In milliseconds already.

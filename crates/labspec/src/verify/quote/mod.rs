@@ -23,7 +23,7 @@ mod unit_check;
 mod unit_text;
 mod words;
 
-pub(super) use answer_unit::{AnswerUnit, answer_unit};
+pub(super) use answer_unit::{AnswerUnit, answer_unit, is_unit};
 pub use number::{Form, Quoted, Style};
 pub(super) use option_text::option_text;
 pub(super) use read::{Part, parts, reading, whole};
