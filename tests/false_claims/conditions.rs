@@ -276,6 +276,24 @@ const MISSING: &[&str] = &[
     "integral(Math.sqrt(0.2 - data.time)) > 0",
 ];
 
+/// Conditions that measures of one run fulfil in every run.
+const TIED: &[&str] = &[
+    "{r}.seven === 7",
+    "{r}.seven > 3",
+    "{r}.nothing === 0",
+    "{r}.always === 1",
+    "{r}.high >= {r}.low",
+    "!({r}.low > {r}.high)",
+    "{r}.high === {r}.top",
+    "{r}.spread >= 0",
+    "{r}.spread === {r}.high - {r}.low",
+    "{r}.size + 1e-9 >= abs({r}.middle)",
+    "abs({r}.high - {r}.top) < 1",
+    "Math.max({r}.high, {r}.low) === {r}.high",
+    "[{r}.low, {r}.high].every((x, i, all) => i === 0 || x >= all[0])",
+    "{r}.late > 0.02 && {r}.late < 0.1 && {r}.seven === 7",
+];
+
 pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     let k = random.pick(known);
     let other = random.pick(known);
@@ -293,6 +311,10 @@ pub(super) fn empty(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     let list = empty_of(&k.name, &other.name, k.x, k.positive);
     for _ in 0..8 {
         all.push(random.pick(&list).clone());
+    }
+    for _ in 0..3 {
+        let text = random.pick(TIED).replace("{r}", run);
+        all.push(("the same of every run", text));
     }
     let list = missing_of(&z, &k.name);
     for _ in 0..8 {

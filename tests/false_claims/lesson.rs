@@ -47,6 +47,20 @@ pub(super) enum Fate {
     Open,
 }
 
+/// Measures that are what they are in every run: alone, or beside each other.
+const TIED: [(&str, &str); 10] = [
+    ("seven", "final(0 * data.qpos[0] + 7)"),
+    ("nothing", "final(data.qpos[0] - data.qpos[0])"),
+    ("always", "holds(data.qpos[0] <= max(data.qpos[0]))"),
+    ("high", "max(data.qpos[0])"),
+    ("top", "max(data.qpos[0])"),
+    ("low", "min(data.qpos[0])"),
+    ("spread", "max(data.qpos[0]) - min(data.qpos[0])"),
+    ("size", "rms(data.qpos[0])"),
+    ("middle", "mean(data.qpos[0])"),
+    ("late", "first(data.time > 0.03)"),
+];
+
 /// The `verify` object of the lab, whose runs and measures all others use.
 fn shared(scene: &Scene) -> Value {
     let named = scene.measures.iter().chain(&NEVER).map(|m| (m.name.to_string(), json!(m.expr)));
@@ -57,6 +71,9 @@ fn shared(scene: &Scene) -> Value {
     measures.insert("hopeless".into(), json!("holds(!(NaN < -1))"));
     measures.insert("hidden".into(), json!("holds(!(Math.sqrt(-1 - data.time) > 0))"));
     measures.insert("counted".into(), json!("count(!(Math.sqrt(0.2 - data.time) > 100))"));
+    for (name, text) in TIED {
+        measures.insert(name.into(), json!(text));
+    }
     json!({"runs": scene.runs, "measure": measures, "says": [["runs", "1 < 2"]]})
 }
 

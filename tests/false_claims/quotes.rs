@@ -4,7 +4,7 @@ use super::conditions::Known;
 use super::lesson::{Body, Claim, Truth};
 use super::random::{Random, printed};
 use super::scenes::NEVER;
-use super::values::other_units;
+use super::values::{other_units, through_code};
 use serde_json::json;
 
 fn says(way: &str, truth: Truth, quote: &str, expr: &str, block: String) -> Claim {
@@ -212,6 +212,16 @@ const HIDDEN: &[&str] = &[
     "<span style=\"font-size:0\">{N}</span>",
 ];
 
+/// Cells, and what is around a table, so that no reader sees the number in it.
+const STRUCK: [(&str, &str); 6] = [
+    ("~~{N}~~ 77777", "{B}"),
+    ("<del>{N}</del> 77777", "{B}"),
+    ("<span hidden>{N}</span> 77777", "{B}"),
+    ("{N}", "<!--\n{B}\n-->\n\nNothing is here."),
+    ("{N}", "<div hidden>\n\n{B}\n\n</div>\n\nNothing is here."),
+    ("{N}", "```python\n{B}\n```\n\nNothing is here."),
+];
+
 pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     let k = random.pick(known);
     let Some(n) = number(k) else { return Vec::new() };
@@ -276,7 +286,8 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         }
         let other = random.pick(other_units(unit));
         let text = format!("{} {other}", n.text);
-        all.push(says("another unit", Truth::False, &text, &k.name, format!("It is {text} here.")));
+        let expr = through_code(random, k);
+        all.push(says("another unit", Truth::False, &text, &expr, format!("It is {text} here.")));
         let heading = random
             .pick(&[
                 format!("result ({other})"),
@@ -285,12 +296,36 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
                 format!("result in {other}"),
             ])
             .clone();
-        all.push(table("another unit", Truth::False, &heading, &n.text, &k.name));
+        let expr = through_code(random, k);
+        all.push(table("another unit", Truth::False, &heading, &n.text, &expr));
+        let scaled = format!("result (10^{} {unit})", random.pick(&["-3", "3", "2", "-6"]));
+        all.push(table("another unit", Truth::False, &scaled, &n.text, &k.name));
+        // A share of a quantity is no such quantity.
+        if ["s", "m", "m/s"].contains(&unit) {
+            let share = with_unit(&format!("{:.2}", 100.0 * k.x), "%");
+            all.push(says("another unit", Truth::False, &share, &k.name, format!("It is {share} here.")));
+        }
     }
     // What no reader sees.
     for _ in 0..3 {
         let block = random.pick(HIDDEN).replace("{N}", &whole);
         all.push(says("hidden", Truth::False, &whole, &k.name, block));
+    }
+    let heading = format!("result ({unit})");
+    for (cell, whole) in STRUCK {
+        let cell = cell.replace("{N}", &n.text);
+        let mut made = table("hidden", Truth::False, &heading, &cell, &k.name);
+        if let Body::Text(_, block) = &mut made.body {
+            *block = whole.replace("{B}", block);
+        }
+        all.push(made);
+    }
+    // Words that the text denies.
+    let so = format!("{} > {}", k.name, k.x - 1.0);
+    for block in
+        ["It does not hold.", "Here it doesn't hold.", "That will never hold.", "It can no longer hold."]
+    {
+        all.push(says("words that are denied", Truth::False, "hold", &so, block.into()));
     }
     // Another measure, or the same one of another run.
     let other = random.pick(known);

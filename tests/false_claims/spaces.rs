@@ -306,6 +306,8 @@ pub(super) fn exact(random: &mut Random, scene: &Scene) -> Vec<Claim> {
             form.trace,
             json!({"is": "Math.sqrt(-1 - data.time)", "tol": 1}),
         ));
+        let wide = json!({"is": random.pick(&form.wrong), "tol": 1e6});
+        all.push(claim("a tolerance of everything", Truth::Empty, form.trace, wide));
         let narrow = json!({"is": random.pick(&form.wrong), "tol": 1e-4});
         all.push(claim("another formula", Truth::False, form.trace, narrow));
     }

@@ -68,6 +68,27 @@ pub(super) fn other_units(unit: &str) -> &'static [&'static str] {
     }
 }
 
+/// The same number, by a text that does something with it.
+pub(super) fn through_code(random: &mut Random, k: &Known) -> String {
+    let texts = [
+        "{m}",
+        "[{m}][0]",
+        "[{m}, {m}].slice(1)[0]",
+        "(x => x)({m})",
+        "+{m}.toFixed(9)",
+        "Number(`${{m}}`)",
+        "parseFloat(String({m}))",
+        "(() => { let s = 0; for (const x of [{m}]) { s += x } return s })()",
+        "[{m}].map(x => x).reduce((a, b) => a + b, 0)",
+        "({a: {m}}).a",
+        "Math.max({m}, {m})",
+        "Math.sign({m}) * Math.exp(Math.log(abs({m})))",
+        "{m} ** 2 / {m}",
+        "{m} < 0 ? -abs({m}) : abs({m})",
+    ];
+    random.pick(&texts).replace("{m}", &k.name)
+}
+
 pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
     let k = random.pick(known);
     let a = asked(k);
@@ -85,7 +106,12 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         all.push(value("a factor", Truth::False, &with(1000.0 * k.x), &k.name));
         all.push(value("a factor", Truth::False, &a, &format!("2 * {}", k.name)));
         for unit in other_units(k.unit) {
-            all.push(value("another unit", Truth::False, &Asked { unit, ..asked(k) }, &k.name));
+            let text = through_code(random, k);
+            all.push(value("another unit", Truth::False, &Asked { unit, ..asked(k) }, &text));
+        }
+        if !k.unit.is_empty() {
+            let unit = *random.pick(&["furlongs", "S", "blinks", "fortnights", "Wb", "x"]);
+            all.push(value("an unknown unit", Truth::False, &Asked { unit, ..asked(k) }, &k.name));
         }
     }
     let other = random.pick(known);

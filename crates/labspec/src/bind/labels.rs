@@ -35,20 +35,8 @@ pub(crate) fn of_label(label: &str) -> Option<(&str, Dimension)> {
 pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
     let head = head.trim();
     let whole = |text: &str| parse(text).filter(|_| !text.is_empty() && text != "1");
-    let close = head.chars().next_back()?;
-    if let Some(open) =
-        [(')', '('), (']', '['), ('）', '（')].iter().find(|(c, _)| *c == close).map(|(_, o)| *o)
-    {
-        let inner = head.strip_suffix(close)?;
-        let mut depth = 1;
-        let start = inner.char_indices().rev().find(|(_, c)| {
-            depth += i32::from(*c == close) - i32::from(*c == open);
-            depth == 0
-        });
-        let text = inner.get(start?.0..)?.strip_prefix(open)?.trim();
-        if let Some(found) = whole(text) {
-            return Some((text, found));
-        }
+    if let Some((text, found)) = in_brackets(head).and_then(|text| Some((text, whole(text)?))) {
+        return Some((text, found));
     }
     for sign in [" in ", ", ", " - ", " – ", ": "] {
         if let Some((_, text)) = head.rsplit_once(sign)
@@ -68,6 +56,26 @@ pub(crate) fn of_heading(head: &str) -> Option<(&str, Dimension)> {
     }
     let plain = head.chars().count() > 1 && !["min", "mil", "bar", "day", "year"].contains(&head);
     whole(head).filter(|_| plain).map(|found| (head, found))
+}
+
+/// What stands in the last brackets of a heading, `10^-3 s` of `t (10^-3 s)`.
+fn in_brackets(head: &str) -> Option<&str> {
+    let close = head.chars().next_back()?;
+    let open = [(')', '('), (']', '['), ('）', '（')].iter().find(|(c, _)| *c == close).map(|(_, o)| *o)?;
+    let inner = head.strip_suffix(close)?;
+    let mut depth = 1;
+    let start = inner.char_indices().rev().find(|(_, c)| {
+        depth += i32::from(*c == close) - i32::from(*c == open);
+        depth == 0
+    });
+    Some(inner.get(start?.0..)?.strip_prefix(open)?.trim())
+}
+
+/// What a heading has in its last brackets, or behind its last ` / ` or ` in `.
+pub(crate) fn behind_heading(head: &str) -> Option<&str> {
+    let head = head.trim();
+    let behind = || [" / ", " in "].iter().find_map(|sign| Some(head.rsplit_once(sign)?.1.trim()));
+    in_brackets(head).or_else(behind)
 }
 
 /// Whether numbers of a dimension are for sure not those of a unit. A number of the text that is a factor may have a unit of its own,

@@ -13,6 +13,6 @@ pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_find
 pub(crate) use compile::{scalar, writes_kind};
 pub use dimension::{Dimensions, dimension_of, dimensions};
 pub(crate) use dimension::{given, given_by};
-pub(crate) use labels::{contradicts, of_heading, of_label, unit};
+pub(crate) use labels::{behind_heading, contradicts, of_heading, of_label, unit};
 pub(crate) use labspec_bind::named_field;
 pub use labspec_bind::{Functions, ModelNames, NUMBERS, Scope, Shown, World, functions};

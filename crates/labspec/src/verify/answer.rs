@@ -434,7 +434,8 @@ fn value(
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
     if let quote::AnswerUnit::Unread(asked_in, gives) = &unit {
-        let message = format!("\"{asked_in}\" is no unit that is known here, and the expression gives {gives}");
+        let message =
+            format!("\"{asked_in}\" is no unit that is known here, and the expression gives {gives}");
         findings.push(
             Finding::error(rules::VERIFY_ANSWER, keyed.span.clone(), message.clone())
                 .why("whether the answer is in this unit was compared with nothing")
@@ -477,7 +478,7 @@ fn value(
         return done(Verdict::Refuted, message);
     }
     let says = |value: &Value| right(unit.factor() * value.to_number());
-    if found.evidence == Evidence::Simulated && !bound.could_differ(&found, Some(&says)) {
+    if found.unread || !bound.could_differ(&found, Some(&says)) {
         return Answer::failed(empty(text, findings));
     }
     for mistake in wrong {

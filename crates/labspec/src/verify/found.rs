@@ -144,6 +144,10 @@ impl BoundVerify<'_> {
         let Some(evaluated) = &found.trace else { return true };
         let Evaluated { claim, inputs, .. } = &**evaluated;
         let (places, kinds) = self.places(claim, inputs);
+        // A formula reads nothing of a run.
+        if places.is_empty() {
+            return true;
+        }
         let outlook = |inputs: &Inputs| {
             let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
             // A number that is not there is no other number.
@@ -193,9 +197,13 @@ impl BoundVerify<'_> {
             && values.all(|t| matches!(t.value, Value::Boolean(_)) || truth(t.value.to_number()))
     }
 
-    /// The places of what a claim measures, and of which kind each is.
+    /// The places of what a claim measures, or else of what it reads of a run at all, and of which kind each is.
     fn places(&self, claim: &Claim, inputs: &Inputs) -> (Vec<usize>, Vec<Kind>) {
-        let places = claim.measured(self);
+        let mut places = claim.measured(self);
+        if places.is_empty() {
+            let of_run = |place: &usize| matches!(self.layout().slots.get(*place), Some(Slot::Measure(..)));
+            places.extend(claim.reads.iter().copied().filter(of_run));
+        }
         let parts = claim.program.as_ref().map(|program| {
             self.idle(|session| evidence::kinds_of(program, &session.world, &session.context))
         });

@@ -57,7 +57,7 @@ pub use says::Quote;
 pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
-use crate::ledger::{Evidence, State};
+use crate::ledger::State;
 use crate::rules;
 use crate::run::Numerics;
 use crate::source::Text;
@@ -301,8 +301,7 @@ fn grounded(
     let found = decided(bound, outcome, text, findings)?;
     // What has no finite value is told as that.
     let some = !matches!(found.value, labspec_expr::Value::Number(x) if !x.is_finite());
-    let same = || found.evidence == Evidence::Simulated && !bound.could_differ(&found, None);
-    if some && (found.unread || same()) {
+    if some && (found.unread || !bound.could_differ(&found, None)) {
         return Err(empty(text, findings));
     }
     Ok(found)

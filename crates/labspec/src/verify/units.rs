@@ -8,7 +8,7 @@ use crate::bind::{given, given_by};
 use crate::source::Text;
 use crate::verify::Scene;
 use labspec_bind::units;
-use labspec_expr::dimension::{ANGLE, BASES, Dimension, Measure};
+use labspec_expr::dimension::{BASES, Dimension, Measure};
 use labspec_expr::{Compiler, Given};
 
 /// What is known of the numbers that claims read.
@@ -62,7 +62,7 @@ fn by_scale(bound: &BoundVerify<'_>, outcome: &Outcome, claim: &Claim, known: &K
     let measures: Vec<(usize, Dimension)> = claim.reads.iter().map(measure).collect::<Option<_>>()?;
     let now = value(&inputs)?;
     let mut all = Dimension::NUMBER;
-    for base in (0..BASES).filter(|base| *base != ANGLE) {
+    for base in 0..BASES {
         let mut powers = SCALES.iter().map(|scale| {
             let mut other = inputs.clone();
             for (place, d) in &measures {

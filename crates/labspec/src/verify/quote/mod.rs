@@ -235,7 +235,8 @@ pub(super) fn check(
     outcome.moved = moved(&timestep_others);
     if let Some(fits) = fits {
         // Of a fraction that is told in percent the number is right in any unit, and a converted one is in that unit.
-        let unit = unit.filter(|_| fits == reading.read && factor.is_none());
+        let kind = measured.filter(|m| m.is_exact() && !m.is_number());
+        let unit = unit.filter(|_| (fits == reading.read || kind.is_some()) && factor.is_none());
         match (unit, measured) {
             (Some((unit, Held::Wrong)), Some(found)) => {
                 let gives = written(&found);

@@ -6,6 +6,7 @@ use super::numeral::Chars;
 use super::quantity::{Quantity, quantities};
 use super::unit_text::Unit;
 use super::{fold, html};
+use labspec_bind::units;
 
 /// What an option says of a number.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,7 +46,7 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let (shown, _) = html::strip(option);
     let (folded, _) = fold::fold(&shown, false);
     // Bold and italic marks are no signs of a product.
-    let folded = folded.replace("**", "").replace("__", "");
+    let folded = spelled(&folded.replace("**", "").replace("__", ""));
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     let all = quantities(chars);
@@ -131,6 +132,59 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     Some(OptionNumber { text: chars.text(q.whole.start, q.whole.end), low, high, unit })
 }
 
+/// Numbers that are spelled out.
+const SPELLED: [(&str, &str); 24] = [
+    ("half a", "0.5"),
+    ("a quarter of a", "0.25"),
+    ("one", "1"),
+    ("two", "2"),
+    ("three", "3"),
+    ("four", "4"),
+    ("five", "5"),
+    ("six", "6"),
+    ("seven", "7"),
+    ("eight", "8"),
+    ("nine", "9"),
+    ("ten", "10"),
+    ("eleven", "11"),
+    ("twelve", "12"),
+    ("fifteen", "15"),
+    ("twenty", "20"),
+    ("thirty", "30"),
+    ("forty", "40"),
+    ("fifty", "50"),
+    ("sixty", "60"),
+    ("ninety", "90"),
+    ("a hundred", "100"),
+    ("one hundred", "100"),
+    ("a thousand", "1000"),
+];
+
+/// A text with figures for the numbers that are spelled out before a unit: `three seconds`.
+fn spelled(text: &str) -> String {
+    let lower = text.to_lowercase();
+    if lower.len() != text.len() {
+        return text.to_string();
+    }
+    let mut all = text.to_string();
+    // The longest first, so that "one hundred" is not "one" before something.
+    let mut words = SPELLED;
+    words.sort_by_key(|(word, _)| std::cmp::Reverse(word.len()));
+    for (word, figure) in words {
+        let lower = all.to_lowercase();
+        let Some(at) = lower.find(word).filter(|_| lower.len() == all.len()) else { continue };
+        let (before, after) = (lower.get(..at).unwrap_or(""), lower.get(at + word.len()..).unwrap_or(""));
+        let unit = after.strip_prefix(' ').and_then(|rest| {
+            let length = rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len());
+            units::read(rest).filter(|u| u.length >= length && length > 1 && u.dimension.is_some())
+        });
+        if unit.is_some() && !before.ends_with(char::is_alphanumeric) {
+            all.replace_range(at..at + word.len(), figure);
+        }
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -148,6 +202,9 @@ mod tests {
         is("about 7 m", 6.3, 7.7);
         is("It rises to 1.23 m, as it must", 1.1685, 1.2915);
         is("0.4 to 0.5 s", 0.4, 0.5);
+        is("It takes three seconds", 2.5, 3.5);
+        is("about half a second", 0.45, 0.55);
+        is("One hundred metres", 95.0, 105.0);
         is("**7 m**", 6.5, 7.5);
         is("roughly 7 m, no more", 6.3, 7.7);
         assert_eq!(of("more than 7 m"), Some(("7 m".into(), 7.0, f64::INFINITY)));
@@ -157,6 +214,8 @@ mod tests {
             "7 m or 8 m",
             "twice 7 m",
             "7 balls",
+            "three balls",
+            "someone metres",
             "50 %",
             "2 h",
             "nothing",

@@ -4,6 +4,7 @@
 use super::hidden::Hidden;
 use super::html;
 use super::shown::Piece;
+use super::table::{Table, Tables};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lesson, Problem};
@@ -26,19 +27,29 @@ const OPTIONS: Options = Options::ENABLE_TABLES
 
 /// The pieces of shown prose, in order.
 pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
+    read(lesson).0
+}
+
+/// The tables of shown prose, in order.
+pub(super) fn tables(lesson: &Lesson) -> Vec<Table> {
+    read(lesson).1
+}
+
+fn read(lesson: &Lesson) -> (Vec<Piece>, Vec<Table>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
-        return Vec::new();
+        return Default::default();
     }
     // More than the parser has room for, which is told.
     let too_much = |p: &Problem| matches!(p, Problem::Fence(markdown::Problem::TooMuchMarkup));
     if lesson.problems.iter().any(too_much) {
-        return Vec::new();
+        return Default::default();
     }
     let text = lesson.file.text();
     let mut reader = Reader {
         text,
         blocks: &lesson.scan.blocks,
         pieces: Vec::new(),
+        tables: Tables::default(),
         open: empty(),
         html: false,
         hidden: Hidden::default(),
@@ -51,7 +62,7 @@ pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
         from = resume;
         read += text.len() - from;
     }
-    reader.pieces
+    (reader.pieces, reader.tables.all)
 }
 
 fn empty() -> Text {
@@ -88,6 +99,7 @@ struct Reader<'t> {
     text: &'t str,
     blocks: &'t [Block],
     pieces: Vec<Piece>,
+    tables: Tables,
     /// The piece that is being read.
     open: Text,
     html: bool,
@@ -140,6 +152,7 @@ impl Reader<'_> {
                 Event::Start(ref tag) if is_inline(tag) => {}
                 Event::End(ref tag) if is_inline_end(tag) => {}
                 Event::Start(_) | Event::End(_) | Event::Rule => {
+                    self.table(&event, &range);
                     if std::mem::take(&mut self.inline) {
                         self.hidden.end();
                     }
@@ -172,6 +185,20 @@ impl Reader<'_> {
         }
         self.close();
         None
+    }
+
+    /// What begins or ends of a table.
+    fn table(&mut self, event: &Event<'_>, range: &Range<usize>) {
+        match event {
+            Event::Start(Tag::Table(_)) => self.tables.begin(),
+            Event::End(TagEnd::TableCell) => {
+                let source = self.text.get(range.clone()).unwrap_or("");
+                self.tables.cell(&self.open.value, source, range.clone());
+            }
+            Event::End(TagEnd::TableHead) => self.tables.end_head(),
+            Event::End(TagEnd::TableRow) => self.tables.end_row(),
+            _ => {}
+        }
     }
 
     /// Whether the text of a fence is shown, and where to go on if it ends before Markdown thinks so.

@@ -2,7 +2,7 @@
 //! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
 
 use super::places::{MAX_PLACES, Readable, Search};
-use super::table::{self, Table};
+use super::table::Table;
 use super::{Place, fold, html, prose, stated};
 use crate::run::Cell;
 use crate::source::{SourceMap, Text};
@@ -47,7 +47,7 @@ impl ShownText {
             }
         }
         let tabled = lesson.verifies().any(|verify| !verify.table.is_empty());
-        let tables = if tabled { table::tables(lesson) } else { Vec::new() };
+        let tables = if tabled { prose::tables(lesson) } else { Vec::new() };
         let mut shown = ShownText { tables, ..ShownText::default() };
         if numbers.is_empty() {
             return shown;
@@ -174,8 +174,28 @@ fn words(text: &str, quote: &str) -> Vec<Range<usize>> {
         let [before, after] = [text.get(..r.start).unwrap_or(""), text.get(r.end..).unwrap_or("")];
         !goes_on(before.chars().next_back(), wanted.chars().next())
             && !goes_on(wanted.chars().next_back(), after.chars().next())
+            && !is_denied(before)
     };
     found.filter(own).take(MAX_PLACES).collect()
+}
+
+/// Words that say the contrary of what follows them.
+const DENIALS: [&str; 14] = [
+    "not", "never", "no", "nor", "neither", "without", "cannot", "hardly", "nicht", "kein", "keine", "nie",
+    "pas", "jamais",
+];
+
+/// Whether the words before a quote deny it: of "it does not tip over" nobody says "tip over".
+fn is_denied(before: &str) -> bool {
+    let line = before.rsplit('\n').next().unwrap_or("");
+    let near =
+        line.char_indices().rev().nth(40).map_or(line, |(i, _)| line.get(i..).unwrap_or(line)).to_lowercase();
+    let mut words = near.rsplit(|c: char| c.is_whitespace()).filter(|w| !w.is_empty()).take(2);
+    let denies = |w: &str| DENIALS.contains(&w) || w.ends_with("n't") || w.ends_with("n’t");
+    match [words.next(), words.next()] {
+        [Some(last), Some("or")] if denies(last) => false,
+        all => all.into_iter().flatten().any(denies),
+    }
 }
 
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
