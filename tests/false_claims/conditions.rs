@@ -355,6 +355,21 @@ pub(super) fn texts(random: &mut Random, known: &[Known]) -> Vec<Claim> {
         random.pick(&forms).replace("{}", &format!("{number} {unit}"))
     };
     let mut all = vec![claim("", Truth::True, &say(&x, unit, random))];
+    // Nothing but a number, beside a condition with one side.
+    for factor in [0.3, 3.0] {
+        let condition = format!("{} < {}", k.name, 1.2 * k.x);
+        let mut made = question(
+            "text of an option",
+            "another number alone",
+            Truth::False,
+            &condition,
+            [&others[0], &others[0]],
+        );
+        if let Body::Question(q) = &mut made.body {
+            q["options"][0] = json!(format!("{} {unit}", times(factor)));
+        }
+        all.push(made);
+    }
     for factor in [0.1, 0.5, 0.8, 1.25, 2.0, 10.0] {
         all.push(claim("another number", Truth::False, &say(&times(factor), unit, random)));
     }

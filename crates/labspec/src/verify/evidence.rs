@@ -140,6 +140,13 @@ impl Outlook {
     }
 }
 
+/// How large a number may be to be tried in place of what was measured: what is a million times as large as everything that was
+/// measured is out of reach, so that `z < 1e300` says nothing.
+pub(super) fn reach(values: &[f64]) -> f64 {
+    let largest = values.iter().filter(|x| x.is_finite()).fold(1.0, |most: f64, x| most.max(x.abs()));
+    1e6 * largest
+}
+
 /// Factors by which a measured value is replaced.
 const FACTORS: [f64; 14] =
     [0.0, 0.5, 2.0, -1.0, 0.9, 1.1, 0.99, 1.01, 0.999_999, 1.000_001, 0.1, 10.0, 0.001, 1000.0];
@@ -159,12 +166,13 @@ pub(super) fn could_differ(
     let Some((now, compared)) = says(nominal) else { return false };
     let values: Vec<f64> = places.iter().filter_map(|p| nominal.at(*p)).collect();
     let sides = compared.iter().flat_map(|c| [c.left, c.right]);
+    let reach = reach(&values);
     let others: Vec<f64> = values
         .iter()
         .copied()
         .chain(constants.iter().copied())
         .chain(sides)
-        .filter(|x| x.is_finite())
+        .filter(|x| x.abs() <= reach)
         .take(40)
         .collect();
     let list = |i: usize, kind: &Kind| -> Vec<f64> {

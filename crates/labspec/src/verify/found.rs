@@ -113,8 +113,12 @@ impl BoundVerify<'_> {
             let Slot::Measure(place, _) = *slot else { return None };
             let run = outcome.runs.get(place)?;
             let (_, expected) = self.run_place(place);
-            let broke = run.broke.as_ref().filter(|_| !(expected || excused(place)));
-            broke.map(|how| format!("the run {} breaks: {how}", crate::json::read::named(&run.title())))
+            let name = crate::json::read::named(&run.title());
+            match &run.broke {
+                Some(how) if !(expected || excused(place)) => Some(format!("the run {name} breaks: {how}")),
+                None if expected => Some(format!("the run {name} is expected to break, and does not")),
+                _ => None,
+            }
         })
     }
 

@@ -5,7 +5,7 @@
 use super::bound::{BoundVerify, Named};
 use super::claim::{Claim, Inputs};
 use super::condition::numbers_in;
-use super::evidence::{Kind, Outlook};
+use super::evidence::{Kind, Outlook, reach};
 use super::layout::Slot;
 use super::measure::{How, Measure, Sample};
 use crate::bind::World;
@@ -175,7 +175,10 @@ impl BoundVerify<'_> {
             .flat_map(Program::aggregates)
             .any(|a| matches!(How::of(a), Some(How::Count | How::Crossings)));
         let texts = measures.iter().flat_map(|(.., m)| numbers_in(m.text.as_str()));
-        let numbers: Vec<f64> = texts.chain(claim.constants.iter().copied()).filter(|x| *x != 0.0).collect();
+        let measured: Vec<f64> = claim.measured(self).iter().filter_map(|place| nominal.at(*place)).collect();
+        let reach = reach(&measured);
+        let numbers = texts.chain(claim.constants.iter().copied());
+        let numbers: Vec<f64> = numbers.filter(|x| *x != 0.0 && x.abs() <= reach).collect();
         // What is counted has to be able to reach the numbers that it is compared with.
         let largest = numbers.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
         if counts && 8.0 * largest > MOST_SAMPLES {

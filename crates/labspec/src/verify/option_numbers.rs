@@ -2,7 +2,7 @@
 
 use super::bound::BoundVerify;
 use super::outcome::Outcome;
-use super::quote::{Held, conversion, hold, option_text};
+use super::quote::{Held, OptionNumber, conversion, hold, option_ratio, option_text};
 use super::{significant, units};
 use crate::finding::Finding;
 use crate::rules;
@@ -10,10 +10,15 @@ use crate::source::{SourceMap, Text};
 use labspec_expr::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use labspec_expr::{parse_expression, print};
 
+/// How far the number of an option may be off where its condition has one side.
+const NEAREST: f64 = 1.5;
+
 /// What a condition asks of the one quantity that it compares with numbers.
 #[derive(Clone, Debug, PartialEq)]
 struct Asked {
     quantity: String,
+    /// It is one measured quantity over another.
+    ratio: bool,
     low: f64,
     high: f64,
 }
@@ -50,10 +55,21 @@ fn contradiction(
     condition: &Text,
     holds: bool,
 ) -> Option<String> {
-    let said = option_text(&option.value)?;
+    let asked = asked(&parse_expression(&condition.value).tree)?;
+    let closed = asked.low.is_finite() && asked.high.is_finite();
+    let said = match option_text(&option.value) {
+        Some(said) => said,
+        None if closed && asked.ratio => return no_such_ratio(option, &asked),
+        None => return None,
+    };
     // One side alone may bound another quantity than the number is of: a height, beside how far something fell.
-    let asked = asked(&parse_expression(&condition.value).tree)
-        .filter(|a| a.low.is_finite() && a.high.is_finite())?;
+    if !closed && !said.alone {
+        return None;
+    }
+    // The nearest of several numbers may be right where one side is asked for.
+    let slip = if closed { 1.0 } else { NEAREST };
+    let widen = |x: f64, f: f64| if x > 0.0 { x * f } else { x / f };
+    let said = OptionNumber { low: widen(said.low, 1.0 / slip), high: widen(said.high, slip), ..said };
     let text =
         Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
     let found = units::of_claim(bound, outcome, &text)?;
@@ -88,6 +104,15 @@ fn contradiction(
     })
 }
 
+/// Of an option that states a ratio, and a condition that asks for another one.
+fn no_such_ratio(option: &Text, asked: &Asked) -> Option<String> {
+    let said = option_ratio(&option.value)?;
+    let slack = 0.05 * asked.low.abs().max(asked.high.abs());
+    let fits = |x: &f64| asked.low - slack <= *x && *x <= asked.high + slack;
+    let none = !said.may_be.iter().any(fits);
+    none.then(|| format!("the option says {}, and its condition {}", said.text, range(asked.low, asked.high)))
+}
+
 /// `asks for 1.13 to 1.33`
 fn range(low: f64, high: f64) -> String {
     format!("asks for {} to {}", significant(low), significant(high))
@@ -115,9 +140,10 @@ fn asked(e: &Expr) -> Option<Asked> {
             if let Some(inner) = magnitude(quantity) {
                 return if below { around(inner, number) } else { None };
             }
+            let ratio = is_ratio(quantity);
             let quantity = single(quantity).then(|| print(quantity))?;
             let (low, high) = if below { (f64::NEG_INFINITY, number) } else { (number, f64::INFINITY) };
-            Some(Asked { quantity, low, high })
+            Some(Asked { quantity, ratio, low, high })
         }
         _ => None,
     }
@@ -149,11 +175,18 @@ fn around(inner: &Expr, off: f64) -> Option<Asked> {
     {
         return single(left).then(|| Asked {
             quantity: print(left),
+            ratio: is_ratio(left),
             low: unit * (centre - off),
             high: unit * (centre + off),
         });
     }
-    single(quantity).then(|| Asked { quantity: print(quantity), low: centre - off, high: centre + off })
+    let ratio = is_ratio(quantity);
+    single(quantity).then(|| Asked {
+        quantity: print(quantity),
+        ratio,
+        low: centre - off,
+        high: centre + off,
+    })
 }
 
 /// The number that an expression of numbers alone is.
@@ -184,9 +217,16 @@ fn single(e: &Expr) -> bool {
         ExprKind::Binary { op: BinaryOp::Multiply, left, right } => {
             constant(left).is_some() && single(right) || single(left) && constant(right).is_some()
         }
-        ExprKind::Binary { op: BinaryOp::Divide, left, right } => single(left) && constant(right).is_some(),
+        ExprKind::Binary { op: BinaryOp::Divide, left, right } => {
+            single(left) && (constant(right).is_some() || single(right))
+        }
         _ => false,
     }
+}
+
+/// Whether an expression is one measured quantity over another.
+fn is_ratio(e: &Expr) -> bool {
+    matches!(&e.kind, ExprKind::Binary { op: BinaryOp::Divide, left, right } if single(left) && single(right))
 }
 
 #[cfg(test)]

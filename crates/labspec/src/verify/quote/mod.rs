@@ -25,7 +25,7 @@ mod words;
 
 pub(super) use answer_unit::{AnswerUnit, answer_unit, is_unit};
 pub use number::{Form, Quoted, Style};
-pub(super) use option_text::option_text;
+pub(super) use option_text::{OptionNumber, option_ratio, option_text};
 pub(super) use read::{Part, parts, reading, whole};
 pub use read::{Unread, quoted};
 pub use shown::ShownText;
