@@ -213,6 +213,31 @@ mod tests {
         }
     }
 
+    /// What sleeps with one clone wakes with another, in which nothing may sleep.
+    #[test]
+    fn sleepers_wake_where_nothing_may_sleep() {
+        let text = SCENE.replacen("<mujoco>", "<mujoco><option><flag sleep='enable'/></option>", 1);
+        let text = text.replacen("<joint type='slide'", "<joint name='push' type='slide'", 1);
+        let sleepy = Model::from_xml(&text).unwrap();
+        let mut awake = sleepy.clone();
+        awake.set_enabled(crate::kinds::enable::SLEEP, false);
+        let mut demand = coordinates();
+        demand.reads.insert(data::tree_asleep);
+        let mut planned = Data::planned(&sleepy, Plan::new(&sleepy, &demand));
+        let mut full = Data::unplanned(&sleepy);
+        let mut slept = false;
+        for (model, steps) in [(&sleepy, 3000), (&awake, 20)] {
+            for _ in 0..steps {
+                call::step(model, &mut planned).unwrap();
+                call::step(model, &mut full).unwrap();
+            }
+            slept |= full.tree_asleep.iter().any(|&at| at >= 0);
+            assert_eq!(planned.fields().qpos, full.qpos);
+            assert_eq!(planned.fields().tree_asleep, full.tree_asleep);
+        }
+        assert!(slept && full.tree_asleep.iter().all(|&at| at < 0), "{:?}", full.tree_asleep);
+    }
+
     /// Forces of a state that is set act, announced or not.
     #[test]
     fn forces_of_a_state_that_is_set_act() {

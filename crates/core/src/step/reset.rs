@@ -11,7 +11,7 @@ use crate::model::plan::Plan;
 use crate::model::stage::Stage;
 use crate::model::stopwatch::Stopwatch;
 use crate::model::way::Ways;
-use crate::model::{Model, Warning, WarningStat, reflect};
+use crate::model::{Model, Warning, WarningStat, asleep, reflect};
 use crate::step::scene::Demand;
 use crate::step::workspace::Data;
 use crate::{collision, constraint, sensor};
@@ -144,6 +144,9 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.keeps(Stage::Actuation) {
         d.actuator_force.fill(0.0);
         d.qfrc_actuator.fill(0.0);
+    }
+    if !d.plan.keeps(Stage::Sleep) && asleep::some(m, d) {
+        sleep::wake_all(m, d);
     }
     if !d.plan.keeps(Stage::Passive) {
         d.qfrc_passive.fill(0.0);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::mjcf::compile;
+use crate::model::reflect::Object;
 use crate::step::reset::{reset_data_keyframe, set_keyframe};
 use crate::step::step;
 use crate::step::workspace::Data;
