@@ -13,7 +13,7 @@ pub const QUOTE_CHAOTIC: &Rule = &Rule {
 ```
 
 ```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "Where does it go?", "options": ["Down", "Up"], "answer": 0, "explain": "After a minute its angle is ⟦12.345 rad⟧.", "verify": {"lab": "#1", "runs": {"run": {"setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "until": 60}}, "measure": {"a": "final(data.qpos[0])"}, "options": ["run.a < 1e9", "run.a > 1e9"], "says": [["12.345 rad", "run.a"]]}}]}
+{"id": "fall", "questions": [{"kind": "mcq", "q": "Where does it go?", "options": ["Down", "Up"], "answer": 0, "explain": "After a minute its angle is ⟦12.345 rad⟧.", "verify": {"lab": "#1", "runs": {"run": {"setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "until": 60}}, "measure": {"a": "final(data.qpos[0])"}, "options": ["run.a < 1000", "run.a > 1000"], "says": [["12.345 rad", "run.a"]]}}]}
 ```
 "##,
     ),
@@ -23,7 +23,7 @@ pub const QUOTE_CHAOTIC: &Rule = &Rule {
 ```
 
 ```quiz
-{"id": "fall", "questions": [{"kind": "mcq", "q": "Where does it go?", "options": ["Down", "Up"], "answer": 0, "explain": "After 0.1 s its angle is 3.0 rad.", "verify": {"lab": "#1", "runs": {"run": {"setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "until": 0.1}}, "measure": {"a": "final(data.qpos[0])"}, "options": ["run.a < 1e9", "run.a > 1e9"], "says": [["3.0 rad", "run.a"]]}}]}
+{"id": "fall", "questions": [{"kind": "mcq", "q": "Where does it go?", "options": ["Down", "Up"], "answer": 0, "explain": "After 0.1 s its angle is 3.0 rad.", "verify": {"lab": "#1", "runs": {"run": {"setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "until": 0.1}}, "measure": {"a": "final(data.qpos[0])"}, "options": ["run.a < 1000", "run.a > 1000"], "says": [["3.0 rad", "run.a"]]}}]}
 ```
 "##,
     ),

@@ -9,10 +9,10 @@ pub const QUOTE_WITHOUT_VALUE: &Rule = &Rule {
     why: "What it waits for never happens in the run, so nothing was compared",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It lands after 0.45 s.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 1e9", "run.z > 1e9"], "says": [["0.45 s", "⟦run.t⟧"]]}}"##,
+ "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 0.9", "run.z > 1.1"], "says": [["0.45 s", "⟦run.t⟧"]]}}"##,
     ),
     good: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It lands after 0.44 s.",
- "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 1e9", "run.z > 1e9"], "says": [["0.44 s", "run.t"]]}}"##,
+ "verify": {"lab": "#1", "runs": {"run": {"until": 1}}, "measure": {"z": "final(data.qpos[2])", "t": "first(contact('ball', 'floor'))"}, "options": ["run.z < 0.9", "run.z > 1.1"], "says": [["0.44 s", "run.t"]]}}"##,
     ),
 };

@@ -204,7 +204,8 @@ impl BoundVerify<'_> {
     /// The places of what a claim measures, or else of what it reads of a run at all, and of which kind each is.
     fn places(&self, claim: &Claim, inputs: &Inputs) -> (Vec<usize>, Vec<Kind>) {
         let mut places = claim.measured(self);
-        if places.is_empty() {
+        let simulated = !places.is_empty();
+        if !simulated {
             let of_run = |place: &usize| matches!(self.layout().slots.get(*place), Some(Slot::Measure(..)));
             places.extend(claim.reads.iter().copied().filter(of_run));
         }
@@ -213,7 +214,9 @@ impl BoundVerify<'_> {
         });
         let parts = parts.flatten().unwrap_or_default();
         let count = inputs.numbers.len();
+        // What is not simulated has the one value that it has, which tells nothing of its kind.
         let kind = |place: &usize| match place.checked_sub(count) {
+            _ if !simulated => Kind::ANY,
             None => self.kinds().get(*place).copied().unwrap_or(Kind::ANY),
             Some(part) => parts.get(part).copied().unwrap_or(Kind::ANY),
         };

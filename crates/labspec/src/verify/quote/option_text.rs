@@ -151,7 +151,7 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
 }
 
 /// Words that say how many times something is.
-const TIMES: [(&str, f64); 20] = [
+const TIMES: [(&str, f64); 23] = [
     ("twice", 2.0),
     ("double", 2.0),
     ("doubles", 2.0),
@@ -170,7 +170,10 @@ const TIMES: [(&str, f64); 20] = [
     ("three times", 3.0),
     ("four times", 4.0),
     ("five times", 5.0),
+    ("six times", 6.0),
+    ("seven times", 7.0),
     ("eight times", 8.0),
+    ("nine times", 9.0),
     ("ten times", 10.0),
 ];
 
@@ -188,6 +191,10 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         !letter(lower.get(..at).and_then(|t| t.chars().next_back()))
             && !letter(lower.get(at + length..).and_then(|t| t.chars().next()))
     };
+    // `two and a half times`
+    if lower.contains("and a half") {
+        return None;
+    }
     let words: Vec<(String, f64)> = TIMES
         .iter()
         .filter(|(word, _)| lower.match_indices(word).any(|(at, found)| is_word(at, found.len())))
@@ -328,7 +335,14 @@ mod tests {
             assert!(is(text, x), "{text} {x}");
         }
         assert!(!is("Twice as deep", 5.0) && !is("30 %", 0.05) && !is("20 times", 5.0));
-        for text in ["twice as much as 3 s", "half or double", "halfway", "three balls", "it falls"] {
+        for text in [
+            "twice as much as 3 s",
+            "half or double",
+            "halfway",
+            "two and a half times",
+            "three balls",
+            "it falls",
+        ] {
             assert_eq!(option_ratio(text), None, "{text}");
         }
     }
