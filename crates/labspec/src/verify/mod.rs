@@ -251,6 +251,13 @@ fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding
     Some(Outcomes { nominal, perturbed, nudged_back })
 }
 
+/// Every measure as the lesson's own numerics give it; `None` where runs cannot be made, or claims look at samples themselves.
+pub(crate) fn nominal(bound: &BoundVerify<'_>, verify: &Verify) -> Option<Vec<(String, f64)>> {
+    let texts = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
+    let own = !bound.on_the_spot(texts).is_empty();
+    (!own).then(|| Some(bound.outcome(Numerics::NOMINAL, &mut Vec::new())?.list()))?
+}
+
 /// What became of the runs. One that breaks is a finding, and so is one that does not although the lesson says so.
 fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>) -> Vec<RunReport> {
     let mut all = Vec::new();

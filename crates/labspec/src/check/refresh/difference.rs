@@ -143,11 +143,16 @@ impl Columns<'_> {
         if !(p.is_finite() && q.is_finite()) {
             return (p.to_bits() != q.to_bits() && !(p.is_nan() && q.is_nan())).then_some(1.0);
         }
+        if p == q {
+            return None;
+        }
         let apart = (p - q).abs();
-        let readout =
-            column.checked_sub(1 + self.lab.traces().count()).and_then(|i| self.lab.readouts.get(i));
-        let printed = readout.is_some_and(|r| run::shown(*p, r.digits()) != run::shown(*q, r.digits()));
-        let seen = apart > VISIBLE * range || printed;
+        let printed = || {
+            let readout = column.checked_sub(1 + self.lab.traces().count());
+            let readout = readout.and_then(|i| self.lab.readouts.get(i));
+            readout.is_some_and(|r| run::shown(*p, r.digits()) != run::shown(*q, r.digits()))
+        };
+        let seen = apart > VISIBLE * range || printed();
         (seen && apart > ROUNDING * largest).then_some(apart / range)
     }
 
