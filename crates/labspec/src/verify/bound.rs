@@ -210,10 +210,12 @@ impl<'a> BoundVerify<'a> {
                 let kind =
                     |session: &mut Session<'a>| evidence::kind_of(named, &session.world, &session.context);
                 let place = (scene, named.text.as_str());
-                if !known.contains_key(&place) {
-                    known.insert(place, self.idle_in(scene, kind)?);
+                if let Some(known) = known.get(&place) {
+                    return Some(*known);
                 }
-                known.get(&place).copied()
+                let kind = self.idle_in(scene, kind)?;
+                known.insert(place, kind);
+                Some(kind)
             };
             let mut one = |slot: &Slot| match *slot {
                 Slot::Measure(run, m) => measure(run, m).unwrap_or(Kind::ANY),
