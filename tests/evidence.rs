@@ -253,3 +253,45 @@ fn a_label_of_several_plots_is_none_of_them() {
     let checked = check_text("lesson.md", &format!("# A\n\n```lab\n{two}\n```\n"));
     assert!(codes(&checked).contains(&"closed-form-wrong"), "{:?}", codes(&checked));
 }
+
+/// What is left of an object with a mistake may say something else than what was meant, and a run is evidence only of what it does.
+#[test]
+fn what_has_mistakes_is_not_verified() {
+    assert_eq!(verdict(&choice("z < 0.1", &json!({}))), Verdict::Verified);
+    for more in [
+        json!({"says": "0.44 s"}),
+        json!({"over": {"g": [-9.81, -9.81]}}),
+        json!({"runs": {"run": {"until": 1, "steps": 0}}}),
+        json!({"runs": {"run": {"until": 1, "expect": "breaks"}}}),
+        json!({"meassure": {"a": "1"}}),
+    ] {
+        let checked = choice("z < 0.1", &more);
+        let errors = checked.findings.iter().any(|f| f.is_error());
+        assert_eq!((verdict(&checked), errors), (Verdict::Failed, true), "{more}: {:?}", codes(&checked));
+    }
+}
+
+/// A unit that nobody knows, and one that belongs to something else, whatever the text does with the number.
+#[test]
+fn a_unit_is_compared_or_said_to_be_open() {
+    let asked = |unit: &str, value: &str| {
+        let verify =
+            json!({"lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(), "value": value});
+        let q = json!({"kind": "numeric", "q": "When?", "answer": 0.442, "tol": 0.01, "unit": unit, "explain": "So.", "verify": verify});
+        let checked = checked(&q);
+        let answer = checked.claims.iter().find_map(|c| c.judgement.answer.clone()).unwrap();
+        (answer.verdict, answer.reason)
+    };
+    assert_eq!(asked("s", "t"), (Verdict::Verified, String::new()));
+    for unit in ["S", "blinks", "x"] {
+        assert_eq!(asked(unit, "t").0, Verdict::Failed, "{unit}");
+    }
+    for value in ["t", "[t][0]", "+t.toFixed(6)", "(x => x)(t)", "Math.exp(Math.log(t))", "Number(String(t))"]
+    {
+        assert_eq!(asked("kg", value).0, Verdict::Refuted, "{value}");
+        assert_eq!(asked("s", value).0, Verdict::Verified, "{value}");
+    }
+    let (verdict, reason) = asked("kg", "t > 0.1 ? 0.442 : 0.441");
+    assert_eq!(verdict, Verdict::Verified);
+    assert!(reason.contains("its unit was compared with nothing"), "{reason}");
+}
