@@ -267,7 +267,8 @@ fn what_has_mistakes_is_not_verified() {
     ] {
         let checked = choice("z < 0.1", &more);
         let errors = checked.findings.iter().any(|f| f.is_error());
-        assert_eq!((verdict(&checked), errors), (Verdict::Failed, true), "{more}: {:?}", codes(&checked));
+        let untrue = matches!(verdict(&checked), Verdict::Failed | Verdict::Refuted);
+        assert!(untrue && errors, "{more}: {:?}", codes(&checked));
     }
 }
 
@@ -291,7 +292,7 @@ fn a_unit_is_compared_or_said_to_be_open() {
         assert_eq!(asked("kg", value).0, Verdict::Refuted, "{value}");
         assert_eq!(asked("s", value).0, Verdict::Verified, "{value}");
     }
-    let (verdict, reason) = asked("kg", "t > 0.1 ? 0.442 : 0.441");
+    let (verdict, reason) = asked("kg", "t > 0.1 ? 0.442 : 5");
     assert_eq!(verdict, Verdict::Verified);
     assert!(reason.contains("its unit was compared with nothing"), "{reason}");
 }
