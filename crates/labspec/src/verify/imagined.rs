@@ -132,7 +132,7 @@ struct Imagined<'w> {
 }
 
 /// Work that a program may do at an imagined sample.
-const ALLOWED: u64 = 100_000;
+const ALLOWED: u64 = 20_000;
 
 impl Sample for Imagined<'_> {
     fn time(&self) -> f64 {
@@ -155,6 +155,8 @@ const DECIDED: usize = 24;
 /// Samples of an imagined run; many, where something is counted, up to so many.
 const SAMPLES: [usize; 3] = [3, 8, 20];
 const MOST_SAMPLES: f64 = 4096.0;
+/// Most looks of measures at samples for one claim: what has not been told apart by then is decided by the sets before.
+const MOST_LOOKS: usize = 40_000;
 
 impl BoundVerify<'_> {
     /// Whether some set of imagined runs makes a claim say something else than `now`; also where too few of them decide it.
@@ -184,10 +186,14 @@ impl BoundVerify<'_> {
         if counts && 8.0 * largest > MOST_SAMPLES {
             return true;
         }
-        let mut decided = 0;
+        let (mut decided, mut looks) = (0, 0);
         for set in 0..SETS {
             let long = counts && set % 5 == 4;
             let samples = if long { 8 * largest as usize } else { SAMPLES[set as usize % SAMPLES.len()] };
+            looks += samples * (1 + measures.len());
+            if looks > MOST_LOOKS {
+                break;
+            }
             let Some(inputs) = self.imagine(claim, nominal, &numbers, set, samples) else { return true };
             let Some(then) = says(&inputs) else { continue };
             if then.differs(now) {

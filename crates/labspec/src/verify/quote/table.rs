@@ -48,11 +48,14 @@ fn plain(text: &str) -> String {
 pub(super) struct Tables {
     pub(super) all: Vec<Table>,
     row: Vec<Cell>,
+    /// The table at hand is beyond those that are kept.
+    beyond: bool,
 }
 
 impl Tables {
     pub(super) fn begin(&mut self) {
-        if self.all.len() < TABLES {
+        self.beyond = self.all.len() >= TABLES;
+        if !self.beyond {
             self.all.push(Table::default());
         }
     }
@@ -66,14 +69,16 @@ impl Tables {
 
     pub(super) fn end_head(&mut self) {
         let head = std::mem::take(&mut self.row);
-        if let Some(table) = self.all.last_mut() {
+        if let Some(table) = self.all.last_mut().filter(|_| !self.beyond) {
             table.head = head;
         }
     }
 
     pub(super) fn end_row(&mut self) {
         let row = std::mem::take(&mut self.row);
-        if let Some(table) = self.all.last_mut().filter(|t| t.rows.len() * t.head.len() < CELLS) {
+        if let Some(table) =
+            self.all.last_mut().filter(|t| !self.beyond && t.rows.len() * t.head.len() < CELLS)
+        {
             table.rows.push(row);
         }
     }
