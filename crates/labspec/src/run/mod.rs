@@ -20,7 +20,7 @@ pub use samples::Samples;
 pub use session::{Numerics, Session, Trouble};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
-pub use table::{Cell, Table, shown};
+pub use table::{Cell, Table, printed, shown};
 pub use told::{broken, threw};
 
 use crate::bind::Programs;

@@ -67,6 +67,23 @@ pub fn shown(x: f64, digits: u32) -> String {
     labspec_expr::to_fixed(x, digits as usize)
 }
 
+/// The number that [`shown`] prints.
+pub fn printed(x: f64, digits: u32) -> f64 {
+    /// Up to here every whole number of such decimals is a double, and so is the power of ten.
+    const DIGITS: u32 = 9;
+    let slow = || shown(x, digits).parse().unwrap_or(x);
+    if digits > DIGITS || !(1e-3..1e5).contains(&x.abs()) {
+        return slow();
+    }
+    let power = 10f64.powi(digits as i32);
+    let scaled = x.abs() * power;
+    // The product is off by half its last bit at most: only next to a tie does that decide.
+    if (scaled.fract() - 0.5).abs() <= scaled * f64::EPSILON {
+        return slow();
+    }
+    (scaled.round() / power).copysign(x)
+}
+
 /// Rows of samples: time, then every trace, then every readout.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -145,6 +162,19 @@ mod tests {
         ];
         for (x, digits, text) in cases {
             assert_eq!(shown(x, digits), text);
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn a_printed_number_is_that_of_the_text(
+            mantissa in -1.0..1.0f64, exponent in -5..7, ties in -200_000..200_000i32, digits in 0..12u32,
+        ) {
+            let tie = f64::from(ties) * 0.5 / 10f64.powi(digits as i32);
+            for x in [mantissa * 10f64.powi(exponent), tie, tie.next_up(), tie.next_down(), f64::from(ties) / 64.0, 0.0, -0.0] {
+                let text: f64 = shown(x, digits).parse().unwrap();
+                assert_eq!(printed(x, digits).to_bits(), text.to_bits(), "{x:e} with {digits}");
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::bind::of_label;
 use crate::bind::{Programs, Shown};
-use crate::run::{Cell, Session};
+use crate::run::{Session, printed};
 use crate::source::Text;
 use crate::spec::{Lab, Plot, Readout, Trace};
 use labspec_expr::Value;
@@ -53,7 +53,7 @@ pub(super) fn show(asked: &[usize], lab: &Lab, programs: &Programs, session: &mu
         let value = bound.and_then(|b| session.evaluate(&b.program, &b.text)).unwrap_or(Value::Undefined);
         let printed = match (&value, digits) {
             (Value::Number(x), Some(digits)) if x.is_finite() => {
-                Cell::Number(*x).shown(digits).parse().map_or(value, Value::Number)
+                Value::Number(printed(*x, digits))
             }
             _ => value,
         };
