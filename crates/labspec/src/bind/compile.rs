@@ -72,6 +72,8 @@ pub struct Programs {
     pub model: u64,
     /// What is corrected behind them, where somebody tries that.
     pub(crate) coupled: Option<super::coupled::Coupled>,
+    /// What a run with them looks for and leaves as it is: whether such a correction would change anything.
+    pub(crate) observed: Option<super::coupled::Coupled>,
 }
 
 impl Programs {
@@ -127,6 +129,7 @@ impl Programs {
             functions,
             model: model.identity(),
             coupled: None,
+            observed: None,
         };
         let mut demand = programs.demand;
         for bound in programs.bound() {

@@ -1,6 +1,6 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
-use super::partners::Partners;
+use super::partners::{self, Partners};
 use super::{Ready, claim_id, refresh};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
@@ -240,11 +240,13 @@ pub(super) fn curves<'r>(
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
 pub(super) fn check(
     lesson: &Lesson,
-    ready: &[Ready<'_>],
+    ready: &mut [Ready<'_>],
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
     let shown = ShownText::of(lesson);
+    partners::observe(lesson, ready);
+    let ready = &*ready;
     let partners = Partners::new(lesson, ready, models);
     let mut court = Court { lesson, ready, shown, stage: Stage::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
@@ -341,8 +343,12 @@ impl Court<'_> {
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => {
+                self.stage.take_left_behind();
                 let mut judgement = verify::check(&bound, verify, question, shown, findings);
-                self.partners.settle(verify, own, question, shown, &mut judgement, findings);
+                // Where no partner was left behind, there is nothing to correct, and every run with corrections is the same.
+                if self.stage.take_left_behind() {
+                    self.partners.settle(verify, own, question, shown, &mut judgement, findings);
+                }
                 judgement
             }
             None => verify::unmade(verify, question, "its runs or measures have mistakes"),

@@ -156,7 +156,7 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
     }
     ready.extend(beside(lesson, models));
     let claims = if depth.claims {
-        claims::check(lesson, &ready, models, &mut findings)
+        claims::check(lesson, &mut ready, models, &mut findings)
     } else {
         claims::bind(lesson, &ready, models, &mut findings);
         Vec::new()

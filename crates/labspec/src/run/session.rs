@@ -6,6 +6,7 @@ use super::steady::Steady;
 use super::table::Cell;
 use crate::advice::growth::Growth;
 use crate::advice::watch::{self, Noticed, Watch};
+use crate::bind::coupled::{self, Coupled};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::source::Text;
@@ -70,6 +71,8 @@ pub struct Session<'p> {
     before: u64,
     sampled: u64,
     end: Option<End>,
+    /// A program left a partner of its parameter behind, as far as that is observed.
+    left_behind: bool,
 }
 
 /// What a sample of a trace counts besides its own work.
@@ -183,6 +186,7 @@ impl<'p> Session<'p> {
             before,
             sampled: 0,
             end: None,
+            left_behind: false,
             programs,
             key,
         };
@@ -209,6 +213,11 @@ impl<'p> Session<'p> {
     /// The current value of each control; `undefined` for a button.
     pub fn values(&self) -> &[Value] {
         &self.values
+    }
+
+    /// Whether a program changed a parameter and left behind what belongs to it, as far as its programs observe that.
+    pub(crate) fn left_behind(&self) -> bool {
+        self.left_behind
     }
 
     /// Lets the run do so much work from here on, whatever it did before: for a page, which plays for as long as somebody
@@ -530,15 +539,20 @@ impl<'p> Session<'p> {
             return false;
         }
         let time = self.world.data.time();
-        let coupled = self.programs.coupled.as_ref().and_then(|c| c.behind(program, text));
-        let before = coupled.map(|pairs| (pairs, self.world.model.clone()));
+        let behind = |c: &Option<Coupled>| c.as_ref().and_then(|c| c.behind(program, text));
+        let corrected = behind(&self.programs.coupled);
+        let observed = if self.left_behind { None } else { behind(&self.programs.observed) };
+        let before = (corrected.is_some() || observed.is_some()).then(|| self.world.model.clone());
         let result = program.run(&mut self.world, &mut self.context, value);
         let good = result.is_ok();
         if let Err(e) = result {
             self.threw(e, text, time);
         }
-        if let (Some((pairs, before)), Some(coupled)) = (before, &self.programs.coupled) {
-            let done = coupled.follow(pairs, &before, program, &mut self.world);
+        if let (Some(pairs), Some(before)) = (observed, &before) {
+            self.left_behind = coupled::left_behind(pairs, before, &self.world.model);
+        }
+        if let (Some(pairs), Some(before), Some(follower)) = (corrected, &before, &self.programs.coupled) {
+            let done = follower.follow(pairs, before, program, &mut self.world);
             self.refused(done);
         }
         if !self.settle(time) {

@@ -5,7 +5,7 @@
 //! (Richardson 1911) is the error of the formula. A right formula leaves less than the extrapolations differ among
 //! themselves; a wrong one leaves itself.
 
-use super::stage::Scene;
+use super::stage::{Scene, Stage};
 use super::{BoundVerify, significant};
 use crate::bind::{Bound, ModelNames, Programs, Scope, functions, include, to_finding};
 use crate::finding::Finding;
@@ -117,7 +117,7 @@ fn hold(
     let case = Case { lab, model, programs, trace, form };
     let mut runs = Vec::new();
     for parts in [1, 2, 4] {
-        match case.run(parts) {
+        match case.run(parts, bound.stage()) {
             Ok(run) => runs.push(run),
             Err(reason) => {
                 findings.push(
@@ -367,7 +367,7 @@ impl Case<'_> {
     }
 
     /// The lab as it stands with its timestep in so many parts, sampled at the same times whatever the parts.
-    fn run(&self, parts: usize) -> Result<Differences, String> {
+    fn run(&self, parts: usize, stage: &Stage<'_>) -> Result<Differences, String> {
         let mut session = self.start();
         let h = session.world.model.opt.timestep;
         let count = run::count_steps(self.lab, None, None, h).map_err(|e| e.0)?.clamp(1, MAX_STEPS);
@@ -389,6 +389,7 @@ impl Case<'_> {
             found.values.push(pair);
             ControlFlow::Continue(())
         });
+        stage.note(session.left_behind());
         if let Some(time) = gap {
             let time = significant(time);
             return Err(format!("at t = {time} s the trace or the formula is no number"));

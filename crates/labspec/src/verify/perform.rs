@@ -35,6 +35,8 @@ pub(crate) struct Made {
     pub(super) warnings: usize,
     /// What broke in it.
     pub(super) broke: Option<String>,
+    /// A program of it, or a change of its model, left behind what belongs to a parameter.
+    pub(super) left_behind: bool,
 }
 
 /// Makes a run, unless the same was made before: then what came of it is known, and was told.
@@ -53,9 +55,11 @@ pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut V
     let asked = &Asked { numerics, place: asked.place.clone(), ..*asked };
     let key = key(asked);
     if let Some(known) = stage.known(&key) {
+        stage.note(known.left_behind);
         return Some(known);
     }
     let made = make(asked, stage, findings)?;
+    stage.note(made.left_behind);
     stage.keep(key, &made);
     Some(made)
 }
@@ -187,6 +191,7 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
         values,
         warnings: session.warnings.iter().map(|w| w.number).sum(),
         broke: broke(&session).or_else(|| open.map(undecided_stop)),
+        left_behind: session.left_behind() || asked.scene.scene.left_behind,
     })
 }
 

@@ -30,6 +30,8 @@ pub struct Scene<'a> {
     origin: u64,
     /// The changes of its model, with their places.
     pub(super) patches: Vec<(Patch, Range<usize>)>,
+    /// A change of its model left behind what belongs to a parameter.
+    pub(super) left_behind: bool,
     /// What was changed in the lab of the lesson, told apart from every other change; empty for nothing.
     changes: String,
 }
@@ -43,6 +45,7 @@ impl<'a> Scene<'a> {
             programs: Held::Lent(programs),
             origin: model.identity(),
             patches: Vec::new(),
+            left_behind: false,
             changes: String::new(),
         }
     }
@@ -63,12 +66,14 @@ pub struct Stage<'a> {
     changed: RefCell<Vec<Scene<'static>>>,
     runs: RefCell<BTreeMap<String, Made>>,
     left: Cell<u64>,
+    /// A run since this was asked last left something behind.
+    left_behind: Cell<bool>,
 }
 
 impl<'a> Stage<'a> {
     /// With the models that labs name.
     pub fn new(models: &'a Models) -> Stage<'a> {
-        Stage { models, changed: RefCell::default(), runs: RefCell::default(), left: Cell::new(WORK) }
+        Stage { models, changed: RefCell::default(), runs: RefCell::default(), left: Cell::new(WORK), left_behind: Cell::new(false) }
     }
 
     /// The text of the model of a lab, with its changes.
@@ -85,6 +90,16 @@ impl<'a> Stage<'a> {
     /// Keeps what came of a run.
     pub(super) fn keep(&self, run: String, made: &Made) {
         self.runs.borrow_mut().insert(run, made.clone());
+    }
+
+    /// Notes whether a run left behind what belongs to a parameter.
+    pub(super) fn note(&self, left_behind: bool) {
+        self.left_behind.set(self.left_behind.get() || left_behind);
+    }
+
+    /// Whether a run since this was asked last left behind what belongs to a parameter, as far as programs observe that.
+    pub(crate) fn take_left_behind(&self) -> bool {
+        self.left_behind.take()
     }
 
     /// The work that is left.
@@ -164,6 +179,8 @@ impl<'a> Stage<'a> {
         };
         let model =
             if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
+        let observed = &base.programs.observed;
+        let left = observed.as_ref().is_some_and(|o| o.is_left_by_change(&base.model, &model));
         let model = match &base.programs.coupled {
             Some(coupled) => {
                 let mut corrected = (*model).clone();
@@ -177,6 +194,7 @@ impl<'a> Stage<'a> {
         if let Some(coupled) = &base.programs.coupled {
             coupled.clone().install(&mut programs, &model);
         }
+        programs.observed.clone_from(observed);
         // What is wrong with the rest of the lab has been told.
         let own = |f: &Finding| controller.is_some_and(|c| inside(&f.span, &c.span()));
         let before = findings.len();
@@ -189,7 +207,8 @@ impl<'a> Stage<'a> {
             return None;
         }
         let programs = Held::Shared(Arc::new(programs));
-        let scene = Scene { lab: Cow::Owned(lab), model, programs, ..wanted };
+        let left_behind = base.left_behind || left;
+        let scene = Scene { lab: Cow::Owned(lab), model, programs, left_behind, ..wanted };
         self.changed.borrow_mut().push(scene.clone());
         Some(scene)
     }

@@ -103,10 +103,13 @@ impl Coupled {
         programs.coupled = Some(self);
     }
 
+    /// Whether a change of a model's text leaves a partner behind; `before` is the model without it.
+    pub(crate) fn is_left_by_change(&self, before: &Model, now: &Model) -> bool {
+        same_objects(before, now) && left_behind(self.changes, before, now)
+    }
+
     /// A model with changes of its text, corrected; `before` is the one without them.
     pub(crate) fn changed(&self, before: &Model, now: &mut Model) {
-        let same =
-            before.nbody == now.nbody && before.ngeom == now.ngeom && before.nactuator == now.nactuator;
         let mut world = World {
             model: now.clone(),
             data: Data::planned(now, Plan::new(now, &Demand::ANY)),
@@ -115,7 +118,7 @@ impl Coupled {
             shown: Vec::new(),
             numbers: Vec::new(),
         };
-        if same && correct(self.changes, before, &mut world).is_ok_and(|done| done.is_some()) {
+        if same_objects(before, now) && correct(self.changes, before, &mut world).is_ok_and(|done| done.is_some()) {
             *now = world.model;
         }
     }
@@ -147,6 +150,16 @@ impl Coupled {
         }
         Ok(())
     }
+}
+
+/// Whether two models have the same bodies, geoms and actuators.
+fn same_objects(a: &Model, b: &Model) -> bool {
+    a.nbody == b.nbody && a.ngeom == b.ngeom && a.nactuator == b.nactuator
+}
+
+/// Whether a partner of these pairs is not what follows from its parameter. `before` is the model before that was changed.
+pub(crate) fn left_behind(pairs: PairSet, before: &Model, now: &Model) -> bool {
+    pairs.pairs().any(|(_, pair)| !(pair.follow)(before, now).is_empty())
 }
 
 /// Corrects partners, and the constants that follow from them; `None` where nothing was wrong.

@@ -8,7 +8,7 @@ mod rests;
 
 use super::claims::{self, Cast, cast};
 use super::{Ready, refresh};
-use crate::bind::ControlProgram;
+use crate::bind::{ControlProgram, Programs};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::scene::Models;
 use crate::finding::{Finding, Severity};
@@ -67,48 +67,63 @@ struct Case<'c> {
     shown: &'c ShownText,
 }
 
+/// The programs of all labs that write a parameter which others belong to.
+fn candidates<'a>(lesson: &'a Lesson, labs: &[Ready<'a>]) -> Vec<Candidate<'a>> {
+    let all = lesson.all_labs();
+    let mut candidates = Vec::new();
+    for ready in labs {
+        let programs = &ready.programs;
+        let own = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
+        let of_lab = [("the setup", &programs.setup), ("the controller", &programs.controller)];
+        let named = of_lab.into_iter().map(|(who, bound)| (who.to_string(), bound.as_ref()));
+        let controls = programs.controls.iter().map(|(label, program)| match program {
+            ControlProgram::Change(_, action) => (format!("\"{label}\""), action.run.as_ref()),
+            ControlProgram::Press(run) => (format!("\"{label}\""), run.as_ref()),
+        });
+        for (who, bound) in named.chain(controls) {
+            let Some(bound) = bound else { continue };
+            let written = PairSet::written_by(&bound.program);
+            let pairs = written.without(coupled::chosen_apart(programs, bound, written));
+            let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
+            candidates.push(Candidate {
+                text: bound.text.clone(),
+                who,
+                pairs,
+                lab: Some(ready.lab),
+                own,
+                change: false,
+            });
+        }
+    }
+    candidates.retain(|c| !c.pairs.is_empty());
+    candidates
+}
+
+/// The correction of every partner that programs leave behind.
+fn correction(candidates: &[Candidate<'_>]) -> Coupled {
+    let programs = candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
+    Coupled { programs, others: PairSet::ALL, changes: PairSet::ALL, refresh: false }
+}
+
+/// Lets every run of the labs say whether the correction would change anything in it. Where it would not, the corrected run is the
+/// same, and need not be made.
+pub(super) fn observe(lesson: &Lesson, labs: &mut [Ready<'_>]) {
+    let correction = correction(&candidates(lesson, labs));
+    labs.iter_mut().for_each(|ready| ready.programs.observed = Some(correction.clone()));
+}
+
 impl<'a> Partners<'a> {
     pub(super) fn new(lesson: &'a Lesson, labs: &'a [Ready<'a>], models: &'a Models) -> Partners<'a> {
-        let all = lesson.all_labs();
-        let mut candidates = Vec::new();
-        for ready in labs {
-            let programs = &ready.programs;
-            let own = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
-            let of_lab = [("the setup", &programs.setup), ("the controller", &programs.controller)];
-            let named = of_lab.into_iter().map(|(who, bound)| (who.to_string(), bound.as_ref()));
-            let controls = programs.controls.iter().map(|(label, program)| match program {
-                ControlProgram::Change(_, action) => (format!("\"{label}\""), action.run.as_ref()),
-                ControlProgram::Press(run) => (format!("\"{label}\""), run.as_ref()),
-            });
-            for (who, bound) in named.chain(controls) {
-                let Some(bound) = bound else { continue };
-                let written = PairSet::written_by(&bound.program);
-                let pairs = written.without(coupled::chosen_apart(programs, bound, written));
-                let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
-                candidates.push(Candidate {
-                    text: bound.text.clone(),
-                    who,
-                    pairs,
-                    lab: Some(ready.lab),
-                    own,
-                    change: false,
-                });
-            }
-        }
-        candidates.retain(|c| !c.pairs.is_empty());
+        let candidates = candidates(lesson, labs);
         Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
     }
 
     /// All labs of the lesson with every partner corrected.
     fn corrected(&self) -> &[Ready<'a>] {
-        self.corrected.get_or_init(|| {
-            let programs = self.candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
-            let others = PairSet::ALL;
-            corrected(self.labs, &Coupled { programs, others, changes: others, refresh: false })
-        })
+        self.corrected.get_or_init(|| corrected(self.labs, &correction(&self.candidates)))
     }
 
-    /// Judges a `verify` object with partners corrected. What then is not true any more is not true of its subject: the judgement
+    /// Judges a `verify` object, in whose runs something was left behind, with partners corrected. What then is not true any more is not true of its subject: the judgement
     /// says so, and so do findings at the claim and at the program.
     pub(super) fn settle(
         &self,
@@ -269,7 +284,7 @@ fn lab_of<'c>(lesson: &'c Lesson, base: Option<&'c Lab>, run: &'c Run) -> Option
 /// Labs whose partners are corrected.
 fn corrected<'a>(labs: &[Ready<'a>], coupled: &Coupled) -> Vec<Ready<'a>> {
     let one = |ready: &Ready<'a>| {
-        let mut programs = ready.programs.clone();
+        let mut programs = Programs { observed: None, ..ready.programs.clone() };
         coupled.clone().install(&mut programs, &ready.model);
         Ready { lab: ready.lab, model: ready.model.clone(), programs, mistakes: ready.mistakes }
     };

@@ -10,7 +10,7 @@ use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
 use labspec_core::{Demand, Model};
-use labspec_expr::{Compiler, Type, Value};
+use labspec_expr::{Access, Compiler, Effects, Type, Value};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
 
@@ -49,8 +49,11 @@ pub(in crate::check) struct Bench<'a> {
     work_left: usize,
 }
 
+/// A run: its samples.
+pub(super) type Rows = Vec<Vec<Cell>>;
+
 /// A run: its samples, or why it says nothing.
-pub(super) type Record = Result<Vec<Vec<Cell>>, String>;
+pub(super) type Record = Result<Rows, String>;
 
 impl<'a> Bench<'a> {
     pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
@@ -134,6 +137,23 @@ impl<'a> Bench<'a> {
         all
     }
 
+    /// Whether a program reads what another control of the lab writes: variables, or fields, where it calls no function that reads
+    /// them all.
+    pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
+        let own = s.bound.program.effects();
+        let written = |e: &Effects| {
+            let field = |a: &Access| e.writes.iter().any(|w| w.field == a.field);
+            own.calls.is_empty() && own.reads.iter().any(field)
+        };
+        let others = self.programs.controls.iter().filter_map(|(_, program)| match program {
+            ControlProgram::Change(_, action) => action.run.as_ref(),
+            ControlProgram::Press(run) => run.as_ref(),
+        });
+        let mut others = others.filter(|other| other.text != s.bound.text);
+        let variables = own.any_ctx || !own.ctx_reads.is_empty();
+        variables || own.calls_values || others.any(|o| written(o.program.effects()))
+    }
+
     /// Runs with another control at its ends besides: a ball may roll only when a ramp is tilted.
     pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<Trial> {
         let Place::Control(own) = s.place else { return Vec::new() };
@@ -207,7 +227,22 @@ impl<'a> Bench<'a> {
             _ => None,
         };
         let whole = self.columns(s).whole || !s.pairs.is_empty();
-        self.perform(programs, setup, whole, trial, steps, numerics)
+        let run = self.perform(programs, setup, whole, trial, steps, numerics)?;
+        Ok(run.rows)
+    }
+
+    /// Makes a run of a lab that observes partners, and says whether one was left behind in it.
+    pub(super) fn observe(
+        &mut self,
+        s: &Suspect<'_>,
+        amended: &Amended,
+        trial: &Trial,
+        steps: usize,
+    ) -> Result<(Rows, bool), String> {
+        let setup = matches!(s.place, Place::Run(_)).then_some(&amended.bound);
+        let whole = self.columns(s).whole || !s.pairs.is_empty();
+        let run = self.perform(&amended.programs, setup, whole, trial, steps, Numerics::NOMINAL)?;
+        Ok((run.rows, run.left_behind))
     }
 
     /// Makes a run with these programs; `whole` samples all coordinates too.
@@ -219,7 +254,7 @@ impl<'a> Bench<'a> {
         trial: &Trial,
         steps: usize,
         numerics: Numerics,
-    ) -> Record {
+    ) -> Result<Performed, String> {
         // Twice the steps of half the length: what happens, happens at the same time.
         let finer = if numerics.timestep < 1.0 { 2 } else { 1 };
         let steps = steps * finer;
@@ -272,7 +307,7 @@ impl<'a> Bench<'a> {
         match (Breakdown::of(&session), session.ended()) {
             (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
             (None, Some(_)) => Err("it ends before its time".to_string()),
-            (None, None) => Ok(rows),
+            (None, None) => Ok(Performed { rows, left_behind: session.left_behind() }),
         }
     }
 
@@ -288,7 +323,7 @@ impl<'a> Bench<'a> {
             let Some(setup) = setup.map_or(Some(None), |bound| bound.map(Some)) else { return false };
             let trial = self.as_asked(run);
             let other = self.perform(self.programs, setup.as_ref(), true, &trial, steps, Numerics::NOMINAL);
-            other.is_ok_and(|other| self.columns(s).difference(&anew, &other).is_none())
+            other.is_ok_and(|other| self.columns(s).difference(&anew, &other.rows).is_none())
         })
     }
 
@@ -324,13 +359,17 @@ impl<'a> Bench<'a> {
     /// The lab with these partners corrected behind the program, and with constants computed anew where that is missing.
     pub(super) fn corrected(&self, s: &Suspect<'_>, pairs: PairSet) -> Amended {
         let mut programs = self.programs.clone();
-        let coupled = Coupled {
-            programs: vec![(s.bound.text.clone(), pairs)],
-            others: PairSet::NONE,
-            changes: PairSet::NONE,
-            refresh: s.inertial.is_some(),
-        };
-        coupled.install(&mut programs, self.model);
+        coupled_in(s, pairs).install(&mut programs, self.model);
+        Amended { programs, bound: s.bound.clone() }
+    }
+
+    /// The lab, with constants computed anew where `refreshed` says so, which observes the partners of the program.
+    pub(super) fn observed(&self, s: &Suspect<'_>, refreshed: bool) -> Amended {
+        let mut programs = self.programs.clone();
+        if refreshed {
+            coupled_in(s, PairSet::NONE).install(&mut programs, self.model);
+        }
+        programs.observed = Some(coupled_in(s, s.pairs));
         Amended { programs, bound: s.bound.clone() }
     }
 
@@ -362,6 +401,23 @@ impl<'a> Bench<'a> {
         let program = compiler.statements(source).program?;
         Some(Bound { text: place.clone(), program })
     }
+}
+
+/// What corrects these partners of a program, and its constants where they are missing.
+fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
+    Coupled {
+        programs: vec![(s.bound.text.clone(), pairs)],
+        others: PairSet::NONE,
+        changes: PairSet::NONE,
+        refresh: s.inertial.is_some(),
+    }
+}
+
+/// A run that was made.
+struct Performed {
+    rows: Rows,
+    /// A partner was left behind in it, as far as its programs observe that.
+    left_behind: bool,
 }
 
 /// A lab with other statements.

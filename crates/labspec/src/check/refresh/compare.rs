@@ -2,18 +2,16 @@
 
 use super::Suspect;
 use super::advice::{self, Advice};
-use super::bench::{Amended, Bench, Trial};
+use super::bench::{Amended, Bench, Rows, Trial};
 use super::difference::{BEYOND, Difference};
 use crate::bind::coupled::{PairSet, Repair};
-use crate::run::{Cell, Numerics};
+use crate::run::Numerics;
 use crate::verify::HALVED;
 
 /// A start that is moved by less than anybody can set.
 const MOVED: Numerics = Numerics { nudge: 1e-9, ..Numerics::NOMINAL };
 /// A part of the range by which a repaired run may differ from the corrected one: what the order of operations makes.
 const ROUNDED: f64 = 1e-6;
-
-type Rows = Vec<Vec<Cell>>;
 
 /// What the runs of a lab show of a program.
 pub(super) struct Compared {
@@ -34,13 +32,22 @@ struct Runs<'t> {
     as_is: Rows,
     /// With constants computed anew.
     anew: Rows,
-    /// With partners corrected besides.
-    corrected: Rows,
+    /// With partners corrected besides; `None` where that changes nothing, since none was left behind.
+    corrected: Option<Rows>,
+}
+
+impl Runs<'_> {
+    /// The run with partners corrected.
+    fn corrected(&self) -> &Rows {
+        self.corrected.as_ref().unwrap_or(&self.anew)
+    }
 }
 
 /// The lab with what is missing.
 struct Variants {
-    /// With constants computed anew; `None` where they are.
+    /// As it is, which observes its partners.
+    as_is: Amended,
+    /// With constants computed anew; `None` where they are. It observes its partners.
     refreshed: Option<Amended>,
     /// With all partners corrected besides.
     coupled: Option<Amended>,
@@ -52,9 +59,10 @@ impl Bench<'_> {
     pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
         let steps = self.steps(s)?;
         let trials = self.trials(s, steps);
-        let refreshed = s.inertial.is_some().then(|| self.corrected(s, PairSet::NONE));
+        let as_is = self.observed(s, false);
+        let refreshed = s.inertial.is_some().then(|| self.observed(s, true));
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
-        let variants = Variants { refreshed, coupled, steps };
+        let variants = Variants { as_is, refreshed, coupled, steps };
         let (mut untried, mut uncoupled) = (None, None);
         let mut all: Vec<Runs<'_>> = Vec::new();
         for trial in &trials {
@@ -68,7 +76,9 @@ impl Bench<'_> {
             return Err(reason.clone());
         }
         let mut partners = self.partners(s, &all, &variants);
-        let others = if partners.is_none() && !s.pairs.is_empty() { self.combined(s) } else { Vec::new() };
+        // What a program leaves behind in no run alone, it does together with another control only where it reads what that writes.
+        let left = all.iter().any(|runs| runs.corrected.is_some()) || self.reads_of_others(s);
+        let others = if partners.is_none() && left { self.combined(s) } else { Vec::new() };
         for trial in &others {
             let Ok(runs) = self.runs(s, &variants, trial, &mut None) else { continue };
             partners = self.partners(s, std::slice::from_ref(&runs), &variants);
@@ -81,14 +91,14 @@ impl Bench<'_> {
         if matter != s.pairs {
             let exactly = if matter.is_empty() { None } else { Some(self.corrected(s, matter)) };
             for runs in &mut all {
-                let again = exactly.as_ref().and_then(|e| self.record(s, Some(e), runs.trial, steps).ok());
-                runs.corrected = again.unwrap_or_else(|| runs.anew.clone());
+                let exactly = exactly.as_ref().filter(|_| runs.corrected.is_some());
+                runs.corrected = exactly.and_then(|e| self.record(s, Some(e), runs.trial, steps).ok());
             }
         }
         let constants = all.iter().find_map(|r| {
             let columns = self.columns(s);
             let own = columns.difference(&r.as_is, &r.anew)?;
-            let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, &r.corrected)? };
+            let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, r.corrected())? };
             let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
             Some(shown.said(&r.trial.said, &format!("the constants computed anew{and}")))
         });
@@ -121,16 +131,17 @@ impl Bench<'_> {
     ) -> Result<Runs<'t>, String> {
         let told = |reason: String| format!("{}, {reason}", trial.said);
         let steps = variants.steps;
-        let as_is = self.record(s, None, trial, steps).map_err(told)?;
-        let anew = match &variants.refreshed {
-            Some(refreshed) => self.record(s, Some(refreshed), trial, steps).map_err(told)?,
-            None => as_is.clone(),
+        let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(told)?;
+        let (anew, left) = match &variants.refreshed {
+            Some(refreshed) => self.observe(s, refreshed, trial, steps).map_err(told)?,
+            None => (as_is.clone(), left),
         };
-        let corrected = match variants.coupled.as_ref().map(|c| self.record(s, Some(c), trial, steps)) {
-            Some(Ok(rows)) => rows,
+        let coupled = variants.coupled.as_ref().filter(|_| left);
+        let corrected = match coupled.map(|c| self.record(s, Some(c), trial, steps)) {
+            Some(Ok(rows)) => Some(rows),
             other => {
                 *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(told));
-                anew.clone()
+                None
             }
         };
         Ok(Runs { trial, as_is, anew, corrected })
@@ -143,8 +154,8 @@ impl Bench<'_> {
             let made = self.record(s, Some(&program), runs.trial, steps);
             let columns = self.columns(s);
             made.is_ok_and(|rows| match part > 0.0 {
-                true => columns.close(&runs.corrected, &rows, part),
-                false => columns.difference(&runs.corrected, &rows).is_none(),
+                true => columns.close(runs.corrected(), &rows, part),
+                false => columns.difference(runs.corrected(), &rows).is_none(),
             })
         })
     }
@@ -164,14 +175,14 @@ impl Bench<'_> {
                 let halved = self.record_under(s, refreshed, runs.trial, steps, HALVED).ok()?;
                 Some(vec![(moved, BEYOND), (halved, 1.0)])
             };
-            Some((runs, columns.mismatch(&runs.anew, &runs.corrected, noise)?))
+            Some((runs, columns.mismatch(&runs.anew, runs.corrected.as_ref()?, noise)?))
         })?;
         let mut matter: PairSet = s.pairs;
         if s.pairs.pairs().count() > 1 {
             let without = |(one, _)| {
                 let others = self.corrected(s, s.pairs.without(one));
                 let rows = self.record(s, Some(&others), runs.trial, steps).ok()?;
-                columns.mismatch(&rows, &runs.corrected, || Some(Vec::new())).map(|_| one)
+                columns.mismatch(&rows, runs.corrected(), || Some(Vec::new())).map(|_| one)
             };
             let alone: PairSet = s.pairs.pairs().filter_map(without).collect();
             matter = if alone.is_empty() { s.pairs } else { alone };
