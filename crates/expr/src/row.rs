@@ -77,6 +77,20 @@ impl Op {
             _ => [None, None],
         }
     }
+
+    /// Whether the result is NaN wherever an operand is, as far as it is known.
+    fn passes_nan(self) -> bool {
+        use BinaryOp::{Add, Divide, Multiply, Remainder, Subtract};
+        match self {
+            Op::Binary(op, _) | Op::Round(op, _) | Op::Right(op, _) | Op::Left(op, _) => {
+                matches!(op, Add | Subtract | Multiply | Divide | Remainder)
+            }
+            Op::Unary(op) => matches!(op, UnaryOp::Minus | UnaryOp::Plus),
+            Op::One(f) => f(f64::NAN).is_nan(),
+            Op::Select(..) | Op::Two(..) | Op::Many(..) => false,
+            _ => true,
+        }
+    }
 }
 
 /// A formula, ready to run.
@@ -90,6 +104,8 @@ pub(crate) struct Row {
     args: Vec<u8>,
     /// It gives a truth value.
     truth: bool,
+    /// No operation makes a number of what is none.
+    passes_nan: bool,
 }
 
 /// A step whose result is wanted in a register.
@@ -159,7 +175,8 @@ impl Row {
         }
         build.drop_unread(wanted);
         let (ops, args) = (build.ops, build.args);
-        Some(Row { elements: Vec::new(), start: 0, ops, args, truth: formula.truth })
+        let passes_nan = ops.iter().all(|op| op.passes_nan());
+        Some(Row { elements: Vec::new(), start: 0, ops, args, truth: formula.truth, passes_nan })
     }
 
     /// The register that the first operation on a number takes, if it does nothing else and the register holds something
@@ -204,6 +221,10 @@ impl Row {
         numbers: &mut Vec<f64>,
         watch: &mut Watch,
     ) -> Option<Value> {
+        // There is nothing to note.
+        if self.passes_nan && !watch.notes_comparisons() {
+            return self.value(host, numbers);
+        }
         if numbers.len() < REGISTERS {
             make_room(numbers);
         }

@@ -53,6 +53,11 @@ impl Watch {
         Watch { turned, compares: true, undefined: true, ..Watch::default() }
     }
 
+    /// Whether it notes comparisons, besides losses.
+    pub(crate) fn notes_comparisons(&self) -> bool {
+        self.compares
+    }
+
     /// Forgets the last run.
     pub(crate) fn begin(&mut self) {
         self.comparisons.clear();
@@ -262,6 +267,26 @@ mod tests {
     }
 
     proptest! {
+        /// What need not be watched loses nothing.
+        #[test]
+        fn losses_are_the_same_with_comparisons(
+            tree in crate::tests::roundtrip::expression(), x in prop_oneof![-2f64..2.0, Just(f64::NAN)],
+        ) {
+            let source = crate::print(&tree);
+            let mut globals = Globals::new();
+            if let Some(program) = Compiler::new(&Mock, &mut globals).expression(&source).program {
+                let lost = |watch: Watch| {
+                    let (mut world, mut context) = (World::new(), Context::of(&globals));
+                    world.fields[1][0] = x;
+                    context.watch(Some(Box::new(watch)));
+                    let _ = program.run(&mut world, &mut context, None);
+                    context.watch(None).unwrap().lost
+                };
+                let both = Watch { undefined: false, ..Watch::comparing(None) };
+                prop_assert_eq!(lost(Watch::losses()), lost(both), "{}", source);
+            }
+        }
+
         /// A watch changes no value.
         #[test]
         fn a_watched_run_gives_the_same(tree in crate::tests::roundtrip::expression(), x in -2f64..2.0) {

@@ -36,6 +36,12 @@ pub(super) struct Inputs {
 }
 
 impl Inputs {
+    /// Takes the numbers of others, in the memory that it has.
+    pub(super) fn copy(&mut self, other: &Inputs) {
+        self.numbers.clone_from(&other.numbers);
+        self.parts.clone_from(&other.parts);
+    }
+
     /// The number at a place: of the layout, and then of the parts.
     pub(super) fn at(&self, place: usize) -> Option<f64> {
         match place.checked_sub(self.numbers.len()) {

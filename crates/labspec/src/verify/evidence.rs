@@ -150,7 +150,8 @@ pub(super) fn reach(values: &[f64]) -> f64 {
 /// Factors by which a measured value is replaced.
 const FACTORS: [f64; 14] =
     [0.0, 0.5, 2.0, -1.0, 0.9, 1.1, 0.99, 1.01, 0.999_999, 1.000_001, 0.1, 10.0, 0.001, 1000.0];
-/// Joint draws, and halvings of a search.
+/// Joint draws, the first of them before a number alone is searched for, and halvings of that search.
+const FIRST: usize = 200;
 const JOINT: usize = 4000;
 const HALVINGS: usize = 60;
 
@@ -187,11 +188,12 @@ pub(super) fn could_differ(
         list
     };
     let lists: Vec<Vec<f64>> = kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect();
-    for ((&place, kind), list) in places.iter().zip(kinds).zip(&lists) {
-        let mut known: Vec<(f64, Vec<Comparison>)> = Vec::new();
+    let mut inputs = nominal.clone();
+    let mut all: Vec<Vec<(f64, Vec<Comparison>)>> = Vec::new();
+    for (&place, list) in places.iter().zip(&lists) {
+        let mut known = Vec::new();
         // Any measure may have no value: its event does not happen, or the run breaks.
         for x in list.iter().copied().chain([f64::NAN]) {
-            let mut inputs = nominal.clone();
             inputs.put(place, x);
             if let Some((then, compared)) = says(&inputs) {
                 if then.differs(now) {
@@ -200,37 +202,54 @@ pub(super) fn could_differ(
                 known.push((x, compared));
             }
         }
-        // Where a comparison turns between two values, or comes near to that, the value is looked for.
-        if !kind.whole
-            && turns(&known, now, &mut |x| {
-                let mut inputs = nominal.clone();
-                inputs.put(place, x);
-                says(&inputs)
-            })
-        {
+        inputs.copy(nominal);
+        all.push(known);
+    }
+    let mut together = Together { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
+    if together.differs(FIRST, now, says) {
+        return true;
+    }
+    // Where a comparison turns between two values, or comes near to that, the value is looked for.
+    for ((&place, kind), known) in places.iter().zip(kinds).zip(&all) {
+        let mut alone = |x| {
+            inputs.put(place, x);
+            says(&inputs)
+        };
+        if !kind.whole && turns(known, now, &mut alone) {
             return true;
         }
+        inputs.copy(nominal);
     }
-    together(nominal, places, kinds, &lists, now, says)
+    together.differs(JOINT - FIRST, now, says)
 }
 
 /// Changes several numbers at once: each stays, is one of its values, or that of another number.
-fn together(
-    nominal: &Inputs,
-    places: &[usize],
-    kinds: &[Kind],
-    lists: &[Vec<f64>],
-    now: Outlook,
-    says: &mut Says<'_>,
-) -> bool {
-    if places.len() < 2 {
-        return false;
+struct Together<'t> {
+    nominal: &'t Inputs,
+    places: &'t [usize],
+    kinds: &'t [Kind],
+    lists: &'t [Vec<f64>],
+    draws: Draws,
+}
+
+impl Together<'_> {
+    /// Whether one of so many further draws changes what a claim says.
+    fn differs(&mut self, count: usize, now: Outlook, says: &mut Says<'_>) -> bool {
+        if self.places.len() < 2 {
+            return false;
+        }
+        let mut inputs = self.nominal.clone();
+        (0..count).any(|_| {
+            inputs.copy(self.nominal);
+            self.draw(&mut inputs);
+            says(&inputs).is_some_and(|(then, _)| then.differs(now))
+        })
     }
-    let mut draws = Draws::new(7);
-    for _ in 0..JOINT {
-        let mut inputs = nominal.clone();
+
+    fn draw(&mut self, inputs: &mut Inputs) {
+        let draws = &mut self.draws;
         let mut last = None;
-        for ((&place, kind), list) in places.iter().zip(kinds).zip(lists) {
+        for ((&place, kind), list) in self.places.iter().zip(self.kinds).zip(self.lists) {
             let (choice, at) = (draws.unit(), draws.unit());
             let x = match last {
                 _ if choice < 0.3 => None,
@@ -242,11 +261,7 @@ fn together(
                 last = Some(x);
             }
         }
-        if says(&inputs).is_some_and(|(then, _)| then.differs(now)) {
-            return true;
-        }
     }
-    false
 }
 
 /// Looks for a value between known ones with which a claim says something else, by the comparisons that it makes.

@@ -157,19 +157,45 @@ pub fn check(
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
-    let Some(outcomes) = outcomes(bound, verify, findings) else {
-        return unmade(verify, question, "a run cannot be made");
-    };
+    match outcomes(bound, verify, findings) {
+        Some(outcomes) => judge(bound, &outcomes, verify, question, shown, findings),
+        None => unmade(verify, question, "a run cannot be made"),
+    }
+}
+
+/// The same with the numerics of the lesson alone: what a claim says, and not whether it survives others. `None` where a run cannot
+/// be made.
+pub(crate) fn check_nominal(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    question: Option<&Question>,
+    shown: &ShownText,
+) -> Option<Judgement> {
+    let findings = &mut Vec::new();
+    let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
+    let perturbed = std::array::from_fn(|_| Some(nominal.clone()));
+    let outcomes = Outcomes { nominal, perturbed, nudged_back: None };
+    Some(judge(bound, &outcomes, verify, question, shown, findings))
+}
+
+fn judge(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    verify: &Verify,
+    question: Option<&Question>,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> Judgement {
     let mut judgement = Judgement {
         runs: runs(bound, &outcomes.nominal, findings),
-        measures: measures(&outcomes),
+        measures: measures(outcomes),
         ..Judgement::default()
     };
     if let Some(question) = question {
-        judgement.answer = answer::check(bound, &outcomes, verify, question, findings);
+        judgement.answer = answer::check(bound, outcomes, verify, question, findings);
     }
     judgement.quotes = {
-        let court = says::Court { bound, outcomes: &outcomes, shown };
+        let court = says::Court { bound, outcomes, shown };
         says::check(court, verify, question, findings)
     };
     judgement.exact = verify.exact.iter().map(|claim| exact::check(bound, claim, findings)).collect();
@@ -249,13 +275,6 @@ fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding
     let moved = perturbed[2].as_ref().is_some_and(|o| o.list() != nominal.list());
     let nudged_back = moved.then(|| bound.outcome(NUDGED_BACK, &mut Vec::new())).flatten();
     Some(Outcomes { nominal, perturbed, nudged_back })
-}
-
-/// Every measure as the lesson's own numerics give it; `None` where runs cannot be made, or claims look at samples themselves.
-pub(crate) fn nominal(bound: &BoundVerify<'_>, verify: &Verify) -> Option<Vec<(String, f64)>> {
-    let texts = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
-    let own = !bound.on_the_spot(texts).is_empty();
-    (!own).then(|| Some(bound.outcome(Numerics::NOMINAL, &mut Vec::new())?.list()))?
 }
 
 /// What became of the runs. One that breaks is a finding, and so is one that does not although the lesson says so.

@@ -58,6 +58,15 @@ pub(super) struct Partners<'a> {
     stage: Stage<'a>,
 }
 
+/// Under which numerics runs are made.
+#[derive(Clone, Copy)]
+enum Numerics {
+    /// Those of the lesson.
+    Nominal,
+    /// All that a claim has to survive.
+    All,
+}
+
 /// Who judges, and what.
 #[derive(Clone, Copy)]
 struct Case<'c> {
@@ -139,10 +148,12 @@ impl<'a> Partners<'a> {
         if candidates.is_empty() {
             return;
         }
-        if self.is_untouched(case, judgement) {
+        // What other numerics change of a claim is asked where the lesson's own say something else.
+        let nominal = self.judge(case, self.corrected(), &self.stage, Numerics::Nominal);
+        if nominal.is_some_and(|second| !differs(judgement, &second)) {
             return;
         }
-        let Some(second) = self.judge(case, self.corrected(), &self.stage) else { return };
+        let Some(second) = self.judge(case, self.corrected(), &self.stage, Numerics::All) else { return };
         if !differs(judgement, &second) || self.contrasted(case, judgement, &second) {
             return;
         }
@@ -192,32 +203,22 @@ impl<'a> Partners<'a> {
         all
     }
 
-    /// Whether every run measures the same with partners corrected, to the last bit: then there was nothing to correct.
-    fn is_untouched(&self, case: Case<'_>, first: &Judgement) -> bool {
-        let mut ignored = Vec::new();
-        let Case { verify, own, .. } = case;
-        let mut looks = || {
-            let Cast { base, runs } =
-                cast(self.lesson, self.corrected(), verify, own, &self.stage, &mut ignored)?;
-            let bound = BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, &mut Vec::new())?;
-            verify::nominal(&bound, verify)
-        };
-        let same =
-            |(name, x): (&String, f64), b: &Measured| *name == b.name && x.to_bits() == b.value.to_bits();
-        verify.exact.is_empty()
-            && looks().is_some_and(|all| {
-                let list = all.iter().map(|(name, x)| (name, *x));
-                all.len() == first.measures.len() && list.zip(&first.measures).all(|(a, b)| same(a, b))
-            })
-    }
-
     /// Judges with these labs.
-    fn judge(&self, case: Case<'_>, labs: &[Ready<'_>], stage: &Stage<'_>) -> Option<Judgement> {
+    fn judge(
+        &self,
+        case: Case<'_>,
+        labs: &[Ready<'_>],
+        stage: &Stage<'_>,
+        numerics: Numerics,
+    ) -> Option<Judgement> {
         let mut ignored = Vec::new();
         let Case { verify, own, question, shown } = case;
         let Cast { base, runs } = cast(self.lesson, labs, verify, own, stage, &mut ignored)?;
         let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut ignored)?;
-        Some(verify::check(&bound, verify, question, shown, &mut ignored))
+        match numerics {
+            Numerics::Nominal => verify::check_nominal(&bound, verify, question, shown),
+            Numerics::All => Some(verify::check(&bound, verify, question, shown, &mut ignored)),
+        }
     }
 
     /// Whether every run that the correction changes has the corrected one beside it: then the author shows the difference on purpose.
@@ -251,7 +252,8 @@ impl<'a> Partners<'a> {
                 let changes = if candidate.change { one } else { PairSet::NONE };
                 let programs = vec![(candidate.text.clone(), one)];
                 let alone = Coupled { programs, others: PairSet::NONE, changes, refresh: false };
-                let second = self.judge(case, &corrected(self.labs, &alone), &Stage::new(self.models))?;
+                let labs = corrected(self.labs, &alone);
+                let second = self.judge(case, &labs, &Stage::new(self.models), Numerics::All)?;
                 differs(first, &second).then_some(one)
             };
             let pairs: PairSet = candidate.pairs.pairs().filter_map(matters).collect();
