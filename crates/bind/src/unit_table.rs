@@ -104,7 +104,7 @@ const NAMED: [Row; 8] = [
 ];
 
 /// Names of units without an `s` behind them, in lower case: how large they are in the unit of a symbol, and that.
-const WORDS: [(&str, f64, &str); 67] = [
+const WORDS: [(&str, f64, &str); 73] = [
     ("radian", 1.0, "rad"),
     ("degree", 1.0, "°"),
     ("grad", 1.0, "°"),
@@ -154,6 +154,12 @@ const WORDS: [(&str, f64, &str); 67] = [
     ("month", 2_629_800.0, "s"),
     ("year", 31_557_600.0, "s"),
     ("decade", 315_576_000.0, "s"),
+    ("century", 3_155_760_000.0, "s"),
+    ("centurie", 3_155_760_000.0, "s"),
+    ("usec", 1e-6, "s"),
+    ("µsec", 1e-6, "s"),
+    ("wk", 604_800.0, "s"),
+    ("yr", 31_557_600.0, "s"),
     ("gram", 1.0, "g"),
     ("gramm", 1.0, "g"),
     ("gramme", 1.0, "g"),
@@ -199,7 +205,7 @@ const NAMED_PREFIXES: [(&str, i32); 20] = [
 ];
 
 /// Units of what lessons of mechanics do not compute, or that differ by more than a factor: they are units, and none of ours.
-const OTHER: [&str; 45] = [
+const OTHER: [&str; 79] = [
     "°C",
     "°F",
     "℃",
@@ -245,6 +251,40 @@ const OTHER: [&str; 45] = [
     "lumen",
     "candela",
     "fahrenheit",
+    "atm",
+    "psi",
+    "torr",
+    "mmHg",
+    "kgf",
+    "lbf",
+    "oz",
+    "stone",
+    "stones",
+    "hp",
+    "ly",
+    "au",
+    "Gal",
+    "dyn",
+    "slug",
+    "slugs",
+    "poise",
+    "gon",
+    "arcmin",
+    "arcsec",
+    "mil",
+    "mils",
+    "thou",
+    "league",
+    "leagues",
+    "quintal",
+    "quintals",
+    "jiffy",
+    "jiffies",
+    "€",
+    "dollars",
+    "euros",
+    "lbm",
+    "gf",
 ];
 
 /// What a unit without its power is: its size and its dimension.

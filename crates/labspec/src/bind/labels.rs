@@ -96,19 +96,14 @@ pub(crate) fn contradicts(found: &Dimension, unit: &Dimension) -> bool {
     if (ratio - 1.0).abs() < 1e-3 {
         return false;
     }
-    // Degrees are of angles: a number without a unit may be something else.
+    // Numbers of base units are those of no other unit. Degrees are of angles: a number without a unit may be something else.
     if found.is_exact() {
-        return found.has_angle() || is_power_of_ten(unit.factor) || is_of_time(unit);
+        return found.has_angle() || !unit.has_angle() || is_power_of_ten(unit.factor);
     }
     let converted = is_power_of_ten(factor) || found.has_angle() && is_degrees(factor);
     let wanted = is_power_of_ten(unit.factor) || is_degrees(unit.factor.abs());
     let pure = (0.1..=10.0).contains(&factor) && !(0.01..=100.0).contains(&ratio);
     converted && wanted || pure
-}
-
-/// Minutes, hours, days: times that are no power of ten of a second.
-fn is_of_time(unit: &Dimension) -> bool {
-    parse("s").is_some_and(|second| second.agrees(unit)) && unit.factor.abs() < 0.9
 }
 
 /// 0.001, 100, 1000, and 1.

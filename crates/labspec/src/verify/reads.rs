@@ -52,9 +52,7 @@ pub(super) fn show(asked: &[usize], lab: &Lab, programs: &Programs, session: &mu
         let bound = programs.probes.get(probe).and_then(|p| p.bound.as_ref());
         let value = bound.and_then(|b| session.evaluate(&b.program, &b.text)).unwrap_or(Value::Undefined);
         let printed = match (&value, digits) {
-            (Value::Number(x), Some(digits)) if x.is_finite() => {
-                Value::Number(printed(*x, digits))
-            }
+            (Value::Number(x), Some(digits)) if x.is_finite() => Value::Number(printed(*x, digits)),
             _ => value,
         };
         let shown = &mut session.world.shown;

@@ -73,7 +73,13 @@ pub struct Stage<'a> {
 impl<'a> Stage<'a> {
     /// With the models that labs name.
     pub fn new(models: &'a Models) -> Stage<'a> {
-        Stage { models, changed: RefCell::default(), runs: RefCell::default(), left: Cell::new(WORK), left_behind: Cell::new(false) }
+        Stage {
+            models,
+            changed: RefCell::default(),
+            runs: RefCell::default(),
+            left: Cell::new(WORK),
+            left_behind: Cell::new(false),
+        }
     }
 
     /// The text of the model of a lab, with its changes.

@@ -118,7 +118,9 @@ impl Coupled {
             shown: Vec::new(),
             numbers: Vec::new(),
         };
-        if same_objects(before, now) && correct(self.changes, before, &mut world).is_ok_and(|done| done.is_some()) {
+        if same_objects(before, now)
+            && correct(self.changes, before, &mut world).is_ok_and(|done| done.is_some())
+        {
             *now = world.model;
         }
     }

@@ -8,9 +8,9 @@ mod rests;
 
 use super::claims::{self, Cast, cast};
 use super::{Ready, refresh};
-use crate::bind::{ControlProgram, Programs};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::scene::Models;
+use crate::bind::{ControlProgram, Programs};
 use crate::finding::{Finding, Severity};
 use crate::json::read::named;
 use crate::ledger::State;

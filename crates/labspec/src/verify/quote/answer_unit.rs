@@ -1,7 +1,7 @@
 //! The unit of a numeric question beside what its `value` measures.
 
 use super::unit_check::{Held, conversion, hold};
-use super::unit_text::Unit;
+use super::unit_text::{Link, Unit};
 use labspec_bind::units::{self, written};
 use labspec_expr::dimension::Dimension;
 
@@ -50,7 +50,7 @@ pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension
     if let Some(factor) = read.dimension.and_then(|wanted| conversion(&wanted, &found)) {
         return AnswerUnit::Equal(factor);
     }
-    let unit = Unit { text: shown, dimension: read.dimension, shared: true };
+    let unit = Unit { text: shown, dimension: read.dimension, link: Link::Shared };
     match hold(&unit, Some(&found)) {
         Held::Fits => AnswerUnit::Equal(1.0),
         Held::Wrong | Held::Unsure => AnswerUnit::Wrong(unit.text, written(&found)),

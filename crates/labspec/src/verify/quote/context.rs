@@ -2,7 +2,7 @@
 //! where it is sure that the text states it.
 
 use super::numeral::{Chars, fraction};
-use labspec_bind::units::is_wide;
+use labspec_bind::units::{self, is_wide};
 
 pub(super) const BOUND: &str = "a bound and not a number";
 const FORMULA: &str = "a formula";
@@ -352,6 +352,7 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
             'π' => return Some(FORMULA),
             c if c.is_alphanumeric() || combines(c) => return Some(LETTERS),
             '-' | '–' | '—' if number_at(end + 1) => return Some(DIFFERENCE),
+            '-' | '‑' if has_unit && is_unit_at(chars, end + 1) => return Some("a product"),
             '/' => return Some(if number_at(end + 1) { "a fraction with a slash" } else { "a quotient" }),
             _ => {}
         }
@@ -380,10 +381,28 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
             if power { Some("a product") } else { (!has_unit).then_some(BESIDE) }
         }
         c if is_wide(c) => wide_after(chars, next),
+        c if c.is_alphabetic() && !has_unit && has_unit_soon(&chars.text(next, next + NEAR)) => {
+            Some(UNIT_SOON)
+        }
         '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
         c if c.is_alphabetic() => words_after(chars, next),
-        _ => None,
+        c if c.is_ascii() && !matches!(c, '$' | '#' | '@' | '&') || PUNCTUATION.contains(c) => None,
+        _ => Some("a number with something behind it that is not understood"),
     }
+}
+
+/// What may stand behind a quantity, besides the characters of ASCII.
+const PUNCTUATION: &str = "”’»›“‘„«—–‑…≈≃≅∼≡→⇒∴•·、。，：；！？）」』】（「『【．～〜";
+
+/// Whether the word at a place is a unit.
+fn is_unit_at(chars: Chars<'_>, at: usize) -> bool {
+    let near = chars.text(at, at + NEAR);
+    let word: String = near.chars().take_while(|c| c.is_alphabetic()).collect();
+    is_unit(&word)
+}
+
+fn is_unit(word: &str) -> bool {
+    !word.is_empty() && units::read(word).is_some_and(|unit| unit.length == word.len())
 }
 
 /// Marks that change the character before them.
@@ -417,6 +436,33 @@ fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
         .strip_prefix('の')
         .is_some_and(|t| t.starts_with(|c: char| c.is_numeric() || FIGURES.contains(c)));
     (figure || fraction || WIDE_BEHIND.into_iter().any(|w| near.starts_with(w))).then_some(ODD_BEHIND)
+}
+
+const UNIT_SOON: &str = "a number with words between it and its unit";
+
+/// Words that begin another phrase: a unit behind them is not that of the number before them.
+const PHRASES: [&str; 55] = [
+    "in", "at", "after", "on", "for", "to", "from", "by", "with", "before", "and", "or", "but", "when",
+    "while", "as", "is", "are", "was", "were", "the", "this", "that", "these", "if", "than", "then", "until",
+    "within", "during", "between", "above", "below", "over", "under", "up", "down", "here", "there", "now",
+    "which", "who", "because", "since", "so", "not", "instead", "rather", "too", "also", "only", "later",
+    "earlier", "each", "every",
+];
+
+/// Whether a number without a unit is followed by one that its words belong to: `half seconds`, `of a minute`, `light-seconds`.
+fn has_unit_soon(line: &str) -> bool {
+    let phrase =
+        line.split(['.', ',', ';', ':', '(', ')', '!', '?', '\n', '—', '"', '|', '=']).next().unwrap_or("");
+    let mut words = phrase.split(' ').filter(|word| !word.is_empty());
+    let Some(first) = words.next() else { return false };
+    if let Some((_, last)) = first.rsplit_once('-') {
+        return is_unit(last);
+    }
+    if PHRASES.contains(&first.to_lowercase().as_str()) {
+        return false;
+    }
+    let of_one = |word: &&str| matches!(*word, "of" | "a" | "an" | "one" | "per" | "the" | "each" | "every");
+    words.find(|word| !of_one(word)).is_some_and(is_unit)
 }
 
 const BESIDE: &str = "a number with another one right behind it";

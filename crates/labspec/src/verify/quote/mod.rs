@@ -2,6 +2,7 @@
 //! the precision that they are printed with.
 
 mod answer_unit;
+mod clause_unit;
 mod context;
 mod fold;
 mod hidden;
@@ -31,6 +32,7 @@ pub use read::{Unread, quoted};
 pub use shown::ShownText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use unit_check::{Held, conversion, hold};
+use unit_text::Link;
 pub(super) use unit_text::{Unit, unit_of_head};
 pub(super) use words::{Condition, check_words};
 
@@ -194,6 +196,9 @@ pub(super) fn check(
     let wanted = unit.as_ref().and_then(|(unit, _)| unit.dimension);
     let factor = wanted.zip(measured).and_then(|(wanted, found)| conversion(&wanted, &found));
     let factor = factor.filter(|f| !unit_check::is_power_of_ten(*f)).filter(|_| reading.share.is_none());
+    // A unit that the clause names may be that of something else: it is the number's own where the number is right in it.
+    let apart = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
+    let factor = factor.filter(|f| !apart || reading.read.is(f * value.computed));
     let scale = |x: f64| factor.map_or(x, |f| x * f);
     let computed = scale(value.computed);
     let others = |list: &[Other]| -> Vec<Other> {
@@ -247,8 +252,11 @@ pub(super) fn check(
             }
             (Some((unit, Held::Unsure)), Some(found)) => {
                 let gives = written(&found);
-                let reason = format!("{} may be a unit or a symbol", unit.text);
-                let finding = told::unsure_unit(said, &outcome, &unit.text, &gives);
+                let reason = match unit.link {
+                    Link::Clause => format!("the text names {} apart from the number", unit.text),
+                    _ => format!("{} may be a unit or a symbol", unit.text),
+                };
+                let finding = told::unsure_unit(said, &outcome, &unit, &gives);
                 return unclear(outcome, &reason, finding, findings);
             }
             _ => {}

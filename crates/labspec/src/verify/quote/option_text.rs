@@ -62,8 +62,9 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
     let all = quantities(chars);
-    let with_unit =
-        |q: &&Quantity| q.unit.as_ref().is_some_and(|u| u.dimension.is_some() && u.share().is_none());
+    let with_unit = |q: &&Quantity| {
+        q.unit.as_ref().is_some_and(|u| u.is_own() && u.dimension.is_some() && u.share().is_none())
+    };
     let mut found = all.iter().filter(with_unit);
     let (Some(q), None) = (found.next(), found.next()) else { return None };
     let unit = q.unit.clone().filter(|u| !u.is_doubtful())?;
@@ -204,7 +205,7 @@ pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
         ([], [(word, x)]) => (word.clone(), *x, false),
         ([q], []) if q.refused.is_none() && matches!(q.quoted.form, Form::Plain(_) | Form::Share) => {
             let text = chars.text(q.whole.start, q.whole.end);
-            match &q.unit {
+            match q.unit.as_ref().filter(|unit| unit.is_own()) {
                 Some(unit) => (text, q.quoted.value * 10f64.powi(unit.share()?), true),
                 None => {
                     let behind = chars.text(q.whole.end, q.whole.end + 8).to_lowercase();

@@ -2,7 +2,7 @@
 
 use super::numeral::{Chars, fraction};
 use super::quantity::{Quantity, quantities, quantities_apart};
-use super::unit_text::Unit;
+use super::unit_text::{Link, Unit};
 use super::{fold, html};
 use labspec_bind::units::is_wide;
 use std::ops::Range;
@@ -206,17 +206,17 @@ fn says(all: &[Quantity], range: Range<usize>, own: &[Quantity]) -> Option<Optio
         }
         let text = |q: &Quantity| q.unit.as_ref().map(|u| u.text.clone());
         if text(mine) == text(theirs) {
-            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| !u.shared) {
+            if theirs.whole.end > end && theirs.unit.as_ref().is_some_and(|u| u.link == Link::Own) {
                 return None;
             }
             continue;
         }
         let last = i + 1 == own.len();
-        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.shared) || !last {
+        if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Own) || !last {
             return None;
         }
         // Of `0.7 mm per step` the number alone says nothing.
-        if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none()) {
+        if theirs.unit.as_ref().is_some_and(|u| u.dimension.is_none() && u.link != Link::Clause) {
             return None;
         }
         unit = theirs.unit.clone();

@@ -1,10 +1,11 @@
 //! The one reader of quantities: sign, number, factor, unit and what they stand beside, with the exact place of each. The grammar is
 //! in `docs/quantities.md`.
 
+use super::clause_unit::clause_unit;
 use super::context::{after, before};
 use super::number::{Form, Quoted, ten};
 use super::numeral::{Chars, Numeral, numbers};
-use super::unit_text::{Unit, unit_behind};
+use super::unit_text::{Link, Unit, unit_behind};
 use std::ops::Range;
 
 /// A quantity and where it stands, in characters.
@@ -83,6 +84,9 @@ fn read(chars: Chars<'_>, apart: bool) -> Vec<Quantity> {
             .or_else(|| after(chars, q.whole.end, q.unit.is_some()));
     }
     share(chars, &mut all);
+    for q in all.iter_mut().filter(|q| q.unit.is_none()) {
+        q.unit = clause_unit(chars, q.whole.clone());
+    }
     all
 }
 
@@ -116,7 +120,7 @@ fn share(chars: Chars<'_>, all: &mut [Quantity]) {
             let gap = chars.text(q.whole.end, *start);
             if ["to", "and", "or", ",", "–", "-", "→", "->", "、", "到", "至", "和"].contains(&gap.trim())
             {
-                q.unit = Some(Unit { shared: true, ..unit.clone() });
+                q.unit = Some(Unit { link: Link::Shared, ..unit.clone() });
             }
         }
         next = Some((q.whole.start, q.unit.clone()));

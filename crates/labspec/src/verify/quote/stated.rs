@@ -153,7 +153,7 @@ fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
         let at = text.map.span(origin.clone());
         let cell = Cell::of(lesson.file.text(), at.start);
         let of_head = || cell.as_ref().and_then(|cell| unit_of_head(&cell.head));
-        let Some(unit) = q.unit.or_else(of_head) else { continue };
+        let Some(unit) = q.unit.filter(Unit::is_own).or_else(of_head) else { continue };
         let Some(dimension) = unit.dimension else { continue };
         all.push(Stated {
             quote: folded.get(start..end).unwrap_or("").to_string(),

@@ -2,6 +2,7 @@
 
 use super::number::{Form, Quoted, ten};
 use super::unit::Shift;
+use super::unit_text::{Link, Unit};
 use super::{Claim, QuoteOutcome};
 use crate::finding::{Finding, Severity};
 use crate::rules;
@@ -118,11 +119,19 @@ pub(super) fn wrong_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, g
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
-pub(super) fn unsure_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
-    let message = format!("{text} may be a unit or a symbol here, and the expression gives {gives}");
+pub(super) fn unsure_unit(said: &Claim<'_>, outcome: &QuoteOutcome, unit: &Unit, gives: &str) -> Finding {
+    let text = &unit.text;
+    let message = match unit.link {
+        Link::Clause => {
+            format!(
+                "the number has no unit, the text names {text} beside it, and the expression gives {gives}"
+            )
+        }
+        _ => format!("{text} may be a unit or a symbol here, and the expression gives {gives}"),
+    };
     at_places(rules::QUOTE_UNCLEAR, Severity::Error, said, outcome, message)
         .why("nothing is called right that can be read in two ways")
-        .help("write the unit out, or quote the number where its unit is plain")
+        .help("write the unit behind the number, or quote the number where its unit is plain")
 }
 
 pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {

@@ -1,6 +1,6 @@
 //! Whether the unit of a text is that of the numbers that an expression gives, and how these become numbers in that unit.
 
-use super::unit_text::Unit;
+use super::unit_text::{Link, Unit};
 use crate::bind::contradicts;
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
@@ -21,22 +21,23 @@ pub(in crate::verify) enum Held {
 /// Holds a unit to what an expression measures.
 pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     let Some(found) = found else { return Held::Unknown };
+    let wrong = if unit.link == Link::Clause { Held::Unsure } else { Held::Wrong };
     let Some(wanted) = &unit.dimension else {
         let other = units::read(&unit.text).is_some_and(|u| u.length == unit.text.len());
         let certain = found.is_exact() && !found.is_number();
-        return if other && certain { Held::Wrong } else { Held::Unknown };
+        return if other && certain { wrong } else { Held::Unknown };
     };
     // A radian may be left out, and is no other power of a radian.
     let angle = wanted.angle();
     if found.is_exact() && found.has_angle() && angle != found.angle() && !(0.0..=1.0).contains(&angle) {
-        return Held::Wrong;
+        return wrong;
     }
     // A turn is not a radian.
     let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(wanted);
     if !contradicts(found, wanted) && !turns {
         return Held::Fits;
     }
-    match unit.is_doubtful() && !unit.shared && !found.agrees(wanted) {
+    match unit.link == Link::Clause || unit.is_doubtful() && unit.link == Link::Own && !found.agrees(wanted) {
         true => Held::Unsure,
         false => Held::Wrong,
     }

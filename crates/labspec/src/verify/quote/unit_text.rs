@@ -11,8 +11,19 @@ pub(in crate::verify) struct Unit {
     pub(in crate::verify) text: String,
     /// What it means; `None` where that is not known: `mm per step`, `dB`.
     pub(in crate::verify) dimension: Option<Dimension>,
+    /// How it belongs to its number.
+    pub(in crate::verify) link: Link,
+}
+
+/// How a unit belongs to a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::verify) enum Link {
+    /// It stands behind it.
+    Own,
     /// It stands behind a later number, or in the head of the column.
-    pub(in crate::verify) shared: bool,
+    Shared,
+    /// The clause of the number names it: it may be that of something else.
+    Clause,
 }
 
 impl Unit {
@@ -23,6 +34,11 @@ impl Unit {
             "‰" | "per mille" | "permille" => Some(-3),
             _ => None,
         }
+    }
+
+    /// Whether it stands behind its number, or is shared with another one, and is none of things that are counted.
+    pub(super) fn is_own(&self) -> bool {
+        self.link != Link::Clause && !COUNTED.contains(&self.text.as_str())
     }
 
     /// Whether its text may be a symbol of a formula as well: `2 h` are two hours, or two timesteps.
@@ -60,7 +76,7 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
         let text = tail.get(..found.length)?;
         let whole = text.chars().count() > 0 && !goes_on(tail.get(found.length..)?);
         return whole.then(|| {
-            (Unit { text: text.into(), dimension: found.dimension, shared: false }, 1 + found.length)
+            (Unit { text: text.into(), dimension: found.dimension, link: Link::Own }, 1 + found.length)
         });
     }
     let rest = line.get(from..)?;
@@ -70,7 +86,7 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
         {
             let factor = if word.ends_with("mille") { 1000.0 } else { 100.0 };
             let dimension = Some(Dimension::NUMBER.times(factor));
-            return Some((Unit { text: word.into(), dimension, shared: false }, from + word.len()));
+            return Some((Unit { text: word.into(), dimension, link: Link::Own }, from + word.len()));
         }
     }
     // `3 per second`, `3/s`
@@ -79,12 +95,17 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
     let body_from = sign.len();
     let read = units::read(body).filter(|found| !goes_on(body.get(found.length..).unwrap_or("")));
     let Some(found) = read else {
+        let word = rest.get(..word_length(rest)).unwrap_or("");
+        if COUNTED.contains(&word) {
+            let dimension = Some(Dimension::NUMBER);
+            return Some((Unit { text: word.into(), dimension, link: Link::Own }, from + word.len()));
+        }
         // Once for each of something that is no unit: the number is of that.
         let word = word_length(body);
         return (!sign.is_empty() && word > 0).then(|| {
             let length = body_from + word;
             let text = rest.get(..length).unwrap_or("").to_string();
-            (Unit { text, dimension: None, shared: false }, from + length)
+            (Unit { text, dimension: None, link: Link::Own }, from + length)
         });
     };
     let mut dimension = found.dimension;
@@ -104,8 +125,27 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
     }
     let text = rest.get(..length)?.to_string();
     from += length;
-    Some((Unit { text, dimension, shared: false }, from))
+    Some((Unit { text, dimension, link: Link::Own }, from))
 }
+
+/// What is counted: a number of them has no other unit.
+const COUNTED: [&str; 15] = [
+    "steps",
+    "frames",
+    "samples",
+    "ticks",
+    "beats",
+    "bounces",
+    "contacts",
+    "collisions",
+    "swings",
+    "periods",
+    "oscillations",
+    "cycles",
+    "laps",
+    "jumps",
+    "pieces",
+];
 
 /// Length of the letters that a text begins with.
 fn word_length(text: &str) -> usize {
@@ -120,7 +160,7 @@ fn goes_on(tail: &str) -> bool {
 /// The unit of a heading: of `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
 pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
     let unit = |text: &str, dimension| {
-        Some(Unit { text: text.to_string(), dimension: Some(dimension), shared: true })
+        Some(Unit { text: text.to_string(), dimension: Some(dimension), link: Link::Shared })
     };
     if let Some((text, dimension)) = crate::bind::of_heading(head) {
         return unit(text, dimension);

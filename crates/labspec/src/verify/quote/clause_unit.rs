@@ -1,0 +1,176 @@
+//! A unit that the clause of a number names apart from it: `t / ms = 0.442`, `in milliseconds: 0.442`, `0.442, counted in ms`.
+
+use super::numeral::Chars;
+use super::unit_text::{Link, Unit};
+use labspec_bind::units;
+use std::ops::Range;
+
+/// Characters of the clause that are looked at on either side.
+const NEAR: usize = 60;
+
+/// The unit that the clause of a number without one names; `None` where it names none, or several.
+pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit> {
+    let before = chars.text(number.start.saturating_sub(NEAR), number.start);
+    let behind = chars.text(number.end, number.end + NEAR);
+    let before = before.get(last_end(&before)..)?;
+    // What another number has is not this one's.
+    let until = behind.find(|c: char| c.is_ascii_digit()).unwrap_or(behind.len());
+    let behind = behind.get(..first_end(&behind).min(until))?;
+    let mut named = Vec::new();
+    named.extend(right_before(before));
+    named.extend(right_behind(behind));
+    for part in [before, behind] {
+        named.extend(part.match_indices(['(', '[']).filter_map(|(at, _)| in_brackets(part.get(at..)?)));
+        let words = [" in ", " as ", "In "].into_iter().flat_map(|word| {
+            part.match_indices(word).map(move |(at, word)| at + word.len()).collect::<Vec<_>>()
+        });
+        named.extend(words.filter_map(|at| after_in(part.get(at..)?)));
+    }
+    let first = named.first().cloned()?;
+    let one = named.iter().all(|unit| *unit == first);
+    one.then(|| Unit {
+        dimension: units::read(&first).and_then(|unit| unit.dimension),
+        text: first,
+        link: Link::Clause,
+    })
+}
+
+/// Where the last clause of a text begins.
+fn last_end(text: &str) -> usize {
+    let ends = text.match_indices(['.', ';', '!', '?', '\n', '|']);
+    let ends = ends.filter(|(at, mark)| is_end(text, *at, mark)).map(|(at, mark)| at + mark.len());
+    ends.last().unwrap_or(0)
+}
+
+/// Where the first clause of a text ends.
+fn first_end(text: &str) -> usize {
+    let mut ends = text.match_indices(['.', ';', '!', '?', '\n', '|']);
+    ends.find(|(at, mark)| is_end(text, *at, mark)).map_or(text.len(), |(at, _)| at)
+}
+
+/// Whether a mark ends a clause: a point of a number, or of what follows without a space, does not.
+fn is_end(text: &str, at: usize, mark: &str) -> bool {
+    mark != "." || text.get(at + 1..).is_none_or(|tail| tail.is_empty() || tail.starts_with([' ', '\n']))
+}
+
+/// Whether a unit is more likely another word where no number stands before it.
+fn is_word(unit: &str) -> bool {
+    matches!(
+        unit.to_lowercase().as_str(),
+        "turn" | "second" | "bar" | "degree" | "minute" | "day" | "stone" | "mil"
+    )
+}
+
+/// The unit that a text is, if it is one.
+fn whole(text: &str) -> Option<String> {
+    let text = text.trim();
+    let found = units::read(text)?;
+    (found.length == text.len()).then(|| text.to_string())
+}
+
+/// A unit in brackets that a text begins with: `(ms)`, `[in ms]`.
+fn in_brackets(text: &str) -> Option<String> {
+    let close = if text.starts_with('(') { ')' } else { ']' };
+    let inner = text.get(1..)?.split(close).next()?.trim();
+    whole(inner.strip_prefix("in ").unwrap_or(inner))
+}
+
+/// A unit behind `in`: of letters that could be a word, or a name of something, none is.
+fn after_in(text: &str) -> Option<String> {
+    let length = units::read(text)?.length;
+    let unit = text.get(..length)?;
+    let name = unit.chars().count() == 1 && unit.starts_with(char::is_uppercase);
+    let goes_on = text.get(length..)?.starts_with(|c: char| c.is_alphanumeric() || c == '-');
+    (!is_word(unit) && !name && !goes_on).then(|| unit.to_string())
+}
+
+/// A unit that stands right before a number: `milliseconds: `, `t/ms = `, `kg `.
+fn right_before(text: &str) -> Option<String> {
+    let bare = text.trim_end_matches([' ', ':', '=', '≈', '~', '"', '“', '(']);
+    let bare =
+        [" is", " are", " was", " were"].into_iter().find_map(|verb| bare.strip_suffix(verb)).unwrap_or(bare);
+    // `t/ms = 0.442`
+    let divided = text.len() > bare.len() && text.get(bare.len()..)?.contains(['=', ':', '≈']);
+    if let Some((_, unit)) = bare.rsplit_once(['/', '∕', '⁄']).filter(|_| divided)
+        && let Some(unit) = whole(unit)
+        // `4.3 m/s: ` is a unit of another number.
+        && !bare.rsplit(' ').take(2).any(|word| word.starts_with(|c: char| c.is_ascii_digit()))
+        && !bare.rsplit_once(['/', '∕', '⁄'])?.0.rsplit(' ').next().is_some_and(|head| whole(head).is_some())
+    {
+        return Some(unit);
+    }
+    let mut words = bare.rsplit(' ');
+    let unit = whole(words.next()?)?;
+    let owned = words.next().is_some_and(|w| w.ends_with(|c: char| c.is_ascii_digit()) || is_spelled(w));
+    (unit.chars().count() > 1 && !owned && !is_word(&unit)).then_some(unit)
+}
+
+/// A unit that a text has right behind marks: `) ms`, `” ms`, `… ms`.
+fn right_behind(text: &str) -> Option<String> {
+    let said = text.strip_prefix(" or so ").map_or(text, |tail| tail);
+    let bare = said.trim_start_matches([' ', ')', ']', '"', '”', '’', '»', '…', ':', '–', '—', ',', '`']);
+    let marked = text.len() > bare.len() && !text.get(..text.len() - bare.len())?.trim().is_empty();
+    if !marked {
+        return None;
+    }
+    let length = units::read(bare)?.length;
+    let unit = bare.get(..length)?;
+    let ends = bare.get(length..)?.starts_with(|c: char| !c.is_alphanumeric()) || length == bare.len();
+    (ends && unit.chars().count() > 1).then(|| unit.to_string())
+}
+
+/// Words that count what follows.
+fn is_spelled(word: &str) -> bool {
+    const COUNTS: [&str; 24] = [
+        "a", "an", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "twelve",
+        "twenty", "hundred", "thousand", "few", "some", "several", "many", "per", "half", "more", "another",
+    ];
+    COUNTS.contains(&word.to_lowercase().as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_clause_names_the_unit_of_its_number() {
+        let named = |text: &str| {
+            let chars: Vec<char> = text.chars().collect();
+            let start = text.find("0.442").map(|at| text[..at].chars().count()).unwrap();
+            clause_unit(Chars(&chars), start..start + 5).map(|unit| unit.text)
+        };
+        for (text, unit) in [
+            ("t/ms = 0.442", "ms"),
+            ("t / ms = 0.442", "ms"),
+            ("t [ms] = 0.442", "ms"),
+            ("In ms: 0.442", "ms"),
+            ("milliseconds: 0.442", "milliseconds"),
+            ("the time in ms is 0.442", "ms"),
+            ("the number of milliseconds is 0.442", "milliseconds"),
+            ("a time (in ms) of 0.442", "ms"),
+            ("kg: 0.442", "kg"),
+            ("(0.442) ms", "ms"),
+            ("0.442, in ms", "ms"),
+            ("0.442… ms", "ms"),
+            ("0.442 given in ms", "ms"),
+            ("v/(m/s) = 0.442", "m/s"),
+        ] {
+            assert_eq!(named(text).as_deref(), Some(unit), "{text}");
+        }
+        for text in [
+            "with 2 kg: 0.442",
+            "after two seconds: 0.442",
+            "In turn 0.442",
+            "in A it is 0.442",
+            "at 4.3 m/s: 0.442",
+            "in ms. It is 0.442",
+            "0.442. In ms it is 442",
+            "x (m) over t (s): 0.442",
+            "m = 0.442",
+            "0.442 in the second run",
+            "0.442 in a vacuum",
+        ] {
+            assert_eq!(named(text), None, "{text}");
+        }
+    }
+}
