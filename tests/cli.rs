@@ -280,9 +280,9 @@ fn watching_sees_settings_snapshots_and_neighbours() {
     assert_eq!(watched.interrupt(), 130);
 }
 
-/// The rows of a table of docs/checking.md: a code, and when.
+/// The rows of a table of docs/verify.md: a code, and when.
 fn exit_codes() -> Vec<(i32, String)> {
-    let text = std::fs::read_to_string(workspace().join("docs/checking.md")).unwrap();
+    let text = std::fs::read_to_string(workspace().join("docs/verify.md")).unwrap();
     let section = text.split("\n## Exit codes\n").nth(1).unwrap().split("\n## ").next().unwrap();
     let row = |line: &str| {
         let (code, when) = line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | ")?;

@@ -5,7 +5,7 @@
 
 use crate::support::{check_text, codes, workspace};
 use labspec::check::Checked;
-use labspec::verify::Verdict;
+use labspec::verify::{QuoteState, Verdict};
 use serde_json::{Value as Json, json};
 
 const BALL: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint name='j'/><geom name='ball' size='0.05' mass='1'/></body><body name='other' pos='3 0 1'><freejoint/><geom name='other' size='0.05' mass='1'/></body></worldbody></mujoco>";
@@ -95,6 +95,32 @@ fn the_tables_of_the_guide_are_so() {
                 }
             }
         }
+    }
+}
+
+/// Every row of the table of units: what a text says, what it is held to, and what becomes of it.
+#[test]
+fn the_table_of_units_is_so() {
+    let text = std::fs::read_to_string(workspace().join("docs/verify.md")).unwrap();
+    let section = text.split("\n## Units\n").nth(1).unwrap().split("\n## ").next().unwrap();
+    let row = |line: &str| {
+        let (said, rest) = line.strip_prefix("| `")?.split_once("` | `")?;
+        let (expr, becomes) = rest.split_once("` | ")?;
+        Some((said.to_string(), expr.to_string(), becomes.strip_suffix(" |")?.to_string()))
+    };
+    let rows: Vec<_> = section.lines().filter_map(row).collect();
+    assert!(rows.len() > 20);
+    for (said, expr, becomes) in rows {
+        let verify = json!({"lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(), "says": [[said, expr]]});
+        let text = format!("# A fall\n\n```lab\n{}\n```\n\n<!-- labspec verify {verify} -->\nIt takes {said} here.\n", lab());
+        let checked = check_text("lesson.md", &text);
+        let quote = checked.claims.iter().flat_map(|c| &c.judgement.quotes).next().unwrap();
+        let state = match quote.state {
+            QuoteState::Right => "right",
+            QuoteState::Wrong => "wrong",
+            QuoteState::Unclear => "unclear",
+        };
+        assert_eq!(state, becomes, "{said}: {}", quote.reason);
     }
 }
 

@@ -1,6 +1,7 @@
 //! What stands beside a quantity and makes it a part of something else. What is not understood is refused: a number is quoted only
 //! where it is sure that the text states it.
 
+use super::denial::is_denied;
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
@@ -247,20 +248,6 @@ fn wide_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     (figure || WIDE.into_iter().any(|w| near.ends_with(w))).then_some(ODD)
 }
 
-/// Whether a verb before a number is denied: `does not take 0.44 s`; not `not until 0.44 s`, `not only 0.44 s`.
-fn is_denied(line: &str) -> bool {
-    let clause = line.rsplit(['.', ',', ';', ':', '(', '—', '?', '!']).next().unwrap_or("");
-    let mut words = clause.rsplit(' ').filter(|w| !w.is_empty());
-    let last = words.next().unwrap_or("");
-    let exempt = [
-        "until", "only", "just", "even", "before", "because", "that", "if", "when", "to", "and", "or", "but",
-        "with",
-    ];
-    let denies = |w: &&str| matches!(*w, "not" | "never" | "cannot") || w.ends_with("n't");
-    let near: Vec<&str> = std::iter::once(last).chain(words.take(2)).collect();
-    !near.iter().any(|w| exempt.contains(w)) && near.iter().skip(1).any(denies)
-}
-
 /// The words that end at a character.
 fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at.saturating_sub(NEAR), at);
@@ -274,7 +261,7 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     }
     if CHANGES.into_iter().any(ends)
         || line.ends_with("n't")
-        || is_denied(&line)
+        || is_denied(&line) && !largest
         || line.ends_with("% of")
         || line.ends_with("½ of")
     {

@@ -4,6 +4,7 @@
 mod answer_unit;
 mod clause_unit;
 mod context;
+mod denial;
 mod fold;
 mod hidden;
 mod html;

@@ -1,6 +1,7 @@
 //! The text of a lesson that a reader sees: prose, headings, cells, captions, printed output, and the shown texts of
 //! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
 
+use super::denial::is_denied;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::table::Table;
 use super::{Place, fold, html, prose, stated};
@@ -177,25 +178,6 @@ fn words(text: &str, quote: &str) -> Vec<Range<usize>> {
             && !is_denied(before)
     };
     found.filter(own).take(MAX_PLACES).collect()
-}
-
-/// Words that say the contrary of what follows them.
-const DENIALS: [&str; 14] = [
-    "not", "never", "no", "nor", "neither", "without", "cannot", "hardly", "nicht", "kein", "keine", "nie",
-    "pas", "jamais",
-];
-
-/// Whether the words before a quote deny it: of "it does not tip over" nobody says "tip over".
-fn is_denied(before: &str) -> bool {
-    let line = before.rsplit('\n').next().unwrap_or("");
-    let near =
-        line.char_indices().rev().nth(40).map_or(line, |(i, _)| line.get(i..).unwrap_or(line)).to_lowercase();
-    let mut words = near.rsplit(|c: char| c.is_whitespace()).filter(|w| !w.is_empty()).take(2);
-    let denies = |w: &str| DENIALS.contains(&w) || w.ends_with("n't") || w.ends_with("n’t");
-    match [words.next(), words.next()] {
-        [Some(last), Some("or")] if denies(last) => false,
-        all => all.into_iter().flatten().any(denies),
-    }
 }
 
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
