@@ -112,7 +112,10 @@ fn the_table_of_units_is_so() {
     assert!(rows.len() > 20);
     for (said, expr, becomes) in rows {
         let verify = json!({"lab": "#1", "runs": {"run": {"until": 1}}, "measure": measures(), "says": [[said, expr]]});
-        let text = format!("# A fall\n\n```lab\n{}\n```\n\n<!-- labspec verify {verify} -->\nIt takes {said} here.\n", lab());
+        let text = format!(
+            "# A fall\n\n```lab\n{}\n```\n\n<!-- labspec verify {verify} -->\nIt takes {said} here.\n",
+            lab()
+        );
         let checked = check_text("lesson.md", &text);
         let quote = checked.claims.iter().flat_map(|c| &c.judgement.quotes).next().unwrap();
         let state = match quote.state {

@@ -180,6 +180,44 @@ const UNITS: &[&str] = &[
     "{T} /{U}",
 ];
 
+/// Numbers whose unit `{O}` stands apart from them, or behind a word.
+const APART: &[&str] = &[
+    "In {O}: {T}",
+    "x / {O} = {T}",
+    "x/{O} = {T}",
+    "x [{O}] = {T}",
+    "x ({O}): {T}",
+    "{O}: {T}",
+    "in {O} {T}",
+    "the value in {O} is {T}",
+    "{T}, in {O},",
+    "{T} (in {O})",
+    "{T} [{O}]",
+    "({T}) {O}",
+    "{T} — in {O}",
+    "{T}, counted in {O},",
+    "{T} given in {O}",
+    "{T} half {U}",
+    "{T} double {U}",
+    "{T} inverse {U}",
+    "{T} tenths of a {U}",
+    "{T} of a {U}",
+    "{T} of one {O}",
+    "{T} jiffies",
+    "{T} steps",
+    "{T} €",
+    "{T} ♥",
+];
+
+/// Sentences that deny their number.
+const DENIED: &[&str] = &[
+    "It is wrong that it is {N}.",
+    "It is not true that it comes to {N}.",
+    "It does not come to {N}.",
+    "It never is {N}.",
+    "It isn't {N}.",
+];
+
 const HIDDEN: &[&str] = &[
     "<!-- {N} -->",
     "<template>{N}</template>",
@@ -306,6 +344,15 @@ pub(super) fn wrong(random: &mut Random, known: &[Known]) -> Vec<Claim> {
             all.push(says("another unit", Truth::False, &share, &k.name, format!("It is {share} here.")));
         }
     }
+    if !unit.is_empty() && !n.minus {
+        let others: Vec<&str> = other_units(unit).iter().copied().filter(|o| o.len() > 1).collect();
+        for template in [random.pick::<&str>(APART), random.pick::<&str>(APART)] {
+            let text = fill(template).replace("{O}", random.pick::<&str>(&others));
+            all.push(says("a unit apart", Truth::False, size, &k.name, format!("It is {text} here.")));
+        }
+    }
+    let block = fill(random.pick::<&str>(DENIED));
+    all.push(says("a number that is denied", Truth::False, &fill("{N}"), &k.name, block));
     // What no reader sees.
     for _ in 0..3 {
         let block = random.pick(HIDDEN).replace("{N}", &whole);

@@ -64,6 +64,8 @@ fn is_word(unit: &str) -> bool {
 /// The unit that a text is, if it is one.
 fn whole(text: &str) -> Option<String> {
     let text = text.trim();
+    let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
+    let text = inner.filter(|t| !t.contains(['(', ')'])).unwrap_or(text);
     let found = units::read(text)?;
     (found.length == text.len()).then(|| text.to_string())
 }
@@ -90,19 +92,25 @@ fn right_before(text: &str) -> Option<String> {
     let bare =
         [" is", " are", " was", " were"].into_iter().find_map(|verb| bare.strip_suffix(verb)).unwrap_or(bare);
     // `t/ms = 0.442`
-    let divided = text.len() > bare.len() && text.get(bare.len()..)?.contains(['=', ':', '≈']);
-    if let Some((_, unit)) = bare.rsplit_once(['/', '∕', '⁄']).filter(|_| divided)
-        && let Some(unit) = whole(unit)
-        // `4.3 m/s: ` is a unit of another number.
-        && !bare.rsplit(' ').take(2).any(|word| word.starts_with(|c: char| c.is_ascii_digit()))
-        && !bare.rsplit_once(['/', '∕', '⁄'])?.0.rsplit(' ').next().is_some_and(|head| whole(head).is_some())
-    {
+    let marked = text.get(bare.len()..)?.contains(['=', ':', '≈']);
+    if marked && let Some(unit) = divisor(bare) {
         return Some(unit);
     }
     let mut words = bare.rsplit(' ');
     let unit = whole(words.next()?)?;
     let owned = words.next().is_some_and(|w| w.ends_with(|c: char| c.is_ascii_digit()) || is_spelled(w));
     (unit.chars().count() > 1 && !owned && !is_word(&unit)).then_some(unit)
+}
+
+/// The unit that a symbol is divided by at the end of a text: of `t / ms`, `v/(m/s)`; of `4.3 m/s` there is none.
+fn divisor(text: &str) -> Option<String> {
+    let mut strokes = text.match_indices(['/', '∕', '⁄']);
+    strokes.find_map(|(at, stroke)| {
+        let unit = whole(text.get(at + stroke.len()..)?)?;
+        let head = text.get(..at)?.trim_end().rsplit(' ').next()?;
+        let symbol = head.starts_with(char::is_alphabetic) && whole(head).is_none();
+        symbol.then_some(unit)
+    })
 }
 
 /// A unit that a text has right behind marks: `) ms`, `” ms`, `… ms`.
@@ -143,6 +151,9 @@ mod tests {
             ("t/ms = 0.442", "ms"),
             ("t / ms = 0.442", "ms"),
             ("t [ms] = 0.442", "ms"),
+            ("t (ms): 0.442", "ms"),
+            ("v/m/s = 0.442", "m/s"),
+            ("v / m/s = 0.442", "m/s"),
             ("In ms: 0.442", "ms"),
             ("milliseconds: 0.442", "milliseconds"),
             ("the time in ms is 0.442", "ms"),

@@ -1,0 +1,76 @@
+//! Whether a text denies what follows: of "it does not tip over" nobody says "tip over", and "it does not take 0.44 s" says another
+//! time.
+
+/// Words that deny a verb, and how many words they reach.
+const OF_VERBS: ([&str; 7], usize) = (["not", "never", "cannot", "hardly", "nicht", "nie", "jamais"], 3);
+
+/// Words that deny a noun: `without spin it takes 0.44 s` denies nothing of the time.
+const OF_NOUNS: ([&str; 7], usize) = (["no", "nor", "neither", "without", "kein", "keine", "pas"], 2);
+
+/// Words behind a denial that end its reach: `not until 0.44 s`, `not only 0.44 s`, `whether or not it tips over`.
+const ENDS: [&str; 13] =
+    ["until", "only", "just", "even", "before", "because", "that", "if", "when", "and", "or", "but", "with"];
+
+/// What denies a whole clause.
+const CLAUSES: [&str; 11] = [
+    "wrong that",
+    "false that",
+    "untrue that",
+    "incorrect that",
+    "not true that",
+    "not the case that",
+    "wrong to say",
+    "wrong to think",
+    "mistake to think",
+    "myth that",
+    "nobody says that",
+];
+
+/// Whether the words at the end of a line deny what stands behind them.
+pub(super) fn is_denied(line: &str) -> bool {
+    let clause =
+        line.rsplit(['\n', '.', ',', ';', ':', '(', '—', '?', '!']).next().unwrap_or("").to_lowercase();
+    if CLAUSES.iter().any(|phrase| clause.contains(phrase)) {
+        return true;
+    }
+    let near: Vec<&str> = clause.split_whitespace().rev().take(OF_VERBS.1 + 1).collect();
+    let of_verb = |word: &&str| OF_VERBS.0.contains(word) || word.ends_with("n't") || word.ends_with("n’t");
+    let of_noun = |word: &&str| OF_NOUNS.0.contains(word);
+    let first = near.iter().take(OF_VERBS.1).position(of_verb);
+    let first = first.or_else(|| near.iter().take(OF_NOUNS.1).position(of_noun));
+    first.is_some_and(|at| {
+        // `whether or not it tips over`
+        let either = near.get(at + 1) == Some(&"or");
+        !either && !near.iter().take(at).any(|word| ENDS.contains(word))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_denial_reaches_a_few_words_of_its_clause() {
+        for line in [
+            "it does not ",
+            "it doesn't take ",
+            "it will never take ",
+            "It is wrong that it takes ",
+            "it moves without ",
+            "it tips, but does not fall after ",
+        ] {
+            assert!(is_denied(line), "{line}");
+        }
+        for line in [
+            "it is not there. It takes ",
+            "not only ",
+            "not until ",
+            "whether or not ",
+            "it does not fall, and takes ",
+            "it takes ",
+            "a ball without spin takes ",
+        ] {
+            assert!(!is_denied(line), "{line}");
+        }
+    }
+}
