@@ -14,7 +14,7 @@ pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit
     let behind = chars.text(number.end, number.end + NEAR);
     let before = before.get(last_end(&before)..)?;
     // What another number has is not this one's.
-    let until = behind.find(|c: char| c.is_ascii_digit()).unwrap_or(behind.len());
+    let until = next_number(&behind);
     let behind = behind.get(..first_end(&behind).min(until))?;
     let mut named = Vec::new();
     named.extend(right_before(before));
@@ -35,6 +35,19 @@ pub(super) fn clause_unit(chars: Chars<'_>, number: Range<usize>) -> Option<Unit
     })
 }
 
+/// Where the next number of a text begins, which is no power of a unit.
+fn next_number(text: &str) -> usize {
+    let mut before = ' ';
+    for (at, c) in text.char_indices() {
+        if c.is_ascii_digit() && !before.is_alphanumeric() && !matches!(before, '^' | '*') {
+            return at;
+        }
+        // `s^-1`
+        before = if c == '-' && before == '^' { before } else { c };
+    }
+    text.len()
+}
+
 /// Where the last clause of a text begins.
 fn last_end(text: &str) -> usize {
     let ends = text.match_indices(['.', ';', '!', '?', '\n', '|']);
@@ -51,6 +64,11 @@ fn first_end(text: &str) -> usize {
 /// Whether a mark ends a clause: a point of a number, or of what follows without a space, does not.
 fn is_end(text: &str, at: usize, mark: &str) -> bool {
     mark != "." || text.get(at + 1..).is_none_or(|tail| tail.is_empty() || tail.starts_with([' ', '\n']))
+}
+
+/// Whether a unit is no letter that may be a symbol.
+fn is_sure(unit: &str) -> bool {
+    unit == "°" || unit.chars().count() > 1
 }
 
 /// Whether a unit is more likely another word where no number stands before it.
@@ -99,7 +117,7 @@ fn right_before(text: &str) -> Option<String> {
     let mut words = bare.rsplit(' ');
     let unit = whole(words.next()?)?;
     let owned = words.next().is_some_and(|w| w.ends_with(|c: char| c.is_ascii_digit()) || is_spelled(w));
-    (unit.chars().count() > 1 && !owned && !is_word(&unit)).then_some(unit)
+    (is_sure(&unit) && !owned && !is_word(&unit)).then_some(unit)
 }
 
 /// The unit that a symbol is divided by at the end of a text: of `t / ms`, `v/(m/s)`; of `4.3 m/s` there is none.
@@ -124,7 +142,7 @@ fn right_behind(text: &str) -> Option<String> {
     let length = units::read(bare)?.length;
     let unit = bare.get(..length)?;
     let ends = bare.get(length..)?.starts_with(|c: char| !c.is_alphanumeric()) || length == bare.len();
-    (ends && unit.chars().count() > 1).then(|| unit.to_string())
+    (ends && is_sure(unit)).then(|| unit.to_string())
 }
 
 /// Words that count what follows.
@@ -164,6 +182,7 @@ mod tests {
             ("0.442, in ms", "ms"),
             ("0.442… ms", "ms"),
             ("0.442 given in ms", "ms"),
+            ("0.442, in m^2, here", "m^2"),
             ("v/(m/s) = 0.442", "m/s"),
         ] {
             assert_eq!(named(text).as_deref(), Some(unit), "{text}");

@@ -32,6 +32,10 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     if found.is_exact() && found.has_angle() && angle != found.angle() && !(0.0..=1.0).contains(&angle) {
         return wrong;
     }
+    // A radian may be left out, and is nothing that is counted.
+    if unit.is_counted() && found.is_exact() && found.has_angle() {
+        return wrong;
+    }
     // A turn is not a radian.
     let turns = unit.text.contains("Hz") && found.is_exact() && found.has_angle() && found.agrees(wanted);
     if !contradicts(found, wanted) && !turns {

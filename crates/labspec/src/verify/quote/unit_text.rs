@@ -38,7 +38,12 @@ impl Unit {
 
     /// Whether it stands behind its number, or is shared with another one, and is none of things that are counted.
     pub(super) fn is_own(&self) -> bool {
-        self.link != Link::Clause && !COUNTED.contains(&self.text.as_str())
+        self.link != Link::Clause && !self.is_counted()
+    }
+
+    /// Whether it is a name of things that are counted: `steps`, `bounces`.
+    pub(super) fn is_counted(&self) -> bool {
+        COUNTED.contains(&self.text.as_str())
     }
 
     /// Whether its text may be a symbol of a formula as well: `2 h` are two hours, or two timesteps.
