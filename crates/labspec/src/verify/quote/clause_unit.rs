@@ -50,9 +50,8 @@ fn next_number(text: &str) -> usize {
 
 /// Where the last clause of a text begins.
 fn last_end(text: &str) -> usize {
-    let ends = text.match_indices(['.', ';', '!', '?', '\n', '|']);
-    let ends = ends.filter(|(at, mark)| is_end(text, *at, mark)).map(|(at, mark)| at + mark.len());
-    ends.last().unwrap_or(0)
+    let mut ends = text.rmatch_indices(['.', ';', '!', '?', '\n', '|']);
+    ends.find(|(at, mark)| is_end(text, *at, mark)).map_or(0, |(at, mark)| at + mark.len())
 }
 
 /// Where the first clause of a text ends.
