@@ -219,7 +219,7 @@ pub(crate) const READER: &str = r##"# Reader
 See [the labs](labs.md#labs) and [what is not there](labs.md#elsewhere).
 
 <!-- labspec verify {"lab": "labs.md#1", "runs": {"fall": {"until": 0.3}}, "measure": {"low": "final(data.qpos[2])"}, "says": [["0.56 m", "low"], ["0.77 m", "low"]]} -->
-The ball is at 0.56 m after 0.3 s, and not at 0.77 m.
+The ball is at 0.56 m after 0.3 s, and now at 0.77 m.
 
 ```lab simlab
 {"title": "Twice", "model": "free_fall", "stopAt": 0.1, "readouts": [{"label": "a", "expr": "data.qpos[2]"}, {"label": "a", "expr": "data.qvel[2]"}]}
