@@ -25,6 +25,11 @@ pub fn parse(text: &str) -> Option<Dimension> {
     found.dimension.filter(|_| found.length == text.len())
 }
 
+/// Whether a text is a unit as a whole, of ours or of something else.
+pub fn is_unit(text: &str) -> bool {
+    read(text).is_some_and(|found| found.length == text.len())
+}
+
 /// Reads the longest unit expression that a text begins with.
 ///
 /// ```text

@@ -238,16 +238,16 @@ pub(super) fn curves<'r>(
 }
 
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
-pub(super) fn check(
-    lesson: &Lesson,
-    ready: &mut [Ready<'_>],
+pub(super) fn check<'l>(
+    lesson: &'l Lesson,
+    ready: &mut [Ready<'l>],
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
     let shown = ShownText::of(lesson);
-    partners::observe(lesson, ready);
+    let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
-    let partners = Partners::new(lesson, ready, models);
+    let partners = Partners::new(lesson, ready, models, candidates);
     let mut court = Court { lesson, ready, shown, stage: Stage::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {

@@ -25,7 +25,7 @@ const MATTERS: f64 = 1e-3;
 
 /// A program that writes a parameter which others belong to.
 #[derive(Clone)]
-struct Candidate<'a> {
+pub(super) struct Candidate<'a> {
     text: Text,
     /// What it is called.
     who: String,
@@ -115,15 +115,22 @@ fn correction(candidates: &[Candidate<'_>]) -> Coupled {
 }
 
 /// Lets every run of the labs say whether the correction would change anything in it. Where it would not, the corrected run is the
-/// same, and need not be made.
-pub(super) fn observe(lesson: &Lesson, labs: &mut [Ready<'_>]) {
-    let correction = correction(&candidates(lesson, labs));
+/// same, and need not be made. Gives the programs that are corrected.
+pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [Ready<'a>]) -> Vec<Candidate<'a>> {
+    let candidates = candidates(lesson, labs);
+    let correction = correction(&candidates);
     labs.iter_mut().for_each(|ready| ready.programs.observed = Some(correction.clone()));
+    candidates
 }
 
 impl<'a> Partners<'a> {
-    pub(super) fn new(lesson: &'a Lesson, labs: &'a [Ready<'a>], models: &'a Models) -> Partners<'a> {
-        let candidates = candidates(lesson, labs);
+    /// With the labs as [`observe`] has left them, and what it gave.
+    pub(super) fn new(
+        lesson: &'a Lesson,
+        labs: &'a [Ready<'a>],
+        models: &'a Models,
+        candidates: Vec<Candidate<'a>>,
+    ) -> Partners<'a> {
         Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
     }
 
@@ -132,8 +139,8 @@ impl<'a> Partners<'a> {
         self.corrected.get_or_init(|| corrected(self.labs, &correction(&self.candidates)))
     }
 
-    /// Judges a `verify` object, in whose runs something was left behind, with partners corrected. What then is not true any more is not true of its subject: the judgement
-    /// says so, and so do findings at the claim and at the program.
+    /// Judges a `verify` object, in whose runs something was left behind, with partners corrected. What then is not true any more is
+    /// not true of its subject: the judgement says so, and so do findings at the claim and at the program.
     pub(super) fn settle(
         &self,
         verify: &Verify,

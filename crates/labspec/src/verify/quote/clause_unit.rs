@@ -66,12 +66,12 @@ fn is_end(text: &str, at: usize, mark: &str) -> bool {
 }
 
 /// Whether a unit is no letter that may be a symbol.
-fn is_sure(unit: &str) -> bool {
+pub(super) fn is_sure(unit: &str) -> bool {
     unit == "°" || unit.chars().count() > 1
 }
 
 /// Whether a unit is more likely another word where no number stands before it.
-fn is_word(unit: &str) -> bool {
+pub(super) fn is_word(unit: &str) -> bool {
     matches!(
         unit.to_lowercase().as_str(),
         "turn" | "second" | "bar" | "degree" | "minute" | "day" | "stone" | "mil"
@@ -83,8 +83,7 @@ fn whole(text: &str) -> Option<String> {
     let text = text.trim();
     let inner = text.strip_prefix('(').and_then(|t| t.strip_suffix(')'));
     let text = inner.filter(|t| !t.contains(['(', ')'])).unwrap_or(text);
-    let found = units::read(text)?;
-    (found.length == text.len()).then(|| text.to_string())
+    units::is_unit(text).then(|| text.to_string())
 }
 
 /// A unit in brackets that a text begins with: `(ms)`, `[in ms]`.
@@ -132,7 +131,7 @@ fn divisor(text: &str) -> Option<String> {
 
 /// A unit that a text has right behind marks: `) ms`, `” ms`, `… ms`.
 fn right_behind(text: &str) -> Option<String> {
-    let said = text.strip_prefix(" or so ").map_or(text, |tail| tail);
+    let said = text.strip_prefix(" or so ").unwrap_or(text);
     let bare = said.trim_start_matches([' ', ')', ']', '"', '”', '’', '»', '…', ':', '–', '—', ',', '`']);
     let marked = text.len() > bare.len() && !text.get(..text.len() - bare.len())?.trim().is_empty();
     if !marked {

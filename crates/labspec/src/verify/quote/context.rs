@@ -1,6 +1,7 @@
 //! What stands beside a quantity and makes it a part of something else. What is not understood is refused: a number is quoted only
 //! where it is sure that the text states it.
 
+use super::clause_unit::{is_sure, is_word};
 use super::denial::is_denied;
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
@@ -373,23 +374,21 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
         }
         '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
         c if c.is_alphabetic() => words_after(chars, next),
+        // A mark behind the whole of it, as in a list of what is done.
+        '\u{2600}'..='\u{27bf}' | '\u{1f000}'..='\u{1faff}' if has_unit => None,
         c if c.is_ascii() && !matches!(c, '$' | '#' | '@' | '&') || PUNCTUATION.contains(c) => None,
         _ => Some("a number with something behind it that is not understood"),
     }
 }
 
 /// What may stand behind a quantity, besides the characters of ASCII.
-const PUNCTUATION: &str = "”’»›“‘„«—–‑…≈≃≅∼≡→⇒∴•·、。，：；！？）」』】（「『【．～〜";
+const PUNCTUATION: &str = "”’»›“‘„«—–‑…†‡§≈≃≅∼≡→⇒∴•·、。，：；！？）」』】（「『【．～〜";
 
 /// Whether the word at a place is a unit.
 fn is_unit_at(chars: Chars<'_>, at: usize) -> bool {
     let near = chars.text(at, at + NEAR);
     let word: String = near.chars().take_while(|c| c.is_alphabetic()).collect();
-    is_unit(&word)
-}
-
-fn is_unit(word: &str) -> bool {
-    !word.is_empty() && units::read(word).is_some_and(|unit| unit.length == word.len())
+    units::is_unit(&word)
 }
 
 /// Marks that change the character before them.
@@ -443,14 +442,40 @@ fn has_unit_soon(line: &str) -> bool {
     let mut words = phrase.split(' ').filter(|word| !word.is_empty());
     let Some(first) = words.next() else { return false };
     if let Some((_, last)) = first.rsplit_once('-') {
-        return is_unit(last);
+        return units::is_unit(last);
     }
-    if PHRASES.contains(&first.to_lowercase().as_str()) {
+    let first = first.to_lowercase();
+    if PHRASES.contains(&first.as_str()) {
         return false;
     }
     let of_one = |word: &&str| matches!(*word, "of" | "a" | "an" | "one" | "per" | "the" | "each" | "every");
+    // `makes A move`, `gives a second bounce`: such words are units only behind what makes a part of one.
+    let part = PARTS.contains(&first.as_str());
+    let is_unit = |word: &str| units::is_unit(word) && (part || is_sure(word) && !is_word(word));
     words.find(|word| !of_one(word)).is_some_and(is_unit)
 }
+
+/// Words that make a part, or another power, of the unit behind them.
+const PARTS: [&str; 18] = [
+    "of",
+    "half",
+    "quarter",
+    "quarters",
+    "third",
+    "thirds",
+    "tenth",
+    "tenths",
+    "hundredths",
+    "thousandths",
+    "double",
+    "triple",
+    "inverse",
+    "reciprocal",
+    "square",
+    "cubic",
+    "times",
+    "pairs",
+];
 
 const BESIDE: &str = "a number with another one right behind it";
 const ODD_BEHIND: &str = "a number that the words behind it change";

@@ -266,6 +266,13 @@ mod tests {
             ("0.7 mm per step", "0.7 mm per step", vec![0]),
             ("½ m", "½ m", vec![0]),
             ("3 m, 3 m.", "3 m", vec![0, 5]),
+            ("a 0.5 kg stone", "0.5 kg", vec![2]),
+            ("0.5 m au sol", "0.5 m", vec![0]),
+            ("0.5 m ✓", "0.5 m", vec![0]),
+            ("0.5 m†", "0.5 m", vec![0]),
+            ("0.5 makes A move", "0.5", vec![0]),
+            ("0.5 gives a second bounce", "0.5", vec![0]),
+            ("0.01 s steps", "0.01 s", vec![0]),
         ] {
             assert_eq!(at(text, quote), found, "{quote} in {text}");
         }

@@ -23,7 +23,7 @@ pub(in crate::verify) fn hold(unit: &Unit, found: Option<&Dimension>) -> Held {
     let Some(found) = found else { return Held::Unknown };
     let wrong = if unit.link == Link::Clause { Held::Unsure } else { Held::Wrong };
     let Some(wanted) = &unit.dimension else {
-        let other = units::read(&unit.text).is_some_and(|u| u.length == unit.text.len());
+        let other = units::is_unit(&unit.text);
         let certain = found.is_exact() && !found.is_number();
         return if other && certain { wrong } else { Held::Unknown };
     };
