@@ -3,22 +3,24 @@
 //! A limit pushes back like a spring with a time constant T, so a joint that arrives with the speed v goes beyond it by about
 //! v T / e, and one that a load presses on stays a little beyond it: both are softness, and pass for it. Two things do not:
 //!
-//! * a step h that takes the joint past its limit by a large part of its range before anything could push back: h v is
-//!   longer than what the limit guards;
-//! * a joint that stays beyond its limit by a large part of its range: what presses is stronger than the limit.
+//! * a joint that is beyond its limit by a large part of its range because one step took it there, before anything could push
+//!   back, or that stays there: what presses is stronger than the limit;
+//! * a joint that is beyond it by more than half its range, for however short a time.
 
 use labspec_core::math::rows;
 use labspec_core::{Data, Model, Scope, disable, joint};
 
-/// A joint past its limit by this part of its range within a step is not held by it.
-const JUMPED: f64 = 0.5;
-/// Beyond its limit by this part for so long, and so many steps, neither.
-const STAYED: f64 = 0.25;
+/// A joint past its limit by this part of its range is not held by it.
+const FAR: f64 = 0.5;
+/// Nor past it by this part, when a step that is itself longer took it there, or for so long and so many steps.
+const BEYOND: f64 = 0.2;
 const LASTS: f64 = 0.25;
 const STEPS: u32 = 32;
 /// What is less is nobody's concern: an angle, rad, and a length in parts of the scene.
 const ANGLE: f64 = 0.1;
 const LENGTH: f64 = 0.02;
+/// No slide is judged by more than so many sizes of the scene.
+const SCENES: f64 = 10.0;
 
 /// A joint past its limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,6 +49,8 @@ struct Limited {
     size: f64,
     /// Where it was before the step.
     before: f64,
+    /// It began beyond its limit, and has not come back yet.
+    outside: bool,
     /// Steps for which it has been beyond, and the time of the first.
     lasted: u32,
     since: f64,
@@ -68,10 +72,13 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> Watch {
             _ => return None,
         };
         let [low, high] = *rows::<2>(&m.jnt_range).get(j)?;
-        let (most, least) =
-            if turns { (2.0 * std::f64::consts::PI, ANGLE) } else { (m.stat.extent, LENGTH * m.stat.extent) };
-        let size = (high - low).min(most).max(least / STAYED);
-        let slack = STAYED * size;
+        let (most, least) = if turns {
+            (2.0 * std::f64::consts::PI, ANGLE)
+        } else {
+            (SCENES * m.stat.extent, LENGTH * m.stat.extent)
+        };
+        let size = (high - low).min(most).max(least / BEYOND);
+        let slack = BEYOND * size;
         let range = [low, high];
         let qpos = m.jnt_qposadr[j] as usize;
         let before = *d.fields().qpos.get(qpos)?;
@@ -83,6 +90,7 @@ pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> Watch {
             pass,
             size,
             before,
+            outside: before < pass[0] || before > pass[1],
             lasted: 0,
             since: 0.0,
         })
@@ -98,7 +106,7 @@ pub fn look<S: Scope>(w: &mut Watch, d: &Data<S>) -> Option<Past> {
         let q = qpos.get(j.qpos)?;
         let before = std::mem::replace(&mut j.before, *q);
         if *q >= j.pass[0] && *q <= j.pass[1] {
-            j.lasted = 0;
+            (j.lasted, j.outside) = (0, false);
             return None;
         }
         far(j, d.time(), [before, *q])
@@ -114,11 +122,20 @@ fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
         j.since = time;
     }
     j.lasted += 1;
-    let jumped = beyond(q) > JUMPED * j.size && beyond(before) < STAYED * j.size && step.is_finite();
+    // A step that leads back is no reason to be there.
+    let outward = if q > j.range[1] { step } else { -step };
+    let jumped = outward > BEYOND * j.size && beyond(before) < BEYOND * j.size && step.is_finite();
     let stays = j.lasted >= STEPS && time - j.since >= LASTS;
     let step = jumped.then_some(step.abs());
     let range = j.range[1] - j.range[0];
-    (jumped || stays).then(|| Past { time: j.since, joint: j.joint, beyond: beyond(q), range, step })
+    let pressed = !j.outside && beyond(q) > FAR * j.size;
+    (jumped || stays || pressed).then(|| Past {
+        time: j.since,
+        joint: j.joint,
+        beyond: beyond(q),
+        range,
+        step,
+    })
 }
 
 #[cfg(test)]

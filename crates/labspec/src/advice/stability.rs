@@ -55,6 +55,17 @@ pub fn suspects(m: &Model) -> Vec<Suspect> {
     list
 }
 
+/// How many times as large the energy of the stiffest spring or servo becomes in each swing of its steps: a symplectic step of
+/// s = hω/2 < 1 keeps another energy, of which ½ m v² + ½ k x² is between 1 - s and 1 + s parts. Infinite beyond the limit.
+pub fn swing(m: &Model) -> f64 {
+    let mut list = Vec::new();
+    if !matches!(m.opt.integrator, integrator::DISCRETE | integrator::RK4) {
+        springs(m, &mut list);
+    }
+    let s = list.iter().map(|suspect| suspect.excess).fold(0.0, f64::max).sqrt();
+    if s < 1.0 { (1.0 + s) / (1.0 - s) } else { f64::INFINITY }
+}
+
 /// What acts along one coordinate.
 #[derive(Clone, Copy, Debug, Default)]
 struct Spring {

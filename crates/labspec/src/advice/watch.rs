@@ -46,23 +46,20 @@ pub struct Watch {
     through: through::Watch,
     sunk: sunk::Watch,
     unsolved: unsolved::Watch,
-    /// Steps until energy is looked at.
-    rest: usize,
     /// Nothing touches, is limited or tied: only energy is to be looked at.
     bare: bool,
     noticed: Noticed,
 }
 
-/// A watch over a run that is now at `d`: for energy with a look after each `every` steps, unless programs push in
-/// every step; for all else in every step, where looking costs next to nothing until something is out of the ordinary.
-pub fn watch<S: Scope>(m: &Model, d: &Data<S>, every: usize, pushed: bool) -> Watch {
+/// A watch over a run that is now at `d`: for energy unless programs push in every step, and for all else. Looking costs next to
+/// nothing until something is out of the ordinary.
+pub fn watch<S: Scope>(m: &Model, d: &Data<S>, pushed: bool) -> Watch {
     Watch {
-        growth: (!pushed).then(|| growth::watch(m, d, every)),
+        growth: (!pushed).then(|| growth::watch(m, d)),
         limits: limits::watch(m, d),
         through: through::watch(m, d),
         sunk: sunk::watch(m),
         unsolved: unsolved::Watch::default(),
-        rest: 0,
         bare: bare(d),
         noticed: Noticed::default(),
     }
@@ -89,10 +86,8 @@ fn bare<S: Scope>(d: &Data<S>) -> bool {
 /// To be called after each step; nothing of the run is touched.
 #[inline]
 pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
-    if w.rest > 0 {
-        w.rest -= 1;
-    } else {
-        energy(w, m, d);
+    if let Some(growth) = &mut w.growth {
+        w.noticed.growth = growth::look(growth, m, d);
     }
     if !w.bare {
         constraints(w, m, d);
@@ -100,15 +95,6 @@ pub fn look<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
 }
 
 // Apart, so that what is asked in every step stays small.
-#[inline(never)]
-fn energy<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
-    w.rest = usize::MAX;
-    if let Some(growth) = &mut w.growth {
-        w.noticed.growth = growth::look(growth, m, d);
-        w.rest = growth::skip(growth);
-    }
-}
-
 #[inline(never)]
 fn constraints<S: Scope>(w: &mut Watch, m: &Model, d: &Data<S>) {
     let found = &mut w.noticed;

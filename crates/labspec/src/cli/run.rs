@@ -5,8 +5,9 @@ use super::output::{Wanted, wanted, write_png, write_with};
 use super::stdio::stream;
 use super::{Failure, Outcome, OutputKind, print, write_file};
 use crate::report::{printable, printable_path};
-use crate::run::{self, Cell, RunOptions, Table, shown};
+use crate::run::{Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};
+use crate::stability;
 use clap::ValueEnum;
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
@@ -77,7 +78,8 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     files.extend(drawn.iter().map(|path| Wanted { kind: OutputKind::Plot, path: path.clone() }));
     files.extend(painted.iter().map(|path| Wanted { kind: OutputKind::Picture, path: path.clone() }));
     a.handled.look_ahead(&target, &files)?;
-    let table = run::run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
+    let table =
+        stability::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
         write_with(file, OutputKind::Table, |out| table.write_csv(out))?;
     }
@@ -97,7 +99,7 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
         Format::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
         Format::Csv => stream(|out| table.write_csv(out))?,
     }
-    let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdown.is_none();
+    let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdowns.is_empty();
     Ok(if clean { Outcome::Clean } else { Outcome::Findings })
 }
 
@@ -134,8 +136,8 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         let often = if *n == 1 { "once".to_string() } else { format!("{n} times") };
         let _ = writeln!(text, "warning: {name} ({often})");
     }
-    if let Some(b) = &table.breakdown {
-        let _ = writeln!(text, "  {}\n  {}\n  help: {}", printable(&b.what), b.why, printable(&b.help));
+    for b in &table.breakdowns {
+        let _ = writeln!(text, "  {}\n  {}\n  help: {}", printable(&b.what), b.why, printable(&b.help()));
     }
     for error in &table.errors {
         let _ = writeln!(text, "error: {}", printable(error));

@@ -8,9 +8,9 @@ use crate::error::{Error, located};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::lint::load_lesson;
-use crate::run::{self, Session};
+use crate::run::Session;
 use crate::source::SourceFile;
-use crate::spec::{Lab, LabAddress};
+use crate::spec::LabAddress;
 use labspec_core::Demand;
 use labspec_core::reflect::FieldSet;
 use std::sync::Arc;
@@ -85,16 +85,11 @@ impl Player {
         // Whoever draws a scene may read everything.
         let demand = Demand { reads: FieldSet::ALL, ..programs.demand };
         let mut session = Session::start(Arc::new(programs), &model, lab.keyframe(), &demand);
-        session.watch(length(&lab, session.world.model.opt.timestep));
+        session.watch();
         let (controls, shown) = (control::list(&lab), shown::list(&lab));
         let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
         let mut player = Player { lab, file: lesson.file.clone(), loaded, controls, shown, now };
         player.look();
         Ok(player)
     }
-}
-
-/// How many steps a page plays, as far as the lab says.
-fn length(lab: &Lab, timestep: f64) -> usize {
-    run::count_steps(lab, None, None, timestep).unwrap_or(run::MAX_STEPS)
 }

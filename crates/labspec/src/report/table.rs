@@ -123,8 +123,12 @@ impl Table {
         out.write_all(b"},\"errors\":[")?;
         separated(&self.errors, out, |error, out| write_text(error, out))?;
         out.write_all(b"],\"breakdown\":")?;
-        let told = |b: &Breakdown| json!({"code": b.rule.code, "what": b.what, "why": b.why, "help": b.help});
-        out.write_all(printable_json(&json!(self.breakdown.as_ref().map(told)).to_string()).as_bytes())?;
+        let told =
+            |b: &Breakdown| json!({"code": b.rule.code, "what": b.what, "why": b.why, "help": b.help()});
+        let list: Vec<serde_json::Value> = self.breakdowns.iter().map(told).collect();
+        out.write_all(printable_json(&json!(list.first()).to_string()).as_bytes())?;
+        out.write_all(b",\"breakdowns\":")?;
+        out.write_all(printable_json(&json!(list).to_string()).as_bytes())?;
         self.write_lost(&types, out)?;
         out.write_all(b"}")
     }
@@ -179,6 +183,7 @@ fn write_csv_text(text: &str, out: &mut dyn Write) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Shorter;
 
     fn table(names: &[&str], rows: Vec<Vec<Cell>>) -> Table {
         let mut table = Table::new(0.002, names.iter().map(|n| (*n).to_string()));
@@ -207,24 +212,25 @@ mod tests {
             "schemaVersion": 1, "report": "run", "version": concat!("labspec ", env!("CARGO_PKG_VERSION")),
             "timestep": 0.002, "columns": ["time", "plot/0/a, \"b\"", "readout/é"],
             "types": ["number", "number", "number"], "rows": [], "warnings": {}, "errors": [], "breakdown": null,
+            "breakdowns": [],
         });
         assert_eq!(json_of(&table).to_string(), empty.to_string());
         table.warnings = vec![("badqacc", 1), ("inertia", 20)];
         table.errors = vec!["x: y".into(), "data\t".into()];
-        table.breakdown = Some(Breakdown {
+        table.breakdowns = vec![Breakdown {
             rule: crate::rules::SIMULATION_DIVERGES,
             what: "a".into(),
             why: "b",
-            help: "c".into(),
-        });
+            cause: None,
+            shorter: Shorter::No,
+            instead: "c".into(),
+        }];
         table.timestep = f64::INFINITY;
         let value = json_of(&table);
         assert_eq!(value["warnings"], json!({"badqacc": 1, "inertia": 20}));
         assert_eq!(value["errors"], json!(["x: y", "data\t"]));
-        assert_eq!(
-            value["breakdown"],
-            json!({"code": "simulation-diverges", "what": "a", "why": "b", "help": "c"})
-        );
+        let breakdown = json!({"code": "simulation-diverges", "what": "a", "why": "b", "help": "c"});
+        assert_eq!((&value["breakdown"], &value["breakdowns"]), (&breakdown, &json!([breakdown])));
         assert_eq!(
             (&value["timestep"], &value["nonfinite"]),
             (&json!(null), &json!({"timestep": "Infinity"}))

@@ -7,7 +7,7 @@ use crate::rules::{self, Rule};
 use labspec_core::{Model, Obj, Warning, WarningStat, joint};
 
 /// What went wrong in a run, loudly or silently, in a teacher's words.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Breakdown {
     /// The code of the finding.
     pub rule: &'static Rule,
@@ -15,8 +15,45 @@ pub struct Breakdown {
     pub what: String,
     /// What the page shows.
     pub why: &'static str,
+    /// The likely cause, where it is known.
+    pub cause: Option<String>,
+    /// A shorter timestep, s.
+    pub shorter: Shorter,
+    /// What else to change.
+    pub instead: String,
+}
+
+/// A timestep that may be short enough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shorter {
+    /// The timestep has nothing to do with it.
+    No,
+    /// A shorter one may help, this one by theory where there is one. Nobody has tried it.
+    Maybe(Option<f64>),
+    /// A run with this one was sound.
+    Tried(f64),
+    /// None of those that were tried was sound.
+    Useless,
+}
+
+impl Breakdown {
     /// The likely cause and what to change.
-    pub help: String,
+    pub fn help(&self) -> String {
+        let cause = self.cause.as_ref().map_or(String::new(), |cause| format!("the likely cause: {cause}; "));
+        let instead = &self.instead;
+        let advice = match self.shorter {
+            Shorter::No => instead.clone(),
+            Shorter::Maybe(_) => format!("try a shorter timestep, or {instead}"),
+            Shorter::Tried(h) => {
+                format!(
+                    "write a timestep of {} s (tried: this run is sound with it), or {instead}",
+                    two_digits(h)
+                )
+            }
+            Shorter::Useless => format!("use {instead}; none of the shorter timesteps that were tried helps"),
+        };
+        cause + &advice
+    }
 }
 
 const RESET: &str =
@@ -48,7 +85,8 @@ impl Breakdown {
                 since = growth.time;
                 let grows = silent::growth(&session.world.model, growth);
                 let then = state.map_or(String::new(), |s| format!("; in the end {}", s.what));
-                state = Some(Breakdown { what: grows.what + &then, ..grows });
+                let what = format!("{}{then}", grows.what);
+                state = Some(Breakdown { what, ..grows });
             }
         }
         // Where energy grows, or numbers are none, anything may follow from it; not what was before.
@@ -62,51 +100,53 @@ impl Breakdown {
         let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
         let at = format!("at t = {} s", time(stat.first_time));
         let no_number = |what: String| format!("{what} is not a number or above 1e10 {at}");
-        let (rule, what, why, help) = match warning {
+        let (rule, what, why, advice) = match warning {
             Warning::BadQpos => (
                 rules::SIMULATION_DIVERGES,
                 no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
                 RESET,
-                cause(model),
+                Advice::of(model),
             ),
             Warning::BadQvel => (
                 rules::SIMULATION_DIVERGES,
                 no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
                 RESET,
-                cause(model),
+                Advice::of(model),
             ),
             Warning::BadQacc => (
                 rules::SIMULATION_DIVERGES,
                 no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
                 RESET,
-                cause(model),
+                Advice::of(model),
             ),
             Warning::BadCtrl => (
                 rules::SIMULATION_DIVERGES,
                 no_number(format!("control {}", stat.lastinfo)),
                 "MuJoCo then takes all controls as 0: a student sees everything go limp without a word",
-                "guard the expression that is written to `data.ctrl` with a condition".into(),
+                Advice::only("guard the expression that is written to `data.ctrl` with a condition"),
             ),
             Warning::Inertia => (
                 rules::ENGINE_WARNING,
                 format!("what {} moves has no inertia above zero {at}", joint(&model.jnt_dofadr, joint::nv)),
                 "a push then gives no acceleration that means anything: things do not move, move backwards or vanish",
-                "give every body that moves a mass and inertia above 0: look at the model, and at what writes `body_mass`, `body_inertia` or `dof_armature`".into(),
+                Advice::only(
+                    "give every body that moves a mass and inertia above 0: look at the model, and at what writes `body_mass`, `body_inertia` or `dof_armature`",
+                ),
             ),
             Warning::ContactFull => (
                 rules::ENGINE_WARNING,
                 format!("there are more contacts than the {} that are kept {at}", stat.lastinfo),
                 "what is not kept does not push: bodies sink into each other without a word",
-                "let fewer bodies touch, or move them apart at the start".into(),
+                Advice::only("let fewer bodies touch, or move them apart at the start"),
             ),
             Warning::ConstraintFull => (
                 rules::ENGINE_WARNING,
                 format!("there are more contacts, limits and other constraints than are kept {at}"),
                 "what is not kept does not push or hold: bodies sink into each other, joints pass their limits without a word",
-                "let fewer bodies touch, or move them apart at the start".into(),
+                Advice::only("let fewer bodies touch, or move them apart at the start"),
             ),
         };
-        Breakdown { rule, what, why, help }
+        advice.breakdown(rule, what, why)
     }
 }
 
@@ -129,20 +169,44 @@ fn without_zeros(text: String) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// The likely cause of a run that breaks, and what to write instead.
-pub(super) fn cause(model: &Model) -> String {
-    match stability::suspects(model).first() {
-        Some(worst) => format!(
-            "the likely cause: {} is {} for a step of {} s; {}",
-            owner(model, worst),
-            how_stiff(worst),
-            model.opt.timestep,
-            remedy(model, worst)
-        ),
-        None => format!(
-            "try a smaller timestep than {} s, softer contacts or springs, or a smaller range of the control",
-            model.opt.timestep
-        ),
+/// The likely cause of what breaks, and what to write instead.
+pub(super) struct Advice {
+    pub(super) cause: Option<String>,
+    pub(super) shorter: Shorter,
+    pub(super) instead: String,
+}
+
+impl Advice {
+    /// What to write, and nothing of timesteps.
+    pub(super) fn only(instead: impl Into<String>) -> Advice {
+        Advice { cause: None, shorter: Shorter::No, instead: instead.into() }
+    }
+
+    /// A shorter timestep, or something else.
+    pub(super) fn shorter(instead: impl Into<String>) -> Advice {
+        Advice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
+    }
+
+    /// By what of a model is too stiff for its timestep.
+    pub(super) fn of(model: &Model) -> Advice {
+        let Some(worst) = stability::suspects(model).into_iter().next() else {
+            return Advice::shorter("softer contacts or springs, or a smaller range of the control");
+        };
+        Advice {
+            cause: Some(format!(
+                "{} is {} for a step of {} s",
+                owner(model, &worst),
+                how_stiff(&worst),
+                model.opt.timestep
+            )),
+            shorter: Shorter::Maybe(Some(0.9 * worst.timestep)),
+            instead: softer(&worst),
+        }
+    }
+
+    pub(super) fn breakdown(self, rule: &'static Rule, what: String, why: &'static str) -> Breakdown {
+        let Advice { cause, shorter, instead } = self;
+        Breakdown { rule, what, why, cause, shorter, instead }
     }
 }
 
@@ -174,16 +238,15 @@ pub fn how_stiff(s: &Suspect) -> String {
     }
 }
 
-/// What to write instead.
-pub fn remedy(model: &Model, s: &Suspect) -> String {
+/// What to make softer.
+pub fn softer(s: &Suspect) -> String {
     let attribute = match (s.part, s.object) {
         (Part::Servo, _) => "`kp` and `kv`",
         (Part::Spring, _) => "`stiffness` and `damping`",
         (Part::Limit, _) => "`solreflimit`",
         (Part::Constraint, _) => "`solref`",
     };
-    let shorter = two_digits(0.9 * s.timestep.min(model.opt.timestep));
-    format!("write a timestep of {shorter} s, or softer {attribute}, or `integrator=\"discrete\"`")
+    format!("softer {attribute}, or `integrator=\"discrete\"`")
 }
 
 pub(super) fn joint_of(model: &Model, index: usize, adr: &[i32], width: fn(i32) -> usize) -> String {

@@ -12,7 +12,7 @@ mod steady;
 mod table;
 mod told;
 
-pub use breakdown::{Breakdown, how_stiff, owner, remedy, time, two_digits};
+pub use breakdown::{Breakdown, Shorter, how_stiff, owner, softer, time, two_digits};
 pub use budget::{Budget, End};
 pub use held::Held;
 pub use play::{Play, play};
@@ -21,12 +21,12 @@ pub use session::{Numerics, Session, Trouble};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
 pub use table::{Cell, Table, printed, shown};
-pub use told::{broken, threw};
+pub use told::{broke, threw};
 
 use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
-use labspec_core::{Data, Model, Plan};
+use labspec_core::{Data, Demand, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -106,14 +106,31 @@ pub fn count_steps(
     Ok(count as usize)
 }
 
-/// Runs a lab and samples every trace and readout: at the start, then after every `every` steps and after the
-/// last.
+/// A run that is about to begin.
+pub(crate) struct Begun<'p> {
+    pub(crate) session: Session<'p>,
+    pub(crate) samples: Samples<'p>,
+    /// Steps, and those from one sample to the next.
+    pub(crate) steps: usize,
+    pub(crate) every: usize,
+    /// Buttons and the times in s of their presses, in order of time.
+    pub(crate) presses: Vec<(usize, f64)>,
+    timestep: f64,
+}
+
+/// Loads a lab and sets its controls, for programs and eyes that need all of `demand`.
 ///
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
-pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
+pub(crate) fn begin<'p>(
+    lab: &Lab,
+    model: &Model,
+    programs: &'p Programs,
+    options: &RunOptions,
+    demand: &Demand,
+) -> Result<Begun<'p>, RunError> {
     let key = lab.keyframe();
-    let plan = if options.full { Plan::full() } else { Plan::new(model, &programs.demand) };
+    let plan = if options.full { Plan::full() } else { Plan::new(model, demand) };
     let mut session = Session::start_with(programs, model, key, Data::planned(model, plan));
     set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
@@ -134,26 +151,48 @@ pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) 
             "{steps} steps of {width} numbers that the traces read are too many; sample less often with --every"
         )));
     }
+    let samples = Samples::new(programs, steps / every + 2);
+    Ok(Begun { session, samples, steps, every, presses, timestep })
+}
 
-    let mut samples = Samples::new(programs, steps / every + 2);
-    let played = Play { steps, every, presses: &presses, watched: true };
-    let made = play(&mut session, &played, |session, _| {
-        // Programs of another model end the session before its first step, which the table says.
-        let taken = samples.take(session);
-        if taken.is_err() || samples.text() > MAX_TEXT {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    });
+/// Takes a sample; nothing more is run when that is not possible.
+pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> ControlFlow<()> {
+    // Programs of another model end the session before its first step, which the table says.
+    let taken = samples.take(session);
+    if taken.is_err() || samples.text() > MAX_TEXT {
+        ControlFlow::Break(())
+    } else {
+        ControlFlow::Continue(())
+    }
+}
+
+/// What a run came to, after so many steps.
+///
+/// # Errors
+/// The texts that it shows are too long.
+pub(crate) fn finish(begun: Begun<'_>, made: usize) -> Result<Table, RunError> {
+    let Begun { session, samples, timestep, .. } = begun;
     if samples.text() > MAX_TEXT {
         return Err(RunError(format!(
             "the texts that the readouts show come to more than {} MB after {made} steps; show numbers or short texts, or sample less often with --every",
             MAX_TEXT >> 20
         )));
     }
-    let mut table = Table::new(timestep, programs.probes.iter().map(|p| p.name.clone()));
+    let mut table = Table::new(timestep, session.probes());
     table.rows = samples.rows();
     table.finish(&session);
     Ok(table)
+}
+
+/// Runs a lab and samples every trace and readout: at the start, then after every `every` steps and after the
+/// last.
+///
+/// # Errors
+/// A control that does not exist, a setting that no student can make, or a run that is too long.
+pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
+    let mut begun = begin(lab, model, programs, options, &programs.demand)?;
+    let Begun { session, samples, steps, every, presses, .. } = &mut begun;
+    let played = Play { steps: *steps, every: *every, presses, watched: true };
+    let made = play(session, &played, |session, _| take(samples, session));
+    finish(begun, made)
 }

@@ -39,7 +39,7 @@ pub fn play(
         return 0;
     }
     if play.watched {
-        session.watch(steps);
+        session.watch();
     }
     for made in 1..=steps {
         session.press_due(&mut pending);

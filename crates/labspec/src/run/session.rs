@@ -78,11 +78,6 @@ pub struct Session<'p> {
 /// What a sample of a trace counts besides its own work.
 const SAMPLE: u64 = 100;
 
-/// How many times a run is looked at for growth, at least, and for how many steps it is not, at most: in a run of seconds,
-/// less than a hundredth of its steps' work.
-const LOOKS: usize = 24;
-const BETWEEN: usize = 50;
-
 /// What a program may write in every step that moves nothing by itself.
 const PUSHES: [FieldId; 3] = [data::ctrl, data::qfrc_applied, data::xfrc_applied];
 
@@ -234,6 +229,12 @@ impl<'p> Session<'p> {
         }
     }
 
+    /// The names of its traces and readouts.
+    pub(crate) fn probes(&self) -> impl Iterator<Item = String> {
+        let names: Vec<String> = self.programs.probes.iter().map(|p| p.name.clone()).collect();
+        names.into_iter()
+    }
+
     /// The work that was done, in units of about a nanosecond.
     pub fn spent(&self) -> u64 {
         (core::cost(&self.world.data) - self.before) + self.context.work() + self.sampled
@@ -364,10 +365,10 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Watches the run of so many steps that begins here for what goes wrong without a word. Programs that push in every step
+    /// Watches the run that begins here for what goes wrong without a word. Programs that push in every step
     /// may give any energy, and one that moves things by itself may put them anywhere: such a run is watched for the rest,
     /// or not at all.
-    pub fn watch(&mut self, steps: usize) {
+    pub fn watch(&mut self) {
         if self.end.is_some() {
             return;
         }
@@ -378,8 +379,7 @@ impl<'p> Session<'p> {
         }
         let pushed =
             programs.iter().any(|bound| bound.program.effects().writes.iter().any(|a| pushes(a.field)));
-        let every = (steps / LOOKS).min(BETWEEN);
-        let watch = watch::watch(&self.world.model, &self.world.data, every, pushed);
+        let watch = watch::watch(&self.world.model, &self.world.data, pushed);
         self.watched = Some(Watched { watch, disturbed: false });
     }
 

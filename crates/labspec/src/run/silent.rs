@@ -1,13 +1,13 @@
 //! What goes wrong without a word, in a teacher's words: what happens, why it matters, and what to write instead.
 
-use super::breakdown::{Breakdown, cause, joint_of, time, two_digits};
+use super::breakdown::{Advice, Breakdown, joint_of, time, two_digits};
 use crate::advice::growth::{Growth, Source};
 use crate::advice::limits::Past;
 use crate::advice::sunk::Sunk;
 use crate::advice::through::Through;
 use crate::advice::unsolved::Unsolved;
 use crate::advice::watch::Noticed;
-use crate::rules::{self, Rule};
+use crate::rules;
 use labspec_core::{Model, joint, solver};
 
 const GROWS: &str = "the steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo";
@@ -36,15 +36,12 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
         joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
     );
     match g.source {
-        Source::Steps => told(rules::ENERGY_GROWS, numbers, GROWS, cause(model)),
+        Source::Steps => Advice::of(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
         Source::LongSteps(turn) => {
             let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));
-            let shorter = two_digits(0.05 * model.opt.timestep / turn.max(1.0));
-            let help = format!(
-                "write a timestep of {shorter} s: a step follows a turn when that is a small part of a radian, and here it is {} s long",
-                model.opt.timestep
-            );
-            told(rules::ENERGY_GROWS, what, GROWS, help)
+            let cause = format!("a step of {} s does not follow a turn that fast", model.opt.timestep);
+            let advice = Advice { cause: Some(cause), ..Advice::shorter("a slower start") };
+            advice.breakdown(rules::ENERGY_GROWS, what, GROWS)
         }
         Source::Damper(dof) => {
             let of = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
@@ -57,47 +54,44 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
                 two_digits(g.held)
             );
             let why = "a damper below zero pushes what moves, the harder the faster: a student sees a swing that grows for ever, and no motor";
-            told(
+            Advice::only("write a `damping` of 0 or more; to drive the joint, write an actuator").breakdown(
                 rules::DAMPER_PUSHES,
                 what,
                 why,
-                "write a `damping` of 0 or more; to drive the joint, write an actuator".into(),
             )
         }
     }
-}
-
-fn told(rule: &'static Rule, what: String, why: &'static str, help: String) -> Breakdown {
-    Breakdown { rule, what, why, help }
 }
 
 fn past(model: &Model, p: Past) -> Breakdown {
     let of = name(model.names.joint.get(p.joint), "joint", p.joint);
     let unit = if model.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
     let [beyond, range] = [p.beyond, p.range].map(two_digits);
-    let (what, help) = match p.step {
+    let (what, advice) = match p.step {
         Some(step) => (
             format!(
                 "{of} is {beyond} {unit} beyond its limit at t = {} s: one step moves it by {} {unit}, and its range is {range} {unit}",
                 time(p.time),
                 two_digits(step)
             ),
-            format!(
-                "write a timestep of {} s, or let the joint arrive more slowly: a limit pushes only once a step ends beyond it",
-                two_digits(0.1 * model.opt.timestep * p.range / step)
-            ),
+            Advice {
+                cause: Some("a limit pushes only once a step ends beyond it".into()),
+                ..Advice::shorter("a slower arrival at the limit")
+            },
         ),
         None => (
             format!(
-                "{of} stays {beyond} {unit} beyond its limit from t = {} s on, where its range is {range} {unit}",
+                "{of} is pressed {beyond} {unit} beyond its limit from t = {} s on, where its range is {range} {unit}",
                 time(p.time)
             ),
-            "write a stiffer limit (a smaller first number of `solreflimit`), a weaker motor or load, or a range that the joint can keep".into(),
+            Advice::only(
+                "write a stiffer limit (a smaller first number of `solreflimit`), a weaker motor or load, or a range that the joint can keep",
+            ),
         ),
     };
     let why =
         "a limit does not hold it: a student sees a joint where it cannot be, without a word from MuJoCo";
-    told(rules::PAST_LIMIT, what, why, help)
+    advice.breakdown(rules::PAST_LIMIT, what, why)
 }
 
 fn through(model: &Model, t: Through) -> Breakdown {
@@ -108,12 +102,12 @@ fn through(model: &Model, t: Through) -> Breakdown {
         two_digits(t.moved),
         two_digits(t.thickness)
     );
-    let help = format!(
-        "write a timestep of {} s, or something thicker, or a lower speed: contacts are found only where bodies overlap at a step",
-        two_digits((0.2 * model.opt.timestep * t.thickness / t.moved).min(0.5 * model.opt.timestep))
-    );
+    let advice = Advice {
+        cause: Some("contacts are found only where bodies overlap at a step".into()),
+        ..Advice::shorter("something thicker, or a lower speed")
+    };
     let why = "no step meets the two in contact from the right side: a student sees a wall that holds nothing, without a word from MuJoCo";
-    told(rules::PASSES_THROUGH, what, why, help)
+    advice.breakdown(rules::PASSES_THROUGH, what, why)
 }
 
 fn sunk(model: &Model, s: Sunk) -> Breakdown {
@@ -136,7 +130,7 @@ fn sunk(model: &Model, s: Sunk) -> Breakdown {
         "write a stiffer contact (a smaller first number of `solref`, with a shorter timestep), a heavier body below or a lighter one above, or a weaker pull".into()
     };
     let why = "the contact is softer than the load needs: a student sees things sunk in each other that should rest on each other";
-    told(rules::SINKS_IN, what, why, help)
+    Advice::only(help).breakdown(rules::SINKS_IN, what, why)
 }
 
 fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
@@ -149,12 +143,12 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
         joint_of(model, u.dof, &model.jnt_dofadr, joint::nv)
     );
     let help = if model.opt.solver == solver::NEWTON {
-        "write `iterations=\"100\"`, as it is without a word in `option`, or milder ratios of masses".into()
+        "write `iterations=\"100\"`, as it is without a word in `option`, or milder ratios of masses"
     } else {
-        "write `solver=\"Newton\"` and `iterations=\"100\"`, as they are without a word in `option`".into()
+        "write `solver=\"Newton\"` and `iterations=\"100\"`, as they are without a word in `option`"
     };
     let why = "forces that should hold things are missing, step after step: a student sees stacks collapse, without a word from MuJoCo";
-    told(rules::SOLVER_STOPS_EARLY, what, why, help)
+    Advice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
 }
 
 /// A geom by its name, or by its body's.

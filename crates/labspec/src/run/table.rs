@@ -95,8 +95,8 @@ pub struct Table {
     pub rows: Vec<Vec<Cell>>,
     /// Warnings of the engine since the last reset: name and number.
     pub warnings: Vec<(&'static str, usize)>,
-    /// What they mean for the lesson, or energy that the run gained from nothing.
-    pub breakdown: Option<Breakdown>,
+    /// What they mean for the lesson, and what went wrong without one, the worst first.
+    pub breakdowns: Vec<Breakdown>,
     /// What threw.
     pub errors: Vec<String>,
 }
@@ -113,7 +113,7 @@ impl Table {
             columns,
             rows: Vec::new(),
             warnings: Vec::new(),
-            breakdown: None,
+            breakdowns: Vec::new(),
             errors: Vec::new(),
         }
     }
@@ -122,7 +122,7 @@ impl Table {
         let raised =
             Warning::ALL.iter().zip(&session.world.data.fields().warning).filter(|(_, s)| s.number > 0);
         self.warnings = raised.map(|(w, s)| (w.name(), s.number)).collect();
-        self.breakdown = Breakdown::of(session);
+        self.breakdowns = Breakdown::all(session);
         self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
         match session.ended() {
             Some(End::Budget { time }) => self.errors.push(format!(

@@ -1,6 +1,6 @@
 //! What went wrong in a run, as findings.
 
-use super::{Breakdown, Session, Trouble};
+use super::{Breakdown, Trouble};
 use crate::finding::Finding;
 use std::ops::Range;
 
@@ -16,14 +16,12 @@ pub fn threw(t: &Trouble, done: &str) -> Finding {
 }
 
 /// What broke, at `place`: what the engine warned of, or what went wrong without a word, with time, joint or geoms and likely cause.
-pub fn broken(session: &Session<'_>, done: &str, place: Range<usize>) -> Vec<Finding> {
-    let told = |b: Breakdown| {
-        let what = match b.rule.code {
-            "engine-warning" => format!("the engine warns {done}: {}", b.what),
-            "simulation-diverges" | "energy-grows" => format!("the simulation breaks {done}: {}", b.what),
-            _ => format!("the simulation goes wrong {done}: {}", b.what),
-        };
-        Finding::warning(b.rule, place.clone(), what).why(b.why).help(b.help)
+/// `done` says what was done to the lab.
+pub fn broke(b: &Breakdown, done: &str, place: Range<usize>) -> Finding {
+    let what = match b.rule.code {
+        "engine-warning" => format!("the engine warns {done}: {}", b.what),
+        "simulation-diverges" | "energy-grows" => format!("the simulation breaks {done}: {}", b.what),
+        _ => format!("the simulation goes wrong {done}: {}", b.what),
     };
-    Breakdown::all(session).into_iter().map(told).collect()
+    Finding::warning(b.rule, place, what).why(b.why).help(b.help())
 }

@@ -1,9 +1,11 @@
 //! One run of a lab under the hands of a student, and what goes wrong in it.
 
+use super::bodies::geom_name;
 use super::fault::{Evidence, Fault, FaultKind};
 use super::handling::{Action, Handling, Kind, TOUCH};
 use super::watch::Watch;
 use crate::advice::stability;
+use crate::advice::watch::Noticed;
 use crate::bind::{Bound, Programs};
 use crate::run::{self, Budget, End, Play, Session};
 use crate::spec::Lab;
@@ -54,23 +56,35 @@ pub(crate) struct Eyes<'h> {
 }
 
 impl Eyes<'_> {
-    /// At the start, and after every step: what is due is done, and everything is looked at.
-    pub(crate) fn look(&mut self, session: &mut Session<'_>, made: usize) {
+    /// Does what is due; whether something was.
+    fn act(&mut self, session: &mut Session<'_>) -> bool {
         let now = session.world.data.time();
-        let mut disturbed = made == 0;
+        let mut acted = false;
         while let Some(action) = self.pending.front().filter(|a| now >= a.time - 1e-12).copied() {
             match &action.value {
                 Some(value) => session.set_control(action.control, value.clone()),
                 None => session.press(action.control),
             }
-            disturbed = true;
+            acted = true;
             self.pending.pop_front();
         }
+        acted
+    }
+
+    /// Presses what is to be pressed before the first sample is taken.
+    pub(super) fn press_at_start(&mut self, session: &mut Session<'_>) {
+        self.act(session);
+    }
+
+    /// At the start, and after every step: what is due is done, unless the run is over, and everything is looked at.
+    pub(crate) fn look(&mut self, session: &mut Session<'_>, made: usize, over: bool) {
+        let acted = !over && self.act(session);
+        let disturbed = made == 0 || acted;
         if self.shows {
             session.sample();
         }
         if disturbed {
-            self.watch.disturb(session.world.data.fields());
+            self.watch.disturb(&session.world.model, session.world.data.fields());
         } else {
             self.watch.look(&session.world.model, session.world.data.fields());
         }
@@ -78,14 +92,19 @@ impl Eyes<'_> {
 
     /// What went wrong, when the run is over.
     pub(crate) fn faults(self, session: &Session<'_>) -> Vec<Fault> {
-        let mut faults = told(session);
-        // What blew up is told; all else that was seen follows from it.
+        let mut faults = reported(session);
+        // What blew up is reported; all else that was seen follows from it.
         let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
         let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
-        let seen = self.watch.faults(&session.world.model);
-        let own =
-            seen.into_iter().filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()));
-        faults.extend(own.filter(|f| f.kind != FaultKind::Drifts || !self.controlled));
+        let noticed = noticed(&session.world.model, &session.noticed()).filter(|f| f.time < when);
+        faults.extend(noticed);
+        let seen = self.watch.faults(&session.world.model).into_iter();
+        let own = seen
+            .filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()))
+            .filter(|f| f.kind != FaultKind::Drifts || !self.controlled)
+            .filter(|f| !faults.iter().any(|known| known.covers(f)));
+        let own: Vec<Fault> = own.collect();
+        faults.extend(own);
         faults
     }
 }
@@ -160,6 +179,11 @@ impl<'a> Case<'a> {
         }
     }
 
+    /// The same on a run whose samples evaluate what is shown, and that begins with what `handling` presses.
+    pub(super) fn eyes_of_table<'h>(&self, handling: &'h Handling, session: &Session<'_>) -> Eyes<'h> {
+        Eyes { pending: handling.actions.iter().collect(), shows: false, ..self.eyes(handling, session) }
+    }
+
     /// Makes a run of so many seconds.
     pub(crate) fn run(
         &self,
@@ -178,7 +202,7 @@ impl<'a> Case<'a> {
         let mut eyes = self.eyes(handling, &session);
         let played = Play { steps, every: 1, presses: &[], watched: true };
         let made = run::play(&mut session, &played, |session, made| {
-            eyes.look(session, made);
+            eyes.look(session, made, made == steps);
             let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
             if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -204,7 +228,7 @@ fn warned(session: &Session<'_>, warning: Warning) -> Option<WarningStat> {
 }
 
 /// What the engine warned of, energy from nothing, and programs that threw.
-fn told(session: &Session<'_>) -> Vec<Fault> {
+fn reported(session: &Session<'_>) -> Vec<Fault> {
     let m = &session.world.model;
     let mut list = Vec::new();
     let growth = session.growth();
@@ -226,6 +250,7 @@ fn told(session: &Session<'_>) -> Vec<Fault> {
             cause: likely(m).unwrap_or_else(|| unknown(m)),
             evidence,
             size: g.gain,
+            by_run: true,
         });
     } else if let Some((warning, stat)) = first {
         let who = match warning {
@@ -241,6 +266,7 @@ fn told(session: &Session<'_>) -> Vec<Fault> {
             cause,
             evidence,
             size: 1.0,
+            by_run: true,
         });
     }
     for warning in [Warning::Inertia, Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull] {
@@ -257,6 +283,7 @@ fn told(session: &Session<'_>) -> Vec<Fault> {
             cause: cause.into(),
             evidence: vec![Evidence { name: "warnings", value: stat.number as f64, unit: "" }],
             size: 1.0,
+            by_run: true,
         });
     }
     list.extend(session.troubles.iter().map(|t| Fault {
@@ -266,8 +293,64 @@ fn told(session: &Session<'_>) -> Vec<Fault> {
         cause: t.message.clone(),
         evidence: Vec::new(),
         size: 1.0,
+        by_run: true,
     }));
     list
+}
+
+/// The first thing that a run noticed besides energy: the others may follow from it.
+fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
+    let fault = |kind, time, who: String, cause: &str, size, evidence| Fault {
+        kind,
+        time,
+        who,
+        cause: cause.into(),
+        evidence,
+        size,
+        by_run: true,
+    };
+    let number = |name, value, unit| Evidence { name, value, unit };
+    let both = |geoms: [usize; 2]| geoms.map(|g| geom_name(m, g));
+    let past = noticed.past.map(|p| {
+        let unit = if m.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
+        let cause = match p.step {
+            Some(_) => "one step takes it past its limit before the limit can push",
+            None => "what moves or presses it is stronger than its limit",
+        };
+        let mut evidence = vec![number("beyond", p.beyond, unit), number("range", p.range, unit)];
+        evidence.extend(p.step.map(|step| number("way in one step", step, unit)));
+        let who = joint_of_dof(m, m.jnt_dofadr.get(p.joint).map_or(0, |&dof| dof as usize));
+        fault(FaultKind::PastLimit, p.time, who, cause, p.beyond / p.range, evidence)
+    });
+    let through = noticed.through.map(|t| {
+        let [mover, wall] = both(t.geoms);
+        let evidence = vec![
+            number("way in one step", t.moved, "m"),
+            number("thickness of what it passes", t.thickness, "m"),
+        ];
+        let cause = "no step meets the two in contact from the right side";
+        let size = t.moved / t.thickness;
+        fault(FaultKind::Tunnels, t.time, format!("{mover} through {wall}"), cause, size, evidence)
+    });
+    let unsolved = noticed.unsolved.map(|u| {
+        let evidence = vec![
+            number("iterations", u.iterations as f64, ""),
+            number("missing part of the forces", u.part, ""),
+        ];
+        let cause = "the solver makes as many iterations as it may, and its forces do not hold yet";
+        fault(FaultKind::Unsolved, u.time, joint_of_dof(m, u.dof), cause, u.part, evidence)
+    });
+    let sunk = noticed.sunk.map(|s| {
+        let [a, b] = both(s.geoms);
+        let evidence = vec![
+            number("depth", s.depth, "m"),
+            number("thickness of the thinner one", s.thickness, "m"),
+            number("force", s.force, "N"),
+        ];
+        let cause = "the contact is softer than the load needs";
+        fault(FaultKind::Sinks, s.time, format!("{a} and {b}"), cause, s.depth / s.thickness, evidence)
+    });
+    [past, through, unsolved, sunk].into_iter().flatten().min_by(|a, b| a.time.total_cmp(&b.time))
 }
 
 /// What of the model is too stiff for its timestep, in words.

@@ -2,6 +2,7 @@
 
 use super::handling::Handling;
 use super::remedy::Remedy;
+use crate::rules::{self, Rule};
 use crate::run::two_digits;
 
 /// What goes wrong.
@@ -15,9 +16,15 @@ pub enum FaultKind {
     Grows,
     /// Everything leaves every sensible bound, and nobody warned.
     Silent,
+    /// A joint is past its limit.
+    PastLimit,
     /// A body passed through another one.
     Tunnels,
-    /// Bodies are deep in each other.
+    /// A body stays in another one.
+    Sinks,
+    /// The solver stops before it has found the forces.
+    Unsolved,
+    /// Bodies are deep in each other for a while.
     Penetrates,
     /// A contact switches on and off while nothing moves.
     Chatters,
@@ -35,11 +42,32 @@ impl FaultKind {
             FaultKind::Warns => "engine warns",
             FaultKind::Grows => "energy grows",
             FaultKind::Silent => "silent divergence",
+            FaultKind::PastLimit => "past a limit",
             FaultKind::Tunnels => "tunnelling",
+            FaultKind::Sinks => "sinks in",
+            FaultKind::Unsolved => "solver stops early",
             FaultKind::Penetrates => "penetration",
             FaultKind::Chatters => "chatter",
             FaultKind::Drifts => "drift",
             FaultKind::Throws => "throws",
+        }
+    }
+
+    /// The rule of the findings that report it; `None` where several may.
+    pub(super) fn rule(self) -> Option<&'static Rule> {
+        match self {
+            FaultKind::Diverges => Some(rules::SIMULATION_DIVERGES),
+            FaultKind::Warns => Some(rules::ENGINE_WARNING),
+            FaultKind::Grows => Some(rules::ENERGY_GROWS),
+            FaultKind::Silent => Some(rules::RUNS_AWAY),
+            FaultKind::PastLimit => Some(rules::PAST_LIMIT),
+            FaultKind::Tunnels => Some(rules::PASSES_THROUGH),
+            FaultKind::Sinks => Some(rules::SINKS_IN),
+            FaultKind::Unsolved => Some(rules::SOLVER_STOPS_EARLY),
+            FaultKind::Penetrates => Some(rules::PRESSED_DEEP),
+            FaultKind::Chatters => Some(rules::CHATTERS),
+            FaultKind::Drifts => Some(rules::CREEPS),
+            FaultKind::Throws => None,
         }
     }
 }
@@ -70,12 +98,29 @@ pub struct Fault {
     pub evidence: Vec<Evidence>,
     /// How bad it is, to compare it with others of its kind.
     pub(super) size: f64,
+    /// The run itself reports it.
+    pub(super) by_run: bool,
 }
 
 impl Fault {
     /// One of the numbers, by its name.
     pub fn value(&self, name: &str) -> Option<f64> {
         self.evidence.iter().find(|e| e.name == name).map(|e| e.value)
+    }
+
+    /// Whether another fault says the same of the same bodies, or less.
+    pub(super) fn covers(&self, other: &Fault) -> bool {
+        let [own, others] = [self, other].map(|f| {
+            let mut both: Vec<&str> = f.who.split(" through ").flat_map(|part| part.split(" and ")).collect();
+            both.sort_unstable();
+            both
+        });
+        let same = own == others;
+        match (self.kind, other.kind) {
+            (FaultKind::Tunnels, FaultKind::Tunnels | FaultKind::Penetrates) => same,
+            (FaultKind::Sinks, FaultKind::Penetrates) => same,
+            _ => false,
+        }
     }
 
     /// The numbers in a line: `depth 0.02 m, share 1.3`.

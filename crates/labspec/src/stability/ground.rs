@@ -23,9 +23,11 @@ pub(super) fn over(m: &Model, most: usize) -> Vec<Over> {
 }
 
 impl Over {
-    /// Something from outside moved bodies.
-    pub(super) fn disturb(&mut self) {
-        self.above = None;
+    /// Something from outside moved bodies to where they are now.
+    pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
+        let [g, p] = self.geoms;
+        let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p);
+        self.above = place.filter(|place| surface(m, p, *place).is_some_and(|z| z <= place[2]));
     }
 
     /// After a step: what fell through.
@@ -89,6 +91,7 @@ fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Faul
             Evidence { name: "own thickness", value: own, unit: "m" },
         ],
         size: depth / own,
+        by_run: false,
     }
 }
 

@@ -13,6 +13,7 @@ mod remedy;
 mod rest;
 mod search;
 mod sensitivity;
+mod told;
 mod truth;
 mod watch;
 mod wild;
@@ -26,6 +27,8 @@ pub use map::{Cell, Map};
 pub use margins::{Knob, Margin};
 pub use remedy::Remedy;
 pub use sensitivity::{Exponent, Horizon, Sensitivity};
+pub use told::watched_run;
+pub(crate) use told::{describe, with_tried_timestep};
 
 use crate::bind::Programs;
 use crate::interrupt;
@@ -33,6 +36,7 @@ use crate::run::{self, RunError, Session};
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Expect, Lab};
 use labspec_core::Model;
+use labspec_core::math::rows_mut;
 use labspec_expr::Value;
 use remedy::Tries;
 
@@ -261,9 +265,18 @@ pub(crate) fn genuine(
 
 /// Friction a hundred times as hard.
 fn firmer(session: &mut Session<'_>) {
-    let opt = session.world.model.edit().opt;
-    *opt.impratio *= 100.0;
-    *opt.cone = 1;
+    let model = session.world.model.edit();
+    *model.opt.impratio *= 100.0;
+    *model.opt.cone = 1;
+    for solimp in rows_mut::<5>(model.dof_solimp) {
+        harden(solimp);
+    }
+}
+
+/// An impedance that gives way a hundred times less.
+fn harden(solimp: &mut [f64; 5]) {
+    let most = solimp[1];
+    solimp[..2].fill(1.0 - 0.01 * (1.0 - most));
 }
 
 /// How long a student looks at a lab: until it stops, or as far as its plots show, s.

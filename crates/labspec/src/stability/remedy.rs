@@ -223,6 +223,15 @@ fn candidates(model: &Model, kind: FaultKind) -> Vec<Candidate> {
                 "`noslip_iterations=\"10\"`".into(),
                 Box::new(|m| *m.edit().opt.noslip_iterations = 10),
             ));
+            if model.dof_frictionloss.iter().any(|&loss| loss > 0.0) {
+                let hard = |m: &mut Model| {
+                    rows_mut::<5>(m.edit().dof_solimp).iter_mut().for_each(|s| s[..2].fill(0.9999));
+                };
+                list.push((
+                    "a harder friction of joints, `solimpfriction=\"0.9999 0.9999\"`".into(),
+                    Box::new(hard),
+                ));
+            }
             list.push((
                 "`cone=\"elliptic\"` and `impratio=\"100\"`".into(),
                 Box::new(|m| (*m.edit().opt.cone, *m.edit().opt.impratio) = (1, 100.0)),

@@ -13,10 +13,9 @@ use labspec_core::{Fields, Model, geom};
 pub(super) const MOST_PAIRS: usize = 2000;
 /// Pairs that touch, of which more is remembered, at most.
 const MOST_TOUCHING: usize = 500;
-/// The part of the smaller body's size that is deep: at one moment, and for as long as [`LASTS`].
-const DEEP: f64 = 0.75;
-const DEEP_FOR_LONG: f64 = 0.3;
-/// How long, s.
+/// The part of the smaller body's size that is deep, and for how long it has to be as deep, s: contacts give way for a moment wherever
+/// things meet fast.
+const DEEP: f64 = 0.3;
 const LASTS: f64 = 0.2;
 /// Steps of a block in which switching is counted, how many of them have to switch, and in how many blocks one after the other.
 const BLOCK: usize = 100;
@@ -84,22 +83,25 @@ impl Watch {
         }
     }
 
-    /// Something from outside moved bodies: what was before says nothing of them.
-    pub(super) fn disturb(&mut self, d: &Fields) {
-        self.pairs.iter_mut().for_each(|p| p.before = None);
-        self.grounds.iter_mut().for_each(Over::disturb);
+    /// Something from outside moved bodies to where they are now: what was before says nothing of them.
+    pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
+        for pair in &mut self.pairs {
+            let [g, p] = pair.geoms;
+            pair.before = seen_from(&d.geom_xpos, &d.geom_xmat, g, p).filter(|_| !self.jumps);
+        }
+        self.grounds.iter_mut().for_each(|over| over.disturb(m, d));
         for t in &mut self.touching {
             (t.switches, t.blocks, t.from, t.deep_since) = (0, 0, None, None);
         }
         self.steps = 0;
-        self.wild.restart(d.time);
+        self.wild.restart(m, d.time);
         self.rest.restart();
     }
 
     /// After a step, or at the start.
     pub(super) fn look(&mut self, m: &Model, d: &Fields) {
         if d.time < self.last || self.jumps {
-            self.disturb(d);
+            self.disturb(m, d);
         }
         self.last = d.time;
         self.pass(m, d);
@@ -221,7 +223,7 @@ impl Touch {
         if share > self.deepest {
             (self.deepest, self.depth, self.at) = (share, depth, time);
         }
-        if share > DEEP_FOR_LONG {
+        if share > DEEP {
             let since = *self.deep_since.get_or_insert(time);
             self.lasted = self.lasted.max(time - since);
         } else {
@@ -230,7 +232,7 @@ impl Touch {
     }
 
     fn is_deep(&self) -> bool {
-        self.deepest > DEEP || self.deepest > DEEP_FOR_LONG && self.lasted >= LASTS
+        self.deepest > DEEP && self.lasted >= LASTS
     }
 }
 
@@ -294,6 +296,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
             Evidence { name: "own thickness", value: own, unit: "m" },
         ],
         size: way / thick,
+        by_run: false,
     }
 }
 
@@ -306,11 +309,6 @@ fn penetration(m: &Model, t: &Touch) -> Fault {
     let ratio = (mass(g) / mass(p)).max(mass(p) / mass(g));
     let cause = if t.at <= m.opt.timestep {
         "they overlap at the start".to_string()
-    } else if t.lasted < LASTS {
-        format!(
-            "they meet fast, and the contact gives way: its time constant is {} s",
-            crate::run::two_digits(time)
-        )
     } else if ratio.is_finite() && ratio > 100.0 {
         format!("one is {} times as heavy as the other", crate::run::two_digits(ratio))
     } else {
@@ -328,6 +326,7 @@ fn penetration(m: &Model, t: &Touch) -> Fault {
             Evidence { name: "lasts", value: t.lasted, unit: "s" },
         ],
         size: t.deepest,
+        by_run: false,
     }
 }
 
@@ -346,5 +345,6 @@ fn chatter(m: &Model, d: &Fields, t: &Touch) -> Fault {
             Evidence { name: "moves meanwhile", value: t.moved, unit: "m" },
         ],
         size: t.switches as f64,
+        by_run: false,
     }
 }

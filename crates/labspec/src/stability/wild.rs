@@ -1,8 +1,10 @@
 //! Motion that leaves every bound without a warning.
 //!
 //! Where forces are bounded, speed grows no faster than in proportion to time: in twice the time it doubles. What is unstable grows
-//! exponentially. Speed counts as wild when it is a hundred times all that gravity and the start can give in a scene of this size, and
-//! when it became ten times larger in the second half of the time since the last change from outside.
+//! exponentially. Speed counts as wild when it is a hundred times all that gravity and the start can give in a scene of this size, when
+//! it became ten times larger in the second half of the time since the last change from outside, and when it never stops growing:
+//! from where it was sensible to the end of the run, every eighth of the time is faster than all before. What is bounded, as a
+//! limit cycle however fast, does not run away.
 
 use super::fault::{Evidence, Fault, FaultKind};
 use super::memory::Memory;
@@ -11,6 +13,9 @@ use labspec_core::{Fields, Model, joint};
 
 const FAR: f64 = 100.0;
 const FASTER: f64 = 10.0;
+/// Parts of the time, and how much faster each is at least.
+const PARTS: usize = 8;
+const MORE: f64 = 1.02;
 /// Looks between two entries of the memory.
 const EVERY: usize = 8;
 /// Entries that are kept before every second one is forgotten.
@@ -25,18 +30,35 @@ pub(super) struct Wild {
     largest: [f64; 2],
     /// The largest speeds at the start.
     first: Option<[f64; 2]>,
+    /// Since when something is wild, the degree of freedom, its largest speed, and the bound.
     found: Option<(f64, usize, f64, f64)>,
+    /// The same of what has run away before a change from outside.
+    sure: Option<(f64, usize, f64, f64)>,
 }
 
 impl Default for Wild {
     fn default() -> Wild {
-        Wild { start: 0.0, memory: Memory::new(EVERY, MOST), largest: [0.0; 2], first: None, found: None }
+        let memory = Memory::new(EVERY, MOST);
+        Wild { start: 0.0, memory, largest: [0.0; 2], first: None, found: None, sure: None }
     }
 }
 
 impl Wild {
-    pub(super) fn restart(&mut self, time: f64) {
-        *self = Wild { start: time, found: self.found, ..Wild::default() };
+    pub(super) fn restart(&mut self, m: &Model, time: f64) {
+        *self = Wild { start: time, sure: self.ran_away(m), ..Wild::default() };
+    }
+
+    /// What never stopped growing.
+    fn ran_away(&self, m: &Model) -> Option<(f64, usize, f64, f64)> {
+        let grows = |(_, dof, _, bound): &(f64, usize, f64, f64)| {
+            let kind = usize::from(!slides(m, *dof));
+            let past = self.memory.past().iter().map(|(_, largest)| largest[kind]);
+            let speeds: Vec<f64> = past.chain([self.largest[kind]]).filter(|v| FAR * v > *bound).collect();
+            let last = speeds.len().saturating_sub(1);
+            let at = |part: usize| speeds.get(part * last / PARTS).copied().unwrap_or(f64::INFINITY);
+            last < PARTS || (0..PARTS).all(|part| at(part + 1) > MORE * at(part))
+        };
+        self.sure.or(self.found.filter(grows))
     }
 
     pub(super) fn look(&mut self, m: &Model, d: &Fields) {
@@ -52,7 +74,8 @@ impl Wild {
             self.largest[k] = self.largest[k].max(now[k].0);
         }
         self.memory.look(|| (d.time, self.largest));
-        if self.found.is_some() {
+        if let Some((_, dof, speed, _)) = &mut self.found {
+            *speed = speed.max(d.qvel.get(*dof).map_or(0.0, |v| v.abs()));
             return;
         }
         for k in 0..2 {
@@ -72,7 +95,7 @@ impl Wild {
     }
 
     pub(super) fn fault(&self, m: &Model) -> Option<Fault> {
-        let (time, dof, speed, bound) = self.found?;
+        let (time, dof, speed, bound) = self.ran_away(m)?;
         let unit = if slides(m, dof) { "m/s" } else { "rad/s" };
         Some(Fault {
             kind: FaultKind::Silent,
@@ -85,6 +108,7 @@ impl Wild {
                 Evidence { name: "sensible bound", value: bound, unit },
             ],
             size: speed / bound,
+            by_run: false,
         })
     }
 }

@@ -5,13 +5,17 @@ use super::Trial;
 use super::seen::Seen;
 use crate::check::sight::{Beyond, Mark, Record};
 use crate::finding::Finding;
-use crate::run::{self, Budget, End, Play, settings};
-use crate::stability::{Case, Fault};
+use crate::run::{self, Breakdown, Budget, End, Play, settings};
+use crate::spec::Expect;
+use crate::stability::{self, Case, Fault};
 use labspec_core::Model;
 use std::ops::ControlFlow;
 
 /// How often what a lab shows is looked at, at least, besides its start.
 const SAMPLES: usize = 200;
+
+/// Work for trying what helps against what broke in a run.
+const TRIES: u64 = 1_000_000_000;
 
 /// Why a run ended before its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +80,7 @@ pub(super) fn make(
             }
             rows.push(row);
         }
-        eyes.look(session, step);
+        eyes.look(session, step, step == steps);
         ControlFlow::Continue(())
     });
     let ended = match session.ended() {
@@ -91,10 +95,18 @@ pub(super) fn make(
             findings.push(run::threw(t, &trial.done));
         }
     }
-    findings.extend(run::broken(&session, &trial.done, place));
+    let breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
+    let mut tries = TRIES;
+    for breakdown in Breakdown::all(&session) {
+        let tried = match breaks {
+            true => breakdown,
+            false => stability::with_tried_timestep(case, &trial.handling, wanted, breakdown, &mut tries),
+        };
+        findings.push(run::broke(&tried, &trial.done, place.clone()));
+    }
     let broke = findings.len() > before;
     findings.extend(seen.take());
-    let (spent, faults) = (session.spent(), eyes.faults(&session));
+    let (spent, faults) = (session.spent() + TRIES - tries, eyes.faults(&session));
     mark.close(&session.world.model);
     let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
     Ok(Attempt { covered, spent, broke, ended, model: session.world.model, record, faults })

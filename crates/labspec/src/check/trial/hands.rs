@@ -4,7 +4,7 @@
 
 use super::{Tour, Trial, attempt};
 use crate::finding::{Finding, Severity};
-use crate::rules::{self, Rule};
+use crate::rules;
 use crate::run::{self, Budget, Session};
 use crate::spec::Lab;
 use crate::stability::{self, Fault, FaultKind, Found, Handling, Kind};
@@ -12,8 +12,6 @@ use labspec_core::reflect::option;
 
 /// How many times longer than anybody looks the last run is.
 const LONGER: f64 = 10.0;
-/// How long bodies have to be deep in each other to be told of, s.
-const LASTS: f64 = 0.2;
 /// Work for a run at twice the timestep.
 const TWICE: Budget = Budget { left: 300_000_000 };
 
@@ -22,12 +20,16 @@ pub(super) fn nothing() -> Handling {
     Handling { kind: Kind::AsItStands, actions: Vec::new() }
 }
 
-/// Makes these runs, while something is left.
+/// Makes these runs, while something is left, and reports what was seen in all of them.
 pub(super) fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     let sound = tour.tried.as_ref().is_some_and(|t| t.runs > 0 && t.ended.is_none());
-    if tour.hopeless || !sound {
-        return;
+    if !tour.hopeless && sound {
+        try_more(tour, left, findings);
     }
+    findings.extend(tour.faults.iter().filter_map(|found| told(found, tour)));
+}
+
+fn try_more(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
     let (handlings, missing) = handlings(tour.ready.lab, tour.wanted);
     tour.skip(missing);
     for (handling, length) in handlings {
@@ -56,9 +58,7 @@ pub(super) fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Find
             tried.runs += 1;
             tried.broke |= attempt.broke;
         }
-        if !attempt.broke {
-            tour.note(&trial, attempt.faults, left);
-        }
+        tour.note(&trial, attempt.faults, left);
     }
     if tour.tried.as_ref().is_some_and(|t| t.broke) {
         // A run shows it now.
@@ -66,7 +66,6 @@ pub(super) fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Find
     } else if tour.tried.as_ref().is_some_and(|t| t.skipped == 0) {
         findings.extend(near_its_limit(tour));
     }
-    findings.extend(tour.faults.iter().filter_map(|found| told(found, tour)));
 }
 
 /// What is done, and for how long; and how many pairs of settings meet in no run, as there are too many.
@@ -118,53 +117,21 @@ fn runs(tour: &Tour<'_>) -> String {
 
 /// What was seen beside that of which runs speak themselves.
 fn told(found: &Found, tour: &Tour<'_>) -> Option<Finding> {
-    let (rule, what, why): (&'static Rule, &str, &str) = match found.fault.kind {
-        FaultKind::Silent => (
-            rules::RUNS_AWAY,
-            "runs away",
-            "no number is above what the engine takes, so nobody warns: a student sees something vanish from the picture",
-        ),
-        FaultKind::Tunnels => (
-            rules::PASSES_THROUGH,
-            "pass",
-            "no step sees them touch in time: a student sees one go through the other",
-        ),
-        // Contacts give way for a moment wherever things meet fast.
-        FaultKind::Penetrates if found.fault.value("lasts").is_none_or(|t| t < LASTS) => return None,
-        FaultKind::Penetrates => (
-            rules::PRESSED_DEEP,
-            "are pressed deep into each other",
-            "a student who finds this setting sees bodies inside each other; the text may speak of it, or it may be an accident",
-        ),
-        FaultKind::Chatters => (
-            rules::CHATTERS,
-            "touch and part again and again, while nothing moves",
-            "forces that jump from step to step are those of the timestep: a plot of them is noise",
-        ),
-        FaultKind::Drifts => (
-            rules::CREEPS,
-            "creeps, though it seems to rest",
-            "a student who waits sees it slide, where the text may say that friction holds it",
-        ),
-        FaultKind::Diverges | FaultKind::Warns | FaultKind::Grows | FaultKind::Throws => return None,
-    };
     let Found { fault, handling, settings, .. } = found;
+    let breakdown = stability::describe(fault)?;
     let others = match settings {
         0 | 1 => String::new(),
         2 => ", and in another setting".into(),
         n => format!(", and in {} other settings", n - 1),
     };
-    let message = format!(
-        "{} {what} at t = {} s, {} ({}){others}",
-        fault.who,
-        run::time(fault.time),
-        handling.words(&tour.ready.programs),
-        fault.measured()
-    );
+    let done = handling.words(&tour.ready.programs);
+    let message = format!("{}, {done} ({}){others}", breakdown.what, fault.measured());
     let place = tour.ready.lab.place();
-    let severity = rule.severity.max(Severity::Warning);
-    Some(Finding::plain(rule, place, message).severity(severity).why(why).help(format!(
-        "the likely cause: {}; `labspec stability` makes these runs longer, and tries what helps",
-        fault.cause
-    )))
+    let severity = breakdown.rule.severity.max(Severity::Warning);
+    Some(
+        Finding::plain(breakdown.rule, place, message)
+            .severity(severity)
+            .why(breakdown.why)
+            .help(breakdown.help()),
+    )
 }

@@ -86,7 +86,7 @@ struct Tour<'a> {
 }
 
 impl Tour<'_> {
-    /// Keeps what went wrong in a run that is not said to have broken.
+    /// Keeps what went wrong in a run, once for each kind and body.
     fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
         let Trial { handling, length, .. } = trial;
         let (faults, spent) = stability::genuine(&self.case, handling, faults, *length, *left);
@@ -236,9 +236,7 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
 
 /// Counts a run that was made.
 fn count(tour: &mut Tour<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
-    if !attempt.broke {
-        tour.note(trial, attempt.faults, left);
-    }
+    tour.note(trial, attempt.faults, left);
     tour.records.push(attempt.record);
     let Some(tried) = &mut tour.tried else { return };
     tried.runs += 1;
@@ -310,6 +308,10 @@ fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding
                 "nothing goes wrong in the {} s that were run, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
                 seconds(covered)
             ))
-            .help(run::remedy(model, &worst)),
+            .help(format!(
+                "write a timestep of {} s, or {}",
+                run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
+                run::softer(&worst)
+            )),
     )
 }
