@@ -101,7 +101,7 @@ fn human(report: &Report, programs: &Programs) -> String {
     if report.found.is_empty() {
         text.push_str("Nothing went wrong.\n");
     }
-    margins(&report.margins, &mut text);
+    margins(report, &mut text);
     sensitivity(&report.sensitivity, &mut text);
     if let Some(map) = &report.map {
         letters(map, &mut text);
@@ -151,7 +151,8 @@ fn finding(found: &Found, programs: &Programs, text: &mut String) {
 }
 
 /// How far everything may be raised.
-fn margins(list: &[Margin], text: &mut String) {
+fn margins(report: &Report, text: &mut String) {
+    let list = &report.margins;
     if list.is_empty() {
         return;
     }
@@ -161,7 +162,11 @@ fn margins(list: &[Margin], text: &mut String) {
             .collect();
     let widths: Vec<usize> =
         (0..6).map(|k| rows.iter().map(|r| r[k].chars().count()).max().unwrap_or(0)).collect();
-    text.push_str("\nHow far the lab is from breaking, as it stands:\n");
+    let length = crate::verify::significant(report.window);
+    let _ = writeln!(
+        text,
+        "\nThe largest values with which nothing goes wrong in {length} s, as the lab stands and after a touch (but for what creeps):"
+    );
     for row in &rows {
         let cells = row.iter().zip(&widths).enumerate().map(|(k, (cell, w))| match k {
             0 => format!("{cell:<w$}"),
@@ -195,15 +200,29 @@ fn margin(m: &Margin) -> [String; 6] {
 
 /// How much the lab depends on its start.
 fn sensitivity(s: &Sensitivity, text: &mut String) {
+    if let Some(p) = &s.parting {
+        let most = 1.0 / s.apart;
+        let times = match [p.low, p.high].map(two_digits) {
+            _ if p.low >= most => format!("more than {most:e}"),
+            [low, _] if p.high >= most => format!("{low} to more than {most:e}"),
+            [low, high] if low == high => low,
+            [low, high] => format!("{low} to {high}"),
+        };
+        let _ = writeln!(
+            text,
+            "\nA small difference at the start is {times} times as large after {} s.",
+            crate::verify::significant(s.length)
+        );
+    }
     if let Some(e) = &s.exponent {
         let _ = writeln!(
             text,
-            "\nLargest Lyapunov exponent over {} s: {} /s ({} to {}); a small difference at the start becomes {} times as large.",
-            crate::verify::significant(s.length),
+            "It grows exponentially: tenfold in {} s (largest Lyapunov exponent {} /s, {} to {} in {} directions).",
+            two_digits(std::f64::consts::LN_10 / e.mean),
             two_digits(e.mean),
             two_digits(e.low),
             two_digits(e.high),
-            two_digits((e.mean * s.length).exp())
+            e.directions
         );
     }
     for h in &s.horizons {
@@ -322,6 +341,7 @@ fn value(report: &Report, programs: &Programs) -> Value {
             "pairsLeftOut": report.pairs_left_out,
             "leftOut": left_out(report),
             "findings": found,
+            "window": report.window,
             "margins": report.margins.iter().map(margin_value).collect::<Vec<_>>(),
             "sensitivity": sensitivity_value(&report.sensitivity),
             "map": report.map.as_ref().map(map_value),
@@ -373,7 +393,13 @@ fn sensitivity_value(s: &Sensitivity) -> Value {
     let exponent = s.exponent.map(|e| json!({"mean": e.mean, "low": e.low, "high": e.high}));
     let horizons: Vec<Value> =
         s.horizons.iter().map(|h| json!({"label": h.label, "until": h.until})).collect();
-    json!({"length": s.length, "apart": s.apart, "exponent": exponent, "horizons": horizons})
+    let parting = s.parting.map(|p| {
+        let mut value = json!({});
+        set_number(&mut value, "low", p.low);
+        set_number(&mut value, "high", p.high);
+        value
+    });
+    json!({"length": s.length, "apart": s.apart, "parting": parting, "exponent": exponent, "horizons": horizons})
 }
 
 fn map_value(map: &Map) -> Value {

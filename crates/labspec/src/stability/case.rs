@@ -144,6 +144,11 @@ impl<'a> Case<'a> {
         }
     }
 
+    /// The same with another model, of which nothing but numbers differs.
+    pub(super) fn with_model<'b>(&'b self, model: &'b Model) -> Case<'b> {
+        Case { lab: self.lab, model, programs: self.programs, base: self.base.clone(), ..*self }
+    }
+
     /// The lab with everything done that comes before the first step.
     pub(crate) fn start(&self, handling: &Handling, budget: u64) -> Session<'a> {
         let key = self.lab.keyframe();
@@ -192,6 +197,17 @@ impl<'a> Case<'a> {
         length: f64,
         budget: u64,
     ) -> Outcome {
+        self.run_to_model(handling, change, length, budget).0
+    }
+
+    /// The same, and the model as the lab left it.
+    pub(super) fn run_to_model(
+        &self,
+        handling: &Handling,
+        change: Option<Change<'_>>,
+        length: f64,
+        budget: u64,
+    ) -> (Outcome, Model) {
         let mut session = self.start(handling, budget);
         if let Some(change) = change {
             change(&mut session);
@@ -209,14 +225,15 @@ impl<'a> Case<'a> {
         let speeds = eyes.watch.rest.speeds(&session.world.model);
         let touching = eyes.watch.touching();
         let faults = eyes.faults(&session);
-        Outcome {
+        let outcome = Outcome {
             faults,
             covered: if made == steps { length } else { made as f64 * timestep },
             spent: session.spent(),
             speeds,
             touching,
             cut: matches!(session.ended(), Some(End::Budget { .. } | End::Interrupted)),
-        }
+        };
+        (outcome, session.world.model)
     }
 }
 

@@ -1,18 +1,20 @@
 //! How far a lab is from breaking: the largest timestep, gains, stiffnesses and mass ratios with which it still runs as it stands.
 //!
-//! Each is found by running: multiplied by two until it breaks, then by bisection. A run begins with a touch, a small speed of every
-//! joint: what stands exactly in its balance shows nothing. Beside it stands the bound that `advice::stability` derives for one
-//! degree of freedom, where there is one.
+//! Each is found by running: raised until it breaks, then by bisection. The model is changed before the lab is loaded, so keyframe,
+//! `setup` and controls act on it as they do on a page, and the runs are those of a check: as the lab stands, and with a touch that
+//! nobody sees. Where a program of the lab sets the number itself, it is changed after that. Beside it stands the bound that
+//! `advice::stability` derives for one degree of freedom, where there is one.
 
 use super::bodies::{body_name, body_of};
 use super::case::{Case, Outcome};
 use super::fault::{Fault, FaultKind};
+use super::handling::{Handling, Kind};
 use super::search::{self, Limit};
 use crate::advice::stability;
 use crate::interrupt;
 use crate::run::Session;
 use labspec_core::math::{rows, rows_mut};
-use labspec_core::{Model, Obj, disable, servo_gains, set_const};
+use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
 
 /// What is made larger.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,17 +67,19 @@ pub struct Margin {
 /// Work for one margin, and for one run of it.
 const WORK: u64 = 4_000_000_000;
 const RUN: u64 = 1_000_000_000;
-/// A speed that every joint has at the start, m/s or rad/s.
-const TOUCH: f64 = 1e-3;
-/// A run has so many steps at least, however long they are: fewer show nothing.
-const STEPS: f64 = 300.0;
-/// No lab has longer steps, s.
+/// No lab has longer steps, s, nor fewer in a run.
 const LONGEST: f64 = 1.0;
+const STEPS: f64 = 10.0;
+/// Factors between what is tried: a lab may be sound again with steps beyond those with which it breaks first.
+const STEPWISE: f64 = 1.2;
+const DOUBLING: f64 = 2.0;
 /// Servos, springs and pairs of bodies that are looked at, at most of each.
 const MOST: usize = 12;
 
 /// Multiplies something of a model.
 type Apply = dyn Fn(&mut Model, f64);
+/// What it is there.
+type Read = dyn Fn(&Model) -> f64;
 
 /// Something that is multiplied.
 struct Raised {
@@ -87,6 +91,7 @@ struct Raised {
     /// Whose bounds count; all for the timestep.
     object: Option<(Obj, Option<usize>)>,
     apply: Box<Apply>,
+    read: Box<Read>,
 }
 
 /// All margins of a lab as it stands, for runs of so many seconds; and what was left out. Work is added to `work`.
@@ -98,7 +103,7 @@ pub(super) fn margins(
 ) -> (Vec<Margin>, Vec<String>) {
     let model = case.start(&case.base, RUN).world.model;
     let mut left_out = Vec::new();
-    let mut list = vec![timestep(&model)];
+    let mut list = vec![timestep(&model, length)];
     let mut some = |mut all: Vec<Raised>, what: &str| {
         if all.len() > MOST {
             left_out.push(format!("margins of {} more {what}", all.len() - MOST));
@@ -108,50 +113,62 @@ pub(super) fn margins(
     };
     list.extend(some(gains(&model), "servos"));
     list.extend(some(stiffnesses(&model), "springs"));
-    let base = run(case, None, length, work);
+    let base = case.run(&case.base, None, length, RUN);
+    *work += base.spent;
     list.extend(contacts(&model, &base.touching));
     list.extend(some(ratios(&model, &base.touching), "pairs of bodies"));
     let mut found = Vec::new();
     for raised in list {
         tell(&format!("margin: {} of {}", raised.knob.words(), raised.who));
         match search(case, &raised, length, work) {
-            Some(margin) => found.push(margin),
-            None => left_out.push(format!(
-                "the margin of the {} of {}, which takes more work than it may",
-                raised.knob.words(),
-                raised.who
-            )),
+            Ok(margin) => found.push(margin),
+            Err(why) => {
+                left_out.push(format!("the margin of the {} of {}, {why}", raised.knob.words(), raised.who))
+            }
         }
     }
     (found, left_out)
 }
 
-fn search(case: &Case<'_>, raised: &Raised, length: f64, work: &mut u64) -> Option<Margin> {
+/// # Errors
+/// Why nothing is known.
+fn search(case: &Case<'_>, raised: &Raised, length: f64, work: &mut u64) -> Result<Margin, &'static str> {
     let before = *work;
-    let (mut runs, mut how) = (0, None);
-    let limit = search::largest(raised.most, |x| {
+    let (mut runs, mut how, mut set) = (0, None, false);
+    let factor = if raised.knob == Knob::Timestep { STEPWISE } else { DOUBLING };
+    let limit = search::largest(raised.most, factor, |x| {
         if *work - before > WORK || interrupt::requested() {
             return None;
         }
-        runs += 1;
-        let step = if raised.knob == Knob::Timestep { x * raised.now } else { 0.0 };
-        let outcome = run(case, Some((&raised.apply, x)), length.max(STEPS * step), work);
-        let fault = worst(&outcome.faults, &[]);
-        if let Some(fault) = fault {
-            how = Some((fault.kind, fault.who.clone()));
-        } else if outcome.cut {
-            return None;
+        for handling in [case.base.clone(), case.base.and(Kind::Touched, Vec::new())] {
+            runs += 1;
+            let Some(outcome) = run(case, &handling, raised, x, length, work) else {
+                set = true;
+                return None;
+            };
+            if let Some(fault) = worst(&outcome.faults, &[]) {
+                how = Some((fault.kind, fault.who.clone()));
+                return Some(false);
+            }
+            if outcome.cut {
+                return None;
+            }
         }
-        Some(fault.is_none())
+        Some(true)
+    });
+    let limit = limit.ok_or(if set {
+        "which a program of the lab sets itself"
+    } else {
+        "which takes more work than it may"
     })?;
     let start = case.start(&case.base, RUN).world.model;
-    let bound = search::largest(raised.most, |x| {
+    let bound = search::largest(raised.most, factor, |x| {
         let mut model = start.clone();
         (raised.apply)(&mut model, x);
         Some(!stiff(&model, raised.object))
     });
     let bound = bound.filter(|b| b.broken.is_some()).and_then(|Limit { fine, .. }| fine);
-    Some(Margin {
+    Ok(Margin {
         knob: raised.knob,
         who: raised.who.clone(),
         unit: raised.unit,
@@ -180,31 +197,50 @@ pub(super) fn worst<'f>(faults: &'f [Fault], known: &[(FaultKind, String)]) -> O
     faults.iter().filter(counts).min_by_key(|f| f.kind)
 }
 
-fn run(case: &Case<'_>, raised: Option<(&Apply, f64)>, length: f64, work: &mut u64) -> Outcome {
+/// A run with something raised; `None` where a program of the lab sets it and it cannot be set after that.
+fn run(
+    case: &Case<'_>,
+    handling: &Handling,
+    raised: &Raised,
+    x: f64,
+    length: f64,
+    work: &mut u64,
+) -> Option<Outcome> {
+    let wanted = x * raised.now;
+    let same = |m: &Model| ((raised.read)(m) - wanted).abs() <= 1e-9 * wanted.abs();
+    let mut model = case.model.clone();
+    // By what the lab itself makes of it when it is loaded.
+    let now = (raised.read)(&model);
+    (raised.apply)(&mut model, if now > 0.0 { wanted / now } else { x });
+    if raised.knob == Knob::MassRatio {
+        // What follows from masses; without an inertia above zero it stays as it was.
+        let mut data = Data::new(&model);
+        let _ = set_const(&mut model, &mut data);
+    }
+    let case = case.with_model(&model);
+    let free = raised.knob != Knob::MassRatio;
     let change = |session: &mut Session<'_>| {
-        if let Some((apply, x)) = raised {
-            apply(&mut session.world.model, x);
-            // What follows from masses is computed anew; without an inertia above zero it stays as it was.
-            let world = &mut session.world;
-            let _ = set_const(&mut world.model, &mut world.data);
+        let set = (raised.read)(&session.world.model);
+        if free && !same(&session.world.model) && set > 0.0 {
+            (raised.apply)(&mut session.world.model, wanted / set);
         }
-        session.world.data.edit().qvel.iter_mut().for_each(|v| *v += TOUCH);
     };
-    let outcome = case.run(&case.base, Some(&change), length, RUN);
+    let (outcome, model) = case.run_to_model(handling, Some(&change), length, RUN);
     *work += outcome.spent;
-    outcome
+    same(&model).then_some(outcome)
 }
 
-fn timestep(m: &Model) -> Raised {
+fn timestep(m: &Model, length: f64) -> Raised {
     let now = m.opt.timestep;
     Raised {
         knob: Knob::Timestep,
         who: "the lab".into(),
         unit: "s",
         now,
-        most: (LONGEST / now).max(1.0),
+        most: (LONGEST.min(length / STEPS) / now).max(1.0),
         object: None,
         apply: Box::new(|m, x| *m.edit().opt.timestep *= x),
+        read: Box::new(|m| m.opt.timestep),
     }
 }
 
@@ -237,6 +273,7 @@ fn gains(m: &Model) -> Vec<Raised> {
                 most: f64::INFINITY,
                 object: Some((Obj::Actuator, Some(a))),
                 apply: Box::new(apply),
+                read: Box::new(move |m| servo_gains(m, a).map_or(0.0, |g| g[bias - 1])),
             });
         }
     }
@@ -257,6 +294,7 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
                 apply: Box::new(move |m, x| {
                     m.edit().jnt_stiffness.iter_mut().skip(j).take(1).for_each(|k| *k *= x)
                 }),
+                read: Box::new(move |m| m.jnt_stiffness.get(j).copied().unwrap_or(0.0)),
             });
         }
         for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
@@ -270,6 +308,7 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
                 apply: Box::new(move |m, x| {
                     m.edit().tendon_stiffness.iter_mut().skip(t).take(1).for_each(|k| *k *= x)
                 }),
+                read: Box::new(move |m| m.tendon_stiffness.get(t).copied().unwrap_or(0.0)),
             });
         }
     }
@@ -279,8 +318,12 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
 /// The stiffness of all contacts together: one over the square of the shortest time constant. The engine keeps that above two steps;
 /// here it does not, so that the limit shows.
 fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
-    let times = touching.iter().flatten().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
-    let shortest = times.filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
+    let geoms: Vec<usize> = touching.iter().flatten().copied().collect();
+    let read = move |m: &Model| {
+        let times = geoms.iter().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
+        let shortest = times.filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
+        1.0 / (shortest * shortest)
+    };
     let apply = |m: &mut Model, x: f64| {
         let edit = m.edit();
         *edit.opt.disableflags |= disable::REFSAFE;
@@ -290,14 +333,16 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
             }
         }
     };
-    shortest.is_finite().then(|| Raised {
+    let now = read(m);
+    (now > 0.0).then(|| Raised {
         knob: Knob::Stiffness,
         who: "all contacts".into(),
         unit: "1/s²",
-        now: 1.0 / (shortest * shortest),
+        now,
         most: f64::INFINITY,
         object: Some((Obj::Geom, None)),
         apply: Box::new(apply),
+        read: Box::new(read),
     })
 }
 
@@ -324,6 +369,10 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<Raised> {
                 most: f64::INFINITY,
                 object: None,
                 apply: Box::new(move |m, x| heavier(m, heavy, x)),
+                read: Box::new(move |m| {
+                    let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
+                    mass(heavy) / mass(light)
+                }),
             });
         }
     }

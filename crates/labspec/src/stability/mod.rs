@@ -26,7 +26,7 @@ pub use handling::{Action, Handling, Kind};
 pub use map::{Cell, Map};
 pub use margins::{Knob, Margin};
 pub use remedy::Remedy;
-pub use sensitivity::{Exponent, Horizon, Sensitivity};
+pub use sensitivity::{Exponent, Horizon, Parting, Sensitivity};
 pub use told::watched_run;
 pub(crate) use told::{describe, with_tried_timestep};
 
@@ -106,6 +106,8 @@ pub struct Report {
     pub left_out: Vec<String>,
     /// What goes wrong, the simplest setting first.
     pub found: Vec<Found>,
+    /// How long a student looks, s: margins and sensitivity are of runs of this length.
+    pub window: f64,
     /// How far everything may be raised, where that was asked for.
     pub margins: Vec<Margin>,
     /// How much the lab depends on its start.
@@ -152,8 +154,15 @@ pub fn probe(
         pairs_left_out,
         left_out: Vec::new(),
         found: Vec::new(),
+        window: window.min(length),
         margins: Vec::new(),
-        sensitivity: Sensitivity { length: window, apart: 0.0, exponent: None, horizons: Vec::new() },
+        sensitivity: Sensitivity {
+            length: window,
+            apart: 0.0,
+            parting: None,
+            exponent: None,
+            horizons: Vec::new(),
+        },
         map: None,
         work: 0,
     };

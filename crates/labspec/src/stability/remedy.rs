@@ -28,6 +28,8 @@ pub struct Remedy {
 /// A change that helps, with its work, and how a run is made with it.
 struct Helps {
     change: String,
+    /// A shorter timestep: of several one is enough.
+    timestep: bool,
     work: f64,
     handling: Handling,
     apply: Box<dyn Fn(&mut Model)>,
@@ -36,6 +38,9 @@ struct Helps {
 /// Halvings of the timestep that are tried where it may be the cause, and the part of the work that one run may take.
 const HALVINGS: i32 = 6;
 const PART: u64 = 4;
+/// How many timesteps that help are looked at, and the error above which what a lab shows is of no use, in parts of its range.
+const TIMESTEPS: usize = 3;
+const USELESS: f64 = 0.5;
 /// What creeps no faster than this part of before has stopped.
 const STOPPED: f64 = 0.1;
 
@@ -72,13 +77,21 @@ impl Tries<'_, '_> {
             let apply = move |m: &mut Model| *m.edit().opt.timestep = h;
             if let Some(work) = self.helps(found, &before, &apply)? {
                 let change = format!("a timestep of {} s", two_digits(h));
-                list.push(Helps { change, work, handling: handling(), apply: Box::new(apply) });
-                break;
+                list.push(Helps {
+                    change,
+                    timestep: true,
+                    work,
+                    handling: handling(),
+                    apply: Box::new(apply),
+                });
+                if list.len() == TIMESTEPS {
+                    break;
+                }
             }
         }
         for (change, apply) in candidates(&model, found.fault.kind) {
             if let Some(work) = self.helps(found, &before, &apply)? {
-                list.push(Helps { change, work, handling: handling(), apply });
+                list.push(Helps { change, timestep: false, work, handling: handling(), apply });
             }
         }
         list.extend(self.shorter_slider(found, &before)?);
@@ -92,8 +105,12 @@ impl Tries<'_, '_> {
         }
         let mut work = 0;
         let truth = truth::truth(self.case, &found.handling, self.window, &mut work);
-        let mut remedies = Vec::new();
-        for Helps { change, work: cost, handling, apply } in list {
+        let mut remedies: Vec<Remedy> = Vec::new();
+        let mut enough = false;
+        for Helps { change, timestep, work: cost, handling, apply } in list {
+            if timestep && enough {
+                continue;
+            }
             let change_of = move |session: &mut Session<'_>| apply(&mut session.world.model);
             let apply: Change<'_> = &change_of;
             // Another setting of a slider is another motion: its own truth counts.
@@ -103,6 +120,10 @@ impl Tries<'_, '_> {
                 let own = truth::truth(self.case, &handling, self.window, &mut work);
                 own.and_then(|t| truth::error(self.case, &t, apply, &mut work))
             };
+            if error.is_some_and(|error| error > USELESS) {
+                continue;
+            }
+            enough |= timestep;
             let time = truth::time(self.case, &handling, apply, self.window);
             remedies.push(Remedy { change, work: cost, time, error });
         }
@@ -158,6 +179,7 @@ impl Tries<'_, '_> {
         let handling = with(found, action, last);
         Some(moved.then(|| Helps {
             change: ends(control, last),
+            timestep: false,
             work: 1.0,
             handling,
             apply: Box::new(|_| {}),

@@ -1,7 +1,7 @@
-//! The largest value at which something is still fine: doubling until it breaks, then bisection.
+//! The largest value at which something is still fine: raised by a factor until it breaks, then bisection.
 
-/// Doublings, or halvings where it is broken from the start.
-const DOUBLINGS: u32 = 20;
+/// How many times as much is tried at most, and how little where it is broken from the start.
+const MOST: f64 = 1_048_576.0;
 /// How closely the limit is found, as a part of itself.
 const CLOSE: f64 = 0.01;
 
@@ -14,34 +14,30 @@ pub(super) struct Limit {
     pub(super) broken: Option<f64>,
 }
 
-/// Searches from 1 up to `most`. `fine` says whether a multiple is fine; `None` when nothing more can be tried, which ends the
-/// search without a result.
-pub(super) fn largest(most: f64, mut fine: impl FnMut(f64) -> Option<bool>) -> Option<Limit> {
+/// Searches from 1 up to `most`, by steps of a factor, as what breaks may be sound again beyond. `fine` says whether a multiple is
+/// fine; `None` when nothing more can be tried, which ends the search without a result.
+pub(super) fn largest(most: f64, factor: f64, mut fine: impl FnMut(f64) -> Option<bool>) -> Option<Limit> {
     let (mut good, mut bad) = (None, None);
     let mut at = 1.0;
     if fine(at)? {
         good = Some(at);
-        for _ in 0..DOUBLINGS {
-            let next = (2.0 * at).min(most);
-            if next <= at {
-                break;
-            }
-            at = next;
-            if !fine(at)? {
+        while bad.is_none() && at < most.min(MOST) {
+            at = (factor * at).min(most).min(MOST);
+            if fine(at)? {
+                good = Some(at);
+            } else {
                 bad = Some(at);
-                break;
             }
-            good = Some(at);
         }
     } else {
         bad = Some(at);
-        for _ in 0..DOUBLINGS {
-            at *= 0.5;
+        while good.is_none() && at > 1.0 / MOST {
+            at /= factor;
             if fine(at)? {
                 good = Some(at);
-                break;
+            } else {
+                bad = Some(at);
             }
-            bad = Some(at);
         }
     }
     while let (Some(low), Some(high)) = (good, bad)
@@ -67,7 +63,7 @@ mod tests {
     fn a_limit_is_found_to_a_hundredth() {
         for limit in [1.0, 1.3, 2.0, 77.7, 3e5, 0.9, 0.013, 2e-6] {
             let mut asked = 0;
-            let found = largest(f64::INFINITY, |x| {
+            let found = largest(f64::INFINITY, 2.0, |x| {
                 asked += 1;
                 Some(x <= limit)
             });
@@ -79,9 +75,15 @@ mod tests {
 
     #[test]
     fn what_never_breaks_and_what_always_does_is_told_apart() {
-        assert_eq!(largest(1e9, |_| Some(true)), Some(Limit { fine: Some(2f64.powi(20)), broken: None }));
-        assert_eq!(largest(10.0, |_| Some(true)), Some(Limit { fine: Some(10.0), broken: None }));
-        assert_eq!(largest(1e9, |_| Some(false)), Some(Limit { fine: None, broken: Some(0.5f64.powi(20)) }));
-        assert_eq!(largest(1e9, |x| (x < 4.0).then_some(true)), None);
+        assert_eq!(
+            largest(1e9, 2.0, |_| Some(true)),
+            Some(Limit { fine: Some(2f64.powi(20)), broken: None })
+        );
+        assert_eq!(largest(10.0, 2.0, |_| Some(true)), Some(Limit { fine: Some(10.0), broken: None }));
+        assert_eq!(
+            largest(1e9, 2.0, |_| Some(false)),
+            Some(Limit { fine: None, broken: Some(0.5f64.powi(20)) })
+        );
+        assert_eq!(largest(1e9, 2.0, |x| (x < 4.0).then_some(true)), None);
     }
 }

@@ -1,9 +1,10 @@
-//! How much a lab depends on its start: the largest Lyapunov exponent over the window, and until when the digits that are shown would
-//! be the same for a start that nobody could tell apart.
+//! How much a lab depends on its start: how many times as large a small difference becomes until the end of the window, whether it
+//! grows exponentially, and until when the digits that are shown would be the same for a start that nobody could tell apart.
 //!
-//! The exponent is that of G. Benettin and others 1980 ("Lyapunov characteristic exponents …", Meccanica 15): a second run beside the
-//! first, brought back to its distance again and again, and the mean of the logarithms by which they parted. Several directions give
-//! its spread.
+//! A second run beside the first is brought back to its distance again and again, and the logarithms by which they part are added up
+//! from the start on (G. Benettin and others 1980, "Lyapunov characteristic exponents …", Meccanica 15): so the difference stays
+//! small, and what is measured is what a difference without size does. Several directions give the spread. There is an exponent
+//! where the sum grows along a line: in both halves of the time alike, and in every direction.
 
 use super::case::Case;
 use crate::run::{self, Numerics, Play, Session};
@@ -14,8 +15,11 @@ use std::ops::ControlFlow;
 const APART: f64 = 1e-7;
 const TIMES: usize = 100;
 const DIRECTIONS: u64 = 3;
-/// The part of the run in which a direction turns into that of the fastest growth, and that does not count.
-const TURNS: f64 = 0.2;
+/// What grows exponentially becomes so many times as large at least, its logarithm is a line to this part of its variance, and grows by
+/// this part of the whole in each half of the time.
+const GROWS: f64 = 100.0;
+const STRAIGHT: f64 = 0.9;
+const HALF: f64 = 0.3;
 /// The start that nobody could tell apart.
 const NUDGE: f64 = 1e-9;
 /// Samples of what is shown, at most.
@@ -31,6 +35,17 @@ pub struct Exponent {
     /// The smallest of them.
     pub low: f64,
     /// The largest.
+    pub high: f64,
+    /// How many there are.
+    pub directions: usize,
+}
+
+/// How many times as large a small difference at the start becomes, along the directions that were tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parting {
+    /// Along the one that grows least.
+    pub low: f64,
+    /// Along the one that grows most.
     pub high: f64,
 }
 
@@ -50,7 +65,9 @@ pub struct Sensitivity {
     pub length: f64,
     /// How far the other start is off.
     pub apart: f64,
-    /// The exponent; `None` where the lab has no degrees of freedom or does not come to its end.
+    /// What becomes of a small difference; `None` where the lab has no degrees of freedom or does not come to its end.
+    pub parting: Option<Parting>,
+    /// The exponent; `None` where the difference does not grow exponentially.
     pub exponent: Option<Exponent>,
     /// The readouts.
     pub horizons: Vec<Horizon>,
@@ -58,18 +75,44 @@ pub struct Sensitivity {
 
 /// The sensitivity of a lab as it stands. Work is added to `work`.
 pub(super) fn sensitivity(case: &Case<'_>, length: f64, work: &mut u64) -> Sensitivity {
-    let exponents: Vec<f64> = (1..=DIRECTIONS).filter_map(|k| exponent(case, length, k, work)).collect();
-    let all = exponents.len() as u64 == DIRECTIONS;
-    let exponent = all.then(|| Exponent {
-        mean: exponents.iter().sum::<f64>() / exponents.len() as f64,
-        low: exponents.iter().copied().fold(f64::INFINITY, f64::min),
-        high: exponents.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    let all: Vec<Vec<(f64, f64)>> =
+        (1..=DIRECTIONS).filter_map(|k| logarithms(case, length, k, work)).collect();
+    let whole = all.len() as u64 == DIRECTIONS;
+    let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = |list: &[f64]| list.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let ends: Vec<f64> = all.iter().filter_map(|list| list.last()).map(|(_, sum)| *sum).collect();
+    let parting =
+        (whole && !ends.is_empty()).then(|| Parting { low: least(&ends).exp(), high: most(&ends).exp() });
+    let slopes: Option<Vec<f64>> = all.iter().map(|list| slope(list)).collect();
+    let exponent = slopes.filter(|_| whole).map(|list| Exponent {
+        mean: list.iter().sum::<f64>() / list.len() as f64,
+        low: least(&list),
+        high: most(&list),
+        directions: list.len(),
     });
-    Sensitivity { length, apart: NUDGE, exponent, horizons: horizons(case, length, work) }
+    Sensitivity { length, apart: NUDGE, parting, exponent, horizons: horizons(case, length, work) }
 }
 
-/// The exponent that one direction gives.
-fn exponent(case: &Case<'_>, length: f64, seed: u64, work: &mut u64) -> Option<f64> {
+/// The slope of a logarithm that grows along a line from the start, 1/s.
+fn slope(list: &[(f64, f64)]) -> Option<f64> {
+    let (end, whole) = *list.last()?;
+    let half = list.iter().find(|(t, _)| *t >= 0.5 * end).map(|(_, sum)| *sum)?;
+    let least = HALF * whole;
+    if whole < GROWS.ln() || half < least || whole - half < least {
+        return None;
+    }
+    let n = list.len() as f64;
+    let mean = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>() / n;
+    let (t, y) = (mean(&|p| p.0), mean(&|p| p.1));
+    let product = |of: &dyn Fn(&(f64, f64)) -> f64| list.iter().map(of).sum::<f64>();
+    let tt = product(&|p| (p.0 - t) * (p.0 - t));
+    let ty = product(&|p| (p.0 - t) * (p.1 - y));
+    let yy = product(&|p| (p.1 - y) * (p.1 - y));
+    (ty > 0.0 && ty * ty >= STRAIGHT * tt * yy).then(|| ty / tt)
+}
+
+/// Times, s, and the logarithm of how many times as large a difference along one direction is by then.
+fn logarithms(case: &Case<'_>, length: f64, seed: u64, work: &mut u64) -> Option<Vec<(f64, f64)>> {
     let mut first = case.start(&case.base, WORK / 8);
     let nv = first.world.model.nv;
     let h = first.world.model.opt.timestep;
@@ -80,7 +123,7 @@ fn exponent(case: &Case<'_>, length: f64, seed: u64, work: &mut u64) -> Option<f
     }
     let mut second = first.clone();
     move_apart(&first, &mut second, &direction(seed, 2 * nv), APART)?;
-    let (mut sum, mut made, mut counted) = (0.0, 0, 0);
+    let (mut sum, mut made, mut list) = (0.0, 0, Vec::new());
     while made < steps {
         let some = each.min(steps - made);
         let done =
@@ -92,15 +135,13 @@ fn exponent(case: &Case<'_>, length: f64, seed: u64, work: &mut u64) -> Option<f
             *work += first.spent() + second.spent();
             return None;
         }
-        if made as f64 > TURNS * steps as f64 {
-            sum += (size / APART).ln();
-            counted += some;
-        }
+        sum += (size / APART).ln();
+        list.push((made as f64 * h, sum));
         let along: Vec<f64> = apart.iter().map(|x| x / size).collect();
         move_apart(&first, &mut second, &along, APART)?;
     }
     *work += first.spent() + second.spent();
-    (counted > 0).then(|| sum / (counted as f64 * h))
+    Some(list)
 }
 
 fn chunk(steps: usize) -> Play<'static> {
