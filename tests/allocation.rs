@@ -215,7 +215,7 @@ fn programs_of_numbers() {
     let quiet = load_lesson(SourceFile::new("still.json", still.to_string()), &ModelFolder::unknown());
     let quiet = Programs::compile(quiet.all_labs()[0], &m, &mut findings);
     let mut watched = Session::start(&quiet, &m, None, &quiet.demand);
-    watched.watch(48);
+    watched.watch();
     run(&mut watched);
     assert_eq!(measure(|| run(&mut watched)).count_total, 0, "a step of a run that is watched");
     // The controller and the step.

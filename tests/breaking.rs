@@ -59,7 +59,13 @@ fn no_lab_that_is_well_is_said_to_go_wrong() {
         return;
     }
     for folder in ["corpus/labs", "corpus/quizzes", "lesson-0.1"] {
-        assert_eq!(grows(found(&shared, &[folder, "--models", "corpus/models"])), [], "{folder}");
+        let told = grows(found(&shared, &[folder, "--models", "corpus/models"]));
+        // Two balls at the lower end of the damping ratio: 0.625 J before they meet, 1.376 J after it, in the library as here
+        // (`golden/stability_labs.json`, physics-lab_04).
+        let known = |message: &str| message.contains("\"contact damping ratio\" at 0.02");
+        let other: Vec<_> = told.iter().filter(|(_, message)| !known(message)).collect();
+        assert!(other.is_empty(), "{folder}: {other:?}");
+        assert_eq!(told.is_empty(), folder != "corpus/labs");
     }
 }
 

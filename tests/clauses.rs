@@ -206,7 +206,7 @@ const CLAUSES: &[Clause] = &[
     },
     Clause {
         says: "a lab that breaks only where two sliders meet",
-        code: "simulation-diverges",
+        code: "energy-grows",
         wrong: &[
             // sqrt(k / m) h is 0.28 with one of them at its end, and 4 with both.
             r#"CART "stopAt": 1, "setup": "data.qpos[0] = 0.1", "controls": [{"label": "stiffness", "set": "model.jnt_stiffness[0]", "min": 10, "max": 200000, "value": 10}, {"label": "mass", "apply": "model.body_mass[1] = value; mj.mj_setConst(model, data)", "min": 0.05, "max": 10, "value": 10, "reset": true}], "readouts": [{"label": "x (m)", "expr": "data.qpos[0]"}]"#,

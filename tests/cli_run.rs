@@ -29,7 +29,8 @@ fn run_for_programs() {
             "rows",
             "warnings",
             "errors",
-            "breakdown"
+            "breakdown",
+            "breakdowns"
         ]
     );
     let columns = [

@@ -16,8 +16,6 @@ const STEPS: usize = 300;
 const SHORTER: usize = 100;
 /// The thickest plate that is a wall, m; its middle is at 1 m.
 const WALL: f64 = 0.03;
-/// As in a run of a lab.
-const LOOKS: usize = 24;
 
 /// Random numbers, the same for the same seed.
 struct Dice(u64);
@@ -168,7 +166,7 @@ fn run(m: &Model, each: usize, watched: bool) -> Seen {
     core::reset_data_keyframe(m, &mut d, m.keys().next().unwrap()).unwrap();
     core::forward(m, &mut d).unwrap();
     let mut own = Data::new(m);
-    let mut watch = watched.then(|| watch::watch(m, &d, (STEPS / LOOKS).min(50), false));
+    let mut watch = watched.then(|| watch::watch(m, &d, false));
     let mut seen = Seen { ends: vec![[f64::INFINITY, f64::NEG_INFINITY]; 3 * m.nbody], ..Seen::default() };
     for k in 0..=STEPS {
         for _ in 0..if k == 0 { 0 } else { each } {

@@ -69,6 +69,7 @@ mod terminal;
 mod trace;
 mod trust;
 mod tutorial;
+mod twenty;
 mod under_hands;
 mod verify;
 mod ways;

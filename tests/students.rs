@@ -139,11 +139,11 @@ fn a_ball_that_sinks_into_a_soft_floor_is_found() {
     let slider =
         json!([{"label": "softness", "apply": set, "min": 0.02, "max": 0.5, "value": 0.02, "reset": true}]);
     let (_, report) = report(&ball("0.02 1", slider), &[]);
-    assert_eq!(kinds(&report), [("penetration".into(), "\"floor\" and \"ball\"".into())]);
+    assert_eq!(kinds(&report), [("sinksIn".into(), "\"floor\" and \"ball\"".into())]);
     let first = &report["findings"][0];
     assert_eq!(first["setting"], json!([{"control": "softness", "time": 0.0, "value": 0.5}]));
-    assert!(evidence(first, "share") > 0.5 && evidence(first, "lasts") > 5.0, "{first}");
-    assert_eq!(evidence(first, "size of the smaller one"), 0.2);
+    assert!(evidence(first, "depth") > 0.1 && evidence(first, "force") > 5.0, "{first}");
+    assert_eq!(evidence(first, "thickness of the thinner one"), 0.2);
 }
 
 #[test]
@@ -218,7 +218,8 @@ fn margins_meet_the_bounds_of_one_degree_of_freedom() {
             .replace(" kv=\"1\"", "")
             .replace("slide\"", "slide\" stiffness=\"50\"")
     );
-    let (code, report) = report(&still, &["--margins"]);
+    still["stopAt"] = json!(20);
+    let (code, report) = report(&still, &["--margins", "--until", "20"]);
     assert_eq!(code, 0);
     // 1 kg on 150 N/m: 2/ω. Then at 2 ms: 4/h² for all springs together.
     for (knob, who, bound) in [
@@ -259,23 +260,15 @@ fn what_is_said_to_help_does() {
         .iter()
         .map(|r| r["change"].as_str().unwrap())
         .collect();
-    // 2/ω at 3e6 N/m is 1.15 ms. `implicitfast` is its own integrator, and a contact there is none.
-    assert!(
-        helps.contains(&"a timestep of 0.001 s") && helps.contains(&"`integrator=\"discrete\"`"),
-        "{helps:?}"
-    );
-    let slider = helps.iter().find_map(|h| h.strip_prefix("\"kp\" that goes no farther than ")).unwrap();
-    let last: f64 = slider.parse().unwrap();
-    assert!(last < 1e6 && last > 9.5e5, "{last}");
+    // 2/ω at 3e6 N/m is 1.15 ms: steps of 1 ms and a smaller gain are stable, and show nothing of the motion, nor does `RK4`.
+    assert_eq!(helps, ["`integrator=\"discrete\"`"]);
     let mended = |from: &str, to: &str| {
         let mut lab = servo(3e6);
         lab["xml"] = json!(lab["xml"].as_str().unwrap().replace(from, to));
         report(&lab, &[]).0
     };
-    assert_eq!(mended("integrator=\"implicitfast\"", "integrator=\"implicitfast\" timestep=\"0.001\""), 0);
     assert_eq!(mended("implicitfast", "discrete"), 0);
     assert_eq!(mended("implicitfast", "implicit"), 1);
-    assert_eq!(report(&servo(last), &[]).0, 0);
 }
 
 /// A cart of 1 kg that a program pushes with a force.
@@ -302,7 +295,8 @@ fn the_exponent_and_the_horizon_are_those_of_a_linear_equation() {
     assert_eq!(horizons[1], json!({"label": "coarse", "until": null}));
     // x¨ = -0.75 x - 2 x˙: exp(-t / 2) lasts the longest.
     let (_, damped) = self::report(&pushed("-0.75 * data.qpos[0] - 2 * data.qvel[0]"), &["--until", "10"]);
-    near(damped["sensitivity"]["exponent"]["mean"].as_f64().unwrap(), -0.5, 0.1);
+    assert_eq!(damped["sensitivity"]["exponent"], Value::Null);
+    assert!(damped["sensitivity"]["parting"]["high"].as_f64().unwrap() < 0.1);
     assert_eq!(damped["sensitivity"]["horizons"][0]["until"], Value::Null);
 }
 
@@ -415,16 +409,14 @@ fn a_remedy_says_what_it_costs() {
     let (_, report) = report(&lab(r#"gravity="0 0 0""#, cart, more), &["--until", "2"]);
     let list = report["findings"][0]["remedies"].as_array().unwrap();
     let of = |words: &str| list.iter().find(|r| r["change"].as_str().unwrap().contains(words)).unwrap();
-    let (half, rk4) = (of("timestep of 0.001 s"), of("RK4"));
-    near(half["work"].as_f64().unwrap(), 2.0, 0.1);
-    near(rk4["work"].as_f64().unwrap(), 4.0, 0.2);
+    // Two radians in a step of 1 ms: neither that nor RK4 at 2 ms follows the phase, and neither is advised.
+    assert!(list.iter().all(|r| r["change"] != "a timestep of 0.001 s" && r["change"] != "`integrator=\"RK4\"`"));
+    let error = |r: &Value| r["error"].as_f64().unwrap();
     for remedy in list {
         assert!(remedy["timeRatio"].as_f64().unwrap() > 0.1, "{remedy}");
+        assert!(error(remedy) < 0.5, "{remedy}");
     }
-    // Two radians in a step of 1 ms: neither follows the phase, and both stay within the swing.
-    let error = |r: &Value| r["error"].as_f64().unwrap();
-    assert!(error(half) > 0.05 && error(half) < 2.0, "{half}");
-    assert!(error(rk4) > 0.05 && error(rk4) < 2.0, "{rk4}");
+    near(of("timestep of 0.00025 s")["work"].as_f64().unwrap(), 8.0, 0.4);
 }
 
 #[test]

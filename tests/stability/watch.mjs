@@ -76,8 +76,8 @@ function through(m, p, from, to) {
 
 // Energy that nothing gave.
 class Growth {
-  constructor(mj, m, d, every) {
-    this.mj = mj; this.m = m; this.own = new mj.MjData(m); this.every = every; this.found = null; this.left = every;
+  constructor(mj, m, d) {
+    this.mj = mj; this.m = m; this.own = new mj.MjData(m); this.found = null; this.roots = new Float64Array(m.nv);
     this.restart(d);
   }
   free() { this.own.delete(); }
@@ -96,11 +96,13 @@ class Growth {
       // The potential of the force clip(a - k x).
       servos += k === 0 ? -f * x : a - k * x === f ? 0.5 * f * f / k : 0.5 * f * f / k + f * ((a - f) / k - x);
     }
+    const M = own.M, first = m.M_rowadr, many = m.M_rownnz;
+    for (let k = 0; k < m.nv; k++) this.roots[k] = Math.max(this.roots[k], Math.sqrt(Math.max(M[first[k] + many[k] - 1], 0)));
     return { kinetic: own.energy[1], gravity, elastic: own.energy[0] - gravity + servos };
   }
   restart(d) {
     const { m, own } = this;
-    this.lasted = 0; this.largest = 0; this.leaps = 0; this.start = null;
+    this.lasted = 0; this.leaps = 0; this.start = null; this.rest = 0; this.speed = 0; this.roots.fill(0);
     if (Array.from(d.qfrc_applied).some((f) => f) || Array.from(d.xfrc_applied).some((f) => f)) return;
     const e = this.energy(d);
     let stored = 0;
@@ -112,20 +114,44 @@ class Growth {
     const held = e.kinetic + Math.abs(e.elastic) + stored + 0.5 * mass * (0.01 * size) ** 2;
     this.start = { e, held, lift: mass * norm(Array.from(m.opt.gravity)) * size };
     this.pushes = Array.from(m.dof_damping).some((b) => b < 0);
+    this.sudden = this.pushes ? 1 : Math.min(Math.max(1.5 * this.swing(), 3), 10);
+  }
+  // How many times as large the energy of the stiffest spring or servo becomes in each swing of its steps.
+  swing() {
+    const { m } = this, method = m.opt.integrator, h = m.opt.timestep;
+    let most = 0;
+    for (let j = 0; j < m.njnt && method !== 1 && method !== 4; j++) {
+      if (m.jnt_type[j] < 2) continue;
+      const k = m.jnt_dofadr[j], w = m.dof_invweight0[k], late = method >= 2;
+      let stiff = m.jnt_stiffness[j], early = 0, implicit = m.dof_damping[k];
+      for (let a = 0; a < m.nu; a++) {
+        if (m.actuator_trntype[a] > 1 || m.actuator_trnid[2 * a] !== j) continue;
+        const gear = m.actuator_gear[6 * a] ** 2, kv = Math.max(-m.actuator_biasprm[10 * a + 2] * gear, 0);
+        stiff += Math.max(-m.actuator_biasprm[10 * a + 1] * gear, 0);
+        if (late) implicit += kv; else early += kv;
+      }
+      most = Math.max(most, (h * h * stiff * w + 2 * h * early * w) / (4 + 2 * h * implicit * w));
+    }
+    const s = Math.sqrt(most);
+    return s < 1 ? (1 + s) / (1 - s) : Infinity;
   }
   look(d) {
-    this.left -= 1;
-    if (this.found !== null || !this.start || (this.left > 0 && this.lasted === 0)) return;
-    this.left = this.every;
-    const { e, held, lift } = this.start, now = this.energy(d);
-    const given = e.gravity + e.elastic - now.gravity - now.elastic, gain = now.kinetic - e.kinetic - given;
-    const [factor, lifts] = this.pushes ? [1, 0.25] : [10, 2], most = factor * held + lifts * lift;
-    const seen = gain > most && 2 * gain > now.kinetic + Math.abs(given);
-    const turn = seen && e.elastic === 0 && now.elastic === 0 ? this.turn(d) : 0;
-    if (!seen || !(2 * gain > this.largest || turn > Math.PI)) { this.lasted = 0; return; }
+    if (this.found !== null || !this.start) return;
+    const { e, held, lift } = this.start, v = d.qvel;
+    let speed = 0;
+    for (let k = 0; k < v.length; k++) speed += this.roots[k] * Math.abs(v[k]);
+    if (this.lasted === 0 && 0.5 * speed * speed < 0.5 * (held + 0.25 * lift)) return;
+    if (this.rest > 0 && speed <= 1.5 * this.speed) { this.rest -= 1; return; }
+    this.speed = speed;
+    const now = this.energy(d), given = e.gravity + e.elastic - now.gravity - now.elastic, gain = now.kinetic - e.kinetic - given;
+    const there = held + Math.max(given, Math.abs(now.elastic)), above = (times) => gain > times * there + 0.25 * lift;
+    const sure = gain > 1e3 * (held + Math.max(given, 0) + lift), seen = sure || above(1), leapt = sure || above(this.sudden);
+    this.rest = gain < 0.25 * there ? 3 : 0;
+    if (!seen) { this.lasted = 0; return; }
+    const turn = e.elastic === 0 && now.elastic === 0 ? this.turn(d) : 0;
     if (this.lasted === 0 && this.leaps === 0) this.since = d.time;
-    this.lasted += 1; this.leaps += turn > Math.PI ? 1 : 0; this.largest = Math.max(this.largest, gain);
-    if (this.lasted >= 32 || gain > 1e3 * most || this.leaps >= 4) this.found = this.since;
+    this.lasted += 1; this.leaps += turn > Math.PI ? 1 : 0;
+    if (leapt || this.lasted >= 32 || this.leaps >= 4) this.found = this.since;
   }
   turn(d) {
     const m = this.m; let most = 0;
@@ -150,7 +176,7 @@ class Memory {
 const bodyName = (mj, m, b) => (b === 0 ? 'the world' : (mj.mj_id2name(m, mj.mjtObj.mjOBJ_BODY.value, b) || `body ${b}`));
 
 export class Watch {
-  constructor(mj, m, d, steps, controlled) {
+  constructor(mj, m, d, controlled) {
     Object.assign(this, { mj, m, controlled, faults: [], touching: new Map(), steps: 0, last: -Infinity });
     this.pairs = [];
     for (let g = 0; g < m.ngeom; g++) for (let p = 0; p < m.ngeom; p++) {
@@ -158,17 +184,18 @@ export class Watch {
     }
     this.extent = Math.max(m.stat.extent, 1e-3);
     this.slides = Array.from({ length: m.nv }, (_, k) => { const j = m.dof_jntid[k], t = m.jnt_type[j]; return t === 2 || (t === 0 && k < m.jnt_dofadr[j] + 3); });
-    this.growth = controlled ? null : new Growth(mj, m, d, Math.min(Math.floor(steps / 24), 50));
+    this.growth = controlled ? null : new Growth(mj, m, d);
     this.restart(d);
   }
   free() { this.growth?.free(); }
   restart(d) {
+    this.sure ??= this.ranAway();
     this.wild = { start: d.time, memory: new Memory(8, 256), largest: [0, 0], first: null };
     this.rest = new Memory(4, 128);
     this.steps = 0;
   }
   disturb(d) {
-    for (const p of this.pairs) p.before = null;
+    for (const p of this.pairs) p.before = seenFrom(d, p.g, p.p);
     for (const t of this.touching.values()) Object.assign(t, { switches: 0, blocks: 0, from: null, since: null });
     this.restart(d);
   }
@@ -229,12 +256,21 @@ export class Watch {
     w.first ??= now.slice();
     for (const k of [0, 1]) w.largest[k] = Math.max(w.largest[k], now[k]);
     w.memory.look(() => [d.time, w.largest.slice()]);
-    if (this.silent) return;
+    if (w.found) { w.found.value = Math.max(w.found.value, now[w.found.k]); return; }
     const g = Math.max(norm(Array.from(this.m.opt.gravity)), 1), x = this.extent, sensible = [Math.sqrt(2 * g * x), Math.sqrt(2 * g / x) + 10];
     for (const k of [0, 1]) if (now[k] > 100 * (w.first[k] + sensible[k])) {
       const half = w.start + 0.5 * (d.time - w.start), early = w.memory.past.filter(([t]) => t <= half).pop()?.[1] ?? w.first;
-      if (now[k] > 10 * early[k]) { this.silent = { time: d.time, value: now[k] }; return; }
+      if (now[k] > 10 * early[k]) { w.found = { time: d.time, value: now[k], k, bound: 100 * (w.first[k] + sensible[k]) }; return; }
     }
+  }
+  // What never stopped growing: every eighth of the time since it was sensible is faster than all before.
+  ranAway() {
+    const w = this.wild, f = w?.found;
+    if (!f) return null;
+    const list = [...w.memory.past.map(([, v]) => v[f.k]), w.largest[f.k]].filter((v) => 100 * v > f.bound), last = list.length - 1;
+    const at = (part) => list[Math.floor((part * last) / 8)];
+    const grows = last < 8 || [0, 1, 2, 3, 4, 5, 6, 7].every((part) => at(part + 1) > 1.02 * at(part));
+    return grows ? { time: f.time, value: f.value } : null;
   }
   places(d) {
     const rubs = this.rubs ?? new Set(); this.rubs = null;
@@ -267,10 +303,11 @@ export class Watch {
     const when = list.length ? list[0].time : Infinity, geoms = (t) => t.geoms.slice().sort().join();
     const passed = this.faults.filter((f) => f.kind === 'tunnelling').map((f) => f.who.slice().sort().join());
     const seen = this.faults.slice();
-    for (const t of this.touching.values()) if ((t.deepest > 0.75 || (t.deepest > 0.3 && t.lasted >= 0.2)) && !passed.includes(geoms(t))) {
+    for (const t of this.touching.values()) if (t.deepest > 0.3 && t.lasted >= 0.2 && !passed.includes(geoms(t))) {
       seen.push({ kind: 'penetration', who: t.geoms, time: t.at, value: t.deepest });
     }
-    if (this.silent && when === Infinity) seen.push({ kind: 'silentDivergence', ...this.silent });
+    const silent = this.sure ?? this.ranAway();
+    if (silent && when === Infinity) seen.push({ kind: 'silentDivergence', ...silent });
     if (!this.controlled) seen.push(...this.drifts());
     list.push(...seen.filter((f) => f.time < when).map(({ kind, time, value, body }) => ({ kind, time, value, body })));
     return list;

@@ -22,7 +22,7 @@ const MARGIN: f64 = 2.0;
 /// A body that went through another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Through {
-    /// When, s.
+    /// When the step began that did it, s.
     pub time: f64,
     /// The geom that passed, and the one it went through.
     pub geoms: [usize; 2],
@@ -129,7 +129,8 @@ fn walls(w: &Watch, m: &Model, f: &Fields) -> (bool, Option<Through>) {
             }
             near = true;
             if let Some(moved) = passed(w, m, f, g, wall) {
-                return (true, Some(Through { time: f.time, geoms: [g, wall], moved, thickness }));
+                let time = (f.time - m.opt.timestep).max(0.0);
+                return (true, Some(Through { time, geoms: [g, wall], moved, thickness }));
             }
         }
     }

@@ -385,12 +385,13 @@ fn margin_value(m: &Margin) -> Value {
     json!({
         "knob": key(m.knob.words()), "who": m.who, "unit": m.unit, "now": m.now, "largest": m.largest,
         "breaks": m.breaks, "how": m.how.as_ref().map(|(kind, who)| json!({"kind": key(kind.words()), "who": who})),
-        "bound": m.bound, "runs": m.runs,
+        "bound": m.bound, "runs": m.runs, "geoms": m.geoms,
     })
 }
 
 fn sensitivity_value(s: &Sensitivity) -> Value {
-    let exponent = s.exponent.map(|e| json!({"mean": e.mean, "low": e.low, "high": e.high}));
+    let exponent =
+        s.exponent.map(|e| json!({"mean": e.mean, "low": e.low, "high": e.high, "directions": e.directions}));
     let horizons: Vec<Value> =
         s.horizons.iter().map(|h| json!({"label": h.label, "until": h.until})).collect();
     let parting = s.parting.map(|p| {

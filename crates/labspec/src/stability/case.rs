@@ -101,10 +101,18 @@ impl Eyes<'_> {
         let seen = self.watch.faults(&session.world.model).into_iter();
         let own = seen
             .filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()))
-            .filter(|f| f.kind != FaultKind::Drifts || !self.controlled)
-            .filter(|f| !faults.iter().any(|known| known.covers(f)));
-        let own: Vec<Fault> = own.collect();
-        faults.extend(own);
+            .filter(|f| f.kind != FaultKind::Drifts || !self.controlled);
+        for mut fault in own {
+            match faults.iter_mut().find(|known| known.covers(&fault)) {
+                None => faults.push(fault),
+                // The same, with more to say of it.
+                Some(known) if known.kind == fault.kind => {
+                    fault.by_run = true;
+                    *known = fault;
+                }
+                Some(_) => {}
+            }
+        }
         faults
     }
 }

@@ -62,6 +62,8 @@ pub struct Margin {
     pub bound: Option<f64>,
     /// How many runs it took.
     pub runs: usize,
+    /// The geoms whose contacts are meant, of the stiffness of all contacts.
+    pub geoms: Vec<usize>,
 }
 
 /// Work for one margin, and for one run of it.
@@ -92,6 +94,7 @@ struct Raised {
     object: Option<(Obj, Option<usize>)>,
     apply: Box<Apply>,
     read: Box<Read>,
+    geoms: Vec<usize>,
 }
 
 /// All margins of a lab as it stands, for runs of so many seconds; and what was left out. Work is added to `work`.
@@ -178,6 +181,7 @@ fn search(case: &Case<'_>, raised: &Raised, length: f64, work: &mut u64) -> Resu
         how: how.filter(|_| limit.broken.is_some()),
         bound: bound.map(|x| x * raised.now).filter(|_| raised.knob != Knob::MassRatio),
         runs,
+        geoms: raised.geoms.clone(),
     })
 }
 
@@ -241,6 +245,7 @@ fn timestep(m: &Model, length: f64) -> Raised {
         object: None,
         apply: Box::new(|m, x| *m.edit().opt.timestep *= x),
         read: Box::new(|m| m.opt.timestep),
+        geoms: Vec::new(),
     }
 }
 
@@ -274,6 +279,7 @@ fn gains(m: &Model) -> Vec<Raised> {
                 object: Some((Obj::Actuator, Some(a))),
                 apply: Box::new(apply),
                 read: Box::new(move |m| servo_gains(m, a).map_or(0.0, |g| g[bias - 1])),
+                geoms: Vec::new(),
             });
         }
     }
@@ -295,6 +301,7 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
                     m.edit().jnt_stiffness.iter_mut().skip(j).take(1).for_each(|k| *k *= x)
                 }),
                 read: Box::new(move |m| m.jnt_stiffness.get(j).copied().unwrap_or(0.0)),
+                geoms: Vec::new(),
             });
         }
         for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
@@ -309,6 +316,7 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
                     m.edit().tendon_stiffness.iter_mut().skip(t).take(1).for_each(|k| *k *= x)
                 }),
                 read: Box::new(move |m| m.tendon_stiffness.get(t).copied().unwrap_or(0.0)),
+                geoms: Vec::new(),
             });
         }
     }
@@ -318,9 +326,12 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
 /// The stiffness of all contacts together: one over the square of the shortest time constant. The engine keeps that above two steps;
 /// here it does not, so that the limit shows.
 fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
-    let geoms: Vec<usize> = touching.iter().flatten().copied().collect();
+    let mut geoms: Vec<usize> = touching.iter().flatten().copied().collect();
+    geoms.sort_unstable();
+    geoms.dedup();
+    let own = geoms.clone();
     let read = move |m: &Model| {
-        let times = geoms.iter().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
+        let times = own.iter().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
         let shortest = times.filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
         1.0 / (shortest * shortest)
     };
@@ -343,6 +354,7 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
         object: Some((Obj::Geom, None)),
         apply: Box::new(apply),
         read: Box::new(read),
+        geoms,
     })
 }
 
@@ -373,6 +385,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<Raised> {
                     let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
                     mass(heavy) / mass(light)
                 }),
+                geoms: Vec::new(),
             });
         }
     }

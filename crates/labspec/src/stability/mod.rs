@@ -33,13 +33,14 @@ pub(crate) use told::{describe, with_tried_timestep};
 use crate::bind::Programs;
 use crate::interrupt;
 use crate::run::{self, RunError, Session};
-use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Expect, Lab};
 use labspec_core::Model;
 use labspec_core::math::rows_mut;
 use labspec_expr::Value;
 use remedy::Tries;
 
+/// How long a student looks at a lab that says nothing of it, s.
+const WINDOW: f64 = 10.0;
 /// How many times longer than anybody looks a run is.
 const LONGER: f64 = 10.0;
 /// Work for all runs of a lab, in units of about a nanosecond.
@@ -289,11 +290,11 @@ fn harden(solimp: &mut [f64; 5]) {
 }
 
 /// How long a student looks at a lab: until it stops, or as far as its plots show, s.
-pub(crate) fn window(lab: &Lab) -> f64 {
+pub fn window(lab: &Lab) -> f64 {
     let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
     match &lab.stop_at {
         Some(stop) if stop.value > 0.0 => stop.value,
         _ if longest > 0.0 => longest,
-        _ => RUN_LENGTH,
+        _ => WINDOW,
     }
 }

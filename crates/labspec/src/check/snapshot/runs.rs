@@ -1,9 +1,10 @@
 //! The runs of a snapshot: the lab as it stands, each slider at its ends, each select at its other options, after each button.
 
-use super::super::{Ready, trial};
+use super::super::Ready;
 use crate::precision::Integrator;
 use crate::run::{self, Budget, Cell, Numerics, Play, RunError, Session};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
+use crate::stability::window;
 use crate::verify::significant;
 use labspec_core::reflect::option;
 use labspec_core::{Model, solver};
@@ -87,7 +88,7 @@ fn handlings(lab: &Lab) -> Vec<Handling> {
             }
             ControlKind::Button { .. } => {
                 let name = format!("after \"{label}\" is pressed");
-                let press = vec![(label.clone(), PRESS.min(0.5 * trial::length(lab)))];
+                let press = vec![(label.clone(), PRESS.min(0.5 * window(lab)))];
                 all.push(Handling { name, set: Vec::new(), press });
             }
         }
@@ -108,7 +109,7 @@ pub(super) fn play(
     let presses = run::presses(programs, &handling.press)?;
     let about = about(lab, &session.world.model);
     let timestep = session.world.model.opt.timestep;
-    let count = run::count_steps(lab, Some(trial::length(lab)), None, timestep)?;
+    let count = run::count_steps(lab, Some(window(lab)), None, timestep)?;
     let stated = states_timestep(ready, handling);
     session.perturb(numerics, stated);
     // As many steps as reach as far.
@@ -143,7 +144,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
     };
     let cone = if opt.cone == 0 { "pyramidal" } else { "elliptic" };
     vec![
-        format!("{} s", significant(trial::length(lab))),
+        format!("{} s", significant(window(lab))),
         format!("timestep {} s", opt.timestep),
         Integrator::of(model).name.into(),
         solver.into(),

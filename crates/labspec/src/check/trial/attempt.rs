@@ -33,6 +33,8 @@ pub(super) struct Attempt {
     /// Work that it took.
     pub(super) spent: u64,
     pub(super) broke: bool,
+    /// Something threw, or a number was none and the engine began anew: what was shown is not that of a whole run.
+    pub(super) lost: bool,
     pub(super) ended: Option<Ended>,
     /// The model as the lab left it.
     pub(super) model: Model,
@@ -109,5 +111,6 @@ pub(super) fn make(
     let (spent, faults) = (session.spent() + TRIES - tries, eyes.faults(&session));
     mark.close(&session.world.model);
     let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
-    Ok(Attempt { covered, spent, broke, ended, model: session.world.model, record, faults })
+    let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
+    Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
 }

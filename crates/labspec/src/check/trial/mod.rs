@@ -21,8 +21,6 @@ use std::ops::Range;
 
 /// When buttons are pressed, s.
 const PRESS: f64 = 0.1;
-/// Length of the runs of a lab that says nothing of it, s.
-const LENGTH: f64 = 10.0;
 /// What is kept for each lab that is still to be run as it stands.
 const RESERVE: u64 = 50_000_000;
 
@@ -81,6 +79,8 @@ struct Tour<'a> {
     tried: Option<Tried>,
     /// What was seen in its runs.
     records: Vec<Record>,
+    /// A run lost its numbers, so that not every run came to its end.
+    lost: bool,
     /// It breaks as it stands, or never begins to run: it would with every control.
     hopeless: bool,
 }
@@ -127,7 +127,7 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         left -= before - share;
         let all = tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
         found.extend(tour.seen.never(all));
-        if all && tour.ready.mistakes == 0 && tour.tried.as_ref().is_some_and(|t| !t.broke) {
+        if all && tour.ready.mistakes == 0 && !tour.lost {
             sight::check(tour.ready, &tour.records, tour.wanted, found);
         }
     }
@@ -162,19 +162,9 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
     tours.into_iter().map(ran).collect()
 }
 
-/// How long a student looks at a lab: until it stops, or as far as its plots show.
-pub(super) fn length(lab: &Lab) -> f64 {
-    let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
-    match &lab.stop_at {
-        Some(stop) => stop.value,
-        None if longest > 0.0 => longest,
-        None => LENGTH,
-    }
-}
-
 /// The lab as it stands.
 fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mut Vec<Finding>) -> Tour<'a> {
-    let wanted = length(ready.lab);
+    let wanted = stability::window(ready.lab);
     let trials = trials(ready.lab, wanted);
     let mut tour = Tour {
         ready,
@@ -185,6 +175,7 @@ fn begin<'a>(ready: &'a Ready<'a>, budget: Budget, left: &mut u64, findings: &mu
         seen: Seen::new(ready),
         tried: None,
         records: Vec::new(),
+        lost: false,
         hopeless: false,
     };
     let Some(first) = tour.left.next() else { return tour };
@@ -238,6 +229,7 @@ fn go_on(tour: &mut Tour<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
 fn count(tour: &mut Tour<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
     tour.note(trial, attempt.faults, left);
     tour.records.push(attempt.record);
+    tour.lost |= attempt.lost;
     let Some(tried) = &mut tour.tried else { return };
     tried.runs += 1;
     tried.broke |= attempt.broke;

@@ -1,0 +1,186 @@
+//! Labs of twenty kinds (`twenty/labs.md`) and random settings of them, each run in MuJoCo 3.14.0 as well (`golden/twenty.py`): what is
+//! broken there is reported, what is sound is not, and `run`, `check` and `stability` report the same.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::needs::needs;
+use crate::program::run_in;
+use crate::support::{compile, for_each, read_json, workspace};
+use labspec::bind::Programs;
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::run::RunOptions;
+use labspec::source::SourceFile;
+use labspec::spec::Lab;
+use labspec::stability;
+use labspec_core::Model;
+use labspec_expr::Value;
+use serde_json::Value as Json;
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// What is broken and reported at least, and what is sound and reported at most, in parts.
+const REPORTED: f64 = 0.99;
+const ALARMS: f64 = 0.003;
+
+/// A lab with its model and its programs.
+struct Ready {
+    lab: Lab,
+    model: Model,
+    programs: Programs,
+}
+
+/// The texts of the labs.
+fn texts() -> Vec<String> {
+    let all = std::fs::read_to_string(workspace().join("tests/twenty/labs.md")).unwrap();
+    let blocks = all.split("```lab simlab\n").skip(1);
+    blocks.map(|part| part.split("\n```").next().unwrap().to_string()).collect()
+}
+
+fn ready(text: &str) -> Ready {
+    let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
+    assert_eq!(lesson.findings, [], "the labs are as they should be");
+    let lab = lesson.all_labs()[0].clone();
+    let model = compile(&lab.xml.as_ref().unwrap().value);
+    let programs = Programs::compile(&lab, &model, &mut Vec::new());
+    Ready { lab, model, programs }
+}
+
+/// The codes of what `run` reports of a setting.
+fn run(ready: &Ready, set: Vec<(String, Value)>) -> BTreeSet<&'static str> {
+    let options = RunOptions { set, every: 100, ..RunOptions::default() };
+    let table = stability::watched_run(&ready.lab, &ready.model, &ready.programs, &options).unwrap();
+    assert_eq!(table.errors, Vec::<String>::new());
+    table.breakdowns.iter().map(|b| b.rule.code).collect()
+}
+
+fn given(setting: &Json) -> Vec<(String, Value)> {
+    let all = setting["set"].as_object().unwrap();
+    all.iter().map(|(label, x)| (label.clone(), Value::Number(x.as_f64().unwrap()))).collect()
+}
+
+#[test]
+fn broken_settings_are_reported_and_sound_ones_are_not() {
+    let labs: Vec<Ready> = texts().iter().map(|text| ready(text)).collect();
+    let golden = read_json(&workspace().join("tests/golden/twenty.json"));
+    let settings = golden["settings"].as_array().unwrap();
+    let reports = for_each(settings.len(), |i| {
+        let setting = &settings[i];
+        run(&labs[setting["lab"].as_u64().unwrap() as usize], given(setting))
+    });
+    let (mut broken, mut sound) = ([0usize; 2], [0usize; 2]);
+    let mut wrong = Vec::new();
+    for (setting, codes) in settings.iter().zip(reports) {
+        let reported = codes.iter().any(|code| *code != "creeps");
+        let count = match setting["broken"].as_bool() {
+            Some(true) => &mut broken,
+            Some(false) => &mut sound,
+            None => continue,
+        };
+        count[0] += 1;
+        count[1] += usize::from(reported);
+        if setting["broken"].as_bool() != Some(reported) {
+            wrong.push(format!("{setting}: {codes:?}"));
+        }
+    }
+    println!(
+        "{} of {} broken settings are reported, {} of {} sound ones",
+        broken[1], broken[0], sound[1], sound[0]
+    );
+    wrong.iter().for_each(|line| println!("{line}"));
+    assert!(broken[0] >= 150 && sound[0] >= 400, "{broken:?} {sound:?}");
+    assert!(broken[1] as f64 >= REPORTED * broken[0] as f64, "{broken:?}");
+    assert!(sound[1] as f64 <= ALARMS * sound[0] as f64, "{sound:?}");
+}
+
+/// What `stability` calls what `check` and `run` report by this code.
+fn kind(code: &str) -> Option<&'static str> {
+    Some(match code {
+        "simulation-diverges" => "diverges",
+        "engine-warning" => "engineWarns",
+        "energy-grows" | "damper-pushes" => "energyGrows",
+        "runs-away" => "silentDivergence",
+        "past-limit" => "pastALimit",
+        "passes-through" => "tunnelling",
+        "sinks-in" => "sinksIn",
+        "solver-stops-early" => "solverStopsEarly",
+        "pressed-deep" => "penetration",
+        "chatters" => "chatter",
+        "creeps" => "drift",
+        _ => return None,
+    })
+}
+
+/// The lab with its controls at these values.
+fn set(text: &str, values: &Json) -> String {
+    let mut lab: Json = serde_json::from_str(text).unwrap();
+    for control in lab["controls"].as_array_mut().unwrap() {
+        control["value"] = values[control["label"].as_str().unwrap()].clone();
+    }
+    lab.to_string()
+}
+
+/// Where the three do not report the same of a lab as it stands.
+fn three(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Option<String> {
+    let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
+    let window = stability::window(lesson.all_labs()[0]).to_string();
+    let file = folder.join(format!("{name}.json"));
+    std::fs::write(&file, text).unwrap();
+    let report = |command: &str, more: &[&str]| -> Json {
+        let mut words = vec![command, file.to_str().unwrap(), "--format", "json"];
+        words.extend(more);
+        models.iter().for_each(|folder| words.extend(["--models", folder]));
+        let done = run_in(&workspace(), &words);
+        serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{name}: {}", done.stderr))
+    };
+    let texts = |list: &Json, key: &str| -> Vec<String> {
+        list.as_array().unwrap().iter().map(|x| x[key].as_str().unwrap().to_string()).collect()
+    };
+    let kinds = |codes: Vec<String>| codes.iter().filter_map(|c| kind(c)).collect::<BTreeSet<&str>>();
+    let by_run = kinds(texts(&report("run", &["--until", &window])["breakdowns"], "code"));
+    let stability = report("stability", &["--until", &window]);
+    let wrong = stability["runs"][0]["wrong"].as_array().unwrap().iter().filter_map(Json::as_str);
+    let by_stability: BTreeSet<&str> = wrong.filter(|k| *k != "throws").collect();
+    let checked = report("check", &[]);
+    let findings = checked["findings"].as_array().unwrap().iter();
+    let as_it_stands = |f: &&Json| {
+        let message = f["message"].as_str().unwrap();
+        message.contains(" as it stands: ") || message.contains(", as it stands (")
+    };
+    let codes = findings.filter(as_it_stands).map(|f| f["code"].as_str().unwrap().to_string());
+    let by_check = kinds(codes.collect());
+    (by_run != by_stability || by_run != by_check)
+        .then(|| format!("{name}: run {by_run:?}, stability {by_stability:?}, check {by_check:?}\n{text}"))
+}
+
+#[test]
+fn run_check_and_stability_report_the_same() {
+    let blocks = texts();
+    let golden = read_json(&workspace().join("tests/golden/twenty.json"));
+    // Settings as they come, as many of each lab.
+    let settings = golden["settings"].as_array().unwrap().iter().take(80);
+    let mut labs: Vec<(String, String, Option<&str>)> = settings
+        .enumerate()
+        .map(|(i, s)| {
+            (format!("setting-{i}"), set(&blocks[s["lab"].as_u64().unwrap() as usize], &s["set"]), None)
+        })
+        .collect();
+    labs.extend(blocks.iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text.to_string(), None)));
+    if needs("../shared/corpus") {
+        let folder = workspace().join("../shared/corpus/labs");
+        let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+        files.sort();
+        labs.extend(files.iter().map(|f| {
+            let name = f.file_stem().unwrap().to_str().unwrap().to_string();
+            (name, std::fs::read_to_string(f).unwrap(), Some("../shared/corpus/models"))
+        }));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let wrong: Vec<String> = for_each(labs.len(), |i| {
+        let (name, text, models) = &labs[i];
+        three(folder.path(), name, text, *models)
+    })
+    .into_iter()
+    .flatten()
+    .collect();
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
+}
