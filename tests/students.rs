@@ -410,7 +410,9 @@ fn a_remedy_says_what_it_costs() {
     let list = report["findings"][0]["remedies"].as_array().unwrap();
     let of = |words: &str| list.iter().find(|r| r["change"].as_str().unwrap().contains(words)).unwrap();
     // Two radians in a step of 1 ms: neither that nor RK4 at 2 ms follows the phase, and neither is advised.
-    assert!(list.iter().all(|r| r["change"] != "a timestep of 0.001 s" && r["change"] != "`integrator=\"RK4\"`"));
+    assert!(
+        list.iter().all(|r| r["change"] != "a timestep of 0.001 s" && r["change"] != "`integrator=\"RK4\"`")
+    );
     let error = |r: &Value| r["error"].as_f64().unwrap();
     for remedy in list {
         assert!(remedy["timeRatio"].as_f64().unwrap() > 0.1, "{remedy}");

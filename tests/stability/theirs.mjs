@@ -58,10 +58,11 @@ function run(lab, actions, { before, after, done } = {}, length, touch) {
   while (made < steps) {
     const before = data.time;
     if (controller) try { call(controller); } catch { threw = true; break; }
-    if (disturbed) { watch.growth?.restart(data); disturbed = false; }
+    if (disturbed) { watch.growth?.restart(data); watch.limits.restart(data); disturbed = false; }
     mj.mj_step(model, data);
     made += 1;
     watch.growth?.look(data);
+    watch.limits.look(data);
     if (data.time < before || made % 100 === 0 || made < 3 || made === steps) {
       warnings(data, found);
       if (BAD.some(([kind]) => found[kind])) { broke = before; break; }

@@ -163,6 +163,36 @@ class Growth {
   }
 }
 
+// Joints past their limits.
+class Limits {
+  constructor(mj, m, d) { this.mj = mj; this.m = m; this.found = null; this.restart(d); }
+  restart(d) {
+    const { mj, m } = this, bit = mj.mjtDisableBit, off = m.opt.disableflags & (bit.mjDSBL_LIMIT.value | bit.mjDSBL_CONSTRAINT.value);
+    this.joints = [];
+    for (let j = 0; j < m.njnt && !off; j++) {
+      // Views of booleans cannot be read there: what has a range has a limit.
+      const turns = m.jnt_type[j] === 3, [low, high] = rows(m.jnt_range, j, 2), extent = m.stat.extent, q = m.jnt_qposadr[j];
+      if (m.jnt_type[j] < 2 || !(low < high)) continue;
+      const size = Math.max(Math.min(high - low, turns ? 2 * Math.PI : 10 * extent), (turns ? 0.1 : 0.02 * extent) / 0.2);
+      const beyond = (x) => Math.max(low - x, x - high), before = d.qpos[q];
+      this.joints.push({ q, high, size, beyond, before, outside: beyond(before) > 0.2 * size, lasted: 0, since: 0 });
+    }
+  }
+  look(d) {
+    if (this.found !== null) return;
+    for (const j of this.joints) {
+      const x = d.qpos[j.q], before = j.before;
+      j.before = x;
+      if (!(j.beyond(x) > 0.2 * j.size)) { j.lasted = 0; j.outside = false; continue; }
+      if (j.lasted === 0) j.since = d.time;
+      j.lasted += 1;
+      const outward = x > j.high ? x - before : before - x;
+      const jumped = outward > 0.2 * j.size && j.beyond(before) < 0.2 * j.size, stays = j.lasted >= 32 && d.time - j.since >= 0.25;
+      if (jumped || stays || (!j.outside && j.beyond(x) > 0.5 * j.size)) { this.found = j.since; return; }
+    }
+  }
+}
+
 // The first entry and those after each so many looks; every second one is forgotten when there are too many.
 class Memory {
   constructor(every, most) { this.every = every; this.most = most; this.looks = 0; this.past = []; }
@@ -185,6 +215,7 @@ export class Watch {
     this.extent = Math.max(m.stat.extent, 1e-3);
     this.slides = Array.from({ length: m.nv }, (_, k) => { const j = m.dof_jntid[k], t = m.jnt_type[j]; return t === 2 || (t === 0 && k < m.jnt_dofadr[j] + 3); });
     this.growth = controlled ? null : new Growth(mj, m, d);
+    this.limits = new Limits(mj, m, d);
     this.restart(d);
   }
   free() { this.growth?.free(); }
@@ -306,6 +337,7 @@ export class Watch {
     for (const t of this.touching.values()) if (t.deepest > 0.3 && t.lasted >= 0.2 && !passed.includes(geoms(t))) {
       seen.push({ kind: 'penetration', who: t.geoms, time: t.at, value: t.deepest });
     }
+    if (this.limits.found !== null) seen.push({ kind: 'pastALimit', time: this.limits.found });
     const silent = this.sure ?? this.ranAway();
     if (silent && when === Infinity) seen.push({ kind: 'silentDivergence', ...silent });
     if (!this.controlled) seen.push(...this.drifts());

@@ -107,7 +107,7 @@ impl Eyes<'_> {
                 None => faults.push(fault),
                 // The same, with more to say of it.
                 Some(known) if known.kind == fault.kind => {
-                    fault.by_run = true;
+                    fault.by_run = known.by_run;
                     *known = fault;
                 }
                 Some(_) => {}
