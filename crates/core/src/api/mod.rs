@@ -1,6 +1,7 @@
 //! The engine as embedders hold it: models and data that belong together, objects by name, errors instead of panics.
 
 pub(crate) mod addresses;
+mod assumed;
 pub(crate) mod call;
 mod contents;
 pub(crate) mod data;

@@ -1,5 +1,7 @@
 //! Which pairs of geoms may touch, and in which order they are tested.
 
+use super::extent::Extents;
+use super::params;
 use crate::geometry::pair::{self, Method};
 use crate::kinds::disable;
 use crate::math::sort::sort_by;
@@ -47,6 +49,29 @@ impl Pair {
 #[inline]
 pub(crate) fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
     (m.geom_contype[g1] & m.geom_conaffinity[g2]) | (m.geom_contype[g2] & m.geom_conaffinity[g1]) != 0
+}
+
+/// Whether the contact bits of two bodies admit contacts of their geoms: those of their geoms when the model was compiled, unless
+/// they are written. A geom whose bits are switched on alone touches nothing (measured on MuJoCo 3.14.0:
+/// `tests/golden/switched.py`).
+#[inline]
+fn bodies_collide(m: &Model, b1: usize, b2: usize) -> bool {
+    (m.body_contype[b1] & m.body_conaffinity[b2]) | (m.body_contype[b2] & m.body_conaffinity[b1]) != 0
+}
+
+/// Whether the bounding volumes of two bodies lead to two of their geoms: they were made of the geoms that had contact bits when the
+/// model was compiled, and are looked at where both bodies have some, unless the midphase is off.
+fn volumes_hold(m: &Model, g1: usize, g2: usize) -> bool {
+    let visual = |g: usize| m.visual_geoms.binary_search(&(g as i32)).is_ok();
+    let hold = |g: usize| {
+        let b = m.geom_bodyid[g] as usize;
+        let first = m.body_geomadr[b].max(0) as usize;
+        (first..first + m.body_geomnum[b] as usize).any(|other| !visual(other))
+    };
+    m.visual_geoms.is_empty()
+        || m.opt.disabled(disable::MIDPHASE)
+        || !(visual(g1) || visual(g2))
+        || !(hold(g1) && hold(g2))
 }
 
 /// Whether two bodies can ever touch: not welded to each other, and at least one can move.
@@ -120,22 +145,35 @@ pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
 /// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
 pub(crate) const MOST_LISTED: usize = 4096;
 
+/// What may change after pairs were chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Changes {
+    /// Contact bits and flags.
+    pub(crate) bits: bool,
+    /// The parameters of contacts.
+    pub(crate) params: bool,
+    /// Where bodies, joints and geoms are in the model.
+    pub(crate) places: bool,
+}
+
 /// All pairs that can ever touch, in the order in which they are tested. The list ends early when it becomes longer
 /// than [`MOST_LISTED`].
-pub(crate) fn candidate_pairs(m: &Model, may_change: bool) -> Vec<Pair> {
+pub(crate) fn candidate_pairs(m: &Model, change: Changes) -> Vec<Pair> {
+    let extents = (!change.places && !change.params).then(|| Extents::new(m));
+    let meet = |p: &Pair| !extents.as_ref().is_some_and(|e| e.keep_apart(m, p, params::params(m, p).reach));
     let geoms = |b: usize| {
         let first = m.body_geomadr[b].max(0) as usize;
         first..first + m.body_geomnum[b] as usize
     };
     let with_geoms: Vec<usize> = (0..m.nbody).filter(|&b| m.body_geomnum[b] > 0).collect();
-    let mut out: Vec<Pair> = explicit_pairs(m).collect();
+    let mut out: Vec<Pair> = explicit_pairs(m).filter(meet).collect();
     for (i, &b1) in with_geoms.iter().enumerate() {
         for &b2 in &with_geoms[i + 1..] {
             if !bodies_may_touch(m, b1, b2) {
                 continue;
             }
             for g1 in geoms(b1) {
-                out.extend(geoms(b2).filter_map(|g2| dynamic_pair(m, g1, g2, may_change)));
+                out.extend(geoms(b2).filter_map(|g2| dynamic_pair(m, g1, g2, change.bits)).filter(meet));
             }
             if out.len() > MOST_LISTED {
                 return out;
@@ -146,8 +184,16 @@ pub(crate) fn candidate_pairs(m: &Model, may_change: bool) -> Vec<Pair> {
     out
 }
 
-/// Whether contact bits and the parent filter admit a contact now.
+/// Whether contact bits, those of bodies as well, and the parent filter admit a contact now.
 #[inline]
 pub(super) fn admitted(m: &Model, g1: usize, g2: usize) -> bool {
-    can_collide(m, g1, g2) && !parent_and_child(m, g1, g2)
+    masks_admit(m, g1, g2) && !parent_and_child(m, g1, g2)
+}
+
+/// Whether the contact bits of two geoms and of their bodies admit a contact.
+#[inline]
+pub(super) fn masks_admit(m: &Model, g1: usize, g2: usize) -> bool {
+    can_collide(m, g1, g2)
+        && bodies_collide(m, m.geom_bodyid[g1] as usize, m.geom_bodyid[g2] as usize)
+        && volumes_hold(m, g1, g2)
 }

@@ -10,6 +10,7 @@ pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;
 pub(crate) mod functions;
+mod idle;
 pub(crate) mod integrate;
 pub(crate) mod inverse;
 pub(crate) mod pipeline;
