@@ -13,7 +13,7 @@ use super::model::Model;
 use super::planning::Plan;
 use crate::model::plan::Plan as PlanTable;
 use crate::model::reflect::FieldSet;
-use crate::step::scene::{Demand, deciding};
+use crate::step::scene::{deciding, never_asked};
 use crate::step::{functions, reset};
 
 /// For how many passes values must have stayed before a plan takes them as they are.
@@ -32,11 +32,6 @@ pub(super) struct Assumed {
     settled: u64,
     /// A narrower plan is due at the next pass.
     due: bool,
-}
-
-/// What is written, and decides nothing: of these fields a plan never asks the value.
-pub(super) fn never_asked(demand: &Demand) -> FieldSet {
-    demand.writes.difference(&deciding())
 }
 
 impl Assumed {

@@ -7,6 +7,9 @@ mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
 pub(crate) mod model;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod planar_chains;
 pub(crate) mod planning;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why

@@ -1,6 +1,5 @@
 //! Plans as everybody but the engine sees them: what a demand leads to.
 
-use super::assumed;
 use super::contents::Contents;
 use super::model::{Model, SensorId};
 use crate::collision::{self, PairFate};
@@ -60,12 +59,12 @@ impl Plan {
 
     /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
     pub fn by_ways(m: &Model, demand: &Demand, ways: Ways) -> Plan {
-        Plan::made(m, demand, assumed::never_asked(demand), |d| Inner::new(m, d, ways))
+        Plan::made(m, demand, scene::never_asked(demand), |d| Inner::new(m, d, ways))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
     pub fn with(m: &Model, demand: &Demand, more: Stage) -> Plan {
-        Plan::made(m, demand, assumed::never_asked(demand), |d| Inner::with(m, d, Ways::ALL, Some(more)))
+        Plan::made(m, demand, scene::never_asked(demand), |d| Inner::with(m, d, Ways::ALL, Some(more)))
     }
 
     /// The stages that a scene may come to need, whatever programs write.

@@ -1,9 +1,8 @@
 //! A census of the pairs of geoms: how many can ever touch, and why the others cannot.
 
+use super::candidates::{Changes, candidate_pairs};
 use super::extent::Extents;
-use super::filter::{
-    Changes, Pair, candidate_pairs, dynamic_pair, excluded, explicit_pairs, masks_admit, parent_and_child,
-};
+use super::filter::{Pair, dynamic_pair, excluded, explicit_pairs, masks_admit, parent_and_child};
 use super::{Scratch, params, sweep};
 use crate::geometry::pair;
 use crate::model::{Fields, Model};

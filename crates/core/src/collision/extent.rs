@@ -143,7 +143,7 @@ fn above(plane: &Extent, other: &Extent, between: Vec3) -> f64 {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
-    use super::super::filter::{Changes, candidate_pairs};
+    use super::super::candidates::{Changes, candidate_pairs};
     use crate::mjcf::compile;
 
     fn left(world: &str) -> usize {

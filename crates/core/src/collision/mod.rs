@@ -1,5 +1,6 @@
 //! Collision detection: which geoms touch, where, and with which contact parameters.
 
+mod candidates;
 mod census;
 mod extent;
 mod filter;
@@ -8,11 +9,12 @@ mod primitive;
 mod reach;
 mod sweep;
 
+pub(crate) use candidates::{Changes, MOST_LISTED, candidate_pairs};
 pub use census::PairFate;
 pub(crate) use census::{census, in_reach, methods};
 pub(crate) use extent::FIELDS as PLACES;
 use filter::Pair;
-pub(crate) use filter::{Changes, MOST_LISTED, candidate_pairs, searched_pair};
+pub(crate) use filter::searched_pair;
 pub(crate) use filter::{can_collide, may_touch};
 use params::Params;
 use reach::Spheres;

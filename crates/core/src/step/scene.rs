@@ -122,6 +122,11 @@ pub(crate) fn deciding() -> FieldSet {
     set
 }
 
+/// What is written, and decides nothing: of these fields a plan never asks the value.
+pub(crate) fn never_asked(demand: &Demand) -> FieldSet {
+    demand.writes.difference(&deciding())
+}
+
 /// When a fact holds.
 type Test = fn(&Scene) -> bool;
 

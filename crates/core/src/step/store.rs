@@ -5,6 +5,7 @@
 //! first. A file may come from anywhere: it is compared with its fingerprint, and what the engine would index by must
 //! lie where it can.
 
+use crate::dynamics::ways;
 use crate::geometry::Sides;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object};
@@ -110,7 +111,8 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
         let corners = usize::try_from(*m.mesh_vertnum.get(mesh.next()?)?).ok()?;
         Sides::from_numbers(&integers, &floats, corners)
     })?;
-    (rest.is_empty() && unsound(&m).is_none()).then_some(m)
+    let good = rest.is_empty() && unsound(&m).is_none() && ways::are_chains(&m, &m.planar_trees);
+    good.then_some(m)
 }
 
 #[cfg(test)]

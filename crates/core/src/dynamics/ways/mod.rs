@@ -281,6 +281,12 @@ pub(crate) fn planar_trees(m: &Model) -> Vec<i32> {
     (0..m.ntree).filter(|&tree| planar_chain::is_planar(m, tree)).map(|tree| tree as i32).collect()
 }
 
+/// Whether all trees that a model from elsewhere calls such chains are chains.
+pub(crate) fn are_chains(m: &Model, trees: &[i32]) -> bool {
+    let chain = |&t: &i32| usize::try_from(t).is_ok_and(|t| t < m.ntree && planar_chain::is_chain(m, t));
+    trees.iter().all(chain)
+}
+
 /// Whether some trees put off the rows of M until somebody asks for them.
 pub(crate) fn put_rows_off(w: &Scratch) -> bool {
     !w.ways.planar_chain.is_empty()

@@ -78,8 +78,8 @@ fn covers(m: &Model, tree: usize) -> bool {
     m.planar_trees.binary_search(&(tree as i32)).is_ok()
 }
 
-/// Whether a tree is a long chain in a plane.
-pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
+/// Whether a tree is a long chain of hinges, one after the other from the world on.
+pub(super) fn is_chain(m: &Model, tree: usize) -> bool {
     let dofs = m.tree_dofs(tree);
     let first = dofs.start;
     let link = |k: usize| {
@@ -87,7 +87,12 @@ pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
             && m.jnt_type[m.dof_jntid[k] as usize] == joint::HINGE
     };
     let on_the_world = |k: usize| m.body_weldid[m.body_parentid[m.dof_bodyid[k] as usize] as usize] == 0;
-    if dofs.len() <= FEW || !dofs.clone().all(link) || !on_the_world(first) {
+    dofs.len() > FEW && dofs.clone().all(link) && on_the_world(first)
+}
+
+/// Whether it moves in a plane, too.
+pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
+    if !is_chain(m, tree) {
         return false;
     }
     let own = Own { forces: vec![tree], ..Own::default() };
@@ -374,7 +379,3 @@ fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
         x.iter_mut().zip(&*joints).for_each(|(x, joint)| *x = joint[1].x);
     }
 }
-
-#[cfg(test)]
-#[path = "planar_chain_tests.rs"]
-mod tests;

@@ -1,4 +1,4 @@
-#![allow(clippy::unwrap_used)] // a test that fails says why
+//! Long chains in a plane move as the general way moves them, in every integrator, with ties, and when they are written to.
 
 use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
 use crate::model::reflect::{self, FieldSet, Object, data};
