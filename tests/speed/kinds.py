@@ -61,7 +61,7 @@ KINDS = {
                     "<equality><joint joint1='b' joint2='a' polycoef='0 -.5 0 0 0'/></equality><actuator><motor joint='a'/></actuator>"), True,
               {"setup": "data.ctrl[0] = 0.1"}),
     "gyroscope": (model("<body pos='0 0 1'><joint axis='0 0 1'/><joint axis='0 1 0'/><joint axis='1 0 0'/>"
-                        "<geom type='cylinder' size='.1 .02' pos='.2 0 0' euler='0 90 0' mass='1'/></body>"), False, {"setup": "data.qvel[2] = 200"}),
+                        "<geom type='cylinder' size='.1 .02' pos='.2 0 0' euler='0 90 0' mass='1'/></body>"), False, {"setup": "data.qvel[2] = 50", "stop": 2}),
     "dry friction": (model(slide(more="frictionloss='1'")), True, {"setup": "data.qvel[0] = 2"}),
     "pulley": (model("<body pos='-.3 0 1'><joint name='a' type='slide' axis='0 0 1'/><geom size='.05' mass='1'/></body>"
                      "<body pos='.3 0 1'><joint name='b' type='slide' axis='0 0 1'/><geom size='.05' mass='1.2'/></body>",
@@ -95,9 +95,9 @@ def lab(name):
         "controls": [
             {"label": "timestep (s)", "set": "model.opt.timestep", "min": 0.0005, "max": 0.01, "step": 0.0005, "value": 0.002},
             {"type": "select", "label": "integrator", "set": "model.opt.integrator", "value": 0,
-             "options": [{"label": "Euler", "value": 0}, {"label": "RK4", "value": 1}, {"label": "implicitfast", "value": 3}]},
+             "options": [["Euler", 0], ["RK4", 1], ["implicitfast", 3]]},
         ],
-        "plots": [{"title": "motion", "traces": [first, V]}], "readouts": [X],
+        "plots": [{"traces": [first, V]}], "readouts": [X],
     }
     return spec | {key: more[key] for key in ("setup", "controller") if key in more}
 

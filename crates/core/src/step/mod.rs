@@ -6,6 +6,7 @@
 pub(crate) mod balance;
 mod clocked;
 pub(crate) mod damping;
+mod demand;
 pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;

@@ -179,7 +179,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Constraint,
         name: "constraint",
         needs: &[
-            (&[Stage::Orientations], |s, _| s.ties_bodies()),
+            (&[Stage::Orientations], |s, _| s.welds_bodies()),
             (&[Stage::Kinematics], |s, _| s.pairs > 0 || s.ties_bodies()),
             (&[Stage::SitePoses], |s, _| s.ties_bodies() && s.m.eq_objtype.contains(&(Obj::Site as i32))),
             (&[Stage::Tendon], |s, _| s.tendon_constraints()),

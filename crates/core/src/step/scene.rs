@@ -1,5 +1,7 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
+pub use super::demand::Demand;
+
 use crate::dynamics::ways;
 use crate::forces::{actuation, derivative, tendon};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
@@ -9,22 +11,6 @@ use crate::model::way::Ways;
 use crate::model::{Model, Plan};
 use crate::step::{damping, idle};
 use crate::{collision, sensor};
-
-/// What programs read and write.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Demand {
-    /// Fields that are read between steps.
-    pub reads: FieldSet,
-    /// Fields that are written between steps.
-    pub writes: FieldSet,
-}
-
-impl Demand {
-    /// Anything may be read or written: what an embedding program gets that says nothing.
-    pub const ANY: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::ALL };
-    /// Anything may be read, only state and controls are written.
-    pub const OBSERVE: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
-}
 
 /// What the parameters of a contact are mixed from.
 const CONTACT_PARAMS: [FieldId; 18] = [
@@ -440,6 +426,11 @@ impl<'a> Scene<'a> {
     /// Forces on bodies as such.
     pub(super) fn body_forces(&self) -> bool {
         self.gravcomp || self.fluid
+    }
+
+    /// Constraints between frames of bodies.
+    pub(super) fn welds_bodies(&self) -> bool {
+        self.equalities > 0 && self.m.eq_type.contains(&eqtype::WELD)
     }
 
     /// Constraints between points or frames of bodies.
