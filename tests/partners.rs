@@ -34,8 +34,15 @@ const BOTH: &str = "const f = value / model.body_mass[1]; model.body_mass[1] = v
     for (let i = 3; i < 6; i++) model.body_inertia[i] *= f; mj.mj_setConst(model, data)";
 
 /// The rules about partners and constants.
-const RULES: [&str; 6] =
-    ["mass-alone", "inertia-alone", "shape-alone", "gain-alone", "missing-setconst", "claim-of-mismatch"];
+const RULES: [&str; 7] = [
+    "mass-alone",
+    "inertia-alone",
+    "shape-alone",
+    "gain-alone",
+    "contype-alone",
+    "missing-setconst",
+    "claim-of-mismatch",
+];
 
 fn lab(xml: &str, controls: &Json, shown: &str) -> Json {
     json!({"xml": xml, "stopAt": 1, "controls": controls, "readouts": [{"label": "shown (m/s)", "expr": shown, "digits": 3}]})
@@ -60,8 +67,11 @@ fn codes(lab: &Json) -> Vec<&'static str> {
 
 /// The numbers of both runs: those before and behind ", and ".
 fn numbers(why: &str) -> (f64, f64) {
-    let (before, after) = why.split_once(" is ").unwrap().1.split_once(", and ").unwrap();
-    let first = |text: &str| text.split(' ').next().unwrap().trim_end_matches(',').parse::<f64>().unwrap();
+    let (before, after) = why.split_once(")\" is ").unwrap().1.split_once(", and ").unwrap();
+    let first = |text: &str| {
+        let word = text.split(' ').next().unwrap().trim_end_matches(',').replace('\u{2212}', "-");
+        word.parse::<f64>().unwrap_or_else(|_| panic!("{why}"))
+    };
     (first(before), first(after))
 }
 
@@ -245,6 +255,27 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
     let finding = found(&bob).remove(0);
     assert!(finding.message.contains("leaves `model.body_ipos`"), "{finding:?}");
     repaired(&bob, "shape-alone");
+}
+
+#[test]
+fn a_geom_that_is_switched_on_takes_its_body_along() {
+    let button = |xml: &str, run: &str| {
+        lab(xml, &json!([{"type": "button", "label": "solid", "run": run}]), "data.qpos[2]")
+    };
+    let off = DROP.replace("mass='1'", "mass='1' contype='0' conaffinity='0'");
+    for run in ["model.geom_contype[1] = 1", "model.geom_contype.fill(1)", "model.geom_conaffinity[1] = 1"] {
+        let (alone, both) = repaired(&button(&off, run), "contype-alone");
+        assert!(alone < -2.0 && (both - 0.05).abs() < 0.01, "{run}: {alone} {both}");
+    }
+    let right = "model.geom_contype[1] = 1; model.body_contype[1] = 1";
+    assert_eq!(codes(&button(&off, right)), Vec::<&str>::new());
+    // Off and on again is no omission, and neither is switching off.
+    let run = "model.geom_contype[1] = 1 - model.geom_contype[1]; model.geom_conaffinity[1] = model.geom_contype[1]";
+    assert_eq!(codes(&button(DROP, run)), Vec::<&str>::new());
+    // In a body with others the bounding volumes stand between as well.
+    let two = off.replace("</body>", "<geom size='.01' pos='0 0 .1' mass='0'/></body>");
+    let (alone, both) = repaired(&button(&two, "model.geom_contype[1] = 1"), "contype-alone");
+    assert!(alone < 0.0 && both > 0.0, "{alone} {both}");
 }
 
 #[test]

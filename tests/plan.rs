@@ -63,6 +63,14 @@ const WRITES: &[(Object, &str, f64)] = &[
     (Object::Model, "actuator_forcerange", 0.3),
     (Object::Model, "actuator_damping", 0.6),
     (Object::Data, "eq_active", 0.0),
+    (Object::Data, "eq_active", 1.0),
+    (Object::Model, "eq_active0", 0.0),
+    (Object::Model, "actuator_ctrlrange", 0.2),
+    (Object::Model, "jnt_actfrcrange", 0.1),
+    (Object::Model, "jnt_actgravcomp", 1.0),
+    (Object::Model, "body_contype", 0.0),
+    (Object::Model, "body_conaffinity", 2.0),
+    (Object::Option, "disableactuator", 1.0),
     (Object::Model, "eq_solref", 0.05),
     (Object::Model, "dof_frictionloss", 0.3),
     (Object::Option, "cone", 1.0),
@@ -211,6 +219,25 @@ proptest! {
             demand.reads.insert(field(Object::Data, name));
         }
         let difference = difference(&m, &demand, &events);
+        prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
+    }
+
+    /// The same with programs that nobody told the plan of, and with a plan for any values.
+    #[test]
+    fn writes_that_nobody_announced_count(
+        scene in tied_scene(),
+        reads in vec(any::<prop::sample::Index>(), 0..6),
+        events in vec(event(), 0..6),
+    ) {
+        let m = compile(&scene.xml());
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        reads.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
+        for name in ["time", "qpos", "qvel"] {
+            demand.reads.insert(field(Object::Data, name));
+        }
+        let told = Demand { writes: writes(&events), ..demand };
+        let difference = difference(&m, &demand, &events)
+            .or_else(|| difference_of(&m, Data::planned(&m, Plan::for_any_value(&m, &told)), &told, &events));
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
     }
 
@@ -403,12 +430,15 @@ fn a_written_flag_keeps_what_it_may_switch_on() {
     let mut demand = reading(&["energy", "qpos"]);
     assert!(!Plan::new(&m, &demand).keeps(Stage::Energy));
     demand.writes.insert(field(Object::Option, "enableflags"));
+    let any = Plan::for_any_value(&m, &demand);
+    assert!(any.keeps(Stage::Energy) && any.keeps(Stage::Kinematics));
     let plan = Plan::new(&m, &demand);
-    assert!(plan.keeps(Stage::Energy) && plan.keeps(Stage::Kinematics));
+    assert!(!plan.keeps(Stage::Energy));
     let mut d = Data::planned(&m, plan);
     let mut m = m;
     m.set_enabled(enable::ENERGY, true);
     core::forward(&m, &mut d).unwrap();
+    assert!(d.plan().keeps(Stage::Energy) && d.plan().keeps(Stage::Kinematics));
     let f = field(Object::Data, "energy");
     assert!(matches!(core::view(&m, &d, f), Ok(View::F64(&[p, k])) if (p - 9.81).abs() < 1e-12 && k == 0.0));
 }

@@ -7,7 +7,7 @@
 use crate::needs::needs;
 use crate::support::{compile, for_each, models, workspace};
 use labspec::bind::{Functions, ModelNames, Scope, World, include};
-use labspec_core::reflect::FieldSet;
+use labspec_core::reflect::{self, FieldSet, Object};
 use labspec_core::{self as core, Data, Demand, Model, Plan};
 use labspec_expr::{CollectionId, Compiler, Context, Entry, Globals, ObjectId, Param, Schema, Value};
 
@@ -91,10 +91,43 @@ fn some(names: &ModelNames<'_>, collection: CollectionId) -> Vec<String> {
     names.names(collection).into_iter().filter(plain).take(MOST).collect()
 }
 
-fn world(model: &Model, plan: Plan) -> World {
+/// What is written in the midst of a run: a field, an element of it and its new value.
+type Change = (Object, &'static str, usize, f64);
+
+/// What a control, a button, a keyframe or a program of a lab writes, each of which decides what of a plan is kept.
+const CHANGES: [Change; 16] = [
+    (Object::Option, "integrator", 0, 1.0),
+    (Object::Option, "integrator", 0, 3.0),
+    (Object::Option, "integrator", 0, 4.0),
+    (Object::Option, "timestep", 0, 0.001),
+    (Object::Option, "cone", 0, 1.0),
+    (Object::Option, "solver", 0, 1.0),
+    (Object::Option, "disableflags", 0, (core::disable::CONTACT | core::disable::ACTUATION) as f64),
+    (Object::Option, "enableflags", 0, core::enable::ENERGY as f64),
+    (Object::Option, "density", 0, 3.0),
+    (Object::Model, "dof_damping", 0, 0.7),
+    (Object::Model, "dof_frictionloss", 0, 0.2),
+    (Object::Model, "geom_contype", 0, 0.0),
+    (Object::Model, "geom_pos", 2, 0.4),
+    (Object::Model, "jnt_axis", 0, 0.6),
+    (Object::Data, "ctrl", 0, 0.8),
+    (Object::Data, "eq_active", 0, 0.0),
+];
+
+/// Whether a model has the element of a change.
+fn has(model: &Model, (object, name, element, _): Change) -> bool {
+    let (field, data) = (reflect::field(object, name).unwrap(), Data::new(model));
+    core::length(model, &data, field) > element
+}
+
+fn world(model: &Model, plan: Plan, change: Option<Change>) -> World {
     let mut data = Data::planned(model, plan);
-    let model = model.clone();
-    for _ in 0..STEPS {
+    let mut model = model.clone();
+    for step in 0..STEPS {
+        if let Some((object, name, element, value)) = change.filter(|_| step == STEPS / 2) {
+            let field = reflect::field(object, name).unwrap();
+            assert!(core::view_mut(&mut model, &mut data, field).unwrap().set(element, value), "{name}");
+        }
         core::step(&model, &mut data).unwrap();
     }
     World { model, data, key: None, own: Functions::new(), shown: Vec::new(), numbers: Vec::new() }
@@ -128,9 +161,9 @@ fn bits(context: &Context, value: &Value) -> String {
     }
 }
 
-/// How many expressions of a model were compared, and those that differ.
-fn compare(model: &Model) -> (usize, Vec<String>) {
-    let full = world(model, Plan::full());
+/// How many expressions of a model were compared, and those that differ, with a change that programs announced or did not.
+fn compare(model: &Model, change: Option<Change>, announced: bool) -> (usize, Vec<String>) {
+    let full = world(model, Plan::full(), change);
     let (mut count, mut wrong) = (0, Vec::new());
     for text in expressions(model) {
         let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
@@ -138,7 +171,10 @@ fn compare(model: &Model) -> (usize, Vec<String>) {
         if shown(&mut blank, &text, Some(&mut demand)).is_none() {
             continue;
         }
-        let mut planned = world(model, Plan::new(model, &demand));
+        if let Some((object, name, ..)) = change.filter(|_| announced) {
+            demand.writes.insert(reflect::field(object, name).unwrap());
+        }
+        let mut planned = world(model, Plan::new(model, &demand), change);
         let Some(ours) = shown(&mut planned, &text, None) else { continue };
         let theirs = shown(&mut full.clone(), &text, None).unwrap_or_default();
         count += 1;
@@ -162,7 +198,7 @@ fn planned_equals_full_for_everything_that_can_be_read() {
         if text.contains("file=") || text.contains("<include") {
             return (0, Vec::new());
         }
-        compare(&compile(&text))
+        compare(&compile(&text), None, false)
     });
     let count: usize = done.iter().map(|(n, _)| n).sum();
     let wrong: Vec<String> = done
@@ -172,4 +208,36 @@ fn planned_equals_full_for_everything_that_can_be_read() {
         .collect();
     assert!(wrong.is_empty(), "{} of {count}:\n{}", wrong.len(), wrong.join("\n"));
     assert!(count > 2000, "{count}");
+}
+
+/// Labs of twenty kinds (`tests/speed/kinds.py`), of which something is written that decides what their plans keep: announced, so that the
+/// plan takes it as it is until then, and by somebody whom nobody expected.
+#[test]
+fn planned_equals_full_whatever_is_switched() {
+    let folder = workspace().join("tests/speed/kinds");
+    let mut cases = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let lab: serde_json::Value =
+            serde_json::from_str(&std::fs::read_to_string(entry.unwrap().path()).unwrap()).unwrap();
+        let model = compile(lab["xml"].as_str().unwrap());
+        let title = lab["title"].as_str().unwrap().to_string();
+        let changes = CHANGES.into_iter().filter(|c| has(&model, *c)).flat_map(|c| [(c, true), (c, false)]);
+        cases.extend(changes.map(|(c, announced)| (title.clone(), model.clone(), c, announced)));
+    }
+    assert!(cases.len() > 20 * 16, "{}", cases.len());
+    let done = for_each(cases.len(), |i| {
+        let (title, model, change, announced) = &cases[i];
+        let (count, wrong) = compare(model, Some(*change), *announced);
+        let told = if *announced { "announced" } else { "not announced" };
+        (count, wrong.into_iter().map(|w| format!("{title}, {} {told}: {w}", change.1)).collect::<Vec<_>>())
+    });
+    let wrong: Vec<&String> = done.iter().flat_map(|(_, wrong)| wrong).collect();
+    let count: usize = done.iter().map(|(n, _)| n).sum();
+    assert!(
+        wrong.is_empty(),
+        "{} of {count}:\n{}",
+        wrong.len(),
+        wrong.iter().take(20).map(|w| w.as_str()).collect::<Vec<_>>().join("\n")
+    );
+    assert!(count > 20_000, "{count}");
 }

@@ -2,7 +2,7 @@
 
 use super::functions;
 use super::own::{self, Functions};
-use labspec_core::reflect::{Elem, FieldId, model, option};
+use labspec_core::reflect::{self, Elem, FieldId, Object, model, option};
 use labspec_core::{self as core, Data, Error, Model, Planned};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
 
@@ -38,6 +38,14 @@ impl Host for World {
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
         let field = FieldId::new(f as usize).ok_or("there is no such field")?;
         check(field, value)?;
+        // What stays as it is is no change of the model: plans were made for it.
+        let same = |held: f64| held.to_bits() == value.to_bits();
+        if field.info().object != Object::Data
+            && reflect::is_writable(field)
+            && core::element(&self.model, &self.data, field, index).is_some_and(same)
+        {
+            return Ok(());
+        }
         match core::view_mut(&mut self.model, &mut self.data, field)?.set(index, value) {
             true => Ok(()),
             false => Err(format!("`{}` has no element {index} to set", field.info().name)),

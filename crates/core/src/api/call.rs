@@ -31,13 +31,13 @@ fn exists(kind: &'static str, id: usize, count: usize) -> Result<(), Error> {
     if id < count { Ok(()) } else { Err(Error::NoId { kind, id, count }) }
 }
 
-/// Functions that take the model and all of the data.
+/// Functions that take the model and all of the data: those that compute everything, and those that compute a part.
 macro_rules! passes {
-    ($($(#[$doc:meta])* $name:ident [$($needs:ident)*] |$m:ident, $d:ident| $call:expr;)*) => { $(
+    ($($(#[$doc:meta])* $name:ident $engine:ident [$($needs:ident)*] |$m:ident, $d:ident| $call:expr;)*) => { $(
         $(#[$doc])*
         pub fn $name<S: Scope>(m: &Model, d: &mut Data<S>) -> Result<(), Error> {
             d.has(&[$(data::$needs),*])?;
-            let ($m, $d) = (m, d.engine(m)?);
+            let ($m, $d) = (m, d.$engine(m)?);
             $call;
             Ok(())
         }
@@ -63,7 +63,7 @@ passes! {
     /// # Ok(())
     /// # }
     /// ```
-    step [] |m, d| step::step(m, d);
+    step engine_for_pass [] |m, d| step::step(m, d);
     /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be set
     /// between the two.
     ///
@@ -88,31 +88,31 @@ passes! {
     /// # Ok(())
     /// # }
     /// ```
-    step1 [] |m, d| step::step1(m, d);
+    step1 engine [] |m, d| step::step1(m, d);
     /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name Runge–Kutta,
     /// which needs forces at other states, this is a step of Euler.
-    step2 [] |m, d| step::step2(m, d);
+    step2 engine [] |m, d| step::step2(m, d);
     /// Computes everything that follows from the state, without advancing time (`mj_forward`).
-    forward [] |m, d| step::forward::forward(m, d);
+    forward engine_for_pass [] |m, d| step::forward::forward(m, d);
     /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps what was
     /// written to it.
-    reset_data [] |m, d| reset::reset_data(m, d);
+    reset_data engine_for_pass [] |m, d| reset::reset_data(m, d);
     /// Poses of bodies, joints, geoms and sites (`mj_kinematics`).
-    kinematics [] |m, d| functions::kinematics(m, d);
+    kinematics engine [] |m, d| functions::kinematics(m, d);
     /// Everything that follows from positions: poses, M, contacts, the sensors of the first stage (`mj_fwdPosition`).
-    fwd_position [] |m, d| step::forward::position(m, d);
+    fwd_position engine [] |m, d| step::forward::position(m, d);
     /// Everything that follows from velocities, where positions have been looked at (`mj_fwdVelocity`).
-    fwd_velocity [] |m, d| step::forward::velocity(m, d);
+    fwd_velocity engine [] |m, d| step::forward::velocity(m, d);
     /// The contacts of geoms where they are now (`mj_collision`).
-    collision [] |m, d| step::forward::contacts(m, d);
+    collision engine [] |m, d| step::forward::contacts(m, d);
     /// `energy[0]`: gravity and springs, J (`mj_energyPos`). Zero where every centre of mass is at the origin.
-    energy_pos [xipos] |m, d| energy::potential(m, d);
+    energy_pos engine [xipos] |m, d| energy::potential(m, d);
     /// `energy[1]` = ½ vᵀ M v, J (`mj_energyVel`).
-    energy_vel [M] |m, d| energy::kinetic(m, d);
+    energy_vel engine [M] |m, d| energy::kinetic(m, d);
     /// Momentum of subtrees (`mj_subtreeVel`): `subtree_linvel`, `subtree_angmom`.
-    subtree_vel [cvel] |m, d| subtree::subtree_vel(m, d);
+    subtree_vel engine [cvel] |m, d| subtree::subtree_vel(m, d);
     /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints (`mj_rnePostConstraint`).
-    rne_post_constraint [cvel] |m, d| body_force::rne_post_constraint(m, d);
+    rne_post_constraint engine [cvel] |m, d| body_force::rne_post_constraint(m, d);
 }
 
 /// Back to a keyframe (`mj_resetDataKeyframe`).
@@ -132,7 +132,9 @@ passes! {
 /// ```
 pub fn reset_data_keyframe<S: Scope>(m: &Model, d: &mut Data<S>, key: KeyId) -> Result<(), Error> {
     exists("keyframe", key.index(), m.nkey)?;
-    reset::reset_data_keyframe(m, d.engine(m)?, key.index());
+    reset::reset_data_keyframe(m, d.engine_for_pass(m)?, key.index());
+    // A keyframe has controls.
+    d.touched = !S::FULL;
     Ok(())
 }
 

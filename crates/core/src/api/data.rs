@@ -1,12 +1,14 @@
 //! `Data` as everybody but the engine sees it: of one model, read by name, written where that means something.
 
 use super::addresses::Addresses;
-use super::contents::Contents;
+use super::assumed::Assumed;
 use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::planning::Plan;
 use crate::model::fields::data_fields;
+use crate::model::plan::Fact;
 use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut, data};
+use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
 use crate::step::reset;
 use crate::step::scene::Demand;
@@ -68,12 +70,12 @@ pub struct Data<S: Scope = Full> {
     pub(super) addresses: Arc<Addresses>,
     /// The model, and the version of its contents when the data were used last; 0 where the plan has not been held against any.
     model: u64,
-    version: u64,
-    /// The contents that the plan was made for; `None` where it holds for any.
-    made_for: Option<Contents>,
-    demand: Demand,
+    pub(super) version: u64,
+    /// What the plan takes for granted.
+    pub(super) assumed: Assumed,
+    pub(super) demand: Demand,
     /// Whether inputs may have been written that the plan was not told of.
-    touched: bool,
+    pub(super) touched: bool,
     scope: PhantomData<S>,
 }
 
@@ -126,16 +128,16 @@ impl Data<Planned> {
 }
 
 impl<S: Scope> Data<S> {
-    fn of(m: &Model, plan: Plan) -> Data<S> {
+    fn of(m: &Model, mut plan: Plan) -> Data<S> {
         Data {
+            assumed: Assumed::of(&mut plan),
             inner: Inner::planned(m, plan.inner),
             names: Arc::clone(&m.names),
             addresses: Arc::clone(&m.addresses),
             model: m.contents.model,
             version: 0,
-            made_for: plan.made_for,
             demand: plan.demand,
-            touched: false,
+            touched: !S::FULL,
             scope: PhantomData,
         }
     }
@@ -200,15 +202,30 @@ impl<S: Scope> Data<S> {
 
     /// The plan that decides what is computed.
     pub fn plan(&self) -> Plan {
-        Plan { inner: self.inner.plan().clone(), demand: self.demand, made_for: self.made_for.clone() }
+        let (inner, made_for) = (self.inner.plan().clone(), self.assumed.made_for.clone());
+        Plan { inner, demand: self.demand, made_for, any: self.assumed.any() }
     }
 
     /// That the data belong to a model, whose parameters are known.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn engine(&mut self, m: &Model) -> Result<&mut Inner, Error> {
         if self.version != m.contents.version {
-            self.catch_up(m)?;
+            self.catch_up(m, false)?;
         }
+        self.engine_in_step(m)
+    }
+
+    /// The same for a call that computes everything.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    pub(super) fn engine_for_pass(&mut self, m: &Model) -> Result<&mut Inner, Error> {
+        if self.version != m.contents.version {
+            self.catch_up(m, true)?;
+        }
+        self.engine_in_step(m)
+    }
+
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn engine_in_step(&mut self, m: &Model) -> Result<&mut Inner, Error> {
         if self.touched {
             self.look_again(m)?;
         }
@@ -222,51 +239,37 @@ impl<S: Scope> Data<S> {
         Ok(&mut self.inner)
     }
 
-    /// Forces are applied that the plan was not told of: it is made again, or they would not act.
+    /// Forces are applied that the plan was not told of, or controls are, or an equality constraint is switched on: it is made again,
+    /// or they would not act.
     #[cold]
     fn look_again(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
         self.touched = false;
         let before = self.demand.writes;
-        let Fields { qfrc_applied, xfrc_applied, .. } = &self.inner.fields;
+        let Fields { qfrc_applied, xfrc_applied, ctrl, eq_active, .. } = &self.inner.fields;
         for (field, list) in [(data::qfrc_applied, qfrc_applied), (data::xfrc_applied, xfrc_applied)] {
             if list.iter().any(|&x| x != 0.0) {
                 self.demand.writes.insert(field);
             }
         }
+        let plan = self.inner.plan();
+        if !plan.keeps(Stage::Actuation) && ctrl.iter().any(|&u| u != 0.0) {
+            self.demand.writes.insert(data::ctrl);
+        }
+        if !plan.has(Fact::Equalities) && eq_active.contains(&true) {
+            self.demand.writes.insert(data::eq_active);
+        }
         if self.demand.writes != before {
             self.plan_again(m);
+            self.touched = false;
         }
-        Ok(())
-    }
-
-    /// The parameters of the model are others than those that the data were used with last, or those of a clone. Where they differ
-    /// from what the plan was made for in nothing but what it was told of, it stays; else it is made again.
-    #[cold]
-    fn catch_up(&mut self, m: &Model) -> Result<(), Error> {
-        self.belongs_to(m)?;
-        let writes = self.demand.writes;
-        if self.made_for.as_ref().is_some_and(|planned| planned.differ(&m.contents, &writes)) {
-            self.plan_again(m);
-        }
-        self.version = m.contents.version;
         Ok(())
     }
 
     /// The version of the contents that the plan was made for.
     #[cfg(test)]
     pub(super) fn made_for_version(&self) -> Option<u64> {
-        self.made_for.as_ref().map(|planned| planned.version)
-    }
-
-    /// Makes the plan anew, for the model as it is.
-    pub(super) fn plan_again(&mut self, m: &Model) {
-        let plan = Plan::by_ways(m, &self.demand, self.inner.plan().ways);
-        reset::set_plan(m, &mut self.inner, plan.inner);
-        match &mut self.made_for {
-            Some(planned) => planned.follow(&m.contents),
-            None => self.made_for = plan.made_for,
-        }
+        self.assumed.made_for.as_ref().map(|planned| planned.version)
     }
 
     #[cfg_attr(not(feature = "small"), inline(always))]
@@ -276,17 +279,16 @@ impl<S: Scope> Data<S> {
 
     /// Notes that the plan has been looked at for constants that were computed with these data.
     pub(super) fn in_step_with(&mut self, m: &Model) {
-        self.version = m.contents.version;
-        if let Some(planned) = &mut self.made_for {
-            planned.adopt_constants(&m.contents);
-        }
+        self.version = self.assumed.version_of(&m.contents);
+        self.assumed.adopt_constants(&m.contents);
     }
 
     /// Replaces the plan.
-    pub(super) fn replan(&mut self, m: &Model, plan: Plan) -> Result<(), Error> {
+    pub(super) fn replan(&mut self, m: &Model, mut plan: Plan) -> Result<(), Error> {
         self.belongs_to(m)?;
-        (self.version, self.demand, self.made_for) = (0, plan.demand, plan.made_for);
+        (self.version, self.demand, self.assumed) = (0, plan.demand, Assumed::of(&mut plan));
         reset::set_plan(m, &mut self.inner, plan.inner);
+        self.touched = !S::FULL;
         Ok(())
     }
 

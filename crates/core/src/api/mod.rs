@@ -1,11 +1,15 @@
 //! The engine as embedders hold it: models and data that belong together, objects by name, errors instead of panics.
 
 pub(crate) mod addresses;
+mod assumed;
 pub(crate) mod call;
 mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
 pub(crate) mod model;
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod planar_chains;
 pub(crate) mod planning;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why

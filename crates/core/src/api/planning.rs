@@ -4,11 +4,12 @@ use super::contents::Contents;
 use super::model::{Model, SensorId};
 use crate::collision::{self, PairFate};
 use crate::dynamics::ways;
-use crate::model::plan::{Decision, Fact, Plan as Inner};
+use crate::model::plan::{Decision, Plan as Inner};
+use crate::model::reflect::FieldSet;
 use crate::model::stage::Stage;
 use crate::model::way::{Way, Ways};
 use crate::sensor;
-use crate::step::scene::Demand;
+use crate::step::scene::{self, Demand};
 
 /// Which stages run, and why.
 ///
@@ -36,6 +37,8 @@ pub struct Plan {
     pub(super) demand: Demand,
     /// The contents that it was made for; `None` where it holds for any.
     pub(super) made_for: Option<Contents>,
+    /// The fields of which it holds for any value.
+    pub(super) any: FieldSet,
 }
 
 impl PartialEq for Plan {
@@ -47,32 +50,47 @@ impl PartialEq for Plan {
 
 impl Plan {
     /// The stages that a scene needs, for what is read and written.
+    ///
+    /// What decides it is taken as the model has it now, also where programs may write it: data that were planned are planned
+    /// again when such a value changes.
     pub fn new(m: &Model, demand: &Demand) -> Plan {
-        Plan { inner: Inner::new(m, demand, Ways::ALL), demand: *demand, made_for: Some(m.contents.clone()) }
+        Plan::by_ways(m, demand, Ways::ALL)
     }
 
     /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
     pub fn by_ways(m: &Model, demand: &Demand, ways: Ways) -> Plan {
-        Plan { inner: Inner::new(m, demand, ways), demand: *demand, made_for: Some(m.contents.clone()) }
+        Plan::made(m, demand, scene::never_asked(demand), |d| Inner::new(m, d, ways))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
     pub fn with(m: &Model, demand: &Demand, more: Stage) -> Plan {
-        Plan {
-            inner: Inner::with(m, demand, Ways::ALL, Some(more)),
-            demand: *demand,
-            made_for: Some(m.contents.clone()),
-        }
+        Plan::made(m, demand, scene::never_asked(demand), |d| Inner::with(m, d, Ways::ALL, Some(more)))
+    }
+
+    /// The stages that a scene may come to need, whatever programs write.
+    pub fn for_any_value(m: &Model, demand: &Demand) -> Plan {
+        Plan::made(m, demand, demand.writes, |d| Inner::new(m, d, Ways::ALL))
+    }
+
+    /// A plan that holds for any values of some fields and for those at hand of all others.
+    pub(super) fn made(
+        m: &Model,
+        demand: &Demand,
+        any: FieldSet,
+        inner: impl FnOnce(&Demand) -> Inner,
+    ) -> Plan {
+        let inner = inner(&Demand { reads: demand.reads, writes: any });
+        Plan { inner, demand: *demand, made_for: Some(m.contents.clone()), any }
     }
 
     /// Every stage, needed or not: the reference that plans are held against.
     pub fn full() -> Plan {
-        Plan { inner: Inner::full(), demand: Demand::ANY, made_for: None }
+        Plan { inner: Inner::full(), demand: Demand::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// Every stage but the one that lets trees sleep.
     pub fn awake() -> Plan {
-        Plan { inner: Inner::awake(), demand: Demand::ANY, made_for: None }
+        Plan { inner: Inner::awake(), demand: Demand::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// What it was made for.
@@ -88,13 +106,13 @@ impl Plan {
     /// How many pairs of geoms of the model can ever touch, and how many cannot for which reason. Pairs of which programs may
     /// write what keeps them apart can touch.
     pub fn pairs(&self, m: &Model) -> Vec<(PairFate, usize)> {
-        collision::census(m, self.inner.has(Fact::PairsChange))
+        collision::census(m, scene::changes(&self.inner))
     }
 
     /// How the pairs that can touch are tested: two types of geoms, how many such pairs there are, and whether their contacts
     /// are searched for by the general algorithm of convex shapes. Of more than 4096 pairs, those at the start.
     pub fn tests(&self, m: &Model) -> Vec<([i32; 2], usize, bool)> {
-        collision::methods(m, self.inner.has(Fact::PairsChange))
+        collision::methods(m, scene::changes(&self.inner))
     }
 
     /// The ways that each tree of the model takes: for where its bodies are, for its inertia and forces, for its accelerations.

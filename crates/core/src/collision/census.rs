@@ -1,6 +1,8 @@
 //! A census of the pairs of geoms: how many can ever touch, and why the others cannot.
 
-use super::filter::{Pair, can_collide, candidate_pairs, excluded, parent_and_child};
+use super::candidates::{Changes, candidate_pairs};
+use super::extent::Extents;
+use super::filter::{Pair, dynamic_pair, excluded, explicit_pairs, masks_admit, parent_and_child};
 use super::{Scratch, params, sweep};
 use crate::geometry::pair;
 use crate::model::{Fields, Model};
@@ -25,6 +27,8 @@ pub enum PairFate {
     Masks,
     /// Such shapes pass through each other.
     Shapes,
+    /// They are out of reach of each other, wherever their joints are.
+    OutOfReach,
 }
 
 impl PairFate {
@@ -39,18 +43,24 @@ impl PairFate {
             PairFate::ParentAndChild => "their bodies are parent and child",
             PairFate::Masks => "their contact bits admit no contact",
             PairFate::Shapes => "such shapes pass through each other",
+            PairFate::OutOfReach => "they are out of reach of each other, whatever the joints do",
         }
     }
 }
 
-/// How many pairs of geoms meet each fate, each pair counted once; fates that none meets are not listed. `may_change`: what
-/// programs may write (contact bits, flags) keeps no pair apart.
-pub(crate) fn census(m: &Model, may_change: bool) -> Vec<(PairFate, usize)> {
+/// How many pairs of geoms meet each fate, each pair counted once; fates that none meets are not listed. What programs may write
+/// keeps no pair apart.
+pub(crate) fn census(m: &Model, change: Changes) -> Vec<(PairFate, usize)> {
+    let extents = (!change.places && !change.params).then(|| Extents::new(m));
     let named: BTreeSet<[i32; 2]> = (0..m.npair).map(|p| ordered(m.pair_geom1[p], m.pair_geom2[p])).collect();
     let mut counts: Vec<(PairFate, usize)> = Vec::new();
     for a in 0..m.ngeom {
         for b in a + 1..m.ngeom {
-            let fate = fate(m, a, b, may_change, named.contains(&[a as i32, b as i32]));
+            let named = named.contains(&[a as i32, b as i32]);
+            let mut fate = fate(m, a, b, change.bits, named);
+            if fate == PairFate::CanTouch && extents.as_ref().is_some_and(|e| apart(m, e, a, b)) {
+                fate = PairFate::OutOfReach;
+            }
             match counts.iter_mut().find(|(f, _)| *f == fate) {
                 Some((_, n)) => *n += 1,
                 None => counts.push((fate, 1)),
@@ -59,6 +69,14 @@ pub(crate) fn census(m: &Model, may_change: bool) -> Vec<(PairFate, usize)> {
     }
     counts.sort_by_key(|(fate, _)| *fate);
     counts
+}
+
+/// Whether two geoms are out of reach of each other, by the pairs that name them as well.
+fn apart(m: &Model, extents: &Extents, a: usize, b: usize) -> bool {
+    let both = ordered(a as i32, b as i32);
+    let of = |p: &Pair| ordered(p.geom1 as i32, p.geom2 as i32) == both;
+    let mut pairs = explicit_pairs(m).filter(of).chain(dynamic_pair(m, a, b, true));
+    pairs.all(|p| extents.keep_apart(m, &p, params::params(m, &p).reach))
 }
 
 fn ordered(a: i32, b: i32) -> [i32; 2] {
@@ -78,7 +96,7 @@ fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFat
         () if rules && wa == wb => PairFate::Welded,
         () if rules && excluded(m, ba, bb) => PairFate::Excluded,
         () if rules && !may_change && parent_and_child(m, a, b) => PairFate::ParentAndChild,
-        () if rules && !may_change && !can_collide(m, a, b) => PairFate::Masks,
+        () if rules && !may_change && !masks_admit(m, a, b) => PairFate::Masks,
         () if pair::method(small, large).is_none() => PairFate::Shapes,
         () => PairFate::CanTouch,
     }
@@ -86,9 +104,9 @@ fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFat
 
 /// How the pairs that can touch are tested, by the types of their geoms: how many there are, and whether their contacts are
 /// searched for by the general algorithm. Of a scene with too many pairs for a list, those at its start.
-pub(crate) fn methods(m: &Model, may_change: bool) -> Vec<([i32; 2], usize, bool)> {
+pub(crate) fn methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, bool)> {
     let mut out: Vec<([i32; 2], usize, bool)> = Vec::new();
-    for Pair { geom1, geom2, .. } in candidate_pairs(m, may_change) {
+    for Pair { geom1, geom2, .. } in candidate_pairs(m, change) {
         let types = [geom1, geom2].map(|g| m.geom_type[g as usize]);
         match out.iter_mut().find(|(t, ..)| *t == types) {
             Some((_, n, _)) => *n += 1,

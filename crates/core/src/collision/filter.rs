@@ -2,7 +2,6 @@
 
 use crate::geometry::pair::{self, Method};
 use crate::kinds::disable;
-use crate::math::sort::sort_by;
 use crate::model::Model;
 
 /// Two geoms, ordered so that the first has the smaller type.
@@ -49,8 +48,31 @@ pub(crate) fn can_collide(m: &Model, g1: usize, g2: usize) -> bool {
     (m.geom_contype[g1] & m.geom_conaffinity[g2]) | (m.geom_contype[g2] & m.geom_conaffinity[g1]) != 0
 }
 
+/// Whether the contact bits of two bodies admit contacts of their geoms: those of their geoms when the model was compiled, unless
+/// they are written. A geom whose bits are switched on alone touches nothing (measured on MuJoCo 3.14.0:
+/// `tests/golden/switched.py`).
+#[inline]
+fn bodies_collide(m: &Model, b1: usize, b2: usize) -> bool {
+    (m.body_contype[b1] & m.body_conaffinity[b2]) | (m.body_contype[b2] & m.body_conaffinity[b1]) != 0
+}
+
+/// Whether the bounding volumes of two bodies lead to two of their geoms: they were made of the geoms that had contact bits when the
+/// model was compiled, and are looked at where both bodies have some, unless the midphase is off.
+fn volumes_hold(m: &Model, g1: usize, g2: usize) -> bool {
+    let visual = |g: usize| m.visual_geoms.binary_search(&(g as i32)).is_ok();
+    let hold = |g: usize| {
+        let b = m.geom_bodyid[g] as usize;
+        let first = m.body_geomadr[b].max(0) as usize;
+        (first..first + m.body_geomnum[b] as usize).any(|other| !visual(other))
+    };
+    m.visual_geoms.is_empty()
+        || m.opt.disabled(disable::MIDPHASE)
+        || !(visual(g1) || visual(g2))
+        || !(hold(g1) && hold(g2))
+}
+
 /// Whether two bodies can ever touch: not welded to each other, and at least one can move.
-fn bodies_may_touch(m: &Model, b1: usize, b2: usize) -> bool {
+pub(super) fn bodies_may_touch(m: &Model, b1: usize, b2: usize) -> bool {
     let (w1, w2) = (m.body_weldid[b1] as usize, m.body_weldid[b2] as usize);
     let moves = |w: usize| m.body_dofnum[w] > 0 || m.body_treeid[w] >= 0;
     w1 != w2 && (moves(w1) || moves(w2)) && !excluded(m, b1, b2)
@@ -117,37 +139,16 @@ pub(crate) fn searched_pair(m: &Model) -> Option<[usize; 2]> {
     (0..m.ngeom).find_map(|a| (a + 1..m.ngeom).find(|&b| may(a, b)).map(|b| [a, b]))
 }
 
-/// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
-pub(crate) const MOST_LISTED: usize = 4096;
-
-/// All pairs that can ever touch, in the order in which they are tested. The list ends early when it becomes longer
-/// than [`MOST_LISTED`].
-pub(crate) fn candidate_pairs(m: &Model, may_change: bool) -> Vec<Pair> {
-    let geoms = |b: usize| {
-        let first = m.body_geomadr[b].max(0) as usize;
-        first..first + m.body_geomnum[b] as usize
-    };
-    let with_geoms: Vec<usize> = (0..m.nbody).filter(|&b| m.body_geomnum[b] > 0).collect();
-    let mut out: Vec<Pair> = explicit_pairs(m).collect();
-    for (i, &b1) in with_geoms.iter().enumerate() {
-        for &b2 in &with_geoms[i + 1..] {
-            if !bodies_may_touch(m, b1, b2) {
-                continue;
-            }
-            for g1 in geoms(b1) {
-                out.extend(geoms(b2).filter_map(|g2| dynamic_pair(m, g1, g2, may_change)));
-            }
-            if out.len() > MOST_LISTED {
-                return out;
-            }
-        }
-    }
-    sort_by(&mut out, |p, q| p.order(m).cmp(&q.order(m)));
-    out
-}
-
-/// Whether contact bits and the parent filter admit a contact now.
+/// Whether contact bits, those of bodies as well, and the parent filter admit a contact now.
 #[inline]
 pub(super) fn admitted(m: &Model, g1: usize, g2: usize) -> bool {
-    can_collide(m, g1, g2) && !parent_and_child(m, g1, g2)
+    masks_admit(m, g1, g2) && !parent_and_child(m, g1, g2)
+}
+
+/// Whether the contact bits of two geoms and of their bodies admit a contact.
+#[inline]
+pub(super) fn masks_admit(m: &Model, g1: usize, g2: usize) -> bool {
+    can_collide(m, g1, g2)
+        && bodies_collide(m, m.geom_bodyid[g1] as usize, m.geom_bodyid[g2] as usize)
+        && volumes_hold(m, g1, g2)
 }

@@ -1,16 +1,20 @@
 //! Collision detection: which geoms touch, where, and with which contact parameters.
 
+mod candidates;
 mod census;
+mod extent;
 mod filter;
 mod params;
 mod primitive;
 mod reach;
 mod sweep;
 
+pub(crate) use candidates::{Changes, MOST_LISTED, candidate_pairs};
 pub use census::PairFate;
 pub(crate) use census::{census, in_reach, methods};
+pub(crate) use extent::FIELDS as PLACES;
 use filter::Pair;
-pub(crate) use filter::{MOST_LISTED, candidate_pairs, searched_pair};
+pub(crate) use filter::searched_pair;
 pub(crate) use filter::{can_collide, may_touch};
 use params::Params;
 use reach::Spheres;
@@ -45,14 +49,14 @@ pub(crate) struct Pairs {
 
 /// Finds the pairs that may touch: all that can ever, when contact bits and flags may be written later,
 /// otherwise those that they admit now.
-pub(crate) fn pairs(m: &Model, pairs_may_change: bool, params_may_change: bool) -> Pairs {
-    let pairs = candidate_pairs(m, pairs_may_change);
+pub(crate) fn pairs(m: &Model, change: Changes) -> Pairs {
+    let pairs = candidate_pairs(m, change);
     if pairs.len() > MOST_LISTED {
-        let sweep = Some(Box::new(Sweep::new(m, pairs_may_change)));
+        let sweep = Some(Box::new(Sweep::new(m, change.bits)));
         return Pairs { sweep, ..Pairs::default() };
     }
-    let mut list = Pairs { pairs, filter: pairs_may_change, ..Pairs::default() };
-    if !params_may_change {
+    let mut list = Pairs { pairs, filter: change.bits, ..Pairs::default() };
+    if !change.params {
         list.params = list.pairs.iter().map(|p| params::params(m, p)).collect();
         let limit = |(pair, params): (&Pair, &Params)| {
             let [a, b] = [pair.geom1, pair.geom2].map(|g| g as usize);

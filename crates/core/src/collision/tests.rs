@@ -34,7 +34,7 @@ fn pile(bodies: usize, side: f64) -> Model {
 fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
     let mut d = Data::unplanned(m);
     reset_data(m, &mut d);
-    d.work.collision.pairs = pairs(m, false, false);
+    d.work.collision.pairs = pairs(m, Changes::default());
     if sweep {
         d.work.collision.pairs = Pairs { sweep: Some(Box::new(Sweep::new(m, false))), ..Pairs::default() };
     }
@@ -73,8 +73,8 @@ fn contacts_are_in_order() {
 /// Long lists of pairs give way to the sweep.
 #[test]
 fn large_scenes_sweep() {
-    assert!(pairs(&pile(20, 1.0), false, false).sweep.is_none());
-    assert!(pairs(&pile(60, 1.0), false, false).sweep.is_some());
+    assert!(pairs(&pile(20, 1.0), Changes::default()).sweep.is_none());
+    assert!(pairs(&pile(60, 1.0), Changes::default()).sweep.is_some());
 }
 
 /// Spheres of one size at random in a box whose sides are given per cube root (square root, count) of their number.
@@ -183,7 +183,7 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
     rows_mut::<3>(&mut d.fields.qpos[..3])[0] = [0.0; 3];
     let found = {
         kinematics(&m, &mut d);
-        d.work.collision.pairs = pairs(&m, false, false);
+        d.work.collision.pairs = pairs(&m, Changes::default());
         collide(&m, &mut d.fields, &mut d.work.collision);
         &d.fields.contact
     };

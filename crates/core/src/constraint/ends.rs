@@ -49,7 +49,7 @@ pub(crate) fn set_const(m: &mut Model, d: &Fields) {
     }
 }
 
-/// One end of a constraint: its body, the point that is held, and the orientation, world.
+/// One end of a constraint: its body, the point that is held, and, of a weld, the orientation, world.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct End {
     pub(crate) body: usize,
@@ -77,7 +77,7 @@ pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     if m.eq_objtype[e] == Obj::Site as i32 {
         let end = |id: usize| {
             let f = object::frame(m, d, Obj::Site as i32, id)?;
-            let quat = object::orientation(m, d, Obj::Site as i32, id)?;
+            let quat = if weld { object::orientation(m, d, Obj::Site as i32, id)? } else { IDENTITY };
             Some(End { body: f.body, point: f.pos, quat })
         };
         return Some([end(ids[0])?, end(ids[1])?]);
@@ -88,7 +88,7 @@ pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     let relative = if weld { [data[6], data[7], data[8], data[9]] } else { IDENTITY };
     let end = |id: usize, anchor: Vec3, relative: Quat| {
         let f = object::frame(m, d, Obj::XBody as i32, id)?;
-        let quat = quat_mul(*rows(&d.xquat).get(id)?, relative);
+        let quat = if weld { quat_mul(*rows(&d.xquat).get(id)?, relative) } else { IDENTITY };
         Some(End { body: id, point: add(f.pos, mat_mul_vec(&f.mat, anchor)), quat })
     };
     Some([end(ids[0], anchors[0], relative)?, end(ids[1], anchors[1], IDENTITY)?])

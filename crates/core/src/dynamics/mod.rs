@@ -31,6 +31,8 @@ pub(crate) struct Scratch {
     ways: Kept,
     /// Whether `qLD` and `qLDiagInv` are still to be made of what a factorization has left.
     rows_due: bool,
+    /// Whether somebody looks at the rows of M now.
+    rows_wanted: bool,
     /// Motions of ancestors, for rows of M.
     pub(crate) path: Path,
     /// Spatial accelerations and forces of bodies.
@@ -46,6 +48,7 @@ impl Scratch {
         Scratch {
             ways: Kept::new(m, ways),
             rows_due: false,
+            rows_wanted: true,
             path: Path::new(m),
             cacc: vec![0.0; 6 * m.nbody],
             cfrc: vec![0.0; 6 * m.nbody],

@@ -273,11 +273,15 @@ fn joints_and_dofs(
 
 /// What a body can touch is what its geoms can touch, as far away as the farthest-reaching of them.
 fn bodies_from_geoms(m: &mut Model) {
+    m.visual_geoms.clear();
     for (g, &b) in m.geom_bodyid.iter().enumerate() {
         let b = b as usize;
         m.body_contype[b] |= m.geom_contype[g];
         m.body_conaffinity[b] |= m.geom_conaffinity[g];
         m.body_margin[b] = m.body_margin[b].max(m.geom_margin[g] + m.geom_gap[g]);
+        if m.geom_contype[g] == 0 && m.geom_conaffinity[g] == 0 {
+            m.visual_geoms.push(g as i32);
+        }
     }
 }
 

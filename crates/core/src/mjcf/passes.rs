@@ -174,6 +174,7 @@ pub(super) fn build(
     sleep_policy::policies(&mut m, &bodies);
     reshape::total_mass(&mut m, compiler);
     crate::setup::setconst::set_const0(&mut m);
+    m.planar_trees = crate::dynamics::ways::planar_trees(&m);
     fill::spring_dampers(&mut m, &bodies);
     fill_actuator::length_ranges(&mut m, &actuators, &settings::length_range(&tree), report);
     statistic.apply(&mut m.stat);

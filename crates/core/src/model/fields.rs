@@ -100,8 +100,8 @@ macro_rules! model_fields {
         body_invweight0: Vec<f64>, [nbody, 2], Derived, SetConst, "1/kg, 1/(kg m^2)", "mean inverse inertia at qpos0: translation, rotation";
         body_gravcomp: Vec<f64>, [nbody], Inertial, Compile, "", "upward force against gravity, in weights of the body";
         body_margin: Vec<f64>, [nbody], Derived, Compile, "m", "largest margin plus gap of the body's geoms";
-        body_contype: Vec<i32>, [nbody], Derived, Compile, "", "contact types of all geoms of the body";
-        body_conaffinity: Vec<i32>, [nbody], Derived, Compile, "", "contact affinities of all geoms of the body";
+        body_contype: Vec<i32>, [nbody], Constant, Compile, "", "contact types of all geoms of the body when it was compiled";
+        body_conaffinity: Vec<i32>, [nbody], Constant, Compile, "", "contact affinities of all geoms of the body when it was compiled";
         body_user: Vec<f64>, [nbody, nuser_body], Constant, Compile, "", "user values";
 
         // Joints.

@@ -58,6 +58,11 @@ macro_rules! define_model {
             pub texts: Vec<String>,
             /// The bodies of each exclusion, the smaller first, in ascending order: signatures of many bodies meet.
             pub exclude_bodies: Vec<[i32; 2]>,
+            /// The geoms without contact bits when the model was compiled, in ascending order: the tree of bounding volumes of their
+            /// body is made without them, and stays.
+            pub visual_geoms: Vec<i32>,
+            /// The trees that were long chains of hinges in a plane when the model was compiled, in ascending order.
+            pub planar_trees: Vec<i32>,
             /// Flat sides of the hull of each mesh, their normals more precise than its vertices.
             pub mesh_sides: Vec<crate::geometry::Sides>,
         }

@@ -69,6 +69,8 @@ pub(crate) enum Fact {
     PairsChange,
     /// The parameters of contacts may change.
     ContactParamsChange,
+    /// Where bodies, joints and geoms are in the model may change.
+    PlacesChange,
 }
 
 /// Which stages run.
@@ -86,6 +88,8 @@ pub(crate) struct Plan {
     pub(crate) sensed: Values,
     /// Every sensor is evaluated, read or not.
     pub(crate) every_sensor: bool,
+    /// A stage that runs because it was asked for, wanted or not.
+    pub(crate) more: Option<Stage>,
     /// What a forward pass runs of each of its parts; then the same without what sensors show.
     pub(crate) passes: [[u32; 3]; 2],
 }
@@ -101,6 +105,7 @@ impl Default for Plan {
             changing: Ways::ALL,
             sensed: Values::ALL,
             every_sensor: true,
+            more: None,
             passes: [[0; 3]; 2],
         };
         let known = [

@@ -456,7 +456,7 @@ pub(crate) fn element(m: &Model, d: &Fields, field: FieldId, i: usize) -> Option
 }
 
 /// Whether anybody but the engine may write a field. Not what it indexes by: structure, and computed integers.
-pub(crate) fn is_writable(field: FieldId) -> bool {
+pub fn is_writable(field: FieldId) -> bool {
     let info = field.info();
     info.kind != Kind::Structure && (info.kind != Kind::Derived || info.elem == Elem::F64)
 }
@@ -667,6 +667,29 @@ impl FieldSet {
         for (a, b) in self.0.iter_mut().chain(&mut self.1.0).zip(other.0.iter().chain(&other.1.0)) {
             *a |= b;
         }
+    }
+
+    /// The fields of this set that are in another.
+    pub fn intersection(&self, other: &FieldSet) -> FieldSet {
+        let mut both = *self;
+        for (a, b) in both.0.iter_mut().chain(&mut both.1.0).zip(other.0.iter().chain(&other.1.0)) {
+            *a &= b;
+        }
+        both
+    }
+
+    /// The fields of this set that are not in another.
+    pub fn difference(&self, other: &FieldSet) -> FieldSet {
+        let mut rest = *self;
+        for (a, b) in rest.0.iter_mut().chain(&mut rest.1.0).zip(other.0.iter().chain(&other.1.0)) {
+            *a &= !b;
+        }
+        rest
+    }
+
+    /// Whether no field is in the set.
+    pub fn is_empty(&self) -> bool {
+        self.0.iter().all(|&bits| bits == 0)
     }
 
     /// The fields of the set, in table order.

@@ -74,7 +74,7 @@ pub(crate) fn from_velocities(m: &Model, d: &mut Data) {
 pub(crate) fn placed(m: &Model, d: &mut Data) {
     let [bits, ..] = d.plan.passes[0];
     POSITIONS.run(m, d, bits & POSITIONS.before(Stage::MassMatrix));
-    fill_mass_matrix(m, d, d.plan.has(Fact::Composite));
+    fill_mass_matrix(m, d, d.plan.has(Fact::Composite), true);
 }
 
 // What the rows of `pipeline` run: the functions of the stages, with the scratch of their rooms.
@@ -119,13 +119,14 @@ pub(super) fn tendons(m: &Model, d: &mut Data) {
 
 /// `M`, but for what is put off to steps in which constraints act.
 pub(super) fn mass_matrix(m: &Model, d: &mut Data) {
-    fill_mass_matrix(m, d, d.plan.has(Fact::Composite) && !d.plan.has(Fact::MassForRows));
+    let rows = !d.plan.has(Fact::MassForRows);
+    fill_mass_matrix(m, d, d.plan.has(Fact::Composite) && rows, rows);
 }
 
-/// `M`, with or without the rows of the general way.
+/// `M`, with or without the rows of the general way, and of ways that put theirs off.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn fill_mass_matrix(m: &Model, d: &mut Data, general: bool) {
-    ways::mass(m, &mut d.fields, &mut d.work.dynamics, general);
+fn fill_mass_matrix(m: &Model, d: &mut Data, general: bool, rows: bool) {
+    ways::mass(m, &mut d.fields, &mut d.work.dynamics, general, rows);
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
@@ -165,8 +166,9 @@ pub(super) fn make_constraints(m: &Model, d: &mut Data) {
     }
     constraint::make(m, &mut d.fields, &mut d.work.constraint);
     if d.plan.has(Fact::MassForRows) && d.nefc > 0 {
-        if d.plan.has(Fact::Composite) {
-            fill_mass_matrix(m, d, true);
+        let general = d.plan.has(Fact::Composite);
+        if general || ways::put_rows_off(&d.work.dynamics) {
+            fill_mass_matrix(m, d, general, true);
         }
         factor_now(m, d);
     }

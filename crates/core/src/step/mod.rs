@@ -6,10 +6,12 @@
 pub(crate) mod balance;
 mod clocked;
 pub(crate) mod damping;
+mod demand;
 pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;
 pub(crate) mod functions;
+mod idle;
 pub(crate) mod integrate;
 pub(crate) mod inverse;
 pub(crate) mod pipeline;

@@ -9,7 +9,7 @@ use super::forward as run;
 use super::scene::Scene;
 use crate::dynamics::ways;
 use crate::kinds::{disable, integrator, trntype, wraptype};
-use crate::model::reflect::data;
+use crate::model::reflect::{data, model};
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
 use crate::step::workspace::Data;
@@ -179,7 +179,7 @@ pub(super) const STAGES: [Row; 26] = [
         stage: Stage::Constraint,
         name: "constraint",
         needs: &[
-            (&[Stage::Orientations], |s, _| s.ties_bodies()),
+            (&[Stage::Orientations], |s, _| s.welds_bodies()),
             (&[Stage::Kinematics], |s, _| s.pairs > 0 || s.ties_bodies()),
             (&[Stage::SitePoses], |s, _| s.ties_bodies() && s.m.eq_objtype.contains(&(Obj::Site as i32))),
             (&[Stage::Tendon], |s, _| s.tendon_constraints()),
@@ -272,7 +272,9 @@ pub(super) const STAGES: [Row; 26] = [
         name: "actuation",
         needs: &[
             (&[Stage::Transmission, Stage::ActuatorVel], |s, _| s.lengths_act()),
-            (&[Stage::Passive], |s, _| s.m.jnt_actgravcomp.contains(&true)),
+            (&[Stage::Passive], |s, _| {
+                s.m.jnt_actgravcomp.contains(&true) || s.writes(&[model::jnt_actgravcomp])
+            }),
         ],
         wanted: |s| because(s.actuated, "actuators make forces"),
         left_out: |s| without_actuators(s).unwrap_or("actuators are switched off"),
@@ -375,6 +377,7 @@ fn without_tendons(s: &Scene) -> &'static str {
 fn without_actuators(s: &Scene) -> Option<&'static str> {
     match s.m.nactuator {
         0 => Some("the model has no actuators"),
+        _ if s.idle => Some("no actuator is driven: without a control none makes a force"),
         _ if !s.actuated => Some("actuators are switched off"),
         _ => None,
     }

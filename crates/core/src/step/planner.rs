@@ -45,7 +45,7 @@ impl Plan {
         let mut scene = Scene::new(m, demand, ways);
         scene.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = Plan::default();
-        plan.ways = ways;
+        (plan.ways, plan.more) = (ways, more);
         (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
         plan.changing = ways::changing(|fields| scene.writes(fields));
         for (fact, holds) in FACTS {

@@ -12,7 +12,7 @@ use crate::model::stage::Stage;
 use crate::model::stopwatch::Stopwatch;
 use crate::model::way::Ways;
 use crate::model::{Model, Warning, WarningStat, asleep, reflect};
-use crate::step::scene::Demand;
+use crate::step::scene::{self, Demand};
 use crate::step::workspace::Data;
 use crate::{collision, constraint, sensor};
 
@@ -44,7 +44,7 @@ impl Data {
 /// Replaces the plan, which decides what the next forward pass computes.
 pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     d.work.collision.pairs = if plan.keeps(Stage::Collision) {
-        collision::pairs(m, plan.has(Fact::PairsChange), plan.has(Fact::ContactParamsChange))
+        collision::pairs(m, scene::changes(&plan))
     } else {
         collision::Pairs::default()
     };

@@ -1,5 +1,7 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
+pub use super::demand::Demand;
+
 use crate::dynamics::ways;
 use crate::forces::{actuation, derivative, tendon};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
@@ -7,24 +9,8 @@ use crate::model::plan::Fact;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, data, model, option};
 use crate::model::way::Ways;
 use crate::model::{Model, Plan};
-use crate::step::damping;
+use crate::step::{damping, idle};
 use crate::{collision, sensor};
-
-/// What programs read and write.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Demand {
-    /// Fields that are read between steps.
-    pub reads: FieldSet,
-    /// Fields that are written between steps.
-    pub writes: FieldSet,
-}
-
-impl Demand {
-    /// Anything may be read or written: what an embedding program gets that says nothing.
-    pub const ANY: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::ALL };
-    /// Anything may be read, only state and controls are written.
-    pub const OBSERVE: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
-}
 
 /// What the parameters of a contact are mixed from.
 const CONTACT_PARAMS: [FieldId; 18] = [
@@ -85,12 +71,54 @@ const GRAVCOMP: Numbers = (model::body_gravcomp, |m| &m.body_gravcomp);
 const OVERRIDES: [FieldId; 5] =
     [option::o_margin, option::o_solref, option::o_solimp, option::o_friction, option::enableflags];
 
+/// Limits, gains and bits of contact: what else is looked at.
+const OTHERS: [FieldId; 12] = [
+    model::geom_contype,
+    model::geom_conaffinity,
+    model::body_contype,
+    model::body_conaffinity,
+    model::jnt_limited,
+    model::tendon_limited,
+    model::actuator_group,
+    option::density,
+    option::viscosity,
+    option::integrator,
+    option::disableflags,
+    option::disableactuator,
+];
+
+/// The fields of the model whose values decide what a plan keeps. Where one of them is written, a plan is made for the value that
+/// it has, or for any: see `api/assumed`. Of all others the values are not looked at.
+pub(crate) fn deciding() -> FieldSet {
+    let mut set = FieldSet::EMPTY;
+    let numbers = [
+        &JOINT_FORCES[..],
+        &TENDON_FORCES,
+        &ACTUATOR_DAMPING,
+        &FRICTION_LOSS,
+        &ADHESION,
+        &[ACTUATOR_ARMATURE, TENDON_ARMATURE, ELLIPSOIDS, SURFACES, GRAVCOMP],
+    ];
+    numbers.into_iter().flatten().for_each(|(field, _)| set.insert(*field));
+    [&OTHERS[..], &CONTACT_PARAMS, &OVERRIDES, &collision::PLACES, &idle::ACTUATORS, &idle::EQUALITIES]
+        .into_iter()
+        .flatten()
+        .for_each(|field| set.insert(*field));
+    ways::copied().for_each(|field| set.insert(field));
+    set
+}
+
+/// What is written, and decides nothing: of these fields a plan never asks the value.
+pub(crate) fn never_asked(demand: &Demand) -> FieldSet {
+    demand.writes.difference(&deciding())
+}
+
 /// When a fact holds.
 type Test = fn(&Scene) -> bool;
 
 /// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
 /// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(Fact, Test); 22] = [
+pub(super) const FACTS: [(Fact, Test); 23] = [
     (Fact::General, |s| s.general),
     (Fact::Composite, |s| s.large || s.reads_field(data::crb)),
     (Fact::Recursion, |s| s.large),
@@ -116,8 +144,18 @@ pub(super) const FACTS: [(Fact, Test); 22] = [
     (Fact::BodyForces, |s| s.body_forces()),
     (Fact::AppliedForces, |s| s.pushed()),
     (Fact::PairsChange, |s| s.pairs_change),
-    (Fact::ContactParamsChange, |s| s.writes(&CONTACT_PARAMS) || s.writes(&OVERRIDES)),
+    (Fact::ContactParamsChange, |s| s.changes().params),
+    (Fact::PlacesChange, |s| s.changes().places),
 ];
+
+/// What may change of what pairs of geoms are chosen by, as far as a plan says it.
+pub(crate) fn changes(plan: &Plan) -> collision::Changes {
+    collision::Changes {
+        bits: plan.has(Fact::PairsChange),
+        params: plan.has(Fact::ContactParamsChange),
+        places: plan.has(Fact::PlacesChange),
+    }
+}
 
 /// What is known of a scene before it runs.
 pub(super) struct Scene<'a> {
@@ -150,6 +188,8 @@ pub(super) struct Scene<'a> {
     pub(super) fluid: bool,
     pub(super) tendon_armature: bool,
     pub(super) actuated: bool,
+    /// There are actuators, and none makes a force.
+    pub(super) idle: bool,
     pub(super) sensors: bool,
     /// Sensors are evaluated that nobody reads: those with buffers, which are part of the state, and those of energies, which show
     /// in `energy`, too.
@@ -172,7 +212,7 @@ impl<'a> Scene<'a> {
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
             limited_tendons: m.tendon_limited.iter().filter(|&&l| l).count(),
             friction: 0,
-            equalities: m.neq,
+            equalities: 0,
             joint_forces: false,
             tendon_springs: false,
             tendon_dampers: false,
@@ -181,14 +221,21 @@ impl<'a> Scene<'a> {
             fluid: m.opt.density > 0.0 || m.opt.viscosity > 0.0,
             tendon_armature: false,
             actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
+            idle: false,
             sensors: false,
             every_sensor: m.nhistory > 0 || sensor::measures_energy(m),
             energy: m.opt.enabled(enable::ENERGY),
             sleeps: false,
         };
         scene.sleeps = m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(&[option::enableflags]));
-        scene.pairs_change = scene.writes(&[model::geom_contype, model::geom_conaffinity])
-            || scene.writes(&[option::disableflags]);
+        let bits = [
+            model::geom_contype,
+            model::geom_conaffinity,
+            model::body_contype,
+            model::body_conaffinity,
+            option::disableflags,
+        ];
+        scene.pairs_change = scene.writes(&bits);
         // What a flag switches off counts only if the flag may be cleared.
         let off = |bit: i32| {
             (m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
@@ -197,7 +244,7 @@ impl<'a> Scene<'a> {
         let [no_contacts, no_limits, no_friction, no_equalities] =
             [disable::CONTACT, disable::LIMIT, disable::FRICTIONLOSS, disable::EQUALITY].map(off);
         if !no_contacts {
-            scene.pairs = collision::candidate_pairs(m, scene.pairs_change).len();
+            scene.pairs = collision::candidate_pairs(m, scene.changes()).len();
         }
         if scene.writes(&[model::jnt_limited]) {
             scene.limited = m.njnt;
@@ -212,9 +259,9 @@ impl<'a> Scene<'a> {
         if no_friction {
             scene.friction = 0;
         }
-        if no_equalities {
-            scene.equalities = 0;
-        }
+        let [ctrl, eq_active] = idle::INPUTS.map(|input| scene.sleeps || scene.writes(&[input]));
+        let stay_off = !eq_active && !scene.writes(&idle::EQUALITIES) && !m.eq_active0.contains(&true);
+        scene.equalities = if no_equalities || stay_off { 0 } else { m.neq };
         scene.fluid |= scene.writes(&[option::density, option::viscosity]);
         scene.gravcomp = scene.some(&[GRAVCOMP]);
         scene.adhesion = scene.pairs > 0 && scene.some(&ADHESION);
@@ -230,10 +277,23 @@ impl<'a> Scene<'a> {
         // A tendon's inertia adds to that of simple bodies, too.
         scene.general |= scene.tendon_armature;
         scene.actuated |= m.nactuator > 0 && scene.writes(&[option::disableflags]);
+        scene.idle = scene.actuated
+            && !(ctrl || scene.writes(&idle::ACTUATORS))
+            && idle::actuators_are_idle(m, |i| scene.is_servo(i));
+        scene.actuated &= !scene.idle;
         scene.sensors = m.nsensor > 0
             && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field(data::history));
         scene.energy |= scene.writes(&[option::enableflags]);
         scene
+    }
+
+    /// What may change of what pairs of geoms are chosen by.
+    fn changes(&self) -> collision::Changes {
+        collision::Changes {
+            bits: self.pairs_change,
+            params: self.writes(&CONTACT_PARAMS) || self.writes(&OVERRIDES),
+            places: self.writes(&collision::PLACES),
+        }
     }
 
     /// Whether one of these numbers is or may become other than zero.
@@ -368,16 +428,21 @@ impl<'a> Scene<'a> {
         self.gravcomp || self.fluid
     }
 
+    /// Constraints between frames of bodies.
+    pub(super) fn welds_bodies(&self) -> bool {
+        self.equalities > 0 && self.m.eq_type.contains(&eqtype::WELD)
+    }
+
     /// Constraints between points or frames of bodies.
     pub(super) fn ties_bodies(&self) -> bool {
-        self.m.eq_type.iter().any(|&t| t == eqtype::CONNECT || t == eqtype::WELD)
+        self.equalities > 0 && self.m.eq_type.iter().any(|&t| t == eqtype::CONNECT || t == eqtype::WELD)
     }
 
     /// Constraints of the lengths of tendons.
     pub(super) fn tendon_constraints(&self) -> bool {
         let m = self.m;
         self.limited_tendons > 0
-            || m.eq_type.contains(&eqtype::TENDON)
+            || self.equalities > 0 && m.eq_type.contains(&eqtype::TENDON)
             || self.some(&[(model::tendon_frictionloss, |m| &m.tendon_frictionloss)])
     }
 

@@ -5,6 +5,7 @@
 //! first. A file may come from anywhere: it is compared with its fingerprint, and what the engine would index by must
 //! lie where it can.
 
+use crate::dynamics::ways;
 use crate::geometry::Sides;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object};
@@ -13,7 +14,7 @@ use crate::step::sound::unsound;
 
 const MAGIC: [u8; 8] = *b"labmodl\n";
 /// Of the layout that this module writes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 fn put_text(text: &str, out: &mut Vec<u8>) {
     text.len().put(out);
@@ -63,6 +64,8 @@ pub(crate) fn write(m: &Model) -> Vec<u8> {
     }
     put_list(&m.texts, &mut out, |text, out| put_text(text, out));
     put_list(&m.exclude_bodies, &mut out, |pair, out| pair.put(out));
+    put_list(&m.visual_geoms, &mut out, |geom, out| geom.put(out));
+    put_list(&m.planar_trees, &mut out, |tree, out| tree.put(out));
     put_list(&m.mesh_sides, &mut out, |sides, out| {
         let (integers, floats) = sides.numbers();
         put_list(&integers, out, |x, out| x.put(out));
@@ -100,13 +103,16 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
     }
     m.texts = take_list(bytes, take_text)?;
     m.exclude_bodies = take_list(bytes, Plain::take)?;
+    m.visual_geoms = take_list(bytes, Plain::take)?;
+    m.planar_trees = take_list(bytes, Plain::take)?;
     let mut mesh = 0..m.nmesh;
     m.mesh_sides = take_list(bytes, |bytes| {
         let (integers, floats) = (take_list(bytes, u32::take)?, take_list(bytes, f64::take)?);
         let corners = usize::try_from(*m.mesh_vertnum.get(mesh.next()?)?).ok()?;
         Sides::from_numbers(&integers, &floats, corners)
     })?;
-    (rest.is_empty() && unsound(&m).is_none()).then_some(m)
+    let good = rest.is_empty() && unsound(&m).is_none() && ways::are_chains(&m, &m.planar_trees);
+    good.then_some(m)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@
 
 mod capsules;
 mod departures;
+mod switched;
 
 use labspec_core::xml::compile;
 use labspec_core::{self as core, Data, Model};

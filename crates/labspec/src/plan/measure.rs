@@ -193,7 +193,7 @@ pub(super) fn measure(
     programs: &Programs,
     readers: &[Reader],
 ) -> Result<Option<Measured>, RunError> {
-    let plan = Plan::new(model, &programs.demand);
+    let (plan, _) = super::started(lab, model, programs);
     let mut case = Case { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
     let (mut step, works) = look_at(&mut case, &plan)?;
     if case.steps == 0 {

@@ -10,7 +10,7 @@ pub use parts::{Code, Pairs, Seen, Sensor, Way};
 pub use reader::Reader;
 
 use crate::bind::Programs;
-use crate::run::{RunError, is_steady};
+use crate::run::{Budget, RunError, Session, is_steady};
 use crate::spec::Lab;
 use labspec_core::reflect::Stage;
 use labspec_core::{Demand, Model, Plan};
@@ -72,7 +72,7 @@ pub struct Options {
 /// A reader that is not to be found, or a lab that cannot run.
 pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) -> Result<Report, RunError> {
     let demand = programs.demand;
-    let plan = Plan::new(model, &demand);
+    let (plan, now) = started(lab, model, programs);
     let mut readers = reader::readers(model, programs, &options.read)?;
     let measured = match options.run {
         true => measure::measure(lab, model, programs, &readers)?,
@@ -96,15 +96,21 @@ pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) ->
             true => "the lab's own program runs only when something changes that it reads or writes",
             false => "the lab's own program runs before every step",
         }),
-        pairs: parts::pairs(model, &plan, measured.as_ref().map(|m| m.seen)),
-        cone: if model.opt.cone == 0 { "pyramidal" } else { "elliptic" },
-        solvers: parts::solvers(model, &plan),
-        integrators: parts::integrators(model, &demand),
-        ways: parts::ways(model, &plan),
-        sensors: parts::sensors(model, &plan),
+        pairs: parts::pairs(&now, &plan, measured.as_ref().map(|m| m.seen)),
+        cone: if now.opt.cone == 0 { "pyramidal" } else { "elliptic" },
+        solvers: parts::solvers(&now, &plan),
+        integrators: parts::integrators(&now, &demand),
+        ways: parts::ways(&now, &plan),
+        sensors: parts::sensors(&now, &plan),
         readers,
         step: measured.map(|m| m.step),
     })
+}
+
+/// The plan of a lab as it starts, and its model then: its setup and its controls have been applied.
+fn started(lab: &Lab, model: &Model, programs: &Programs) -> (Plan, Model) {
+    let session = Session::start_within(programs, model, lab.keyframe(), &programs.demand, Budget::ASKED);
+    (session.world.data.plan(), session.world.model)
 }
 
 /// A stage's name in lower case with hyphens.

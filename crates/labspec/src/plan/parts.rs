@@ -15,6 +15,9 @@ pub struct Code {
     pub reason: String,
 }
 
+/// What happens where a program may write an option.
+const WHEN_WRITTEN: &str = "when a program changes that, the plan is made again";
+
 /// A way of computing trees, and how many take it: for where their bodies are, for their inertia and forces, and for their
 /// accelerations.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -122,22 +125,22 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
     let written = plan.demand().writes.contains(option::solver);
     let methods = METHODS.iter().map(|&(name, _)| Code {
         name,
-        keep: runs && (written || name == named),
+        keep: runs && name == named,
         reason: match () {
             () if !runs => nothing.to_string(),
             () if name == named => "the options name it".into(),
-            () if written => "programs may name it".into(),
+            () if written => format!("the options name {named}; {WHEN_WRITTEN}"),
             () => format!("the options name {named}"),
         },
     });
     let slips = plan.demand().writes.contains(option::noslip_iterations);
     let noslip = Code {
         name: "noslip",
-        keep: runs && (slips || model.opt.noslip_iterations > 0),
+        keep: runs && model.opt.noslip_iterations > 0,
         reason: match () {
             () if !runs => nothing.to_string(),
             () if model.opt.noslip_iterations > 0 => "the options ask for it".into(),
-            () if slips => "programs may ask for it".into(),
+            () if slips => format!("the options ask for no iterations of it; {WHEN_WRITTEN}"),
             () => "the options ask for no iterations of it".into(),
         },
     };
@@ -150,10 +153,10 @@ pub(super) fn integrators(model: &Model, demand: &Demand) -> Vec<Code> {
     let written = demand.writes.contains(option::integrator);
     let code = |i: crate::precision::Integrator| Code {
         name: i.name,
-        keep: written || i == own,
+        keep: i == own,
         reason: match () {
             () if i == own => "the options name it".into(),
-            () if written => "programs may name it".into(),
+            () if written => format!("the options name {}; {WHEN_WRITTEN}", own.name),
             () => format!("the options name {}", own.name),
         },
     };

@@ -62,6 +62,11 @@ fn spans(m: &Model, trees: &[usize]) -> Vec<Range<usize>> {
     spans
 }
 
+/// The frames of all bodies.
+pub(super) fn frames(w: &mut Scratch) -> &mut Frames {
+    &mut w.ways.general.frames
+}
+
 fn place(_: &Model, d: &mut Fields, w: &mut Scratch) {
     kinematics::bodies(d, &mut w.ways.general.frames);
 }

@@ -50,6 +50,8 @@ macro_rules! table {
 mod articulated;
 mod chain;
 mod general;
+mod planar_chain;
+mod planar_passes;
 mod rigid;
 mod serial;
 mod simple;
@@ -61,6 +63,7 @@ table! {
     chain
     serial
     sliding
+    planar_chain
     articulated
     general
 }
@@ -263,9 +266,30 @@ pub(crate) fn changing(changes: impl Fn(&[FieldId]) -> bool) -> Ways {
     (0..TABLE.len()).filter(keeps).fold(Ways::GENERAL, |ways, i| ways.with(Way(i as u8)))
 }
 
+/// The fields of which ways keep copies.
+pub(crate) fn copied() -> impl Iterator<Item = FieldId> {
+    TABLE.iter().flat_map(|row| row.copies).copied()
+}
+
 /// Takes what the ways keep from the model again.
 pub(crate) fn load(m: &Model, w: &mut Scratch) {
     TABLE.iter().for_each(|row| (row.load)(m, w));
+}
+
+/// The trees that are long chains in a plane, of a model that is being compiled.
+pub(crate) fn planar_trees(m: &Model) -> Vec<i32> {
+    (0..m.ntree).filter(|&tree| planar_chain::is_planar(m, tree)).map(|tree| tree as i32).collect()
+}
+
+/// Whether all trees that a model from elsewhere calls such chains are chains.
+pub(crate) fn are_chains(m: &Model, trees: &[i32]) -> bool {
+    let chain = |&t: &i32| usize::try_from(t).is_ok_and(|t| t < m.ntree && planar_chain::is_chain(m, t));
+    trees.iter().all(chain)
+}
+
+/// Whether some trees put off the rows of M until somebody asks for them.
+pub(crate) fn put_rows_off(w: &Scratch) -> bool {
+    !w.ways.planar_chain.is_empty()
 }
 
 // What steps ask: each calls the functions of all ways that have trees.
@@ -302,9 +326,10 @@ pub(crate) fn orient(d: &mut Fields, w: &mut Scratch) {
     each!(w, places, |_way, row, of| (of.orient)(d, w));
 }
 
-/// `M`, with or without the rows of the general way.
+/// `M`, with or without the rows of the general way, and of ways that put theirs off.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool) {
+pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, rows: bool) {
+    w.rows_wanted = rows;
     each!(w, forces, |way, row, of| {
         if way.0 != GENERAL as u8 || general {
             if row.places.is_none() && d.plan.changing.has(way) {

@@ -7,9 +7,11 @@
 //! | piece | module |
 //! |---|---|
 //! | the pairs, and how each partner follows | `table` |
+//! | contact bits, and what stands between them and a contact | `bits` |
 //! | shapes: bounding radius, inertia, the geom that carries the mass of a body | `shape` |
 //! | the correction as statements of the language | `repair` |
 
+mod bits;
 mod repair;
 mod shape;
 mod table;
@@ -209,6 +211,7 @@ pub(crate) fn agree(a: &Model, b: &Model) -> bool {
             let near = |(x, y): (&f64, &f64)| (x - y).abs() <= ROUNDING * x.abs().max(y.abs());
             a.len() == b.len() && a.iter().zip(b).all(near)
         }
+        (Some(View::I32(a)), Some(View::I32(b))) => a == b,
         _ => false,
     })
 }

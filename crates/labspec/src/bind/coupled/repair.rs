@@ -37,6 +37,10 @@ pub(super) struct Statements<'a> {
 }
 
 impl Statements<'_> {
+    pub(super) fn model(&self) -> &Model {
+        self.model
+    }
+
     /// A name that the program does not have.
     fn name(&self, wanted: &str) -> String {
         let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
@@ -56,7 +60,11 @@ impl Statements<'_> {
         name
     }
 
-    fn add(&mut self, statement: String) {
+    /// Adds a statement behind the program, once.
+    pub(super) fn add(&mut self, statement: String) {
+        if self.repair.after.contains(&statement) {
+            return;
+        }
         self.repair.after.push(statement);
     }
 }

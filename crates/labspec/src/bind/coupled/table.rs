@@ -1,16 +1,16 @@
 //! The pairs: a parameter, the partner that follows it, and how.
 
-use super::Change;
 use super::repair::{self, Statements};
 use super::shape;
+use super::{Change, bits};
 use crate::rules::{self, Rule};
 use labspec_core::math::{norm, rows, sub};
-use labspec_core::reflect::{FieldId, model};
+use labspec_core::reflect::{FieldId, model, option};
 use labspec_core::{Model, biastype, gaintype};
 use std::ops::Range;
 
 /// What of a partner changes: an element of its field, and how.
-type Changes = Vec<(usize, Change)>;
+pub(super) type Changes = Vec<(usize, Change)>;
 
 /// Writes the statements that change the partner of these objects; `None` where that cannot be written.
 type Repair = fn(&mut Statements<'_>, &[usize]) -> Option<()>;
@@ -128,7 +128,44 @@ pub(crate) const PAIRS: &[Pair] = &[
         partners: |i| i / 10 * 10..i / 10 * 10 + 1,
         repair: Some(repair::gain_of_bias),
     },
+    Pair {
+        parameter: model::geom_contype,
+        partner: model::body_contype,
+        left: "`model.body_contype`",
+        rule: rules::CONTYPE_ALONE,
+        corrected: "the contact types of its geoms in the body",
+        help: "set the bits of `model.body_contype` as well",
+        follow: bits::types_of_bodies,
+        partners: |_| 0..0,
+        repair: Some(bits::repair_types),
+    },
+    Pair {
+        parameter: model::geom_conaffinity,
+        partner: model::body_conaffinity,
+        left: "`model.body_conaffinity`",
+        rule: rules::CONTYPE_ALONE,
+        corrected: "the contact affinities of its geoms in the body",
+        help: "set the bits of `model.body_conaffinity` as well",
+        follow: bits::affinities_of_bodies,
+        partners: |_| 0..0,
+        repair: Some(bits::repair_affinities),
+    },
+    MIDPHASE,
+    Pair { parameter: model::geom_conaffinity, ..MIDPHASE },
 ];
+
+/// A geom that is switched on, and is missing in the tree of bounding volumes of its body.
+const MIDPHASE: Pair = Pair {
+    parameter: model::geom_contype,
+    partner: option::disableflags,
+    left: "the geom out of the bounding volumes of its body",
+    rule: rules::CONTYPE_ALONE,
+    corrected: "the geom found without them (midphase off)",
+    help: "give the geom its bits in the model and switch it off in the setup, or switch the midphase off",
+    follow: bits::midphase,
+    partners: |_| 0..0,
+    repair: Some(bits::repair_midphase),
+};
 
 /// A list of the model before and after.
 type Both<'m> = (&'m [f64], &'m [f64]);

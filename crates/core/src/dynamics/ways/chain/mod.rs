@@ -18,6 +18,8 @@ mod spatial;
 mod tests;
 
 use super::{Forces, NOTHING, Own, Row};
+pub(super) use planar::plane_of;
+
 use crate::dynamics::{Scratch, mass, walk};
 use crate::kinds::joint;
 use crate::math::*;
@@ -43,7 +45,7 @@ pub(super) const ROW: Row = Row {
 };
 
 /// What the model says about a link.
-const COPIES: [FieldId; 12] = [
+pub(super) const COPIES: [FieldId; 12] = [
     fields_of::body_pos,
     fields_of::body_quat,
     fields_of::body_ipos,
@@ -92,19 +94,28 @@ struct Link {
 
 /// What the model says about a link.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Fixed {
+pub(super) struct Fixed {
     /// The link's frame in its parent's, at the default configuration.
-    at: Vec3,
-    turn: Mat3,
+    pub(super) at: Vec3,
+    pub(super) turn: Mat3,
     /// Whether `turn` is the identity.
     straight: bool,
-    axis: Vec3,
-    reference: f64,
-    armature: f64,
-    mass: f64,
+    pub(super) axis: Vec3,
+    pub(super) reference: f64,
+    pub(super) armature: f64,
+    pub(super) mass: f64,
     /// Centre of mass, and the inertia about it: xx yy zz xy xz yz.
-    com: Vec3,
+    pub(super) com: Vec3,
     inertia: [f64; 6],
+}
+
+impl Fixed {
+    /// The moment of inertia about an axis through the centre of mass.
+    pub(super) fn moment(&self, n: Vec3) -> f64 {
+        let [xx, yy, zz, xy, xz, yz] = self.inertia;
+        let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+        dot(n, rows.map(|row| dot(row, n)))
+    }
 }
 
 /// Frame, axis of the joint and centre of mass, world.
@@ -190,8 +201,13 @@ impl Trees {
         chains
     }
 
+    /// What the model says about each link, and its coordinate in qpos.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = (&Fixed, usize)> {
+        self.links.iter().map(|link| (&link.fixed, link.coordinate))
+    }
+
     /// Takes the parameters of the links from the model.
-    fn load(&mut self, m: &Model) {
+    pub(super) fn load(&mut self, m: &Model) {
         let (pos, quat) = (rows::<3>(&m.body_pos), rows::<4>(&m.body_quat));
         let (anchor, axis) = (rows::<3>(&m.jnt_pos), rows::<3>(&m.jnt_axis));
         let mut next = 0;

@@ -56,8 +56,7 @@ pub(super) fn load(chain: &mut [Link]) {
         (None, [(_, a), ..]) => normalize(cross(*a, least(*a))).0,
         (None, []) => return,
     };
-    let first = normalize(cross(normal, least(normal))).0;
-    let plane = [first, cross(normal, first)];
+    let plane = plane_of(normal);
     let flat = |v: Vec3| [dot(plane[0], v), dot(plane[1], v)];
     let fits = |(link, (_, axis)): (&Link, &(Mat3, Vec3))| {
         let along = dot(*axis, normal).abs();
@@ -86,6 +85,12 @@ pub(super) fn load(chain: &mut [Link]) {
         };
         above = *turn;
     }
+}
+
+/// The axes of the plane with a normal.
+pub(crate) fn plane_of(normal: Vec3) -> [Vec3; 2] {
+    let first = normalize(cross(normal, least(normal))).0;
+    [first, cross(normal, first)]
 }
 
 /// The axis that is farthest from v.

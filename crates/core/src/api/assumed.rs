@@ -1,0 +1,217 @@
+//! Which values of the model a plan takes as they are now, though programs may write them, and when it is made again.
+//!
+//! A plan for the values at hand leaves out more than one for any value. When one of them changes, the plan is made again, which takes
+//! as long as some hundred small steps: what changes again and again is held for any value, until it has stayed for a while.
+//!
+//! Only calls that compute everything make a plan narrower. After one that computes a part, such as `mj_kinematics`, what the
+//! narrower plan leaves out would still be what the last pass found.
+
+use super::contents::Contents;
+use super::data::{Data, Scope};
+use super::error::Error;
+use super::model::Model;
+use super::planning::Plan;
+use crate::model::plan::Plan as PlanTable;
+use crate::model::reflect::FieldSet;
+use crate::step::scene::{deciding, never_asked};
+use crate::step::{functions, reset};
+
+/// For how many passes values must have stayed before a plan takes them as they are.
+const SETTLED: u64 = 256;
+
+/// What a plan takes for granted.
+#[derive(Clone, Debug)]
+pub(super) struct Assumed {
+    /// The contents that the plan was made for; `None` where it holds for any.
+    pub(super) made_for: Option<Contents>,
+    /// The fields of which it holds for any value.
+    any: FieldSet,
+    /// Whether these are more than there need be.
+    wide: bool,
+    /// The work from which on the values at hand count as settled.
+    settled: u64,
+    /// A narrower plan is due at the next pass.
+    due: bool,
+}
+
+impl Assumed {
+    /// What a plan that was just made takes for granted. One that was made for any value stays so.
+    pub(super) fn of(plan: &mut Plan) -> Assumed {
+        let wide = plan.any != never_asked(&plan.demand) && plan.made_for.is_some();
+        let settled = if wide { u64::MAX } else { 0 };
+        Assumed { made_for: plan.made_for.take(), any: plan.any, wide, settled, due: false }
+    }
+
+    /// The fields of which the plan holds for any value.
+    pub(super) fn any(&self) -> FieldSet {
+        self.any
+    }
+
+    /// The version that data are held against: 0 for a plan that is wider than it need be, which is looked at in every call.
+    pub(super) fn version_of(&self, contents: &Contents) -> u64 {
+        if self.wide { 0 } else { contents.version }
+    }
+
+    /// Notes that constants were computed for which the plan has been looked at.
+    pub(super) fn adopt_constants(&mut self, contents: &Contents) {
+        if let Some(planned) = &mut self.made_for {
+            planned.adopt_constants(contents);
+        }
+    }
+}
+
+impl<S: Scope> Data<S> {
+    /// The parameters of the model are others than those that the data were used with last, or those of a clone, or the plan is
+    /// wider than it need be. Where they differ from what the plan was made for in nothing but what may be any, it stays; else it
+    /// is made again.
+    #[cold]
+    pub(super) fn catch_up(&mut self, m: &Model, whole: bool) -> Result<(), Error> {
+        self.belongs_to(m)?;
+        let Some(planned) = &mut self.assumed.made_for else {
+            self.version = m.contents.version;
+            return Ok(());
+        };
+        let now = functions::cost(&self.inner);
+        let calm = now >= self.assumed.settled;
+        let unrest = now.saturating_add(SETTLED.saturating_mul(functions::cost_of_pass(&self.inner)));
+        let changed = planned.changed(&m.contents);
+        let mut narrower = whole && self.assumed.wide && (calm || self.assumed.due);
+        if !changed.difference(&self.assumed.any).is_empty() {
+            narrower |= whole && calm;
+            if !narrower {
+                self.assumed.due |= calm;
+                let mut any = self.assumed.any;
+                any.extend(&changed.intersection(&self.demand.writes));
+                self.plan_for(m, any);
+            }
+            self.assumed.settled = self.assumed.settled.max(unrest);
+        } else if self.assumed.wide {
+            let moved = changed.intersection(&deciding());
+            if !moved.is_empty() {
+                planned.adopt(&m.contents, &moved);
+                self.assumed.settled = self.assumed.settled.max(unrest);
+                narrower &= self.assumed.due;
+            }
+        }
+        if narrower {
+            self.assumed.due = false;
+            self.plan_for(m, never_asked(&self.demand));
+        }
+        self.version = self.assumed.version_of(&m.contents);
+        Ok(())
+    }
+
+    /// Makes the plan anew, for the model as it is.
+    pub(super) fn plan_again(&mut self, m: &Model) {
+        let mut any = self.assumed.any;
+        any.extend(&never_asked(&self.demand));
+        self.plan_for(m, any);
+    }
+
+    /// The same for any value of some fields.
+    fn plan_for(&mut self, m: &Model, any: FieldSet) {
+        let PlanTable { ways, more, .. } = *self.inner.plan();
+        let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, ways, more));
+        reset::set_plan(m, &mut self.inner, plan.inner);
+        // What the data hold may be more than the plan takes for granted.
+        self.touched = !S::FULL;
+        self.assumed.any = any;
+        self.assumed.wide = any != never_asked(&self.demand);
+        match &mut self.assumed.made_for {
+            Some(planned) => planned.follow(&m.contents),
+            None => self.assumed.made_for = plan.made_for,
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod tests {
+    use super::SETTLED;
+    use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
+    use crate::kinds::integrator;
+    use crate::model::reflect::{FieldId, FieldSet, data, model, option};
+    use crate::model::stage::Stage;
+    use crate::step::scene::Demand;
+
+    const CHAIN: &str = "<mujoco><worldbody><geom type='plane' size='2 2 1' contype='0' conaffinity='0'/>\
+        <body pos='0 0 1'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0'/>\
+        <body pos='.2 0 0'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0' contype='0'/></body></body>\
+        </worldbody></mujoco>";
+
+    fn demand(writes: &[FieldId]) -> Demand {
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        demand.reads.insert(data::qpos);
+        writes.iter().for_each(|&field| demand.writes.insert(field));
+        demand
+    }
+
+    fn start(writes: &[FieldId]) -> (Model, Data<Planned>) {
+        let m = Model::from_xml(CHAIN).unwrap();
+        let d = Data::planned(&m, Plan::new(&m, &demand(writes)));
+        (m, d)
+    }
+
+    fn write(m: &mut Model, d: &mut Data<Planned>, field: FieldId, i: usize, value: f64) {
+        assert!(call::view_mut(m, d, field).unwrap().set(i, value));
+    }
+
+    /// The plan is that of the values at hand, before a change and after it, whatever may be written.
+    #[test]
+    fn what_is_written_is_taken_as_it_is() {
+        let fields = [
+            (option::integrator, 0, f64::from(integrator::RK4)),
+            (option::disableflags, 0, 16.0),
+            (option::density, 0, 3.0),
+            (model::dof_damping, 0, 0.5),
+            (model::jnt_stiffness, 1, 2.0),
+            (model::geom_contype, 0, 1.0),
+            (model::dof_frictionloss, 0, 0.1),
+            (option::timestep, 0, 0.001),
+            (option::cone, 0, 1.0),
+            (option::solver, 0, 1.0),
+        ];
+        let all = fields.map(|(field, ..)| field);
+        let fixed = |m: &Model| Plan::new(m, &demand(&[]));
+        let same = |m: &Model, d: &Data<Planned>| {
+            let (a, b) = (d.plan(), fixed(m));
+            let kept = |plan: &Plan| {
+                plan.decisions().iter().filter(|row| row.keep).map(|row| row.stage).collect::<Vec<_>>()
+            };
+            assert_eq!(kept(&a), kept(&b));
+        };
+        for (field, i, value) in fields {
+            let (mut m, mut d) = start(&all);
+            same(&m, &d);
+            write(&mut m, &mut d, field, i, value);
+            call::step(&m, &mut d).unwrap();
+            same(&m, &d);
+        }
+        let (m, _) = start(&all);
+        let any = Plan::for_any_value(&m, &demand(&all));
+        assert!(any.keeps(Stage::Passive) && any.keeps(Stage::Solve) && !fixed(&m).keeps(Stage::Solve));
+    }
+
+    /// What changes again and again is held for any value, until it has stayed for a while; and after a call that computes a part, until
+    /// the next pass.
+    #[test]
+    fn restless_values_may_be_any() {
+        let (mut m, mut d) = start(&[model::dof_damping]);
+        let passive = |d: &Data<Planned>| d.plan().keeps(Stage::Passive);
+        assert!(!passive(&d));
+        for value in [0.5, 0.0] {
+            write(&mut m, &mut d, model::dof_damping, 0, value);
+            call::step(&m, &mut d).unwrap();
+            assert!(passive(&d));
+        }
+        (0..2 * SETTLED).for_each(|_| call::step(&m, &mut d).unwrap());
+        assert!(!passive(&d));
+        write(&mut m, &mut d, model::dof_damping, 0, 0.5);
+        call::kinematics(&m, &mut d).unwrap();
+        write(&mut m, &mut d, model::dof_damping, 0, 0.0);
+        call::kinematics(&m, &mut d).unwrap();
+        assert!(passive(&d));
+        call::forward(&m, &mut d).unwrap();
+        assert!(!passive(&d));
+    }
+}

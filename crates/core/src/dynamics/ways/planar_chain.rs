@@ -1,0 +1,381 @@
+//! Long chains in a plane: many hinges, one after the other from the world on, that all turn about one direction.
+//!
+//! In a plane a velocity has three numbers, a turn and two of a point, and so has a force. The bias force is found by recursion
+//! (Featherstone 2008, chapter 5), accelerations by articulated bodies (chapter 7: see `articulated`), each about the anchor of its own
+//! hinge. An inertia about an anchor, which a body and all that hangs on it answer a force with, is
+//!
+//! > | J  hᵀ |
+//! > | h  M  |
+//!
+//! with a moment J, a moment of first order h (2) and a mass M (2 x 2). Of an anchor that is r further on, where a turn ω moves it at
+//! ω q, q = (-r_y, r_x), it is h + M q and J + q · (2 h + M q) about the anchor before.
+//!
+//! Which trees are such chains is found when a model is compiled, and kept in it. Written to its axes and frames afterwards, a chain may
+//! leave its plane: it is then computed as the general way does.
+
+use super::planar_passes::{Joint, Link, inward, outward, place, solve_known};
+use super::{Damped, Factors, Forces, NOTHING, Own, Row, chain};
+use crate::dynamics::{Scratch, com, kinematics, mass as rows_of_m, reflected, rne};
+use crate::kinds::joint;
+use crate::math::*;
+use crate::model::plan::Fact;
+use crate::model::{Fields, Model};
+use std::ops::Range;
+
+pub(super) const ROW: Row = Row {
+    name: "planar",
+    covers,
+    copies: &chain::COPIES,
+    load: |m, w| w.ways.planar_chain.load(m),
+    forces: Some(Forces {
+        mass,
+        bias,
+        looks_at_places: |_, _| false,
+        constant: |_, _| false,
+        turns_alone: false,
+    }),
+    factors: Some(Factors {
+        without_mass: true,
+        factor,
+        complete: rows_of_factor,
+        solve,
+        solve_with,
+        solve_now,
+        solve_both,
+    }),
+    ..NOTHING
+};
+
+/// Degrees of freedom of a chain up to which its equations are cheaper in closed form.
+const FEW: usize = 6;
+/// A direction counts as the normal of the plane when it misses by less than this.
+const FLAT: f64 = 1e-12;
+
+/// The chains.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Trees {
+    /// The links as a chain has them, in space.
+    chains: chain::Trees,
+    spans: Vec<Span>,
+    links: Vec<Link>,
+    joints: Vec<[Joint; 2]>,
+    /// Whether all of them are in their planes.
+    flat: bool,
+    /// Whether no tendon's inertia ties links together: such chains are solved by their rows of M.
+    untied: bool,
+}
+
+/// A chain: its degrees of freedom, where its links are among all, and the axes of its plane, world.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Span {
+    dofs: Range<usize>,
+    links: Range<usize>,
+    plane: [Vec3; 2],
+}
+
+/// Whether a tree was a long chain in a plane when the model was compiled.
+fn covers(m: &Model, tree: usize) -> bool {
+    m.planar_trees.binary_search(&(tree as i32)).is_ok()
+}
+
+/// Whether a tree is a long chain of hinges, one after the other from the world on.
+pub(super) fn is_chain(m: &Model, tree: usize) -> bool {
+    let dofs = m.tree_dofs(tree);
+    let first = dofs.start;
+    let link = |k: usize| {
+        (k == first || m.dof_parentid[k] == k as i32 - 1)
+            && m.jnt_type[m.dof_jntid[k] as usize] == joint::HINGE
+    };
+    let on_the_world = |k: usize| m.body_weldid[m.body_parentid[m.dof_bodyid[k] as usize] as usize] == 0;
+    dofs.len() > FEW && dofs.clone().all(link) && on_the_world(first)
+}
+
+/// Whether it moves in a plane, too.
+pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
+    if !is_chain(m, tree) {
+        return false;
+    }
+    let own = Own { forces: vec![tree], ..Own::default() };
+    Trees::new(m, &own).flat
+}
+
+impl Trees {
+    pub(super) fn is_empty(&self) -> bool {
+        self.links.is_empty()
+    }
+
+    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+        let chains = chain::Trees::new(m, own);
+        let (mut links, mut spans) = (0, Vec::new());
+        for &tree in &own.forces {
+            let dofs = m.tree_dofs(tree);
+            let n = dofs.len();
+            spans.push(Span { dofs, links: links..links + n, plane: Default::default() });
+            links += n;
+        }
+        let mut trees = Trees {
+            chains,
+            spans,
+            links: vec![Link::default(); links],
+            joints: vec![[Joint::default(); 2]; links],
+            flat: true,
+            untied: true,
+        };
+        trees.load(m);
+        trees
+    }
+
+    /// Takes the parameters of the links from the model.
+    fn load(&mut self, m: &Model) {
+        if self.links.is_empty() {
+            return;
+        }
+        self.chains.load(m);
+        self.flat = true;
+        for span in &mut self.spans {
+            let mut above = EYE;
+            let mut normal = None;
+            let mut plane = span.plane;
+            let all = self.chains.parameters().skip(span.links.start);
+            for (link, (fixed, coordinate)) in self.links[span.links.clone()].iter_mut().zip(all) {
+                let turn = mat_mul(&above, &fixed.turn);
+                let axis = mat_mul_vec(&turn, fixed.axis);
+                let normal = *normal.get_or_insert_with(|| {
+                    plane = chain::plane_of(axis);
+                    axis
+                });
+                let along = dot(axis, normal);
+                self.flat &= (along.abs() - 1.0).abs() < FLAT;
+                let flat = |v: Vec3| [dot(plane[0], v), dot(plane[1], v)];
+                let com = flat(mat_mul_vec(&turn, fixed.com));
+                let across = mat_t_mul_vec(&turn, normal);
+                *link = Link {
+                    at: flat(mat_mul_vec(&above, fixed.at)),
+                    com,
+                    sense: along.round(),
+                    mass: fixed.mass,
+                    inertia: fixed.moment(across) + fixed.mass * dot(com, com),
+                    armature: fixed.armature,
+                    reference: fixed.reference,
+                    coordinate,
+                    ..*link
+                };
+                above = turn;
+            }
+            span.plane = plane;
+        }
+    }
+}
+
+/// Where the links are; and the rows of M, where somebody looks at them.
+#[inline(never)] // scenes of other trees do not carry the set-up: so below
+fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let rows = w.rows_wanted;
+    let trees = &mut w.ways.planar_chain;
+    if !trees.flat {
+        return in_space(m, d, w);
+    }
+    for span in &trees.spans {
+        let links = &mut trees.links[span.links.clone()];
+        place(links, &d.qpos);
+        if rows {
+            rows_of_mass(m, &mut d.M, span, links);
+        }
+    }
+}
+
+/// The rows of M of chains that have left their plane.
+fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    kinematics::bodies(d, super::general::frames(w));
+    com::com_pos(m, d);
+    for span in w.ways.planar_chain.spans.iter().map(|span| span.dofs.clone()) {
+        rows_of_m::composite_inertia(m, d, &mut w.path, &[span]);
+    }
+}
+
+/// The rows of M: the momentum of all that hangs on a hinge, when another one before it turns.
+fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &[Link]) {
+    let (mut moment, mut first, mut total) = (0.0, [0.0; 2], 0.0);
+    for (i, link) in links.iter().enumerate().rev() {
+        moment += link.inertia;
+        first = add(first, [-link.mass * link.arm[1], link.mass * link.arm[0]]);
+        total += link.mass;
+        let row = &mut mass[rows_of_m::row(m, span.dofs.start + i)];
+        for (to, before) in row.iter_mut().zip(links) {
+            let [x, y] = sub(link.anchor, before.anchor);
+            *to = link.sense * before.sense * (moment + dot(first, [-y, x]));
+        }
+        if let Some(diagonal) = row.last_mut() {
+            *diagonal += link.armature;
+        }
+        let q = link.quarter;
+        moment += dot(q, add(scale(first, 2.0), scale(q, total)));
+        first = add_scaled(first, q, total);
+    }
+}
+
+/// The bias force.
+#[inline(never)]
+fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
+    if !w.ways.planar_chain.flat {
+        com::com_vel(m, d);
+        return rne::newton_euler(m, d, w, gravity);
+    }
+    let Trees { spans, links, .. } = &mut w.ways.planar_chain;
+    for span in spans.iter() {
+        let links = &mut links[span.links.clone()];
+        // Gravity enters as an upward acceleration of the world.
+        let mut acceleration = span.plane.map(|axis| -dot(axis, gravity));
+        let mut turning = 0.0;
+        for (link, v) in links.iter_mut().zip(&d.qvel[span.dofs.clone()]) {
+            // The anchor is at r = (q_y, -q_x) from the one before, and turns about it.
+            let centripetal = turning * turning;
+            acceleration[0] -= centripetal * link.quarter[1];
+            acceleration[1] += centripetal * link.quarter[0];
+            turning += link.sense * v;
+            let force = add_scaled(acceleration, link.arm, -(turning * turning));
+            let [x, y] = scale(force, link.mass);
+            link.force = [link.arm[0] * y - link.arm[1] * x, x, y];
+        }
+        let mut carried = [0.0; 3];
+        for (link, out) in links.iter().zip(&mut d.qfrc_bias[span.dofs.clone()]).rev() {
+            let [torque, x, y] = add(link.force, carried);
+            *out = link.sense * torque;
+            carried = [torque + link.quarter[0] * x + link.quarter[1] * y, x, y];
+        }
+    }
+}
+
+/// U and 1/D, which solve with M; and with `x`, x ← M⁻¹ x.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
+    let trees = &mut w.ways.planar_chain;
+    trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
+    let mut bad = None;
+    for Span { dofs, links: own, .. } in &trees.spans {
+        let (links, joints) = (&trees.links[own.clone()], &mut trees.joints[own.clone()]);
+        let found = match (x.as_deref_mut(), trees.untied && trees.flat) {
+            (Some(x), true) => {
+                let x = &mut x[dofs.clone()];
+                for ((joint, link), x) in joints.iter_mut().zip(links).zip(&*x) {
+                    (joint[0].diagonal, joint[0].x) = (link.armature, *x);
+                }
+                let bad = inward::<0, 1, true>(links, joints);
+                outward::<0, 1>(links, joints);
+                x.iter_mut().zip(&*joints).for_each(|(x, joint)| *x = joint[0].x);
+                bad
+            }
+            (None, true) => {
+                joints.iter_mut().zip(links).for_each(|(joint, link)| joint[0].diagonal = link.armature);
+                inward::<0, 1, false>(links, joints)
+            }
+            (x, false) => {
+                let bad = rows_of_m::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone());
+                if let Some(x) = x {
+                    rows_of_m::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
+                }
+                bad.map(|k| k - dofs.start)
+            }
+        };
+        bad = bad.or(found.map(|k| dofs.start + k));
+    }
+    bad
+}
+
+#[inline(never)]
+fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
+    let bad = prepare(m, d, w, None);
+    w.rows_due = d.plan.has(Fact::MassForRows);
+    if !w.rows_due {
+        rows_of_factor(m, d, w);
+    }
+    bad
+}
+
+#[inline(never)]
+fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
+    prepare(m, d, w, Some(x))
+}
+
+#[inline(never)]
+fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
+    let trees = &mut w.ways.planar_chain;
+    trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
+    if !(trees.untied && trees.flat) {
+        solve_with(m, d, w, b, y);
+        return solve_now(m, d, w, x);
+    }
+    let mut bad = None;
+    for Span { dofs, links: own, .. } in &trees.spans {
+        let (links, joints) = (&trees.links[own.clone()], &mut trees.joints[own.clone()]);
+        let (b, x, y) = (&b[dofs.clone()], &mut x[dofs.clone()], &mut y[dofs.clone()]);
+        for ((joint, link), ((b, x), y)) in joints.iter_mut().zip(links).zip(b.iter().zip(&*x).zip(&*y)) {
+            (joint[0].diagonal, joint[0].x) = (link.armature, *x);
+            (joint[1].diagonal, joint[1].x) = (link.armature + b, *y);
+        }
+        let found = inward::<0, 2, true>(links, joints);
+        outward::<0, 2>(links, joints);
+        for (joint, (x, y)) in joints.iter().zip(x.iter_mut().zip(y)) {
+            (*x, *y) = (joint[0].x, joint[1].x);
+        }
+        bad = bad.or(found.map(|k| dofs.start + k));
+    }
+    bad
+}
+
+/// The rows of `qLD`, and `qLDiagInv`.
+#[inline(never)]
+fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    let Trees { spans, links, joints, untied, flat, .. } = &w.ways.planar_chain;
+    if !(*untied && *flat) {
+        return;
+    }
+    for span in spans {
+        let (links, joints) = (&links[span.links.clone()], &joints[span.links.clone()]);
+        for ((k, link), [Joint { u, inv, .. }, _]) in span.dofs.clone().zip(links).zip(joints) {
+            d.qLDiagInv[k] = *inv;
+            let row = &mut d.qLD[rows_of_m::row(m, k)];
+            for (to, before) in row.iter_mut().zip(links) {
+                let [x, y] = sub(link.anchor, before.anchor);
+                *to = before.sense * (u[0] - u[1] * y + u[2] * x) * inv;
+            }
+            if let Some(diagonal) = row.last_mut() {
+                *diagonal = 1.0 / inv;
+            }
+        }
+    }
+}
+
+#[inline(never)]
+fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
+    let Trees { spans, links, joints, untied, flat, .. } = &mut w.ways.planar_chain;
+    for Span { dofs, links: own, .. } in spans.iter() {
+        if !(*untied && *flat) {
+            rows_of_m::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
+            continue;
+        }
+        let (x, joints) = (&mut x[dofs.clone()], &mut joints[own.clone()]);
+        joints.iter_mut().zip(&*x).for_each(|(joint, x)| joint[0].x = *x);
+        solve_known(&links[own.clone()], joints);
+        x.iter_mut().zip(&*joints).for_each(|(x, joint)| *x = joint[0].x);
+    }
+}
+
+#[inline(never)]
+fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
+    let Trees { spans, links, joints, untied, flat, .. } = &mut w.ways.planar_chain;
+    for Span { dofs, links: own, .. } in spans.iter() {
+        if !(*untied && *flat) {
+            rows_of_m::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs.clone(), x);
+            continue;
+        }
+        let (links, joints) = (&links[own.clone()], &mut joints[own.clone()]);
+        let (b, x) = (&b[dofs.clone()], &mut x[dofs.clone()]);
+        for ((joint, link), (b, x)) in joints.iter_mut().zip(links).zip(b.iter().zip(&*x)) {
+            (joint[1].diagonal, joint[1].x) = (link.armature + b, *x);
+        }
+        inward::<1, 2, true>(links, joints);
+        outward::<1, 2>(links, joints);
+        x.iter_mut().zip(&*joints).for_each(|(x, joint)| *x = joint[1].x);
+    }
+}

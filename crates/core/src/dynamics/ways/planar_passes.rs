@@ -1,0 +1,137 @@
+//! The passes over a chain in a plane: where its links are, and what its hinges answer forces with (see `planar_chain`).
+
+use crate::math::*;
+
+pub(super) type Vec2 = [f64; 2];
+
+/// What moves with one hinge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Link {
+    /// The anchor from that of the link before, and the centre of mass from the anchor, at the default configuration.
+    pub(super) at: Vec2,
+    pub(super) com: Vec2,
+    /// Sense of the hinge about the normal of the plane.
+    pub(super) sense: f64,
+    pub(super) mass: f64,
+    /// Moment of inertia about the anchor.
+    pub(super) inertia: f64,
+    pub(super) armature: f64,
+    pub(super) reference: f64,
+    /// Its coordinate in qpos.
+    pub(super) coordinate: usize,
+    /// The same two as the chain is now, `at` turned by a quarter.
+    pub(super) quarter: Vec2,
+    pub(super) arm: Vec2,
+    /// Where the anchor is.
+    pub(super) anchor: Vec2,
+    /// Force and torque of the link on the one before, without accelerations of joints.
+    pub(super) force: [f64; 3],
+}
+
+/// U and 1/D, what the joint adds to the diagonal of the matrix, and an element of the vector that is solved for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Joint {
+    pub(super) u: [f64; 3],
+    pub(super) inv: f64,
+    pub(super) diagonal: f64,
+    pub(super) x: f64,
+}
+
+/// An inertia about an anchor, as above: J, h, M, and a force: its torque about the anchor first.
+#[derive(Clone, Copy, Debug, Default)]
+struct Body {
+    moment: f64,
+    first: Vec2,
+    mass: [f64; 3],
+    force: [f64; 3],
+}
+
+/// Turns the links.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn place(links: &mut [Link], qpos: &[f64]) {
+    let (mut angle, mut cos, mut sin) = (0.0, 1.0, 0.0);
+    let mut anchor = [0.0; 2];
+    for link in links {
+        let [x, y] = link.at;
+        let at = [cos * x - sin * y, sin * x + cos * y];
+        anchor = add(anchor, at);
+        angle += link.sense * (qpos.get(link.coordinate).copied().unwrap_or(0.0) - link.reference);
+        (sin, cos) = libm::sincos(angle);
+        let [x, y] = link.com;
+        link.arm = [cos * x - sin * y, sin * x + cos * y];
+        link.quarter = [-at[1], at[0]];
+        link.anchor = anchor;
+    }
+}
+
+/// The way up the chain, for the matrices `A..B` at the same time: U and D of every hinge. Returns the first one whose D is not
+/// positive. With `X`, the vector is taken along.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
+    links: &[Link],
+    joints: &mut [[Joint; 2]],
+) -> Option<usize> {
+    let mut bad = None;
+    let mut bodies = [Body::default(); 2];
+    for (k, (link, joint)) in links.iter().zip(joints).enumerate().rev() {
+        let q = link.quarter;
+        for i in A..B {
+            let (body, joint) = (&mut bodies[i], &mut joint[i]);
+            let moment = body.moment + link.inertia;
+            let h = add_scaled(body.first, [-link.arm[1], link.arm[0]], link.mass);
+            let [xx, xy, yy] = body.mass;
+            let (xx, yy) = (xx + link.mass, yy + link.mass);
+            let d = moment + joint.diagonal;
+            if d < MINVAL {
+                bad = Some(k);
+            }
+            let inv = 1.0 / d.max(MINVAL);
+            joint.inv = inv;
+            joint.u = [link.sense * moment, link.sense * h[0], link.sense * h[1]];
+            // I - U Uᵀ / D: of J and h there remains what the joint's own inertia is of D.
+            let (part, own) = (scale(h, inv), joint.diagonal * inv);
+            let (xx, xy, yy) = (xx - h[0] * part[0], xy - h[0] * part[1], yy - h[1] * part[1]);
+            let (moment, h) = (moment * own, scale(h, own));
+            let moved = [h[0] + xx * q[0] + xy * q[1], h[1] + xy * q[0] + yy * q[1]];
+            body.moment = moment + dot(q, add(h, moved));
+            (body.first, body.mass) = (moved, [xx, xy, yy]);
+            if X {
+                pass_on(link, joint, &mut body.force);
+            }
+        }
+    }
+    bad
+}
+
+/// What a hinge takes of the force of all that hangs on it, and what it passes on to the link before.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn pass_on(link: &Link, joint: &mut Joint, force: &mut [f64; 3]) {
+    joint.x = (joint.x - link.sense * force[0]) * joint.inv;
+    let [torque, x, y] = add_scaled(*force, joint.u, joint.x);
+    *force = [torque + link.quarter[0] * x + link.quarter[1] * y, x, y];
+}
+
+/// The way back, from the world to the end.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn outward<const A: usize, const B: usize>(links: &[Link], joints: &mut [[Joint; 2]]) {
+    let mut all = [[0.0; 3]; 2];
+    for (link, joint) in links.iter().zip(joints) {
+        for i in A..B {
+            let (joint, [turn, x, y]) = (&mut joint[i], &mut all[i]);
+            *x += *turn * link.quarter[0];
+            *y += *turn * link.quarter[1];
+            joint.x -= joint.inv * (joint.u[0] * *turn + (joint.u[1] * *x + joint.u[2] * *y));
+            *turn += link.sense * joint.x;
+        }
+    }
+}
+
+/// The same two where U and D are known.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn solve_known(links: &[Link], joints: &mut [[Joint; 2]]) {
+    let mut force = [0.0; 3];
+    for (link, joint) in links.iter().zip(joints.iter_mut()).rev() {
+        pass_on(link, &mut joint[0], &mut force);
+    }
+    outward::<0, 1>(links, joints);
+}

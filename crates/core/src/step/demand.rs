@@ -1,0 +1,19 @@
+//! What programs read and write of a model and its data: what plans are made for.
+
+use crate::model::reflect::FieldSet;
+
+/// What programs read and write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Demand {
+    /// Fields that are read between steps.
+    pub reads: FieldSet,
+    /// Fields that are written between steps.
+    pub writes: FieldSet,
+}
+
+impl Demand {
+    /// Anything may be read or written: what an embedding program gets that says nothing.
+    pub const ANY: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::ALL };
+    /// Anything may be read, only state and controls are written.
+    pub const OBSERVE: Demand = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
+}

@@ -1,0 +1,163 @@
+//! What a scene has and does not use: actuators whose controls are zero, equality constraints that are off.
+//!
+//! Both follow from inputs of the data. A plan takes them as they are after a reset, where nobody writes them; data that hold something
+//! else are planned again (`api/data`).
+
+use crate::forces::tendon;
+use crate::kinds::{biastype, dyntype, trntype};
+use crate::math::rows;
+use crate::model::Model;
+use crate::model::reflect::{FieldId, data, model};
+
+/// What the force of an actuator without a control follows from.
+pub(super) const ACTUATORS: [FieldId; 12] = [
+    model::actuator_gainprm,
+    model::actuator_gear,
+    model::actuator_ctrllimited,
+    model::actuator_ctrlrange,
+    model::actuator_forcelimited,
+    model::actuator_forcerange,
+    model::jnt_actfrclimited,
+    model::jnt_actfrcrange,
+    model::jnt_actgravcomp,
+    model::tendon_actfrclimited,
+    model::tendon_actfrcrange,
+    model::wrap_prm,
+];
+/// Whether equality constraints act after a reset.
+pub(super) const EQUALITIES: [FieldId; 1] = [model::eq_active0];
+/// The inputs that are taken as they are after a reset.
+pub(super) const INPUTS: [FieldId; 2] = [data::ctrl, data::eq_active];
+
+/// Whether a force or a control of nothing is within these ranges, where they are limited.
+fn holds_zero(limited: &[bool], ranges: &[f64]) -> bool {
+    limited
+        .iter()
+        .zip(rows::<2>(ranges))
+        .all(|(limited, range)| !limited || range[0] <= 0.0 && range[1] >= 0.0)
+}
+
+/// Whether no actuator makes a force: their controls are zero and stay so, and with them their forces, whatever the state. `linear`
+/// says of an actuator whether its force is linear in its control, its length and its velocity.
+pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> bool {
+    let makes_none = |i: usize| {
+        let fixed = |t: i32| usize::try_from(t).is_ok_and(|t| t < m.ntendon && tendon::is_fixed(m, t));
+        let numbers = [m.actuator_gainprm[10 * i], m.actuator_gear[6 * i]];
+        // The moment of a joint is its gear, that of a fixed tendon its coefficients: numbers, whatever the state.
+        linear(i)
+            && m.actuator_biastype[i] == biastype::NONE
+            && m.actuator_dyntype[i] == dyntype::NONE
+            && (m.actuator_trntype[i] != trntype::TENDON || fixed(m.actuator_trnid[2 * i]))
+            && numbers.iter().all(|x| x.is_finite())
+    };
+    (m.nhistory, m.nout) == (0, m.nactuator)
+        && !m.jnt_actgravcomp.contains(&true)
+        && m.wrap_prm.iter().all(|x| x.is_finite())
+        && holds_zero(&m.actuator_ctrllimited, &m.actuator_ctrlrange)
+        && holds_zero(&m.actuator_forcelimited, &m.actuator_forcerange)
+        && holds_zero(&m.jnt_actfrclimited, &m.jnt_actfrcrange)
+        && (0..m.nactuator).all(makes_none)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)] // a test that fails says why
+mod tests {
+    use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
+    use crate::model::reflect::{FieldSet, data};
+    use crate::model::stage::Stage;
+    use crate::step::scene::Demand;
+
+    /// A pendulum, with some actuators and constraints.
+    fn pendulum(more: &str) -> Model {
+        Model::from_xml(&format!(
+            "<mujoco><worldbody><body name='a'><joint name='j' axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body>
+             <body name='b' pos='0 0 3'><joint name='k' axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body></worldbody>
+             <tendon><fixed name='t'><joint joint='j' coef='1'/><joint joint='k' coef='-1'/></fixed></tendon>{more}</mujoco>"
+        ))
+        .unwrap()
+    }
+
+    fn reading() -> Demand {
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        demand.reads.insert(data::qpos);
+        demand
+    }
+
+    /// Steps of planned data end as those of full ones.
+    fn agree(m: &Model, planned: &mut Data<Planned>, full: &mut Data) {
+        for _ in 0..30 {
+            call::step(m, planned).unwrap();
+            call::step(m, full).unwrap();
+        }
+        let bits = |q: &[f64]| q.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&planned.fields().qpos), bits(&full.qpos));
+        assert_eq!(bits(&planned.fields().actuator_force), bits(&full.actuator_force));
+        assert_eq!(bits(&planned.fields().qfrc_actuator), bits(&full.qfrc_actuator));
+    }
+
+    #[test]
+    fn actuators_without_controls_are_left_out() {
+        for (actuators, left_out) in [
+            ("<motor joint='j' gear='-3'/><motor tendon='t'/>", true),
+            ("<motor joint='j' ctrlrange='-1 1'/>", true),
+            ("<motor joint='j' ctrlrange='.5 1'/>", false),
+            ("<motor joint='j' forcerange='-3 -1'/>", false),
+            ("<motor joint='j'/><position joint='k'/>", false),
+            ("<general joint='j' dyntype='filter' dynprm='.1'/>", false),
+            ("<velocity joint='j'/>", false),
+        ] {
+            let m = pendulum(&format!("<actuator>{actuators}</actuator>"));
+            let plan = Plan::new(&m, &reading());
+            assert_eq!(!plan.keeps(Stage::Actuation), left_out, "{actuators}");
+            let mut written = reading();
+            written.writes.insert(data::ctrl);
+            assert!(Plan::new(&m, &written).keeps(Stage::Actuation));
+            let (mut planned, mut full) = (Data::planned(&m, plan), Data::unplanned(&m));
+            agree(&m, &mut planned, &mut full);
+            // A control that nobody announced acts.
+            planned.edit().ctrl[0] = 0.7;
+            full.edit().ctrl[0] = 0.7;
+            agree(&m, &mut planned, &mut full);
+            assert!(planned.fields().actuator_force[0] != 0.0, "{actuators}");
+        }
+    }
+
+    #[test]
+    fn keyframes_and_states_bring_their_controls() {
+        let more = "<actuator><motor joint='j'/></actuator><keyframe><key ctrl='.5'/></keyframe>";
+        let m = pendulum(more);
+        let key = m.keys().next().unwrap();
+        let (mut planned, mut full) = (Data::planned(&m, Plan::new(&m, &reading())), Data::unplanned(&m));
+        call::reset_data_keyframe(&m, &mut planned, key).unwrap();
+        call::reset_data_keyframe(&m, &mut full, key).unwrap();
+        agree(&m, &mut planned, &mut full);
+        let mut other = Data::planned(&m, Plan::new(&m, &reading()));
+        call::state::copy(&m, &full, &mut other, call::state::INTEGRATION).unwrap();
+        agree(&m, &mut other, &mut full);
+    }
+
+    #[test]
+    fn equalities_that_are_off_are_left_out() {
+        let tie = "<equality><joint joint1='j' joint2='k' active='false'/><connect body1='a' body2='b' anchor='1 0 0' active='false'/></equality>";
+        let mut m = pendulum(tie);
+        let plan = Plan::new(&m, &reading());
+        assert!(!plan.keeps(Stage::Constraint) && !plan.keeps(Stage::Kinematics));
+        assert!(Plan::new(&pendulum(&tie.replacen("false", "true", 1)), &reading()).keeps(Stage::Solve));
+        let (mut planned, mut full) = (Data::planned(&m, plan), Data::unplanned(&m));
+        agree(&m, &mut planned, &mut full);
+        for (i, on) in [(0, true), (1, true), (0, false)] {
+            planned.edit().eq_active[i] = on;
+            full.edit().eq_active[i] = on;
+            agree(&m, &mut planned, &mut full);
+        }
+        // Off after a reset, and on until then.
+        m.edit().eq_active0.fill(false);
+        agree(&m, &mut planned, &mut full);
+        let mut data = Data::planned(&m, Plan::new(&m, &reading()));
+        m.edit().eq_active0.fill(true);
+        call::reset_data(&m, &mut data).unwrap();
+        call::reset_data(&m, &mut full).unwrap();
+        agree(&m, &mut data, &mut full);
+        assert!(data.plan().keeps(Stage::Solve));
+    }
+}

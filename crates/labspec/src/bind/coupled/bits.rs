@@ -1,0 +1,90 @@
+//! Contact bits of geoms, and what stands between them and a contact: the bits of their bodies, and the trees of bounding volumes,
+//! both made when the model is compiled.
+
+use super::Change;
+use super::repair::Statements;
+use super::table::Changes;
+use labspec_core::{Model, disable};
+
+/// Bits of geoms and of bodies: the types, or the affinities.
+type Bits = [fn(&Model) -> &[i32]; 2];
+
+const TYPES: Bits = [|m| &m.geom_contype, |m| &m.body_contype];
+const AFFINITIES: Bits = [|m| &m.geom_conaffinity, |m| &m.body_conaffinity];
+
+fn body_of(m: &Model, geom: usize) -> Option<usize> {
+    usize::try_from(*m.geom_bodyid.get(geom)?).ok()
+}
+
+/// A body can touch what its geoms can touch: each bit of a geom that is switched on is one of its body.
+fn bits_of_bodies(before: &Model, now: &Model, [of_geom, of_body]: Bits) -> Changes {
+    let mut wanted: Vec<i32> = of_body(now).to_vec();
+    for (g, (was, is)) in of_geom(before).iter().zip(of_geom(now)).enumerate() {
+        if was != is
+            && let Some(bits) = body_of(now, g).and_then(|b| wanted.get_mut(b))
+        {
+            *bits |= is;
+        }
+    }
+    let both = of_body(before).iter().zip(of_body(now)).zip(wanted).enumerate();
+    let left = both.filter(|(_, ((was, is), wanted))| was == is && **is != *wanted);
+    left.map(|(b, (_, wanted))| (b, Change::Becomes(f64::from(wanted)))).collect()
+}
+
+pub(super) fn types_of_bodies(before: &Model, now: &Model) -> Changes {
+    bits_of_bodies(before, now, TYPES)
+}
+
+pub(super) fn affinities_of_bodies(before: &Model, now: &Model) -> Changes {
+    bits_of_bodies(before, now, AFFINITIES)
+}
+
+/// A geom that had no contact bits when the model was compiled is in no tree of bounding volumes: where its body has one, it is found
+/// without the midphase alone.
+pub(super) fn midphase(before: &Model, now: &Model) -> Changes {
+    let visual = |g: usize| now.visual_geoms.iter().any(|&v| v as usize == g);
+    let switched = |g: usize| {
+        let bits =
+            |m: &Model| [&m.geom_contype, &m.geom_conaffinity].map(|list| list.get(g).copied().unwrap_or(0));
+        bits(before) == [0, 0] && bits(now) != [0, 0]
+    };
+    let has_tree = |g: usize| {
+        let body = body_of(now, g);
+        (0..now.ngeom).any(|other| body_of(now, other) == body && !visual(other))
+    };
+    let flags = now.opt.disableflags;
+    let missed = flags & disable::MIDPHASE == 0
+        && flags == before.opt.disableflags
+        && (0..now.ngeom).any(|g| visual(g) && switched(g) && has_tree(g));
+    match missed {
+        true => vec![(0, Change::Becomes(f64::from(flags | disable::MIDPHASE)))],
+        false => Vec::new(),
+    }
+}
+
+/// The statements for the bits of these geoms' bodies.
+fn repair(s: &mut Statements<'_>, geoms: &[usize], kind: &str) -> Option<()> {
+    if geoms.is_empty() {
+        s.add(format!(
+            "for (let g = 0; g < model.ngeom; g++) model.body_{kind}[model.geom_bodyid[g]] |= model.geom_{kind}[g]"
+        ));
+    }
+    for &g in geoms {
+        let body = body_of(s.model(), g)?;
+        s.add(format!("model.body_{kind}[{body}] |= model.geom_{kind}[{g}]"));
+    }
+    Some(())
+}
+
+pub(super) fn repair_types(s: &mut Statements<'_>, geoms: &[usize]) -> Option<()> {
+    repair(s, geoms, "contype")
+}
+
+pub(super) fn repair_affinities(s: &mut Statements<'_>, geoms: &[usize]) -> Option<()> {
+    repair(s, geoms, "conaffinity")
+}
+
+pub(super) fn repair_midphase(s: &mut Statements<'_>, _: &[usize]) -> Option<()> {
+    s.add(format!("model.opt.disableflags |= {}", disable::MIDPHASE));
+    Some(())
+}
