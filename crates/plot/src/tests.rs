@@ -66,6 +66,8 @@ fn precision() -> WorkPrecision {
                 error: (0..order).fold(scale, |error, _| error * (ms / 20.0)),
                 note: format!("{ms} ms"),
                 failed: i < fails,
+                at_most: order == 4 && i > 3,
+                spread: (order == 1).then_some([0.9 * cost / ms, 1.2 * cost / ms]),
             })
             .collect(),
         echo: None,
@@ -86,7 +88,7 @@ fn precision() -> WorkPrecision {
 }
 
 fn strips() -> WorkPrecision {
-    let point = |cost, error, note: &str, failed| MethodPoint { cost, error, note: note.into(), failed };
+    let point = |cost, error, note: &str, failed| MethodPoint { cost, error, note: note.into(), failed, ..MethodPoint::default() };
     let closed = vec![point(500.0, 0.0, "2 ms", false), point(90.0, 1e-16, "10 ms", false)];
     let wild = vec![point(300.0, f64::INFINITY, "2 ms", false), point(60.0, -1.0, "10 ms", true)];
     WorkPrecision {
