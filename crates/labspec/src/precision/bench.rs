@@ -32,11 +32,12 @@ impl Past {
         Past { states: std::array::from_fn(|_| kept.clone()), count: 0 }
     }
 
-    pub(super) fn keep(&mut self, session: &Session<'_>) {
+    /// Keeps the state at a time.
+    pub(super) fn keep(&mut self, session: &Session<'_>, time: f64) {
         self.states.rotate_right(1);
         let (m, d) = (&session.world.model, &session.world.data);
         let [now, ..] = &mut self.states;
-        now.time = d.time();
+        now.time = time;
         // Of the model that it was made for: nothing can be refused.
         let _ = state::get(m, d, &mut now.motion, MOTION);
         let _ = state::get(m, d, &mut now.held, HELD);

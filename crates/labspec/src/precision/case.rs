@@ -1,5 +1,6 @@
 //! A lab that is compared with itself: what it shows, and one run of it under a setting.
 
+use super::cost::integrator_work;
 use super::jumps;
 use super::moments::{Finder, Moment, Sought};
 use super::setting::Setting;
@@ -181,7 +182,8 @@ fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
         Measure::Known(dimension) => Some(written(&dimension)),
         _ => None,
     };
-    stated.or_else(computed).filter(|unit| unit != "1")
+    // A unit times a number has no name.
+    stated.or_else(computed).filter(|unit| unit != "1" && !unit.contains(", times"))
 }
 
 impl<'a> Case<'a> {
@@ -327,7 +329,7 @@ impl<'a> Case<'a> {
             ..Run::default()
         };
         let mut look = Look::new(&session.world.model);
-        let mut finder = ask.sought.map(|s| Finder::new(s, &session.world.model, setting.integrator.is_high()));
+        let mut finder = ask.sought.map(|s| Finder::new(s, &session.world.model, setting));
         let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
         let every = rhythm.count.div_ceil(LOOKS).max(1);
         let before = session.spent();
@@ -368,7 +370,9 @@ impl<'a> Case<'a> {
             false => run::play(&mut session, &played, sample),
         };
         let simulated = made as f64 * setting.timestep;
-        seen.work = (session.spent() - before - sampling) as f64 / simulated.max(setting.timestep);
+        let counted = (session.spent() - before - sampling) as f64;
+        let of_steps = made as f64 * integrator_work(&session, setting.integrator);
+        seen.work = (counted + of_steps) / simulated.max(setting.timestep);
         if let Some(finder) = finder {
             (seen.touching, seen.settled) = (finder.touches_at_start(), finder.settled());
             seen.moments = finder.finish();

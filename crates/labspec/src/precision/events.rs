@@ -46,8 +46,11 @@ pub(super) fn events(case: &Case<'_>, truth: &Reference, targets: &[Compared]) -
                 format!("first {which} of \"{}\"", t.label)
             }
         };
+        // A number that is compared twice, with a plot and with digits, has its events once.
+        let text = |k: usize| case.targets.get(k).map(|t| t.bound.text.value.as_str());
+        let again = i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
         let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
-        match horizon.is_none_or(|until| known.at + known.doubt <= until) {
+        match !again && horizon.is_none_or(|until| known.at + known.doubt <= until) {
             true => Event { name, time: known.at, uncertain: known.doubt },
             false => Event { name, time: f64::NAN, uncertain: f64::NAN },
         }

@@ -4,12 +4,14 @@
 
 use super::case::{Ask, Case, Run};
 use super::moments::{Moment, Sought};
-use super::reference::{Reference, agree, known, range, run, so_far, too_long, worst_part};
+use super::reference::{Reference, agree, known, run, so_far, too_long, worst_part};
 use crate::run::RunError;
 use labspec_core::integrator;
 
 /// Steps that are tried, each half of the one before.
 const LEVELS: usize = 8;
+/// Part of its range by which two entries may differ: a level more costs little, and gives much.
+const AGREE: f64 = 1e-11;
 
 /// An entry of the table.
 #[derive(Clone)]
@@ -56,7 +58,7 @@ pub(super) fn extrapolated(case: &Case<'_>, own: f64) -> Result<Option<Reference
     let first = (own / 2.0).min(case.interval);
     let ask = Ask { cut: true, ..Ask::FRESH };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
-    let sought = Sought::of(look.values.iter().map(|v| range(v)));
+    let sought = Sought::of(&look.values);
     let ask = Ask { sought: Some(&sought), ..ask };
     let mut before: Vec<Entry> = Vec::new();
     let mut best: Option<Best> = None;
@@ -75,7 +77,7 @@ pub(super) fn extrapolated(case: &Case<'_>, own: f64) -> Result<Option<Reference
                 best = Some(one);
             }
         }
-        if best.as_ref().is_some_and(|b| agree(&b.entry.values, &b.uncertain)) {
+        if best.as_ref().is_some_and(|b| agree(&b.entry.values, &b.uncertain, AGREE)) {
             break;
         }
         before = row;

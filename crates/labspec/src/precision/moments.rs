@@ -7,6 +7,8 @@
 
 use super::bench::{Bench, Past};
 use super::chebyshev::turning_point;
+use super::reference::range;
+use super::setting::Setting;
 use crate::run::Session;
 use labspec_core::Model;
 
@@ -14,6 +16,8 @@ use labspec_core::Model;
 /// range: less is rounding, or a scene that settles.
 const PASSES: f64 = 1e-5;
 const TURNS: f64 = 1e-3;
+/// A number that changes by less than this part of its size has no events.
+const CONSTANT: f64 = 1e-9;
 /// Bodies that are this close at the start touch, m.
 const TOUCHING: f64 = 1e-9;
 /// Turning points of one number that are looked at closely.
@@ -28,10 +32,15 @@ pub(super) struct Sought {
 }
 
 impl Sought {
-    /// For numbers of some ranges. What does not change has no events.
-    pub(super) fn of(ranges: impl Iterator<Item = f64>) -> Sought {
-        let least = |range: f64| if range > 0.0 { range } else { f64::INFINITY };
-        Sought { least: ranges.map(least).map(|range| [PASSES * range, TURNS * range]).collect() }
+    /// For numbers with such values. What does not change has no events.
+    pub(super) fn of(values: &[Vec<f64>]) -> Sought {
+        let least = |values: &Vec<f64>| {
+            let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+            let range = range(values);
+            let range = if range > CONSTANT * size { range } else { f64::INFINITY };
+            [PASSES * range, TURNS * range]
+        };
+        Sought { least: values.iter().map(least).collect() }
     }
 }
 
@@ -81,6 +90,11 @@ pub(super) struct Finder<'s> {
     /// The method is of high order, so that its steps can be made again with any length.
     dense: bool,
     past: Past,
+    /// The length of a step, the time at the start, s, and the number of steps since: the engine's own time is a sum of that many
+    /// steps, each rounded.
+    step: f64,
+    start: f64,
+    made: usize,
     /// Pairs of geoms that touch at the start.
     touching: Vec<[usize; 2]>,
     contact: Option<Moment>,
@@ -94,15 +108,18 @@ pub(super) struct Finder<'s> {
 pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
 
 impl<'s> Finder<'s> {
-    pub(super) fn new(sought: &'s Sought, m: &Model, dense: bool) -> Finder<'s> {
+    pub(super) fn new(sought: &'s Sought, m: &Model, setting: &Setting) -> Finder<'s> {
         let none = Moment::NONE;
         let passage = Passage { side: 0.0, last: f64::NAN, candidate: none, done: false };
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
         let turn = Turn { low, high, way: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
         Finder {
             sought,
-            dense,
+            dense: setting.integrator.is_high(),
             past: Past::new(m),
+            step: setting.timestep,
+            start: 0.0,
+            made: 0,
             touching: Vec::new(),
             contact: None,
             passages: vec![passage; sought.least.len()],
@@ -123,7 +140,8 @@ impl<'s> Finder<'s> {
 
     /// The run after a step, with the values that it shows there.
     pub(super) fn see(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
-        self.past.keep(session);
+        let time = self.time(session);
+        self.past.keep(session, time);
         let before = self.number_found();
         if self.past.count() == 1 {
             let near = |c: &labspec_core::Contact| c.dist <= TOUCHING;
@@ -139,6 +157,18 @@ impl<'s> Finder<'s> {
         if self.number_found() > before {
             self.settled = self.past.time(0);
         }
+    }
+
+    /// The time of the next state.
+    fn time(&mut self, session: &Session<'_>) -> f64 {
+        let clock = session.world.data.time();
+        if self.past.count() == 0 {
+            self.start = clock;
+        }
+        let time = self.start + self.made as f64 * self.step;
+        self.made += 1;
+        // A button may have set the clock.
+        if (time - clock).abs() <= 0.1 * self.step { time } else { clock }
     }
 
     fn number_found(&self) -> usize {

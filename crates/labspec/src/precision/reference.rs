@@ -196,7 +196,7 @@ fn compare(mut first: Run, second: &Run, how: String) -> Reference {
     let jumps = first.jumps || second.jumps;
     first.penetration = second.penetration;
     let values = first.values.clone();
-    let sought = Sought::of(values.iter().map(|v| range(v)));
+    let sought = Sought::of(&values);
     Reference { values, uncertain, run: first, depth_doubt, moments: Vec::new(), sought, jumps, how }
 }
 
@@ -226,16 +226,16 @@ fn worst(r: &Reference) -> f64 {
     worst_part(&r.values, &r.uncertain)
 }
 
-/// Whether two families agree as far as can be asked for.
-pub(super) fn agree(values: &[Vec<f64>], uncertain: &[Vec<f64>]) -> bool {
+/// Whether two families agree to a part of the range, or to rounding.
+pub(super) fn agree(values: &[Vec<f64>], uncertain: &[Vec<f64>], part: f64) -> bool {
     values.iter().zip(uncertain).all(|(values, uncertain)| {
         let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
-        uncertain.last().is_none_or(|u| *u <= AGREE * range(values) || *u <= 1e-12 * size)
+        uncertain.last().is_none_or(|u| *u <= part * range(values) || *u <= 1e-12 * size)
     })
 }
 
 fn agrees(r: &Reference) -> bool {
-    agree(&r.values, &r.uncertain)
+    agree(&r.values, &r.uncertain, AGREE)
 }
 
 /// Largest less smallest.
