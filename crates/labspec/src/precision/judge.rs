@@ -194,7 +194,7 @@ pub(super) fn errors(
             e.wrong += usize::from(least > 1.0);
         }
         e.rms = (e.rms / compared.max(1) as f64).sqrt();
-        e.below = e.largest <= (2.0 * target.uncertain).max(rounding * target.size);
+        e.below = e.largest <= target.uncertain.max(rounding * target.size);
         // Of a run that is looked at only after that nothing is known.
         if compared > 1 { e } else { Errors::NONE }
     };

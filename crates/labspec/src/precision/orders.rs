@@ -5,8 +5,10 @@ use super::{Fate, Row};
 
 /// An order is one where the error is below this part of the range, so that its first term leads,
 const SMALL: f64 = 0.1;
-/// and where the next pair of steps shows the same to this part of it. With one pair alone, the error is below this part.
-const SAME: f64 = 0.15;
+/// and where the next pair of steps shows the same to this part of it, with errors below that part. With one pair alone, the error is
+/// below this part.
+const SAME: f64 = 0.06;
+const LARGE: f64 = 0.5;
 const SMALL_ALONE: f64 = 0.01;
 /// Less is no order of a method that converges.
 const LEAST: f64 = 0.5;
@@ -26,8 +28,9 @@ pub(super) fn observe_orders(rows: &mut [Row], targets: &[Compared], smooth: boo
             let alone = others.is_empty() && error(rows, k - 1, i) < SMALL_ALONE * target.range;
             alone || others.iter().any(|o| (o - order).abs() <= SAME * order)
         };
+        let is_small = |k: usize| k > 0 && error(rows, k - 1, i) < SMALL * target.range;
         let orders: Vec<Option<f64>> =
-            seen.iter().enumerate().map(|(k, o)| o.filter(|o| alike(k, *o))).collect();
+            seen.iter().enumerate().map(|(k, o)| o.filter(|o| is_small(k) && alike(k, *o))).collect();
         for (row, order) in rows.iter_mut().zip(orders) {
             if let Some(e) = row.errors.get_mut(i) {
                 e.order = order;
@@ -53,5 +56,5 @@ fn observed(rows: &[Row], k: usize, i: usize, target: &Compared) -> Option<f64> 
     let (c, f) = (coarse.errors.get(i)?, fine.errors.get(i)?);
     let above = !c.below && !f.below && f.largest > 10.0 * target.uncertain;
     let order = (c.largest / f.largest).log2() / longer.log2();
-    (good && above && c.largest < SMALL * target.range && order >= LEAST && order.is_finite()).then_some(order)
+    (good && above && c.largest < LARGE * target.range && order >= LEAST && order.is_finite()).then_some(order)
 }

@@ -16,7 +16,7 @@ use labspec_core::integrator;
 pub(super) struct Reference {
     /// Values of each target at the samples.
     pub(super) values: Vec<Vec<f64>>,
-    /// How far each may be off: what the two families have differed by at most so far.
+    /// How far each may be off, by what the two families have differed by at most so far.
     pub(super) uncertain: Vec<Vec<f64>>,
     /// The run whose energy and depth are believed.
     pub(super) run: Run,
@@ -43,6 +43,9 @@ pub(super) struct Known {
     pub(super) top: bool,
 }
 
+/// How many times their difference a number may be off: both may be off to the same side, as what rounding does to the scene's own
+/// numbers moves both.
+const SAME_SIDE: f64 = 2.0;
 /// Part of its range by which the two families may differ.
 const AGREE: f64 = 1e-9;
 /// Steps that the second family may take at most.
@@ -200,9 +203,9 @@ fn compare(mut first: Run, second: &Run, how: String) -> Reference {
     Reference { values, uncertain, run: first, depth_doubt, moments: Vec::new(), sought, jumps, how }
 }
 
-/// The largest differences so far of pairs of lists; infinite from where one is no number.
+/// How far one of two lists may be off, by their largest difference so far; infinite from where one is no number.
 pub(super) fn so_far<'a>(pairs: impl Iterator<Item = (&'a Vec<f64>, &'a Vec<f64>)>) -> Vec<Vec<f64>> {
-    let differ = |a: f64, b: f64| if (a - b).is_nan() { f64::INFINITY } else { (a - b).abs() };
+    let differ = |a: f64, b: f64| if (a - b).is_nan() { f64::INFINITY } else { SAME_SIDE * (a - b).abs() };
     let each = |(a, b): (&Vec<f64>, &Vec<f64>)| {
         let mut worst = 0.0f64;
         let so_far = a.iter().zip(b).map(|(a, b)| {
