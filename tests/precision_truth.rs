@@ -74,8 +74,7 @@ fn trace(expression: &str) -> Value {
 
 #[test]
 fn events_and_ends_are_those_of_equations_by_hand() {
-    let truth: Value =
-        serde_json::from_str(include_str!("golden/precision.json")).unwrap();
+    let truth: Value = serde_json::from_str(include_str!("golden/precision.json")).unwrap();
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let labs = lesson.addressed();
     assert_eq!(labs.len(), truth.as_object().unwrap().len());
@@ -139,11 +138,16 @@ fn longer_steps_are_tried_until_something_changes() {
         let lab = labs.iter().find(|(_, l)| l.title() == title).unwrap().1;
         let report = report(lab, &Options::default());
         let best = right(&report);
-        assert_eq!((best.setting.integrator.id, best.setting.timestep), (integrator::RK4, longest), "{title}");
+        assert_eq!(
+            (best.setting.integrator.id, best.setting.timestep),
+            (integrator::RK4, longest),
+            "{title}"
+        );
         // One more doubling shows.
-        let next = report.rows.iter().find(|r| {
-            r.setting.integrator.id == integrator::RK4 && r.setting.timestep == 2.0 * longest
-        });
+        let next = report
+            .rows
+            .iter()
+            .find(|r| r.setting.integrator.id == integrator::RK4 && r.setting.timestep == 2.0 * longest);
         assert!(next.is_some_and(|r| r.score > 1.0), "{title}");
     }
 }
@@ -269,4 +273,55 @@ fn controllers_of_time_have_a_reference_as_good_as_others() {
         let target = &report.targets[0];
         assert!(target.uncertain <= 1e-9 * target.range, "{}: {:e}", lab.title(), target.uncertain);
     }
+}
+
+#[test]
+fn no_cost_of_a_plan_is_negative() {
+    use labspec::plan::{Options as PlanOptions, plan};
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let mut measured = 0;
+    for (_, lab) in lesson.addressed().into_iter().take(8) {
+        let model = model(lab);
+        let programs = Programs::compile(lab, &model, &mut Vec::new());
+        // What is read already joins nothing: its cost is the clock's noise, on either side of nothing.
+        let read = vec!["data.qpos".to_string(), "data.qvel".to_string(), "data.time".to_string()];
+        let report = plan(lab, &model, &programs, &PlanOptions { read, run: true }).unwrap();
+        let stages =
+            report.rows.iter().flat_map(|r| [r.forced, r.cost.map(|c| c.ns), r.cost.map(|c| c.share)]);
+        let costs: Vec<f64> = stages.chain(report.readers.iter().map(|r| r.cost)).flatten().collect();
+        assert!(costs.iter().all(|c| *c >= 0.0), "{}: {costs:?}", lab.title());
+        measured += costs.len();
+    }
+    assert!(measured > 100, "{measured}");
+}
+
+#[test]
+fn nothing_reads_zero_where_more_is_true() {
+    // A pendulum whose plot is compared with a reference, and a stack whose contacts are late by a step in a page.
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    for (_, lab) in lesson.addressed() {
+        let report = report(lab, &Options::default());
+        for row in report.rows.iter().filter(|r| r.fate == Fate::Good) {
+            for (e, target) in row.errors.iter().zip(&report.targets).filter(|(_, t)| t.is_compared()) {
+                assert!(e.largest > target.uncertain || e.below, "{}: {:?} {e:?}", lab.title(), row.setting);
+            }
+            assert!(row.events.iter().all(|off| *off != 0.0), "{}: {:?}", lab.title(), row.setting);
+        }
+    }
+}
+
+#[test]
+fn units_stand_where_they_are_known() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let mut known = 0;
+    for (_, lab) in lesson.addressed() {
+        let integrators = vec![Integrator::named("RK4").unwrap()];
+        let report = report(lab, &Options { integrators, until: Some(0.04), ..Options::default() });
+        for target in report.targets {
+            let stated = target.label.contains('(');
+            assert!(!stated || target.unit.as_ref().is_some_and(|u| target.label.contains(u.as_str())));
+            known += usize::from(target.unit.is_some());
+        }
+    }
+    assert!(known >= 25, "{known}");
 }

@@ -88,7 +88,13 @@ fn precision() -> WorkPrecision {
 }
 
 fn strips() -> WorkPrecision {
-    let point = |cost, error, note: &str, failed| MethodPoint { cost, error, note: note.into(), failed, ..MethodPoint::default() };
+    let point = |cost, error, note: &str, failed| MethodPoint {
+        cost,
+        error,
+        note: note.into(),
+        failed,
+        ..MethodPoint::default()
+    };
     let closed = vec![point(500.0, 0.0, "2 ms", false), point(90.0, 1e-16, "10 ms", false)];
     let wild = vec![point(300.0, f64::INFINITY, "2 ms", false), point(60.0, -1.0, "10 ms", true)];
     WorkPrecision {

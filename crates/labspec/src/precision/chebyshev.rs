@@ -70,9 +70,9 @@ fn turn(values: &[f64]) -> Option<(f64, f64)> {
     let curve = derivative(&slope);
     let point = |k: usize| -1.0 + 2.0 * k as f64 / PARTS as f64;
     let falls = |k: &usize| sum(&slope, point(*k)) > 0.0 && sum(&slope, point(*k + 1)) <= 0.0;
-    let best = (0..PARTS).filter(falls).max_by(|&a, &b| {
-        sum(&series, point(a)).total_cmp(&sum(&series, point(b)))
-    })?;
+    let best = (0..PARTS)
+        .filter(falls)
+        .max_by(|&a, &b| sum(&series, point(a)).total_cmp(&sum(&series, point(b))))?;
     let (mut low, mut high) = (point(best), point(best + 1));
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

@@ -48,7 +48,8 @@ pub(super) fn events(case: &Case<'_>, truth: &Reference, targets: &[Compared]) -
         };
         // A number that is compared twice, with a plot and with digits, has its events once.
         let text = |k: usize| case.targets.get(k).map(|t| t.bound.text.value.as_str());
-        let again = i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
+        let again =
+            i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
         let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
         match !again && horizon.is_none_or(|until| known.at + known.doubt <= until) {
             true => Event { name, time: known.at, uncertain: known.doubt },
@@ -71,7 +72,8 @@ pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
 /// How long two starts that nobody could tell apart show the same.
 pub(super) fn nearby(case: &Case<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
     let setting = Setting { integrator: method(integrator::RKMK8), timestep: own / 2.0, solver: None };
-    let (one, other) = (case.run(&setting, Ask::FRESH)?, case.run(&setting, Ask { nudge: NUDGE, ..Ask::FRESH })?);
+    let (one, other) =
+        (case.run(&setting, Ask::FRESH)?, case.run(&setting, Ask { nudge: NUDGE, ..Ask::FRESH })?);
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
         // Not to be told apart is less than the part, and no number is far from every other.

@@ -111,7 +111,8 @@ fn finish(case: &Case<'_>, best: Best, sought: Sought, first: f64) -> Result<Ref
     }
     let depth_doubt = other.as_ref().map_or(f64::NAN, |o| (o.penetration - seen.penetration).abs());
     let at = |moments: &[f64], doubts: bool| -> Vec<Moment> {
-        let one = |(m, at): (&Moment, &f64)| Moment { at: *at, doubt: if doubts { m.doubt } else { 0.0 }, ..*m };
+        let one =
+            |(m, at): (&Moment, &f64)| Moment { at: *at, doubt: if doubts { m.doubt } else { 0.0 }, ..*m };
         seen.moments.iter().zip(moments).map(one).collect()
     };
     let (fine, rough) = (at(&entry.moments, true), at(&coarse.moments, false));
@@ -134,7 +135,8 @@ mod tests {
 
     #[test]
     fn a_polynomial_of_the_step_is_extrapolated_to_its_constant() {
-        let run = |h: f64| Run { values: vec![vec![1.0 + 3.0 * h - 2.0 * h * h + h.powi(3)]], ..Run::default() };
+        let run =
+            |h: f64| Run { values: vec![vec![1.0 + 3.0 * h - 2.0 * h * h + h.powi(3)]], ..Run::default() };
         let mut row = Vec::new();
         for k in 0..4 {
             row = next_row(&run(0.5f64.powi(k)), &row);

@@ -85,7 +85,8 @@ impl Compared {
     fn in_sight(&self, shown: f64, exact: f64, doubt: f64) -> [f64; 2] {
         let error = (shown - exact).abs();
         let parts = |unit: f64| {
-            [error + doubt, error - doubt].map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
+            [error + doubt, error - doubt]
+                .map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
         };
         if !self.readout {
             return parts(self.unseen);
@@ -174,7 +175,8 @@ pub(super) fn errors(
         let (truth, apart) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
         let compared = target.samples.div_ceil(stride).min(run.values[i].len());
         let both = run.values[i].iter().zip(truth.iter().step_by(apart)).take(compared);
-        let mut e = Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
+        let mut e =
+            Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
         for (k, (&shown, &exact)) in both.enumerate() {
             let d = (shown - exact).abs();
             if d.is_nan() {
@@ -199,4 +201,48 @@ pub(super) fn errors(
         if compared > 1 { e } else { Errors::NONE }
     };
     targets.iter().enumerate().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readout(digits: u32, size: f64) -> Compared {
+        Compared {
+            label: "x".into(),
+            unit: None,
+            closed: false,
+            uncertain: 0.0,
+            doubt: 0.0,
+            range: size,
+            unseen: 0.5 * 0.1f64.powi(digits as i32),
+            readout: true,
+            digits,
+            until: None,
+            size,
+            blank: false,
+            samples: 2,
+        }
+    }
+
+    #[test]
+    fn digits_decide_at_every_sample() {
+        let x = readout(1, 20.0);
+        // Closer than half a unit, and another digit.
+        assert!(x.in_sight(16.051, 16.049, 1e-9)[1] > 1.0);
+        // Farther, and the same.
+        assert!(x.in_sight(16.149, 16.051, 1e-9)[0] <= 1.0);
+        // Next to a tie, nobody can tell.
+        assert!(x.in_sight(16.05 + 1e-12, 16.05 - 1e-12, 1e-9)[0] <= 1.0);
+        // A reference that is in doubt by more than a digit.
+        let [most, least] = x.in_sight(16.2, 16.0, 0.3);
+        assert!(most > 1.0 && least <= 1.0, "{most} {least}");
+    }
+
+    #[test]
+    fn a_curve_hides_half_a_pixel() {
+        let x = Compared { readout: false, ..readout(1, 20.0) };
+        assert_eq!(x.in_sight(1.0, 1.1, 0.0).map(|p| (p * 10.0).round()), [20.0, 20.0]);
+        assert_eq!(x.in_sight(1.0, 1.01, 0.02)[1], 0.0);
+    }
 }

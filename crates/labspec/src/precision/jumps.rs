@@ -71,7 +71,13 @@ fn advance(session: &mut Session<'_>, start: &Start, x: f64) {
 }
 
 /// The part of a step before its controls jump from what they were to what they become; `None` where they do not jump.
-fn before_the_jump(session: &mut Session<'_>, start: &Start, h: f64, held: &[f64], next: &[f64]) -> Option<f64> {
+fn before_the_jump(
+    session: &mut Session<'_>,
+    start: &Start,
+    h: f64,
+    held: &[f64],
+    next: &[f64],
+) -> Option<f64> {
     let whole = apart(held, next);
     let (mut low, mut high) = (0.0, h);
     let (mut at_low, mut at_high) = (held.to_vec(), next.to_vec());

@@ -1,8 +1,8 @@
 //! The timesteps of a comparison, and the samples at which their runs meet the truth.
 
 use super::case::Case;
-use super::{Options, Setting, Solver};
 use super::setting::{INTEGRATORS, Integrator};
+use super::{Options, Setting, Solver};
 use crate::run::{self, RunError};
 use crate::spec::Lab;
 

@@ -191,7 +191,9 @@ impl<'s> Finder<'s> {
     }
 
     fn pass(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
-        let (Some(p), Some([least, _])) = (self.passages.get_mut(i), self.sought.least.get(i)) else { return };
+        let (Some(p), Some([least, _])) = (self.passages.get_mut(i), self.sought.least.get(i)) else {
+            return;
+        };
         let last = std::mem::replace(&mut p.last, now);
         if p.done || !now.is_finite() {
             return;
@@ -267,14 +269,19 @@ impl<'s> Finder<'s> {
             if middle <= low || middle >= high {
                 break;
             }
-            if touches(&mut bench, from, middle) > 0.0 { high = middle } else { low = middle }
+            if touches(&mut bench, from, middle) > 0.0 {
+                high = middle
+            } else {
+                low = middle
+            }
             if high - low <= f64::EPSILON * (start + high) {
                 break;
             }
         }
         let later = (high + 1e-3 * h).min(h);
         let speed = (touches(&mut bench, from, later) / (later - high)).abs();
-        let size = bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
+        let size =
+            bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
         let rounding = 8.0 * f64::EPSILON * size / speed.max(f64::MIN_POSITIVE);
         let doubt = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
         Moment { at: start + high, doubt, slope: f64::INFINITY, top: false }
@@ -296,12 +303,7 @@ fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
 fn between(past: &Past, last: f64, now: f64) -> Moment {
     let h = past.step(1);
     let part = (last / (last - now)).clamp(0.0, 1.0);
-    Moment {
-        at: past.time(1) + part * h,
-        doubt: 2.0 * h,
-        slope: (now - last).abs() / h,
-        top: false,
-    }
+    Moment { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
 }
 
 /// When a target leaves its side of zero, in the last step or in that before.

@@ -23,8 +23,10 @@ pub(super) fn observe_orders(rows: &mut [Row], targets: &[Compared], smooth: boo
         let seen: Vec<Option<f64>> = (0..rows.len()).map(|k| observed(rows, k, i, target)).collect();
         let alike = |k: usize, order: f64| {
             let others = [k.checked_sub(1), Some(k + 1)].into_iter().flatten();
-            let others: Vec<f64> =
-                others.filter(|&o| same_method(rows, k, o)).filter_map(|o| seen.get(o).copied().flatten()).collect();
+            let others: Vec<f64> = others
+                .filter(|&o| same_method(rows, k, o))
+                .filter_map(|o| seen.get(o).copied().flatten())
+                .collect();
             let alone = others.is_empty() && error(rows, k - 1, i) < SMALL_ALONE * target.range;
             alone || others.iter().any(|o| (o - order).abs() <= SAME * order)
         };
@@ -56,5 +58,6 @@ fn observed(rows: &[Row], k: usize, i: usize, target: &Compared) -> Option<f64> 
     let (c, f) = (coarse.errors.get(i)?, fine.errors.get(i)?);
     let above = !c.below && !f.below && f.largest > 10.0 * target.uncertain;
     let order = (c.largest / f.largest).log2() / longer.log2();
-    (good && above && c.largest < LARGE * target.range && order >= LEAST && order.is_finite()).then_some(order)
+    (good && above && c.largest < LARGE * target.range && order >= LEAST && order.is_finite())
+        .then_some(order)
 }

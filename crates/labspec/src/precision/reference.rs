@@ -69,12 +69,7 @@ pub(super) fn reference(case: &Case<'_>, own: f64) -> Result<Option<Reference>, 
 }
 
 /// A run that came to its end.
-pub(super) fn run(
-    case: &Case<'_>,
-    id: i32,
-    timestep: f64,
-    ask: Ask<'_>,
-) -> Result<Option<Run>, RunError> {
+pub(super) fn run(case: &Case<'_>, id: i32, timestep: f64, ask: Ask<'_>) -> Result<Option<Run>, RunError> {
     let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, ask)?;
     Ok(matches!(seen.fate, Fate::Good | Fate::Warned).then_some(seen))
 }

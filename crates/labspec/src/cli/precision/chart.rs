@@ -52,7 +52,8 @@ pub(super) fn chart(report: &Report, title: &str) -> String {
             }
         }
     }
-    let until = target.and_then(|t| t.until).map_or(String::new(), |t| format!(" until {} s", significant(t)));
+    let until =
+        target.and_then(|t| t.until).map_or(String::new(), |t| format!(" until {} s", significant(t)));
     work_precision(&WorkPrecision {
         title: title.to_string(),
         xlabel: target.map_or(String::new(), |t| format!("largest error of {}{until}", named(t))),

@@ -166,8 +166,7 @@ pub(super) fn others(report: &Report, beside: &Beside, text: &mut String) {
         };
         let cells: String = shown().map(cell).collect();
         let h = format!("{} ms", milliseconds(row.timestep));
-        let _ =
-            writeln!(text, "  {:<12} {h:>10} {:>24.0} µs{cells}", printable(&row.integrator), row.cost);
+        let _ = writeln!(text, "  {:<12} {h:>10} {:>24.0} µs{cells}", printable(&row.integrator), row.cost);
     }
     text.push('\n');
 }
