@@ -281,8 +281,17 @@ fn series() -> impl Strategy<Value = Series> {
 }
 
 fn method() -> impl Strategy<Value = Method> {
-    let point = (number(), number(), any::<String>(), any::<bool>())
-        .prop_map(|(cost, error, note, failed)| MethodPoint { cost, error, note, failed });
+    let spread = prop::option::of([number(), number()]);
+    let point = (number(), number(), any::<String>(), any::<[bool; 2]>(), spread).prop_map(
+        |(cost, error, note, [failed, at_most], spread)| MethodPoint {
+            cost,
+            error,
+            note,
+            failed,
+            at_most,
+            spread,
+        },
+    );
     (any::<String>(), prop::collection::vec(point, 0..12)).prop_map(|(label, points)| Method {
         label,
         points,

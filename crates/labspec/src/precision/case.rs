@@ -337,7 +337,7 @@ impl<'a> Case<'a> {
         let mut now = vec![0.0; n];
         let sample = |session: &mut Session<'_>, made: usize| {
             let began = session.spent();
-            let sampled = made % rhythm.steps == 0;
+            let sampled = made.is_multiple_of(rhythm.steps);
             if ask.fresh && made > 0 {
                 session.refresh();
             }

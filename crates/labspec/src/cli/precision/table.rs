@@ -34,15 +34,15 @@ pub(super) fn table(report: &Report, text: &mut String) {
             (0..some.len()).map(|k| format!(" {:>10}", format!("({})", first * ABREAST + k + 1))).collect();
         let _ = writeln!(
             text,
-            "\n  {:<width$} {:>10} {:>10} {:>16}{heads}",
-            "", "step", "work per s", "run time per s"
+            "\n  {:<width$} {:>10} {:>12} {:>16}{heads}",
+            "", "step", "work, ~µs/s", "time, µs/s"
         );
         for (i, row) in report.rows.iter().enumerate() {
             let h = format!("{} ms", milliseconds(row.setting.timestep));
             let work = two_digits(row.cost.work / 1e3);
             let spread = 50.0 * (row.cost.high - row.cost.low) / row.cost.median;
             let cost = match spread.is_finite() {
-                true => format!("{:.0} µs ±{spread:>2.0}%", row.cost.median),
+                true => format!("{:.0} ±{spread:>2.0}%", row.cost.median),
                 false => String::new(),
             };
             let cells: String = match row.fate {
@@ -50,13 +50,13 @@ pub(super) fn table(report: &Report, text: &mut String) {
                 other => format!("  {}", other.word()),
             };
             let best = if report.front.contains(&i) { " ‹" } else { "" };
-            let _ = writeln!(text, "  {:<width$} {h:>10} {work:>10} {cost:>16}{cells}{best}", names[i]);
+            let _ = writeln!(text, "  {:<width$} {h:>10} {work:>12} {cost:>16}{cells}{best}", names[i]);
         }
     }
     text.push_str(
         "\n* as the lab has it; ‹ no other is both closer and cheaper; ≤ at most: as exact as the reference is known\n\
          work: of the whole run, per simulated second, as the engine counts it, in units of about a microsecond; it decides\n\
-         run time: per simulated second, on this machine, with the spread of the middle half of its repeats\n",
+         time: of that run, on this machine, with the spread of the middle half of its repeats\n",
     );
 }
 
@@ -166,7 +166,7 @@ pub(super) fn others(report: &Report, beside: &Beside, text: &mut String) {
         };
         let cells: String = shown().map(cell).collect();
         let h = format!("{} ms", milliseconds(row.timestep));
-        let _ = writeln!(text, "  {:<12} {h:>10} {:>24.0} µs{cells}", printable(&row.integrator), row.cost);
+        let _ = writeln!(text, "  {:<12} {h:>10} {:>29.0}{cells}", printable(&row.integrator), row.cost);
     }
     text.push('\n');
 }
