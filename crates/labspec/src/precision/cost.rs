@@ -48,12 +48,15 @@ pub(super) fn integrator_work(session: &Session<'_>, method: Integrator) -> f64 
     (step + each * world.model.nv as f64) * core::cost_of_pass(&world.data) as f64
 }
 
-/// Repeats of the whole run: so many, fewer where they would take longer than this in all, but never less than so many.
+/// Repeats of the whole run: so many, fewer where they take longer than this in all, and not another one where they took that long.
 const MOST_REPEATS: usize = 5;
 const FEWEST_REPEATS: usize = 3;
 const LONG: Duration = Duration::from_millis(100);
+const TOO_LONG: Duration = Duration::from_secs(1);
 /// A short run is made again until the runs of a repeat took this time; the first, in which nothing is at hand yet, does not count.
 const LONG_ENOUGH: Duration = Duration::from_millis(2);
+/// With the starts of these runs, which are not measured, a repeat takes no longer than this.
+const WITH_STARTS: Duration = Duration::from_millis(10);
 
 /// Median and quartiles of the time of each setting's whole run, µs per simulated second; NaN where a setting is not to be measured.
 pub(super) fn measure(case: &Case<'_>, settings: &[Option<Setting>]) -> Vec<[f64; 3]> {
@@ -64,7 +67,7 @@ pub(super) fn measure(case: &Case<'_>, settings: &[Option<Setting>]) -> Vec<[f64
             if interrupt::requested() {
                 break;
             }
-            if k >= FEWEST_REPEATS && *spent > LONG {
+            if *spent > TOO_LONG || k >= FEWEST_REPEATS && *spent > LONG {
                 continue;
             }
             let clock = Instant::now();
@@ -89,7 +92,8 @@ fn repeat(case: &Case<'_>, setting: &Setting) -> Option<f64> {
     let (mut time, mut made) = (first, steps);
     if first < LONG_ENOUGH {
         (time, made) = (Duration::ZERO, 0);
-        while time < LONG_ENOUGH {
+        let clock = Instant::now();
+        while made == 0 || time < LONG_ENOUGH && clock.elapsed() < WITH_STARTS {
             let (more, steps) = whole_run(case, setting)?;
             (time, made) = (time + more, made + steps);
         }
