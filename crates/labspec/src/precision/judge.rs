@@ -104,9 +104,10 @@ impl Compared {
     }
 }
 
-/// The two families of a reference have to agree to this part of the range, or of what nobody sees.
-const KNOWN: f64 = 0.01;
-const UNSEEN: f64 = 0.1;
+/// A reference is known where its doubt, which is twice the difference of its families, is below this part of the range, or of what
+/// nobody sees.
+const KNOWN: f64 = 0.02;
+const UNSEEN: f64 = 0.2;
 /// A reference that is known to this part of what nobody sees is not in doubt.
 const DOUBTFUL: f64 = 0.2;
 /// What rounding leaves of a number in a run of many steps; and of one that is rounded once more to be shown.
