@@ -207,7 +207,7 @@ fn precision_against_the_closed_form() {
     assert!(std::fs::read_to_string(folder.path().join("p.svg")).unwrap().starts_with("<svg"));
     let csv = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
     assert!(
-        csv.lines().count() == 1 + 5 * 6 && csv.lines().all(|line| line.split(',').count() == 14),
+        csv.lines().count() == 1 + 5 * 6 + 2 && csv.lines().all(|line| line.split(',').count() == 17),
         "{csv}"
     );
 }

@@ -43,6 +43,7 @@ mod plan;
 mod planned;
 mod player;
 mod precision;
+mod precision_truth;
 mod program;
 mod readme;
 mod recorded;

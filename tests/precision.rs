@@ -128,21 +128,24 @@ fn advice_holds(name: &str, lab: &Opened, report: &Report, setting: &Setting) ->
     let own = lab.model.opt.timestep;
     let fine = own.min(setting.timestep) / 8.0;
     let every = (setting.timestep / fine).round() as usize;
-    let coarse = lab.run(setting.integrator.id, setting.timestep, report.length, 1);
+    // Long steps need not divide the run: to the last whole one.
+    let length = setting.timestep * (report.length / setting.timestep + 1e-9).floor();
+    let coarse = lab.run(setting.integrator.id, setting.timestep, length, 1);
     let time = |k: usize| if let Cell::Number(t) = coarse.rows[k][0] { t } else { f64::NAN };
     if (time(1) - time(0) - setting.timestep).abs() > 1e-9 {
         return false;
     }
-    let truth = lab.run(integrator::RK4, fine, report.length, every);
+    let truth = lab.run(integrator::RK4, fine, length, every);
     for target in report.targets.iter().filter(|t| t.is_compared()) {
         let start = if target.readout { "readout/" } else { "plot/" };
         let is = |c: &String| c.starts_with(start) && c.ends_with(&format!("/{}", target.label));
         let column = coarse.columns.iter().position(is).unwrap();
         let number = |row: &Vec<Cell>| if let Cell::Number(x) = row[column] { x } else { f64::NAN };
         let pairs = coarse.rows.iter().zip(&truth.rows).map(|(a, b)| (number(a) - number(b)).abs());
-        let last = pairs.clone().next_back().unwrap();
-        let error = if target.readout { last } else { pairs.fold(0.0, f64::max) };
-        assert!(error <= 1.5 * target.unseen, "{name}: {}: {error} for {}", target.label, target.unseen);
+        // Every sample counts; the same digits are less than a unit apart, which is twice what they hide.
+        let error = pairs.fold(0.0, f64::max);
+        let most = if target.readout { 2.0 } else { 1.5 } * target.unseen;
+        assert!(error <= most, "{name}: {}: {error} for {}", target.label, target.unseen);
     }
     true
 }

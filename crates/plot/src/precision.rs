@@ -3,7 +3,8 @@
 //! Error to the right, cost upwards, both logarithmic, one curve per method over its timesteps (as in Hairer,
 //! Nørsett, Wanner, "Solving Ordinary Differential Equations I", II.4). Lower and further left is better. A method of
 //! order p appears as a straight line of slope -1/p. Runs without a finite error stand in a strip of their own at
-//! the right end, runs without any error in one at the left end: neither has a place on a logarithmic axis.
+//! the right end, runs without any error in one at the left end: neither has a place on a logarithmic axis. A bar shows how far a
+//! cost spreads, an arrow to the left that an error is at most what it stands at.
 
 use super::axis::{Axis, logarithmic};
 use super::canvas::{Canvas, Label, style};
@@ -50,6 +51,10 @@ pub struct MethodPoint {
     pub note: String,
     /// It diverged; `error` is not looked at.
     pub failed: bool,
+    /// Its error is at most `error`: nothing more is known of it.
+    pub at_most: bool,
+    /// The ends of a bar along the vertical axis: how far the cost spreads.
+    pub spread: Option<[f64; 2]>,
 }
 
 /// Cost against error for several methods.
@@ -82,6 +87,8 @@ struct Run<'a> {
     error: Error,
     cost: f64,
     note: &'a str,
+    at_most: bool,
+    spread: Option<[f64; 2]>,
 }
 
 /// The least positive value that is told from zero.
@@ -170,7 +177,7 @@ fn runs(points: &[MethodPoint]) -> Vec<Run<'_>> {
             e if e <= HUGE => Error::Finite(e),
             _ => Error::Diverged,
         };
-        Run { error, cost: p.cost, note: &p.note }
+        Run { error, cost: p.cost, note: &p.note, at_most: p.at_most, spread: p.spread }
     });
     run.collect()
 }
@@ -185,6 +192,9 @@ struct Placed<'a> {
     error: Error,
     at: Point,
     note: &'a str,
+    at_most: bool,
+    /// The heights of the ends of its bar.
+    bar: Option<[f64; 2]>,
 }
 
 /// The places of all runs. Crosses of different methods stand beside each other, in the order of the methods.
@@ -209,7 +219,13 @@ fn place<'a>(
                 Error::Finite(error) => inner.at(x.fraction(error)?, 0.0).0,
                 Error::Diverged => inner.right + cross * (outer.right - inner.right),
             };
-            Some(Placed { error: run.error, at: (along, height), note: run.note })
+            // A bar that leaves the frame ends there.
+            let end = |cost: f64| -> Option<f64> {
+                let fraction = if cost > 0.0 { y.fraction(cost) } else { None };
+                Some(inner.at(0.0, fraction?.clamp(0.0, 1.0)).1)
+            };
+            let bar = run.spread.and_then(|[low, high]| Some([end(low)?, end(high)?]));
+            Some(Placed { error: run.error, at: (along, height), note: run.note, at_most: run.at_most, bar })
         });
         placed.push(runs.collect());
     }
@@ -231,6 +247,12 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     for (index, (method, drawn)) in methods.iter().zip(&chart.methods).enumerate() {
         let look = Look::of(index, drawn);
         for (i, run) in method.iter().enumerate() {
+            if let Some([low, high]) = run.bar {
+                bar(canvas, look.index, run.at.0, [low, high]);
+            }
+            if run.at_most {
+                arrow(canvas, look.index, run.at);
+            }
             if run.error == Error::Diverged {
                 cross(canvas, look.index, run.at);
             } else {
@@ -293,6 +315,23 @@ fn shape(index: usize, (x, y): Point) -> String {
     path(&[corners.iter().map(|(dx, dy)| (x + dx, y + dy)).collect()]) + "Z"
 }
 
+/// How far the cost of a run spreads.
+fn bar(canvas: &mut Canvas, index: usize, x: f64, [low, high]: [f64; 2]) {
+    canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1\"", colour(index)));
+    let end = |y: f64| vec![(x - 2.5, y), (x + 2.5, y)];
+    canvas.path(&path(&[vec![(x, low), (x, high)], end(low), end(high)]));
+    canvas.close();
+}
+
+/// To the left of a run whose error is at most where it stands.
+fn arrow(canvas: &mut Canvas, index: usize, (x, y): Point) {
+    canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.25\"", colour(index)));
+    let tip = (x - 12.0, y);
+    let head = vec![(tip.0 + 3.0, y - 2.5), tip, (tip.0 + 3.0, y + 2.5)];
+    canvas.path(&path(&[vec![(x - 4.0, y), tip], head]));
+    canvas.close();
+}
+
 /// The mark of a run without a finite error.
 fn cross(canvas: &mut Canvas, index: usize, (x, y): Point) {
     canvas.open(&format!("fill=\"none\" stroke=\"{}\" stroke-width=\"2\"", colour(index)));
@@ -316,6 +355,7 @@ fn describe(chart: &WorkPrecision) -> String {
         let each = runs.iter().take(12).map(|run| {
             let error = match run.error {
                 Error::Zero => String::from("no error"),
+                Error::Finite(error) if run.at_most => format!("error at most {}", short(error)),
                 Error::Finite(error) => format!("error {}", short(error)),
                 Error::Diverged => String::from(DIVERGED),
             };

@@ -66,6 +66,8 @@ fn precision() -> WorkPrecision {
                 error: (0..order).fold(scale, |error, _| error * (ms / 20.0)),
                 note: format!("{ms} ms"),
                 failed: i < fails,
+                at_most: order == 4 && i > 3,
+                spread: (order == 1).then_some([0.9 * cost / ms, 1.2 * cost / ms]),
             })
             .collect(),
         echo: None,
@@ -86,7 +88,13 @@ fn precision() -> WorkPrecision {
 }
 
 fn strips() -> WorkPrecision {
-    let point = |cost, error, note: &str, failed| MethodPoint { cost, error, note: note.into(), failed };
+    let point = |cost, error, note: &str, failed| MethodPoint {
+        cost,
+        error,
+        note: note.into(),
+        failed,
+        ..MethodPoint::default()
+    };
     let closed = vec![point(500.0, 0.0, "2 ms", false), point(90.0, 1e-16, "10 ms", false)];
     let wild = vec![point(300.0, f64::INFINITY, "2 ms", false), point(60.0, -1.0, "10 ms", true)];
     WorkPrecision {
@@ -273,8 +281,17 @@ fn series() -> impl Strategy<Value = Series> {
 }
 
 fn method() -> impl Strategy<Value = Method> {
-    let point = (number(), number(), any::<String>(), any::<bool>())
-        .prop_map(|(cost, error, note, failed)| MethodPoint { cost, error, note, failed });
+    let spread = prop::option::of([number(), number()]);
+    let point = (number(), number(), any::<String>(), any::<[bool; 2]>(), spread).prop_map(
+        |(cost, error, note, [failed, at_most], spread)| MethodPoint {
+            cost,
+            error,
+            note,
+            failed,
+            at_most,
+            spread,
+        },
+    );
     (any::<String>(), prop::collection::vec(point, 0..12)).prop_map(|(label, points)| Method {
         label,
         points,

@@ -171,7 +171,8 @@ fn is_table(place: &Path) -> bool {
     let Some(Some(columns)) = rows.next_row() else { return false };
     let timed = columns.first().is_some_and(|name| name == "time")
         && columns.iter().skip(1).all(|name| is_column(name));
-    let settings = columns.iter().take(SETTINGS.len()).eq(SETTINGS.iter());
+    let plain = |name: &String| name.strip_suffix(" (s)").unwrap_or(name).to_string();
+    let settings = columns.iter().take(SETTINGS.len()).map(plain).eq(SETTINGS);
     if !timed && !settings {
         return false;
     }
@@ -267,6 +268,7 @@ mod tests {
             "time,readout/height (m)\n0,1\n0.002,0.99\n0.002,\n",
             "time,\"plot/0/light, say\",readout/a\n0,1,\"two\nlines, \"\"quoted\"\"\"\n",
             "integrator,solver,timestep,own,label\nEuler,,0.002,true,\"a, b\"\n",
+            "integrator,solver,timestep (s),own,label,unit\nEuler,,0.002,true,\"a, b\",\"m\"\n",
         ] {
             assert!(is_ours(ours), "{ours}");
         }

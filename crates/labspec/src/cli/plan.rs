@@ -78,7 +78,7 @@ fn human(report: &Report) -> String {
         |cost: Option<Cost>| cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)));
     for r in &report.rows {
         let (share, time) = match r.forced {
-            Some(more) => (String::new(), format!("({}{})", if more < 0.0 { "" } else { "+" }, ns(more))),
+            Some(more) => (String::new(), format!("(+{})", ns(more))),
             None => costs(r.cost),
         };
         row(if r.keep { "keep" } else { "leave" }, &name(r.stage), share, time, &r.reason);

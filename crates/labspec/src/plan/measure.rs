@@ -4,7 +4,7 @@
 //! The run is cut into chunks of steps, the same in every run, and of each chunk the middle of its times counts: what interrupts the
 //! program now and then meets a chunk now and then. Stages are measured by a clock between them; what looking at it takes is
 //! measured as well, and taken off. A stage of a few nanoseconds is known to a few nanoseconds. What a stage would cost that does
-//! not run is the difference of two runs.
+//! not run is the difference of two runs, and nothing where the clock shows no difference.
 
 use super::parts::Seen;
 use super::reader::Reader;
@@ -227,7 +227,8 @@ pub(super) fn measure(
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
     let of = |i: usize| sums.get(i).copied().unwrap_or_default();
     let [low, ns, high] = of(0);
-    let more = |i: usize| of(i)[1] - ns;
+    // What runs more is not quicker: a difference below zero is the clock's.
+    let more = |i: usize| (of(i)[1] - ns).max(0.0);
     // What is measured one by one is a little slower than in a row: its parts of the whole are what is told.
     let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
     let all: f64 = laps.iter().sum();

@@ -25,7 +25,7 @@ fn reliable(rows: &[Row], i: usize) -> f64 {
 pub(super) fn front(rows: &[Row]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..rows.len()).filter(|&i| counts(&rows[i])).collect();
     order.sort_by(|&a, &b| {
-        let key = |i: usize| (rows[i].cost.median, reliable(rows, i));
+        let key = |i: usize| (rows[i].cost.work, reliable(rows, i));
         key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1))
     });
     let mut best = f64::INFINITY;
@@ -54,7 +54,7 @@ pub struct Advice {
 pub enum Kind {
     /// What the lab's own setting is off by.
     Own,
-    /// It is closer than the lab's own for the same time.
+    /// It is closer than the lab's own for the same work.
     Closer,
     /// It is the cheapest that shows every number rightly.
     Right,
@@ -62,10 +62,10 @@ pub enum Kind {
     Closest,
 }
 
-/// As far as timings repeat: less is no difference.
+/// Less is no difference.
 const NO_LONGER: f64 = 1.05;
 
-/// What the lab's own setting costs in error, what is closer for the same time, and the cheapest that shows every digit rightly.
+/// What the lab's own setting costs in error, what is closer for the same work, and the cheapest that shows every digit rightly.
 /// Only what a page can use is advised.
 pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let rows = &report.rows;
@@ -76,7 +76,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
         list.push(Advice { kind: Kind::Own, row: own, text: about_own(report, own) });
         let closest = (0..rows.len())
             .filter(usable)
-            .filter(|&i| rows[i].cost.median <= NO_LONGER * rows[own].cost.median)
+            .filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own].cost.work)
             .min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)));
         if let Some(i) = closest
             && rows[own].score > 2.0 * reliable(rows, i)
@@ -93,7 +93,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
         }
     }
     let good = (0..rows.len()).filter(usable).filter(|&i| reliable(rows, i) <= 1.0);
-    let cheapest = good.min_by(|&a, &b| rows[a].cost.median.total_cmp(&rows[b].cost.median));
+    let cheapest = good.min_by(|&a, &b| rows[a].cost.work.total_cmp(&rows[b].cost.work));
     let every = every(report);
     if let Some(i) = cheapest {
         let text = match mine {
@@ -112,10 +112,10 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     {
         // What is wrong whatever the reference's own error.
         let wrong = |row: &Row| {
-            report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && t.in_sight(e)[1] > 1.0)
+            report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0)
         };
         let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
-            let [most, least] = t.in_sight(e);
+            let [most, least] = e.seen;
             t.is_compared() && most > 1.0 && least <= 1.0
         });
         let text = match doubtful {
@@ -123,8 +123,8 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
                 "Whether any setting tried shows {every} rightly is not known: of \"{}\" the reference itself may be off by {}, and \
                  {} would be seen; the closest is {}.",
                 target.label,
-                two_digits(target.doubt),
-                two_digits(target.unseen),
+                with_unit(target.doubt, target),
+                with_unit(target.unseen, target),
                 name(&rows[i])
             ),
             _ => format!("No setting tried shows {every} rightly; the closest is {}.", name(&rows[i])),
@@ -152,13 +152,13 @@ fn name(row: &Row) -> String {
     format!("{} at {} ms{solver}", row.setting.integrator.name, milliseconds(row.setting.timestep))
 }
 
-/// The time of a run beside another's.
+/// The work of a run beside another's.
 fn beside(row: &Row, own: &Row) -> String {
-    let ratio = row.cost.median / own.cost.median;
+    let ratio = row.cost.work / own.cost.work;
     match ratio {
-        r if !r.is_finite() => "a time that was not measured".into(),
-        r if (1.0 / NO_LONGER..=NO_LONGER).contains(&r) => "the same time".into(),
-        r => format!("{} times the time", two_digits(r)),
+        r if !r.is_finite() => "work that was not counted".into(),
+        r if (1.0 / NO_LONGER..=NO_LONGER).contains(&r) => "the same work".into(),
+        r => format!("{} times the work", two_digits(r)),
     }
 }
 
@@ -178,20 +178,29 @@ fn about_own(report: &Report, own: usize) -> String {
         return format!("As the lab has it, {name}, \"{}\" is not a number everywhere.", target.label);
     }
     let above = known.filter(|(_, e)| !e.below);
-    let worst = above.max_by(|(s, a), (t, b)| (s.counts(a) / s.unseen).total_cmp(&(t.counts(b) / t.unseen)));
-    let Some((target, e)) = worst else {
+    let Some((target, e)) = above.max_by(|(_, a), (_, b)| a.seen[0].total_cmp(&b.seen[0])) else {
         return format!("As the lab has it, {name}, {} is as exact as the reference.", every(report));
     };
-    let [most, least] = target.in_sight(e);
+    let [most, least] = e.seen;
+    let samples = || format!("at {} of {} samples", e.wrong, e.samples);
     let seen = match (least > 1.0, target.readout) {
         _ if most <= 1.0 => "which nobody sees".to_string(),
-        (false, _) => format!("give or take {}, the reference's own error", two_digits(target.doubt)),
-        (true, true) => format!("which its digits show ({} would not)", two_digits(target.unseen)),
-        (true, false) => format!("which its plot shows ({} would not)", two_digits(target.unseen)),
+        (false, _) => {
+            format!("give or take {}, the reference's own error", with_unit(target.doubt, target))
+        }
+        (true, true) => format!("which its digits show {}", samples()),
+        (true, false) => {
+            format!("which its plot shows {} ({} would not)", samples(), with_unit(target.unseen, target))
+        }
     };
-    let how = match target.readout {
-        true => format!("{} at the end", two_digits(e.end)),
-        false => format!("up to {} at {} s", two_digits(e.largest), crate::run::time(e.at)),
-    };
+    let how = format!("up to {} at {} s", with_unit(e.largest, target), crate::run::time(e.at));
     format!("As the lab has it, {name}, \"{}\" is off by {how}, {seen}.", target.label)
+}
+
+/// A number with the unit of what is compared.
+fn with_unit(x: f64, target: &super::Compared) -> String {
+    match &target.unit {
+        Some(unit) => format!("{} {unit}", two_digits(x)),
+        None => two_digits(x),
+    }
 }

@@ -1,18 +1,27 @@
 //! A lab that is compared with itself: what it shows, and one run of it under a setting.
 
+use super::cost::integrator_work;
+use super::jumps;
+use super::moments::{Finder, Moment, Sought};
 use super::setting::Setting;
-use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include, to_finding};
+use crate::bind::{
+    Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
+};
 use crate::finding::Finding;
 use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session};
 use crate::spec::{Lab, Plot};
+use labspec_bind::units::written;
 use labspec_core::reflect::{FieldId, option};
 use labspec_core::{self as core, Data, Demand, Full, Model, Warning, state};
+use labspec_expr::dimension::Measure;
 use labspec_expr::{Compiler, Type, Value};
 use std::ops::ControlFlow;
 
 /// A number that the lab shows.
 pub(super) struct Target<'a> {
     pub(super) label: String,
+    /// Its unit, where it is known.
+    pub(super) unit: Option<String>,
     pub(super) bound: &'a Bound,
     /// Its closed form.
     pub(super) exact: Option<Bound>,
@@ -86,14 +95,42 @@ pub(super) struct Rhythm {
 /// Samples in which energy and momentum are looked at.
 const LOOKS: usize = 100;
 
+/// What is asked of a run.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ask<'s> {
+    /// Every coordinate of the start is moved by this.
+    pub(super) nudge: f64,
+    /// All that is shown is of the state at hand, as in the truth; else what a page shows after a step is partly of the state before
+    /// it: forces, energies, contacts. A fresh run is not watched for growth of energy, as every look begins that watch anew.
+    pub(super) fresh: bool,
+    /// Steps are cut where controls jump.
+    pub(super) cut: bool,
+    /// The moments that are looked for.
+    pub(super) sought: Option<&'s Sought>,
+    /// The run is made for its moments alone: it is of no more use after this time, s, or when all are found.
+    pub(super) stop: Option<f64>,
+}
+
+impl Ask<'_> {
+    /// As a reference is run.
+    pub(super) const FRESH: Ask<'static> =
+        Ask { nudge: 0.0, fresh: true, cut: false, sought: None, stop: None };
+}
+
 /// What a run showed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Run {
     /// Values of each target at the run's samples, and of its closed form (NaN without one).
     pub(super) values: Vec<Vec<f64>>,
     pub(super) exact: Vec<Vec<f64>>,
-    /// When bodies first touch, then when each target first passes through zero, s; NaN where they do not.
-    pub(super) events: Vec<f64>,
+    /// When bodies first touch, when each target first passes through zero, when each first turns back; empty where nobody asked.
+    pub(super) moments: Vec<Moment>,
+    /// When the last of them was sure to be one, s.
+    pub(super) settled: f64,
+    /// Whether bodies touch at the start.
+    pub(super) touching: bool,
+    /// Whether a force could jump: dry friction, a limit or a contact pushed.
+    pub(super) jumps: bool,
     /// Energy, J, and momentum (three of motion, three of turning), where they were looked at.
     pub(super) energy: Vec<f64>,
     pub(super) momentum: Vec<[f64; 6]>,
@@ -138,6 +175,17 @@ impl Fate {
     }
 }
 
+/// The unit that a label states, or else that of what is measured; a plain number has none.
+fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
+    let stated = of_label(label).map(|(text, _)| text.to_string());
+    let computed = || match measured? {
+        Measure::Known(dimension) => Some(written(&dimension)),
+        _ => None,
+    };
+    // A unit times a number has no name.
+    stated.or_else(computed).filter(|unit| unit != "1" && !unit.contains(", times"))
+}
+
 impl<'a> Case<'a> {
     /// The numbers that a lab shows, with their closed forms. Mistakes in these go to `findings`. Times are still missing.
     pub(super) fn new(
@@ -168,8 +216,11 @@ impl<'a> Case<'a> {
         let curves = |plot: &'a Plot| plot.traces.iter().map(move |t| (&t.label.value, curve(plot)));
         let traces = lab.plots.iter().flat_map(curves);
         let readouts = lab.readouts.iter().map(|r| (&r.label.value, Shown::Decimals(r.digits())));
-        for ((label, shown), probe) in traces.chain(readouts).zip(&programs.probes) {
+        let measured = dimensions(lab, model, programs).probes;
+        let probes = programs.probes.iter().zip(measured.into_iter().chain(std::iter::repeat(None)));
+        for ((label, shown), (probe, measured)) in traces.chain(readouts).zip(probes) {
             let Some(bound) = &probe.bound else { continue };
+            let unit = unit_of(label, measured.map(|m| m.value));
             let closed =
                 exact.iter().find(|e| e.trace.value == *label && matches!(shown, Shown::Curve { .. }));
             let closed = closed.and_then(|e| {
@@ -178,12 +229,18 @@ impl<'a> Case<'a> {
                 findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &e.form)));
                 compiled.program.map(|program| Bound { text: e.form.clone(), program })
             });
-            case.take(label, shown, bound, closed);
+            case.take((label, unit), shown, bound, closed);
         }
         case
     }
 
-    fn take(&mut self, label: &str, shown: Shown, bound: &'a Bound, exact: Option<Bound>) {
+    fn take(
+        &mut self,
+        (label, unit): (&str, Option<String>),
+        shown: Shown,
+        bound: &'a Bound,
+        exact: Option<Bound>,
+    ) {
         let effects = bound.program.effects();
         let reads = |id| effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == Some(id));
         let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any) {
@@ -196,7 +253,7 @@ impl<'a> Case<'a> {
             if let Some(e) = &exact {
                 include(e.program.effects(), &mut self.demand);
             }
-            self.targets.push(Target { label: label.to_string(), bound, exact, shown });
+            self.targets.push(Target { label: label.to_string(), unit, bound, exact, shown });
             return;
         };
         self.left_out.push(LeftOut { label: label.to_string(), reason });
@@ -244,6 +301,11 @@ impl<'a> Case<'a> {
         Ok(session)
     }
 
+    /// Length of the runs, s.
+    pub(super) fn length(&self) -> f64 {
+        self.count as f64 * self.interval
+    }
+
     /// When a run with some timestep is looked at: after each of its own steps, as a page shows them, where the truth is known
     /// as often.
     pub(super) fn rhythm(&self, timestep: f64) -> Rhythm {
@@ -252,13 +314,11 @@ impl<'a> Case<'a> {
         Rhythm { steps: whole(self.interval / timestep), stride, count: self.count / stride }
     }
 
-    /// A run under a setting; every coordinate of its start moved by `nudge`. What a page shows after a step is partly of the
-    /// state before it: forces, energies, contacts. In a `fresh` run all is of the state at hand, as in the truth;
-    /// it is not watched for growth of energy, as every look begins that watch anew.
-    pub(super) fn run(&self, setting: &Setting, nudge: f64, fresh: bool) -> Result<Run, RunError> {
+    /// A run under a setting.
+    pub(super) fn run(&self, setting: &Setting, ask: Ask<'_>) -> Result<Run, RunError> {
         let mut session = self.start(Some(setting))?;
-        if nudge != 0.0 {
-            session.perturb(run::Numerics { nudge, ..run::Numerics::NOMINAL }, true);
+        if ask.nudge != 0.0 {
+            session.perturb(run::Numerics { nudge: ask.nudge, ..run::Numerics::NOMINAL }, true);
         }
         let rhythm = self.rhythm(setting.timestep);
         let steps = rhythm.count * rhythm.steps;
@@ -269,144 +329,100 @@ impl<'a> Case<'a> {
             ..Run::default()
         };
         let mut look = Look::new(&session.world.model);
-        let mut passing = vec![Passing::default(); n + 1];
+        let mut finder = ask.sought.map(|s| Finder::new(s, &session.world.model, setting));
+        let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
         let every = rhythm.count.div_ceil(LOOKS).max(1);
         let before = session.spent();
         let mut sampling = 0;
-        let played = Play { steps, every: 1, presses: &self.presses, watched: !fresh };
-        let made = run::play(&mut session, &played, |session, made| {
+        let mut now = vec![0.0; n];
+        let sample = |session: &mut Session<'_>, made: usize| {
             let began = session.spent();
-            let sampled = made % rhythm.steps == 0;
-            let time = session.world.data.time();
-            let mut late = if made > 0 { setting.timestep } else { 0.0 };
-            if fresh && made > 0 {
+            let sampled = made.is_multiple_of(rhythm.steps);
+            if ask.fresh && made > 0 {
                 session.refresh();
-                late = 0.0;
             }
             for (i, target) in self.targets.iter().enumerate() {
-                let mut value =
-                    |b: &Bound| session.evaluate(&b.program, &b.text).map_or(f64::NAN, |v| v.to_number());
-                let now = value(target.bound);
-                passing[i + 1].see(time, now);
+                now[i] = self.value(session, i);
                 if sampled {
-                    seen.values[i].push(now);
-                    seen.exact[i].push(target.exact.as_ref().map_or(f64::NAN, &mut value));
+                    seen.values[i].push(now[i]);
+                    let exact = target.exact.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
+                    seen.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
                 }
             }
-            let deepest = deepest(session);
-            if deepest > 0.0 {
-                seen.penetration = seen.penetration.max(deepest);
+            seen.look(session);
+            if let Some(finder) = &mut finder {
+                finder.see(session, &now, &evaluate);
             }
-            passing[0].touch(time - late, deepest);
             if sampled && (made / rhythm.steps).is_multiple_of(every) {
                 look.take(session, &mut seen);
             }
             sampling += session.spent() - began;
-            ControlFlow::Continue(())
-        });
+            let time = session.world.data.time();
+            let found = finder.as_ref().is_some_and(Finder::is_complete);
+            match ask.stop.is_some_and(|stop| found || time > stop) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let played = Play { steps, every: 1, presses: &self.presses, watched: !ask.fresh };
+        let made = match ask.cut {
+            true => jumps::play(&mut session, &played, setting.timestep, sample),
+            false => run::play(&mut session, &played, sample),
+        };
         let simulated = made as f64 * setting.timestep;
-        seen.work = (session.spent() - before - sampling) as f64 / simulated.max(setting.timestep);
-        seen.events = passing.iter().map(|p| p.at).collect();
+        let counted = (session.spent() - before - sampling) as f64;
+        let of_steps = made as f64 * integrator_work(&session, setting.integrator);
+        seen.work = (counted + of_steps) / simulated.max(setting.timestep);
+        if let Some(finder) = finder {
+            (seen.touching, seen.settled) = (finder.touches_at_start(), finder.settled());
+            seen.moments = finder.finish();
+        }
         // Where a run ended before its time, nothing is known.
         seen.values
             .iter_mut()
             .chain(&mut seen.exact)
             .for_each(|list| list.resize(rhythm.count + 1, f64::NAN));
+        seen.judge(&session);
+        Ok(seen)
+    }
+
+    fn value(&self, session: &mut Session<'_>, target: usize) -> f64 {
+        let bound = self.targets.get(target).map(|t| t.bound);
+        let value = bound.and_then(|b| session.evaluate(&b.program, &b.text));
+        value.map_or(f64::NAN, |v| v.to_number())
+    }
+}
+
+impl Run {
+    /// Looks at contacts and constraints after a step.
+    fn look(&mut self, session: &Session<'_>) {
+        let d = session.world.data.fields();
+        self.jumps |= d.nefc > d.ne;
+        let deepest = d.contact.iter().map(|c| -c.dist).fold(f64::NAN, f64::max);
+        if deepest > 0.0 {
+            self.penetration = self.penetration.max(deepest);
+        }
+    }
+
+    /// What became of the run that ends here.
+    fn judge(&mut self, session: &Session<'_>) {
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
-        seen.told = Breakdown::all(&session).into_iter().map(|b| b.what).collect();
-        seen.fate = match session.ended() {
+        self.told = Breakdown::all(session).into_iter().map(|b| b.what).collect();
+        self.fate = match session.ended() {
             _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
             _ if session.growth().is_some() => Fate::Grows,
             Some(End::Budget { time }) => {
-                seen.told.push(format!("the run takes more work than it may and ends at {time} s"));
+                self.told.push(format!("the run takes more work than it may and ends at {time} s"));
                 Fate::Stopped
             }
             Some(_) => Fate::Stopped,
-            None if !seen.told.is_empty() => Fate::Warned,
+            None if !self.told.is_empty() => Fate::Warned,
             None => Fate::Good,
         };
         if let Some(trouble) = session.troubles.first() {
-            seen.told.push(trouble.message.clone());
-        }
-        Ok(seen)
-    }
-}
-
-/// How deep bodies are in each other; negative where the nearest contact is apart, NaN without one.
-fn deepest(session: &Session<'_>) -> f64 {
-    session.world.data.fields().contact.iter().map(|c| -c.dist).fold(f64::NAN, f64::max)
-}
-
-/// Finds when something first passes through zero, between the samples of every step.
-#[derive(Clone, Copy, Debug)]
-struct Passing {
-    at: f64,
-    /// The last four times and values, the newest last.
-    seen: [(f64, f64); 4],
-    count: usize,
-    /// It passed one step ago: one more is waited for.
-    passed: bool,
-}
-
-impl Default for Passing {
-    fn default() -> Passing {
-        Passing { at: f64::NAN, seen: [(0.0, 0.0); 4], count: 0, passed: false }
-    }
-}
-
-impl Passing {
-    fn push(&mut self, time: f64, value: f64) {
-        self.seen.rotate_left(1);
-        self.seen[3] = (time, value);
-        self.count += 1;
-    }
-
-    /// A target's value after a step.
-    fn see(&mut self, time: f64, value: f64) {
-        if !self.at.is_nan() {
-            return;
-        }
-        self.push(time, value);
-        if self.passed {
-            self.at = root(&self.seen, self.count);
-        }
-        let [.., (_, before), (_, now)] = self.seen;
-        self.passed = self.count > 2 && before * now < 0.0;
-    }
-
-    /// The depth of the deepest contact after a step: the first is found by going back from two.
-    fn touch(&mut self, time: f64, depth: f64) {
-        if self.at.is_nan() && depth > 0.0 {
-            self.push(time, depth);
-            if self.count == 2 {
-                let [.., (t0, d0), (t1, d1)] = self.seen;
-                let back = d0 * (t1 - t0) / (d1 - d0);
-                self.at = if d1 > d0 && back <= t1 - t0 { t0 - back } else { t0 };
-            }
+            self.told.push(trouble.message.clone());
         }
     }
-}
-
-/// The zero of the cubic through four points, between the two in the middle (with three, of the line between them).
-fn root(seen: &[(f64, f64); 4], count: usize) -> f64 {
-    let [_, (mut low, at_low), (mut high, at_high), _] = *seen;
-    if count < 4 || seen.iter().any(|(_, y)| !y.is_finite()) {
-        return low + (high - low) * at_low / (at_low - at_high);
-    }
-    let cubic = |t: f64| -> f64 {
-        (0..4)
-            .map(|i| {
-                let others = (0..4).filter(|&k| k != i);
-                seen[i].1 * others.map(|k| (t - seen[k].0) / (seen[i].0 - seen[k].0)).product::<f64>()
-            })
-            .sum()
-    };
-    let rising = at_low < 0.0;
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if (cubic(middle) < 0.0) == rising { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
 
 /// Energy and momentum, seen with data of its own so that looking leaves the run alone.
@@ -438,23 +454,5 @@ impl Look {
             }
         }
         seen.momentum.push(momentum);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_moment_of_passing_through_zero_is_between_the_steps() {
-        let mut sine = Passing::default();
-        let mut falls = Passing::default();
-        for k in 0..200 {
-            let t = 0.01 * f64::from(k);
-            sine.see(t, (t - 1.2345).sin());
-            falls.touch(t, 3.0 * (t - 0.7777));
-        }
-        assert!((sine.at - 1.2345).abs() < 1e-9, "{}", sine.at);
-        assert!((falls.at - 0.7777).abs() < 1e-12, "{}", falls.at);
     }
 }

@@ -1,7 +1,8 @@
-//! Errors of a run against the reference, and the orders that they show.
+//! Errors of a run against the reference.
 
-use super::case::{Case, Run};
+use super::case::{Case, Fate, Run, Shown};
 use super::reference::{Reference, range};
+use crate::run::printed;
 
 /// How far a run is from the truth, in the unit of the trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,12 +19,28 @@ pub struct Errors {
     pub below: bool,
     /// Observed order: how many times the error halves when the timestep halves.
     pub order: Option<f64>,
+    /// The most and the least that a student may see of it at any sample, as the reference itself is in doubt; in times of what nobody
+    /// sees. A readout that shows other digits than the truth is above one.
+    pub seen: [f64; 2],
+    /// Samples that are compared, and those of them at which a student sees the error.
+    pub samples: usize,
+    /// Those at which a student sees it.
+    pub wrong: usize,
 }
 
 impl Errors {
     /// Nothing is known.
-    const NONE: Errors =
-        Errors { largest: f64::NAN, at: f64::NAN, rms: f64::NAN, end: f64::NAN, below: false, order: None };
+    const NONE: Errors = Errors {
+        largest: f64::NAN,
+        at: f64::NAN,
+        rms: f64::NAN,
+        end: f64::NAN,
+        below: false,
+        order: None,
+        seen: [f64::INFINITY; 2],
+        samples: 0,
+        wrong: 0,
+    };
 }
 
 /// What one of the lab's numbers is held against.
@@ -31,18 +48,22 @@ impl Errors {
 pub struct Compared {
     /// Its label.
     pub label: String,
+    /// Its unit, where it is known.
+    pub unit: Option<String>,
     /// It has a closed form.
     pub closed: bool,
     /// How far the reference may be off, where it is used.
     pub uncertain: f64,
-    /// The same for the error that counts: of digits, at the end.
+    /// The same without what rounding leaves.
     pub doubt: f64,
-    /// Largest value less smallest, in the reference or as the lab has it, whichever is more.
+    /// Largest value less smallest, in the reference; as the lab has it, where it does not change there.
     pub range: f64,
     /// The largest error that nobody sees: half a unit of the last digit, half a pixel of the plot.
     pub unseen: f64,
     /// Whether it is a readout.
     pub readout: bool,
+    /// Its decimals, then.
+    pub(super) digits: u32,
     /// Until when the two families of the reference agree to a hundredth of the range, s, where that is not the end.
     pub until: Option<f64>,
     /// The largest value.
@@ -54,36 +75,46 @@ pub struct Compared {
 }
 
 impl Compared {
-    /// The error that counts: of a curve the largest, of digits that of the end, when they stand still to be read.
-    pub fn counts(&self, errors: &Errors) -> f64 {
-        if self.readout { errors.end } else { errors.largest }
-    }
-
     /// Whether anything is compared.
     pub fn is_compared(&self) -> bool {
         self.samples > 1
     }
 
-    /// The largest and the smallest that the error may be, as the reference itself is in doubt; in times of what nobody sees. A
-    /// number that is not there where the reference has one is wrong beyond all bounds.
-    pub(super) fn in_sight(&self, errors: &Errors) -> [f64; 2] {
-        let error = self.counts(errors);
-        if error.is_nan() {
-            return [f64::INFINITY; 2];
+    /// The most and the least that a student may see of an error at one sample, where the truth is `exact` to within `doubt`; in
+    /// times of what nobody sees.
+    fn in_sight(&self, shown: f64, exact: f64, doubt: f64) -> [f64; 2] {
+        let error = (shown - exact).abs();
+        let parts = |unit: f64| {
+            [error + doubt, error - doubt]
+                .map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
+        };
+        if !self.readout {
+            return parts(self.unseen);
         }
-        // A number that does not change is shown rightly by all.
-        [error + self.doubt, error - self.doubt]
-            .map(|e| if e <= 0.0 { 0.0 } else { e / self.unseen.max(f64::MIN_POSITIVE) })
+        // Digits: a number that is within its doubt of the next one may show as either.
+        let slack = doubt + DIGITS_ROUND * self.size;
+        let print = |x: f64| printed(x, self.digits);
+        let (low, now, high) = (print(exact - slack), print(shown), print(exact + slack));
+        let unit = 2.0 * self.unseen;
+        let [most, least] = parts(unit);
+        if !(low..=high).contains(&now) {
+            return [1.0 + most, 1.0 + least];
+        }
+        [if doubt <= self.unseen * DOUBTFUL { most.min(1.0) } else { most }, least.min(1.0)]
     }
 }
 
-/// The two families of a reference have to agree to this part of the range, or of what nobody sees.
-const KNOWN: f64 = 0.01;
-const UNSEEN: f64 = 0.1;
-/// The last part of the samples: an nth.
-const LATE: usize = 10;
-/// What rounding leaves of a number in a run of many steps.
+/// A reference is known where its doubt, which is twice the difference of its families, is below this part of the range, or of what
+/// nobody sees.
+const KNOWN: f64 = 0.02;
+const UNSEEN: f64 = 0.2;
+/// A reference that is known to this part of what nobody sees is not in doubt.
+const DOUBTFUL: f64 = 0.2;
+/// What rounding leaves of a number in a run of many steps; and of one that is rounded once more to be shown.
 const ROUNDING: f64 = 1e-13;
+const DIGITS_ROUND: f64 = 1e-12;
+/// A number that changes by less than this part of its size does not change.
+const CONSTANT: f64 = 1e-6;
 
 /// What the targets of a case are held against; `own` is the run as the lab has it.
 pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
@@ -91,40 +122,37 @@ pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
         let uncertain = &reference.uncertain[i];
-        let range = range(values).max(range(&own.values[i]));
-        let unseen = target.shown.unseen(range);
-        let enough = (KNOWN * range).max(UNSEEN * unseen).max(ROUNDING);
+        let whole = values.iter().filter(|x| x.is_finite()).fold(0.0f64, |a, x| a.max(x.abs()));
+        // A run that breaks is no measure of what a plot hides; one of a number that should not change is.
+        let mut range_of = range(values);
+        if range_of <= CONSTANT * whole {
+            let mine = if own.fate == Fate::Good { range(&own.values[i]) } else { 0.0 };
+            range_of = range_of.max(if mine > 0.0 { mine } else { whole });
+        }
+        let unseen = target.shown.unseen(range_of);
+        let enough = (KNOWN * range_of).max(UNSEEN * unseen).max(ROUNDING);
         let known = uncertain.partition_point(|u| *u <= enough);
         let blank = values.first().is_none_or(|x| !x.is_finite());
-        let samples = if blank {
-            0
-        } else if closed {
-            values.len()
-        } else {
-            known
+        let samples = match (blank, closed) {
+            (true, _) => 0,
+            (false, true) => values.len(),
+            (false, false) => known,
         };
         let cut = samples < values.len() && !blank;
         let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
-        let readout = matches!(target.shown, super::case::Shown::Decimals(_));
         let most = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
-        // Families that meet at the last sample by chance do not meet for so long.
-        let late = samples - samples.div_ceil(LATE);
-        let at_end = reference.apart[i][late..samples].iter().fold(0.0, |a: f64, x| a.max(*x));
+        let digits = if let Shown::Decimals(digits) = target.shown { Some(digits) } else { None };
         Compared {
             label: target.label.clone(),
+            unit: target.unit.clone(),
             closed,
             size,
             uncertain: most.max(ROUNDING * size),
-            doubt: if closed {
-                0.0
-            } else if readout {
-                at_end
-            } else {
-                most
-            },
-            range,
+            doubt: most,
+            range: range_of,
             unseen,
-            readout,
+            readout: digits.is_some(),
+            digits: digits.unwrap_or(0),
             blank,
             until: cut.then(|| samples.saturating_sub(1) as f64 * case.interval),
             samples,
@@ -146,11 +174,12 @@ pub(super) fn errors(
     let stride = case.rhythm(timestep).stride;
     let one = |(i, target): (usize, &Compared)| {
         let (truth, apart) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
-        let compared = target.samples.div_ceil(stride);
+        let compared = target.samples.div_ceil(stride).min(run.values[i].len());
         let both = run.values[i].iter().zip(truth.iter().step_by(apart)).take(compared);
-        let differences = both.map(|(a, b)| (a - b).abs());
-        let mut e = Errors { largest: 0.0, at: 0.0, rms: 0.0, end: f64::NAN, below: false, order: None };
-        for (k, d) in differences.enumerate() {
+        let mut e =
+            Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
+        for (k, (&shown, &exact)) in both.enumerate() {
+            let d = (shown - exact).abs();
             if d.is_nan() {
                 return Errors::NONE;
             }
@@ -159,18 +188,62 @@ pub(super) fn errors(
             }
             e.rms += d * d;
             e.end = d;
+            let doubt = match target.closed {
+                true => 0.0,
+                false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.doubt),
+            };
+            let [most, least] = target.in_sight(shown, exact, doubt);
+            e.seen = [e.seen[0].max(most), e.seen[1].max(least)];
+            e.wrong += usize::from(least > 1.0);
         }
         e.rms = (e.rms / compared.max(1) as f64).sqrt();
-        e.below = e.largest <= (2.0 * target.uncertain).max(rounding * target.size);
+        e.below = e.largest <= target.uncertain.max(rounding * target.size);
         // Of a run that is looked at only after that nothing is known.
         if compared > 1 { e } else { Errors::NONE }
     };
     targets.iter().enumerate().map(one).collect()
 }
 
-/// The observed order of a run with a shorter timestep than another: there is none where the doubt of the reference is a part of
-/// the error.
-pub(super) fn order(coarse: &Errors, fine: &Errors, ratio: f64, doubt: f64) -> Option<f64> {
-    let order = (coarse.largest / fine.largest).log2() / ratio.log2();
-    (!coarse.below && !fine.below && fine.largest > 10.0 * doubt && order.is_finite()).then_some(order)
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readout(digits: u32, size: f64) -> Compared {
+        Compared {
+            label: "x".into(),
+            unit: None,
+            closed: false,
+            uncertain: 0.0,
+            doubt: 0.0,
+            range: size,
+            unseen: 0.5 * 0.1f64.powi(digits as i32),
+            readout: true,
+            digits,
+            until: None,
+            size,
+            blank: false,
+            samples: 2,
+        }
+    }
+
+    #[test]
+    fn digits_decide_at_every_sample() {
+        let x = readout(1, 20.0);
+        // Closer than half a unit, and another digit.
+        assert!(x.in_sight(16.051, 16.049, 1e-9)[1] > 1.0);
+        // Farther, and the same.
+        assert!(x.in_sight(16.149, 16.051, 1e-9)[0] <= 1.0);
+        // Next to a tie, nobody can tell.
+        assert!(x.in_sight(16.05 + 1e-12, 16.05 - 1e-12, 1e-9)[0] <= 1.0);
+        // A reference that is in doubt by more than a digit.
+        let [most, least] = x.in_sight(16.2, 16.0, 0.3);
+        assert!(most > 1.0 && least <= 1.0, "{most} {least}");
+    }
+
+    #[test]
+    fn a_curve_hides_half_a_pixel() {
+        let x = Compared { readout: false, ..readout(1, 20.0) };
+        assert_eq!(x.in_sight(1.0, 1.1, 0.0).map(|p| (p * 10.0).round()), [20.0, 20.0]);
+        assert_eq!(x.in_sight(1.0, 1.01, 0.02)[1], 0.0);
+    }
 }

@@ -32,6 +32,12 @@ impl Integrator {
         INTEGRATORS.into_iter().find(|i| i.name.eq_ignore_ascii_case(name))
     }
 
+    /// Whether its steps can be made again with any length to see what is between them: it is of an order above the second.
+    pub(super) fn is_high(self) -> bool {
+        use integrator::{ADAPTIVE, GAUSS, RK4, RKMK4, RKMK8};
+        [RK4, RKMK4, RKMK8, GAUSS, ADAPTIVE].contains(&self.id)
+    }
+
     /// The integrator that a model's options name; Euler's, as the engine takes it, for a number without a meaning.
     pub fn of(model: &Model) -> Integrator {
         let euler = INTEGRATORS[0];

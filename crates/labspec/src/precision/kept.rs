@@ -1,0 +1,55 @@
+//! Energy and momentum that a scene keeps, and how much of them a run loses or gains.
+
+use super::case::Run;
+
+/// A scene keeps energy or momentum where the reference changes it by less than this part of its size.
+const KEPT: f64 = 1e-7;
+
+/// What the scene keeps, as the reference shows it, with its size.
+pub(super) struct Kept {
+    pub(super) energy: Option<f64>,
+    pub(super) momentum: [Option<f64>; 2],
+}
+
+impl Kept {
+    pub(super) fn of(run: &Run, part: f64) -> Kept {
+        let moves = run.kinetic > 0.0;
+        let energy = (moves && change(&run.energy, part) <= KEPT * run.kinetic).then_some(run.kinetic);
+        let none = Kept { energy: None, momentum: [None; 2] };
+        let momentum = [0, 1].map(|k| {
+            let size = run.momentum.iter().map(|p| length(&p[3 * k..3 * k + 3])).fold(0.0, f64::max);
+            (size > 1e-9 && none.change(run, k, part) <= KEPT * size).then_some(size)
+        });
+        Kept { energy, momentum }
+    }
+
+    /// The largest change of momentum from the start on: of motion (0) or of turning (1).
+    pub(super) fn change(&self, run: &Run, k: usize, part: f64) -> f64 {
+        let Some(start) = run.momentum.first() else { return f64::NAN };
+        let apart = |p: &[f64; 6]| {
+            let d: [f64; 3] = std::array::from_fn(|i| p[3 * k + i] - start[3 * k + i]);
+            length(&d)
+        };
+        largest(run.momentum.iter().take(looks(run.momentum.len(), part)).map(apart))
+    }
+}
+
+fn length(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// The largest change of a quantity from the start on; NaN where it is not known.
+pub(super) fn change(values: &[f64], part: f64) -> f64 {
+    let early = values.iter().take(looks(values.len(), part));
+    values.first().map_or(f64::NAN, |start| largest(early.map(|x| (x - start).abs())))
+}
+
+/// The largest; NaN where one is.
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a: f64, x| if x.is_nan() || a.is_nan() { f64::NAN } else { a.max(x) })
+}
+
+/// How many of the looks at a run are in its first part.
+fn looks(all: usize, part: f64) -> usize {
+    (all.saturating_sub(1) as f64 * part) as usize + 1
+}

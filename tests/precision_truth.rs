@@ -1,0 +1,327 @@
+//! `precision` against truths by other means: events and ends of labs of twenty kinds from equations derived by hand
+//! (`tests/golden/precision.py`), and what advice, costs and orders say of them.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use crate::support::workspace;
+use labspec::bind::Programs;
+use labspec::bind::scene::Models;
+use labspec::lint::{ModelFolder, load_lesson};
+use labspec::precision::{Fate, Integrator, Kind, Options, Report, Row, compare};
+use labspec::run::{self, Cell, RunOptions, shown};
+use labspec::source::SourceFile;
+use labspec::spec::{Lab, Lesson};
+use labspec_core::{Model, integrator};
+use serde_json::Value;
+use std::path::PathBuf;
+
+fn kinds() -> PathBuf {
+    workspace().join("tests/precision/kinds.md")
+}
+
+/// A lab written down, in a lesson of its own.
+fn written(lab: &Value) -> Lesson {
+    let text = format!("```lab simlab\n{lab}\n```\n");
+    load_lesson(SourceFile::new("lab.md", text), &ModelFolder::unknown())
+}
+
+fn one(lesson: &Lesson) -> &Lab {
+    lesson.addressed()[0].1
+}
+
+fn model(lab: &Lab) -> std::sync::Arc<Model> {
+    Models::new(ModelFolder::unknown()).of(lab, &mut Vec::new()).unwrap()
+}
+
+fn report(lab: &Lab, options: &Options) -> Report {
+    let model = model(lab);
+    let mut findings = Vec::new();
+    let programs = Programs::compile(lab, &model, &mut findings);
+    compare(lab, &model, &programs, options, &mut findings, &mut |_| ()).unwrap()
+}
+
+/// The two columns of a run with some numerics: time, and what a trace or readout showed.
+fn column(lab: &Lab, (id, timestep): (i32, f64), length: f64, label: &str) -> Vec<f64> {
+    let mut model = Model::clone(&model(lab));
+    (*model.edit().opt.timestep, *model.edit().opt.integrator) = (timestep, id);
+    let programs = Programs::compile(lab, &model, &mut Vec::new());
+    let options = RunOptions { until: Some(length), every: 1, ..RunOptions::default() };
+    let table = run::run(lab, &model, &programs, &options).unwrap();
+    let at = table.columns.iter().position(|c| c.ends_with(&format!("/{label}"))).unwrap();
+    table.rows.iter().map(|row| if let Cell::Number(x) = row[at] { x } else { f64::NAN }).collect()
+}
+
+fn own(report: &Report) -> &Row {
+    report.rows.iter().find(|r| r.own).unwrap()
+}
+
+fn right(report: &Report) -> &Row {
+    let advice = report.advice.iter().find(|a| a.kind == Kind::Right).unwrap();
+    &report.rows[advice.row]
+}
+
+/// A mass on a line, with what joint, options and actuators have besides.
+fn slider(options: &str, joint: &str, more: &str) -> String {
+    format!(
+        "<mujoco><option {options}/><worldbody><body><joint name='j' type='slide' axis='1 0 0' {joint}/>\
+         <inertial pos='0 0 0' mass='1' diaginertia='1e-6 1e-6 1e-6'/></body></worldbody>{more}</mujoco>"
+    )
+}
+
+fn trace(expression: &str) -> Value {
+    serde_json::json!([{"traces": [{"label": "x (m)", "expr": expression}]}])
+}
+
+#[test]
+fn events_and_ends_are_those_of_equations_by_hand() {
+    let truth: Value = serde_json::from_str(include_str!("golden/precision.json")).unwrap();
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let labs = lesson.addressed();
+    assert_eq!(labs.len(), truth.as_object().unwrap().len());
+    let (mut times, mut ends) = (0, 0);
+    for (_, lab) in labs {
+        let title = lab.title();
+        let report = report(lab, &Options::default());
+        let known = &truth[title];
+        assert!(!known.is_null(), "{title}");
+        for (name, time) in known["events"].as_object().unwrap() {
+            let time = time.as_f64().unwrap();
+            let event = report.events.iter().find(|e| e.name == *name && e.time.is_finite());
+            let Some(event) = event else { panic!("{title}: {name} at {time} is not found") };
+            let off = (event.time - time).abs();
+            assert!(off <= event.uncertain, "{title}: {name}: {off:e} off, ± {:e}", event.uncertain);
+            assert!(event.uncertain < 1e-6, "{title}: {name}: ± {:e}", event.uncertain);
+            times += 1;
+        }
+        // What is said of the lab's own run at the end is its distance from the truth.
+        let mine = own(&report);
+        for (label, end) in known["end"].as_object().unwrap() {
+            let i = report.targets.iter().position(|t| t.label == *label).unwrap();
+            if mine.fate != Fate::Good {
+                continue;
+            }
+            let setting = (mine.setting.integrator.id, mine.setting.timestep);
+            let last = column(lab, setting, report.length, label).pop().unwrap();
+            let off = (last - end.as_f64().unwrap()).abs();
+            let (said, doubt) = (mine.errors[i].end, report.targets[i].uncertain);
+            assert!((off - said).abs() <= doubt, "{title}: {label}: {off:e} off, said {said:e} ± {doubt:e}");
+            ends += 1;
+        }
+        // Nothing is shown below its doubt.
+        for row in &report.rows {
+            for (off, event) in row.events.iter().zip(&report.events) {
+                assert!(off.is_nan() || *off >= event.uncertain, "{title}: {}: {off:e}", event.name);
+            }
+        }
+    }
+    assert!(times >= 50 && ends >= 20, "{times} times, {ends} ends");
+}
+
+#[test]
+fn a_dip_after_the_start_is_no_passage() {
+    // A body at rest, up to rounding, that is pushed later: it sinks by 1e-9 first, and passes nothing.
+    let lab = serde_json::json!({
+        "xml": slider("gravity='0 0 0'", "damping='2000'", "<actuator><motor joint='j'/></actuator>"),
+        "setup": "data.qvel[0] = -1e-6", "controller": "data.ctrl[0] = data.time > 0.1 ? 20000 : 0",
+        "stopAt": 0.4, "plots": trace("data.qpos[0]"),
+    });
+    let lesson = written(&lab);
+    let report = report(one(&lesson), &Options::default());
+    assert!(report.events.iter().all(|e| e.time.is_nan()), "{:?}", report.events);
+}
+
+#[test]
+fn longer_steps_are_tried_until_something_changes() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let labs = lesson.addressed();
+    for (title, longest) in [("A mass ratio of a thousand", 0.032), ("The intermediate axis", 0.128)] {
+        let lab = labs.iter().find(|(_, l)| l.title() == title).unwrap().1;
+        let report = report(lab, &Options::default());
+        let best = right(&report);
+        assert_eq!(
+            (best.setting.integrator.id, best.setting.timestep),
+            (integrator::RK4, longest),
+            "{title}"
+        );
+        // One more doubling shows.
+        let next = report
+            .rows
+            .iter()
+            .find(|r| r.setting.integrator.id == integrator::RK4 && r.setting.timestep == 2.0 * longest);
+        assert!(next.is_some_and(|r| r.score > 1.0), "{title}");
+    }
+}
+
+#[test]
+fn a_run_that_breaks_is_no_measure_of_a_plot() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let labs = lesson.addressed();
+    // The lab's own setting turns the gyroscope's axis over, with numbers of any size.
+    let lab = labs.iter().find(|(_, l)| l.title() == "A gyroscope").unwrap().1;
+    let report = report(lab, &Options::default());
+    assert_ne!(own(&report).fate, Fate::Good);
+    // Its speed across keeps within 11 rad/s: half a pixel of that is little.
+    assert!(report.targets[1].unseen < 0.06, "{}", report.targets[1].unseen);
+    let best = right(&report);
+    let setting = (best.setting.integrator.id, best.setting.timestep);
+    let seen = column(lab, setting, report.length, "across (rad/s)");
+    let fine = column(lab, (integrator::RKMK8, best.setting.timestep / 2.0), report.length, "across (rad/s)");
+    let worst = seen.iter().zip(fine.iter().step_by(2)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(worst <= 1.1 * report.targets[1].unseen, "{worst}");
+}
+
+#[test]
+fn every_sample_of_a_readout_counts() {
+    // A spring that swings ten times and comes to rest: at the end all are right.
+    let lab = serde_json::json!({
+        "xml": slider("gravity='0 0 0' integrator='RK4'", "stiffness='100' damping='3'", ""), "setup": "data.qpos[0] = 1",
+        "stopAt": 6.4, "readouts": [{"label": "place", "expr": "10 * data.qpos[0]", "digits": 1}],
+    });
+    let lesson = written(&lab);
+    let lab = one(&lesson);
+    let report = report(lab, &Options::default());
+    let euler = report.rows.iter().find(|r| r.setting.integrator.id == integrator::EULER);
+    let euler = euler.unwrap();
+    assert!(euler.errors[0].end < 0.05 && euler.errors[0].wrong > 10 && euler.score > 1.0);
+    // What is advised shows the digits of a far finer run at every sample.
+    let best = right(&report).setting;
+    let seen = column(lab, (best.integrator.id, best.timestep), report.length, "place");
+    let fine = column(lab, (integrator::RKMK8, best.timestep / 2.0), report.length, "place");
+    for (k, (a, b)) in seen.iter().zip(fine.iter().step_by(2)).enumerate() {
+        assert_eq!(shown(*a, 1), shown(*b, 1), "sample {k}: {a} {b}");
+    }
+}
+
+#[test]
+fn late_contacts_count() {
+    // It falls for a second and then lies on the ground for as long.
+    let lab = serde_json::json!({
+        "xml": "<mujoco><worldbody><geom type='plane' size='5 5 1'/><body pos='0 0 4.905'><freejoint/>\
+                <geom type='box' size='0.1 0.1 0.1'/></body></worldbody></mujoco>",
+        "stopAt": 2, "plots": trace("data.qpos[2]"),
+    });
+    let lesson = written(&lab);
+    let work = |until: f64| {
+        let integrators = vec![Integrator::named("Euler").unwrap()];
+        let options = Options { until: Some(until), integrators, ..Options::default() };
+        own(&report(one(&lesson), &options)).cost.work
+    };
+    let (air, whole) = (work(0.8), work(2.0));
+    assert!(whole > 1.8 * air, "{air} {whole}");
+}
+
+#[test]
+fn work_decides_and_is_the_same_again() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let labs = lesson.addressed();
+    let lab = labs.iter().find(|(_, l)| l.title() == "Gears with elastic teeth").unwrap().1;
+    let [one, two] = [0; 2].map(|_| report(lab, &Options::default()));
+    let numbers = |r: &Report| -> Vec<f64> { r.rows.iter().map(|row| row.cost.work).collect() };
+    assert_eq!(numbers(&one), numbers(&two));
+    assert_eq!((&one.front, &one.advice), (&two.front, &two.advice));
+    // What solves with derivatives is dearer than what does not.
+    let of = |id: i32| {
+        let row = one.rows.iter().find(|r| r.setting.integrator.id == id && r.setting.timestep == 0.002);
+        row.unwrap().cost.work
+    };
+    assert!(of(integrator::IMPLICIT) > 3.0 * of(integrator::EULER));
+}
+
+#[test]
+fn orders_are_shown_where_there_is_one() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    for (_, lab) in lesson.addressed() {
+        let report = report(lab, &Options::default());
+        let touched = ["A fast ball between walls", "Dry friction", "A slam", "A pinball", "A stack"];
+        let orders = report.rows.iter().flat_map(|r| r.errors.iter().filter_map(|e| e.order));
+        let orders: Vec<f64> = orders.collect();
+        if touched.contains(&lab.title()) {
+            assert!(orders.is_empty(), "{}: {orders:?}", lab.title());
+        }
+        assert!(orders.iter().all(|o| (0.5..9.0).contains(o)), "{}: {orders:?}", lab.title());
+    }
+}
+
+#[test]
+fn nothing_is_compared_beyond_the_horizon_of_chaos() {
+    let xml = "<mujoco><worldbody><body pos='0 0 2'><joint axis='0 1 0'/><inertial pos='0 0 -1' mass='1' \
+               diaginertia='1e-6 1e-6 1e-6'/><body pos='0 0 -1'><joint axis='0 1 0'/><inertial pos='0 0 -1' mass='1' \
+               diaginertia='1e-6 1e-6 1e-6'/></body></body></worldbody></mujoco>";
+    let lab = serde_json::json!({
+        "xml": xml, "setup": "data.qpos[0] = 3; data.qpos[1] = 0.5", "stopAt": 80, "plots": trace("data.qpos[1]"),
+    });
+    let lesson = written(&lab);
+    let integrators = vec![Integrator::named("Euler").unwrap()];
+    let report = report(one(&lesson), &Options { integrators, ..Options::default() });
+    let until = report.targets[0].until.unwrap();
+    assert!(until > 5.0 && until < 79.0, "{until}");
+    assert!(report.events.iter().all(|e| e.time.is_nan() || e.time + e.uncertain <= until));
+    for row in &report.rows {
+        assert!(row.errors[0].at.is_nan() || row.errors[0].at <= until);
+        assert_eq!((row.errors[0].order, row.penetration.is_nan()), (None, true));
+    }
+}
+
+#[test]
+fn controllers_of_time_have_a_reference_as_good_as_others() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    for (_, lab) in lesson.addressed() {
+        if !["A driven oscillator", "A square wave", "Drag", "Van der Pol"].contains(&lab.title()) {
+            continue;
+        }
+        let report = report(lab, &Options::default());
+        let target = &report.targets[0];
+        assert!(target.uncertain <= 1e-9 * target.range, "{}: {:e}", lab.title(), target.uncertain);
+    }
+}
+
+#[test]
+fn no_cost_of_a_plan_is_negative() {
+    use labspec::plan::{Options as PlanOptions, plan};
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let mut measured = 0;
+    for (_, lab) in lesson.addressed().into_iter().take(8) {
+        let model = model(lab);
+        let programs = Programs::compile(lab, &model, &mut Vec::new());
+        // What is read already joins nothing: its cost is the clock's noise, on either side of nothing.
+        let read = vec!["data.qpos".to_string(), "data.qvel".to_string(), "data.time".to_string()];
+        let report = plan(lab, &model, &programs, &PlanOptions { read, run: true }).unwrap();
+        let stages =
+            report.rows.iter().flat_map(|r| [r.forced, r.cost.map(|c| c.ns), r.cost.map(|c| c.share)]);
+        let costs: Vec<f64> = stages.chain(report.readers.iter().map(|r| r.cost)).flatten().collect();
+        assert!(costs.iter().all(|c| *c >= 0.0), "{}: {costs:?}", lab.title());
+        measured += costs.len();
+    }
+    assert!(measured > 100, "{measured}");
+}
+
+#[test]
+fn nothing_reads_zero_where_more_is_true() {
+    // A pendulum whose plot is compared with a reference, and a stack whose contacts are late by a step in a page.
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    for (_, lab) in lesson.addressed() {
+        let report = report(lab, &Options::default());
+        for row in report.rows.iter().filter(|r| r.fate == Fate::Good) {
+            for (e, target) in row.errors.iter().zip(&report.targets).filter(|(_, t)| t.is_compared()) {
+                assert!(e.largest > target.uncertain || e.below, "{}: {:?} {e:?}", lab.title(), row.setting);
+            }
+            assert!(row.events.iter().all(|off| *off != 0.0), "{}: {:?}", lab.title(), row.setting);
+        }
+    }
+}
+
+#[test]
+fn units_stand_where_they_are_known() {
+    let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
+    let mut known = 0;
+    for (_, lab) in lesson.addressed() {
+        let integrators = vec![Integrator::named("RK4").unwrap()];
+        let report = report(lab, &Options { integrators, until: Some(0.04), ..Options::default() });
+        for target in report.targets {
+            let stated = target.label.contains('(');
+            assert!(!stated || target.unit.as_ref().is_some_and(|u| target.label.contains(u.as_str())));
+            known += usize::from(target.unit.is_some());
+        }
+    }
+    assert!(known >= 25, "{known}");
+}
