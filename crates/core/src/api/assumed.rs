@@ -7,17 +7,12 @@
 //! narrower plan leaves out would still be what the last pass found.
 
 use super::contents::Contents;
-use super::data::{Data, Scope};
-use super::error::Error;
-use super::model::Model;
 use super::planning::Plan;
-use crate::model::plan::Plan as PlanTable;
 use crate::model::reflect::FieldSet;
-use crate::step::scene::{deciding, never_asked};
-use crate::step::{functions, reset};
+use crate::step::scene::never_asked;
 
 /// For how many passes values must have stayed before a plan takes them as they are.
-const SETTLED: u64 = 256;
+pub(super) const SETTLED: u64 = 256;
 
 /// What a plan takes for granted.
 #[derive(Clone, Debug)]
@@ -25,13 +20,13 @@ pub(super) struct Assumed {
     /// The contents that the plan was made for; `None` where it holds for any.
     pub(super) made_for: Option<Contents>,
     /// The fields of which it holds for any value.
-    any: FieldSet,
+    pub(super) any: FieldSet,
     /// Whether these are more than there need be.
-    wide: bool,
+    pub(super) wide: bool,
     /// The work from which on the values at hand count as settled.
-    settled: u64,
+    pub(super) settled: u64,
     /// A narrower plan is due at the next pass.
-    due: bool,
+    pub(super) due: bool,
 }
 
 impl Assumed {
@@ -56,70 +51,6 @@ impl Assumed {
     pub(super) fn adopt_constants(&mut self, contents: &Contents) {
         if let Some(planned) = &mut self.made_for {
             planned.adopt_constants(contents);
-        }
-    }
-}
-
-impl<S: Scope> Data<S> {
-    /// The parameters of the model are others than those that the data were used with last, or those of a clone, or the plan is
-    /// wider than it need be. Where they differ from what the plan was made for in nothing but what may be any, it stays; else it
-    /// is made again.
-    #[cold]
-    pub(super) fn catch_up(&mut self, m: &Model, whole: bool) -> Result<(), Error> {
-        self.belongs_to(m)?;
-        let Some(planned) = &mut self.assumed.made_for else {
-            self.version = m.contents.version;
-            return Ok(());
-        };
-        let now = functions::cost(&self.inner);
-        let calm = now >= self.assumed.settled;
-        let unrest = now.saturating_add(SETTLED.saturating_mul(functions::cost_of_pass(&self.inner)));
-        let changed = planned.changed(&m.contents);
-        let mut narrower = whole && self.assumed.wide && (calm || self.assumed.due);
-        if !changed.difference(&self.assumed.any).is_empty() {
-            narrower |= whole && calm;
-            if !narrower {
-                self.assumed.due |= calm;
-                let mut any = self.assumed.any;
-                any.extend(&changed.intersection(&self.demand.writes));
-                self.plan_for(m, any);
-            }
-            self.assumed.settled = self.assumed.settled.max(unrest);
-        } else if self.assumed.wide {
-            let moved = changed.intersection(&deciding());
-            if !moved.is_empty() {
-                planned.adopt(&m.contents, &moved);
-                self.assumed.settled = self.assumed.settled.max(unrest);
-                narrower &= self.assumed.due;
-            }
-        }
-        if narrower {
-            self.assumed.due = false;
-            self.plan_for(m, never_asked(&self.demand));
-        }
-        self.version = self.assumed.version_of(&m.contents);
-        Ok(())
-    }
-
-    /// Makes the plan anew, for the model as it is.
-    pub(super) fn plan_again(&mut self, m: &Model) {
-        let mut any = self.assumed.any;
-        any.extend(&never_asked(&self.demand));
-        self.plan_for(m, any);
-    }
-
-    /// The same for any value of some fields.
-    fn plan_for(&mut self, m: &Model, any: FieldSet) {
-        let PlanTable { ways, more, .. } = *self.inner.plan();
-        let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, ways, more));
-        reset::set_plan(m, &mut self.inner, plan.inner);
-        // What the data hold may be more than the plan takes for granted.
-        self.touched = !S::FULL;
-        self.assumed.any = any;
-        self.assumed.wide = any != never_asked(&self.demand);
-        match &mut self.assumed.made_for {
-            Some(planned) => planned.follow(&m.contents),
-            None => self.assumed.made_for = plan.made_for,
         }
     }
 }

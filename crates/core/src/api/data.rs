@@ -1,18 +1,18 @@
 //! `Data` as everybody but the engine sees it: of one model, read by name, written where that means something.
 
 use super::addresses::Addresses;
-use super::assumed::Assumed;
+use super::assumed::{Assumed, SETTLED};
 use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::planning::Plan;
 use crate::model::fields::data_fields;
-use crate::model::plan::Fact;
-use crate::model::reflect::{self, FieldId, Kind, Object, View, ViewMut, data};
+use crate::model::plan::{Fact, Plan as PlanTable};
+use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut, data};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
-use crate::step::reset;
-use crate::step::scene::Demand;
+use crate::step::scene::{Demand, deciding, never_asked};
 use crate::step::workspace::Data as Inner;
+use crate::step::{functions, reset};
 use std::marker::PhantomData;
 use std::ops::Deref;
 use std::sync::Arc;
@@ -300,6 +300,70 @@ impl<S: Scope> Data<S> {
 
     fn lacks(&self, fields: &[FieldId]) -> Result<(), Error> {
         fields.iter().try_for_each(|field| self.read(*field).map(|_| ()))
+    }
+}
+
+impl<S: Scope> Data<S> {
+    /// The parameters of the model are others than those that the data were used with last, or those of a clone, or the plan is
+    /// wider than it need be. Where they differ from what the plan was made for in nothing but what may be any, it stays; else it
+    /// is made again.
+    #[cold]
+    pub(super) fn catch_up(&mut self, m: &Model, whole: bool) -> Result<(), Error> {
+        self.belongs_to(m)?;
+        let Some(planned) = &mut self.assumed.made_for else {
+            self.version = m.contents.version;
+            return Ok(());
+        };
+        let now = functions::cost(&self.inner);
+        let calm = now >= self.assumed.settled;
+        let unrest = now.saturating_add(SETTLED.saturating_mul(functions::cost_of_pass(&self.inner)));
+        let changed = planned.changed(&m.contents);
+        let mut narrower = whole && self.assumed.wide && (calm || self.assumed.due);
+        if !changed.difference(&self.assumed.any).is_empty() {
+            narrower |= whole && calm;
+            if !narrower {
+                self.assumed.due |= calm;
+                let mut any = self.assumed.any;
+                any.extend(&changed.intersection(&self.demand.writes));
+                self.plan_for(m, any);
+            }
+            self.assumed.settled = self.assumed.settled.max(unrest);
+        } else if self.assumed.wide {
+            let moved = changed.intersection(&deciding());
+            if !moved.is_empty() {
+                planned.adopt(&m.contents, &moved);
+                self.assumed.settled = self.assumed.settled.max(unrest);
+                narrower &= self.assumed.due;
+            }
+        }
+        if narrower {
+            self.assumed.due = false;
+            self.plan_for(m, never_asked(&self.demand));
+        }
+        self.version = self.assumed.version_of(&m.contents);
+        Ok(())
+    }
+
+    /// Makes the plan anew, for the model as it is.
+    pub(super) fn plan_again(&mut self, m: &Model) {
+        let mut any = self.assumed.any;
+        any.extend(&never_asked(&self.demand));
+        self.plan_for(m, any);
+    }
+
+    /// The same for any value of some fields.
+    fn plan_for(&mut self, m: &Model, any: FieldSet) {
+        let PlanTable { ways, more, .. } = *self.inner.plan();
+        let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, ways, more));
+        reset::set_plan(m, &mut self.inner, plan.inner);
+        // What the data hold may be more than the plan takes for granted.
+        self.touched = !S::FULL;
+        self.assumed.any = any;
+        self.assumed.wide = any != never_asked(&self.demand);
+        match &mut self.assumed.made_for {
+            Some(planned) => planned.follow(&m.contents),
+            None => self.assumed.made_for = plan.made_for,
+        }
     }
 }
 
