@@ -70,18 +70,19 @@ function run(lab, actions, { before, after, done } = {}, length, touch) {
     sample();
   }
   const wrong = watch.all(broke), ways = watch.ways(), touching = [...watch.touching.values()].map((t) => t.geoms);
-  const speeds = ways.map((v, b) => [b, v]);
+  const speeds = ways.map((v, b) => [b, v]), turns = new Map(watch.turns());
   const same = done ? done(model) : true;
   watch.free(); data.delete(); model.delete();
-  return { warnings: found, wrong, touching, speeds, threw, same };
+  return { warnings: found, wrong, touching, speeds, turns, threw, same };
 }
 
 // What creeps as fast where friction is hard is no fault of the contact.
 function firm(lab, actions, length, touch, wrong) {
   if (!wrong.some((f) => f.kind === 'drift')) return wrong;
-  const hard = run(lab, actions, { after: (m) => { m.opt.impratio *= 100; m.opt.cone = 1; } }, length, touch);
+  const hard = run(lab, actions, { after: (m) => { m.opt.impratio *= 100; m.opt.cone = 1; for (let k = 0; k < m.nv; k++) m.dof_solimp[5 * k] = m.dof_solimp[5 * k + 1] = 1 - 0.01 * (1 - m.dof_solimp[5 * k + 1]); } }, length, touch);
   const speed = new Map(hard.speeds);
-  return wrong.filter((f) => f.kind !== 'drift' || !(2 * (speed.get(f.body) ?? 0) > f.value));
+  const fast = (f) => (f.body === undefined ? hard.turns.get(f.joint) : speed.get(f.body)) ?? 0;
+  return wrong.filter((f) => f.kind !== 'drift' || !(2 * fast(f) > f.value));
 }
 
 // What a margin changes, and what it is there.

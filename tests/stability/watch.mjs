@@ -103,7 +103,8 @@ class Growth {
   restart(d) {
     const { m, own } = this;
     this.lasted = 0; this.leaps = 0; this.start = null; this.rest = 0; this.speed = 0; this.roots.fill(0);
-    if (Array.from(d.qfrc_applied).some((f) => f) || Array.from(d.xfrc_applied).some((f) => f)) return;
+    // What an actuator with states gives is not known from where it is.
+    if (m.na > 0 || Array.from(d.qfrc_applied).some((f) => f) || Array.from(d.xfrc_applied).some((f) => f)) return;
     const e = this.energy(d);
     let stored = 0;
     for (let i = 0; i < own.nefc; i++) stored += 0.5 * own.efc_KBIP[4 * i] * (own.efc_pos[i] - own.efc_margin[i]) ** 2 / Math.max(own.efc_diagA[i], 1e-15);
@@ -305,7 +306,34 @@ export class Watch {
   }
   places(d) {
     const rubs = this.rubs ?? new Set(); this.rubs = null;
-    this.rest.look(() => ({ time: d.time, places: Array.from({ length: this.m.nbody }, (_, b) => rows(d.xpos, b, 3)), rubs }));
+    this.rest.look(() => ({ joints: this.held(d), time: d.time, places: Array.from({ length: this.m.nbody }, (_, b) => rows(d.xpos, b, 3)), rubs }));
+  }
+  // Joints of one degree of freedom with friction loss: where they are, and whether it is less than it may be.
+  held(d) {
+    const { m } = this, list = [];
+    for (let j = 0; j < m.njnt; j++) {
+      const k = m.jnt_dofadr[j];
+      if (m.jnt_type[j] < 2 || !(m.dof_frictionloss[k] > 0)) continue;
+      let i = 0;
+      while (i < d.nefc && !(d.efc_type[i] === 1 && d.efc_id[i] === k)) i++;
+      list.push({ j, q: d.qpos[m.jnt_qposadr[j]], held: i < d.nefc && Math.abs(d.efc_force[i]) < 0.99 * d.efc_frictionloss[i] });
+    }
+    return list;
+  }
+  // How fast each of them moved on.
+  turns() {
+    const past = this.rest.past, half = past.slice(Math.floor(past.length / 2)), first = half[0], last = half[half.length - 1];
+    return half.length ? last.joints.map((x, i) => [x.j, Math.abs(x.q - first.joints[i].q) / (last.time - first.time)]) : [];
+  }
+  creeps(half, time) {
+    const { m } = this, first = half[0].joints, last = half[half.length - 1].joints;
+    return first.map((at, i) => {
+      const way = Math.abs(last[i].q - at.q), size = (b) => Math.max(0, ...Array.from({ length: m.ngeom }, (_, g) => g).filter((g) => m.geom_bodyid[g] === b).map((g) => 2 * Math.max(...halves(m, g)))) || m.stat.extent;
+      let path = 0;
+      for (let k = 1; k < half.length; k++) path += Math.abs(half[k].joints[i].q - half[k - 1].joints[i].q);
+      const least = m.jnt_type[at.j] === 2 ? 0.02 * size(m.jnt_bodyid[at.j]) : 0.01;
+      return half.every((x) => x.joints[i].held) && way > least && way >= 0.9 * path ? { kind: 'drift', joint: at.j, time: half[0].time, value: way / time } : null;
+    }).filter((x) => x);
   }
   // How fast each body moved on in the second half of what is remembered.
   ways() {
@@ -320,11 +348,12 @@ export class Watch {
     const size = (b) => { const s = Math.max(0, ...own(b).map((g) => 2 * Math.max(...halves(m, g)))); return s > 0 ? s : m.stat.extent; };
     const path = (b) => { let s = 0; for (let i = 0; i < end; i++) s += way(b, i, i + 1); return s; };
     const bodies = Array.from({ length: m.nbody }, (_, b) => b).filter((b) => b > 0 && moves(m, b));
-    if (bodies.some((b) => path(b) > 0.1 * size(b) * time)) return [];
-    return bodies.filter((b) => {
+    const joints = this.creeps(half, time);
+    if (bodies.some((b) => path(b) > 0.1 * size(b) * time)) return joints;
+    return joints.concat(bodies.filter((b) => {
       const middle = Math.floor(end / 2), one = way(b, 0, middle) / middle, two = way(b, middle, end) / (end - middle), all = way(b, 0, end);
       return half.every((x) => x.rubs.has(b)) && all > 0.02 * size(b) && all >= 0.9 * path(b) && Math.abs(one - two) <= 0.2 * Math.max(one, two);
-    }).map((b) => ({ kind: 'drift', body: b, time: half[0].time, value: way(b, 0, end) / time }));
+    }).map((b) => ({ kind: 'drift', body: b, time: half[0].time, value: way(b, 0, end) / time })));
   }
   // Everything, once the run is over. `broke` is when the library warned of a bad number.
   all(broke) {
@@ -341,7 +370,7 @@ export class Watch {
     const silent = this.sure ?? this.ranAway();
     if (silent && when === Infinity) seen.push({ kind: 'silentDivergence', ...silent });
     if (!this.controlled) seen.push(...this.drifts());
-    list.push(...seen.filter((f) => f.time < when).map(({ kind, time, value, body }) => ({ kind, time, value, body })));
+    list.push(...seen.filter((f) => f.time < when).map(({ kind, time, value, body, joint }) => ({ kind, time, value, body, joint })));
     return list;
   }
 }
