@@ -184,3 +184,89 @@ fn run_check_and_stability_report_the_same() {
     .collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
 }
+
+/// What `precision` and `verify` make of a lab as it stands beside `run`: the same words where it breaks, the same number at its end to
+/// the bit where it does not.
+fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result<bool, String> {
+    let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
+    let lab = lesson.all_labs()[0];
+    let window = stability::window(lab);
+    let mut with: Json = serde_json::from_str(text).unwrap();
+    let Some(expr) = with["readouts"][0]["expr"].as_str().map(str::to_string) else { return Ok(false) };
+    with["verify"] = serde_json::json!({
+        "runs": {"r": {"until": window}}, "measure": {"x": format!("final({expr})")}, "says": []
+    });
+    let file = folder.join(format!("{name}.json"));
+    std::fs::write(&file, with.to_string()).unwrap();
+    let report = |command: &str, more: &[&str]| -> Json {
+        let mut words = vec![command, file.to_str().unwrap(), "--format", "json"];
+        words.extend(more);
+        models.iter().for_each(|folder| words.extend(["--models", folder]));
+        let done = run_in(&workspace(), &words);
+        serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{name}: {}", done.stderr))
+    };
+    let until = window.to_string();
+    let run = report("run", &["--until", &until]);
+    // What only the watch of `check` and `stability` sees is not asked of the others.
+    let loud: BTreeSet<String> = run["breakdowns"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|b| {
+            b["help"].as_str().is_some_and(|help| !help.contains("`labspec stability` makes these runs"))
+        })
+        .map(|b| b["what"].as_str().unwrap().to_string())
+        .collect();
+    let precision = report("precision", &["--until", &until]);
+    let own = precision["rows"].as_array().unwrap().iter().find(|row| row["own"] == true);
+    if let Some(own) = own {
+        let told = own["told"].as_array().unwrap().iter().map(|t| t.as_str().unwrap().to_string());
+        let told: BTreeSet<String> = told.collect();
+        if told != loud {
+            return Err(format!("{name}: run {loud:?}, precision {told:?}"));
+        }
+    }
+    let checked = report("check", &[]);
+    let breaks: Vec<&str> = checked["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|f| f["code"] == "run-breaks")
+        .map(|f| f["message"].as_str().unwrap())
+        .collect();
+    let first = run["breakdown"]["what"].as_str().filter(|what| loud.contains(*what));
+    if breaks.is_empty() != first.is_none() || first.is_some_and(|what| !breaks[0].contains(what)) {
+        return Err(format!("{name}: run {first:?}, verify {breaks:?}"));
+    }
+    let measured = checked["lessons"][0]["claims"][0]["measures"]["x"]["value"].as_f64();
+    let Some(measured) = measured else { return Ok(false) };
+    let column =
+        run["columns"].as_array().unwrap().iter().position(|c| c.as_str().unwrap().starts_with("readout/"));
+    let last = run["rows"].as_array().unwrap().last().unwrap();
+    let shown = column.and_then(|c| last[c].as_f64());
+    if shown.is_some_and(|shown| shown.to_bits() != measured.to_bits()) {
+        return Err(format!("{name}: run {shown:?}, verify {measured}"));
+    }
+    Ok(shown.is_some())
+}
+
+#[test]
+fn precision_and_verify_say_what_run_says() {
+    let own = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
+    let mut labs: Vec<(String, String, Option<&str>)> = own.collect();
+    if needs("../shared/corpus") {
+        let folder = workspace().join("../shared/corpus/labs");
+        let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+        files.sort();
+        labs.extend(files.iter().map(|f| {
+            let name = f.file_stem().unwrap().to_str().unwrap().to_string();
+            (name, std::fs::read_to_string(f).unwrap(), Some("../shared/corpus/models"))
+        }));
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let said = for_each(labs.len(), |i| others(folder.path(), &labs[i].0, &labs[i].1, labs[i].2));
+    let wrong: Vec<String> = said.iter().filter_map(|s| s.clone().err()).collect();
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
+    let compared = said.iter().filter(|s| **s == Ok(true)).count();
+    assert!(compared >= 15, "{compared} numbers were compared");
+}
