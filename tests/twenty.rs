@@ -87,7 +87,7 @@ fn broken_settings_are_reported_and_sound_ones_are_not() {
         broken[1], broken[0], sound[1], sound[0]
     );
     wrong.iter().for_each(|line| println!("{line}"));
-    assert!(broken[0] >= 150 && sound[0] >= 400, "{broken:?} {sound:?}");
+    assert!(broken[0] >= 1000 && sound[0] >= 3000, "{broken:?} {sound:?}");
     assert!(broken[1] as f64 >= REPORTED * broken[0] as f64, "{broken:?}");
     assert!(sound[1] as f64 <= ALARMS * sound[0] as f64, "{sound:?}");
 }
