@@ -119,19 +119,40 @@ fn set(text: &str, values: &Json) -> String {
     lab.to_string()
 }
 
+/// A lab: its name, its text, and the folder of its model.
+type Named = (String, String, Option<&'static str>);
+
+/// The labs of the corpus, where it is there.
+fn corpus() -> Vec<Named> {
+    if !needs("../shared/corpus") {
+        return Vec::new();
+    }
+    let folder = workspace().join("../shared/corpus/labs");
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    files.sort();
+    let named = |f: &std::path::PathBuf| {
+        let name = f.file_stem().unwrap().to_str().unwrap().to_string();
+        (name, std::fs::read_to_string(f).unwrap(), Some("../shared/corpus/models"))
+    };
+    files.iter().map(named).collect()
+}
+
+/// What a command of the program reports of a lab.
+fn report(command: &str, file: &Path, models: Option<&str>, more: &[&str]) -> Json {
+    let mut words = vec![command, file.to_str().unwrap(), "--format", "json"];
+    words.extend(more);
+    models.iter().for_each(|folder| words.extend(["--models", folder]));
+    let done = run_in(&workspace(), &words);
+    serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}: {}", file.display(), done.stderr))
+}
+
 /// Where the three do not report the same of a lab as it stands.
 fn three(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Option<String> {
     let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
     let window = stability::window(lesson.all_labs()[0]).to_string();
     let file = folder.join(format!("{name}.json"));
     std::fs::write(&file, text).unwrap();
-    let report = |command: &str, more: &[&str]| -> Json {
-        let mut words = vec![command, file.to_str().unwrap(), "--format", "json"];
-        words.extend(more);
-        models.iter().for_each(|folder| words.extend(["--models", folder]));
-        let done = run_in(&workspace(), &words);
-        serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{name}: {}", done.stderr))
-    };
+    let report = |command: &str, more: &[&str]| report(command, &file, models, more);
     let texts = |list: &Json, key: &str| -> Vec<String> {
         list.as_array().unwrap().iter().map(|x| x[key].as_str().unwrap().to_string()).collect()
     };
@@ -158,22 +179,14 @@ fn run_check_and_stability_report_the_same() {
     let golden = read_json(&workspace().join("tests/golden/twenty.json"));
     // Settings as they come, as many of each lab.
     let settings = golden["settings"].as_array().unwrap().iter().take(40);
-    let mut labs: Vec<(String, String, Option<&str>)> = settings
+    let mut labs: Vec<Named> = settings
         .enumerate()
         .map(|(i, s)| {
             (format!("setting-{i}"), set(&blocks[s["lab"].as_u64().unwrap() as usize], &s["set"]), None)
         })
         .collect();
     labs.extend(blocks.iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text.to_string(), None)));
-    if needs("../shared/corpus") {
-        let folder = workspace().join("../shared/corpus/labs");
-        let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
-        files.sort();
-        labs.extend(files.iter().map(|f| {
-            let name = f.file_stem().unwrap().to_str().unwrap().to_string();
-            (name, std::fs::read_to_string(f).unwrap(), Some("../shared/corpus/models"))
-        }));
-    }
+    labs.extend(corpus());
     let folder = tempfile::tempdir().unwrap();
     let wrong: Vec<String> = for_each(labs.len(), |i| {
         let (name, text, models) = &labs[i];
@@ -198,13 +211,7 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
     });
     let file = folder.join(format!("{name}.json"));
     std::fs::write(&file, with.to_string()).unwrap();
-    let report = |command: &str, more: &[&str]| -> Json {
-        let mut words = vec![command, file.to_str().unwrap(), "--format", "json"];
-        words.extend(more);
-        models.iter().for_each(|folder| words.extend(["--models", folder]));
-        let done = run_in(&workspace(), &words);
-        serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{name}: {}", done.stderr))
-    };
+    let report = |command: &str, more: &[&str]| report(command, &file, models, more);
     let until = window.to_string();
     let run = report("run", &["--until", &until]);
     // What only the watch of `check` and `stability` sees is not asked of the others.
@@ -253,16 +260,8 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
 #[test]
 fn precision_and_verify_say_what_run_says() {
     let own = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
-    let mut labs: Vec<(String, String, Option<&str>)> = own.collect();
-    if needs("../shared/corpus") {
-        let folder = workspace().join("../shared/corpus/labs");
-        let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
-        files.sort();
-        labs.extend(files.iter().map(|f| {
-            let name = f.file_stem().unwrap().to_str().unwrap().to_string();
-            (name, std::fs::read_to_string(f).unwrap(), Some("../shared/corpus/models"))
-        }));
-    }
+    let mut labs: Vec<Named> = own.collect();
+    labs.extend(corpus());
     let folder = tempfile::tempdir().unwrap();
     let said = for_each(labs.len(), |i| others(folder.path(), &labs[i].0, &labs[i].1, labs[i].2));
     let wrong: Vec<String> = said.iter().filter_map(|s| s.clone().err()).collect();

@@ -4,6 +4,7 @@
 use super::case::{Case, Outcome};
 use super::fault::{Fault, FaultKind};
 use super::handling::{Action, Handling, Kind};
+use super::margins;
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
 use crate::run::{self, Begun, Breakdown, Play, RunError, RunOptions, Session, Shorter, Table};
@@ -94,11 +95,10 @@ pub(crate) fn with_tried_timestep(
     breakdown
 }
 
-/// Whether nothing breaks in a run, and what was reported is not there.
+/// Whether nothing goes wrong in a run but what creeps, and what was reported is not there.
 fn is_sound(outcome: &Outcome, rule: &Rule) -> bool {
-    let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
     let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
-    !outcome.faults.iter().any(|f| breaks(f.kind) || same(f))
+    margins::worst(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
 }
 
 /// Two digits, never more than the number.
