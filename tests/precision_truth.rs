@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
-use crate::support::workspace;
+use crate::support::{for_each, read_json, workspace};
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
@@ -11,6 +11,7 @@ use labspec::precision::{Fate, Integrator, Kind, Options, Report, Row, compare};
 use labspec::run::{self, Cell, RunOptions, shown};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
+use labspec::stability;
 use labspec_core::{Model, integrator};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -115,6 +116,36 @@ fn events_and_ends_are_those_of_equations_by_hand() {
         }
     }
     assert!(times >= 50 && ends >= 20, "{times} times, {ends} ends");
+}
+
+/// What `stability` says of small differences, in steps that leave no error to see, beside the derivative of the flow by the equations
+/// (`tests/golden/parting.py`): the same directions become as many times as large.
+#[test]
+fn small_differences_grow_as_by_equations_by_hand() {
+    let golden = read_json(&workspace().join("tests/golden/parting.json"));
+    let lesson = load_lesson(
+        SourceFile::new("kinds.md", std::fs::read_to_string(kinds()).unwrap()),
+        &ModelFolder::unknown(),
+    );
+    let labs = lesson.all_labs();
+    let far = |i: usize| -> Option<String> {
+        let mut lab = labs[i].clone();
+        let title = lab.title.as_ref().unwrap().value.clone();
+        let (truth, until) = (&golden[&title], golden[&title]["until"].as_f64().unwrap());
+        lab.stop_at.iter_mut().for_each(|stop| stop.value = until);
+        let mut model = Model::clone(&model(&lab));
+        (*model.edit().opt.timestep, *model.edit().opt.integrator) = (0.0002, integrator::RK4);
+        let programs = Programs::compile(&lab, &model, &mut Vec::new());
+        let options = stability::Options { until: Some(until), ..Default::default() };
+        let report = stability::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
+        let found = report.sensitivity.parting.unwrap();
+        let off = |x: f64, key: &str| (x / truth[key].as_f64().unwrap() - 1.0).abs();
+        println!("{title}: {:e} {:e}", off(found.low, "low"), off(found.high, "high"));
+        (off(found.low, "low").max(off(found.high, "high")) > 1e-3 || report.sensitivity.exponent.is_some())
+            .then(|| format!("{title}: {:?}, {truth}", report.sensitivity))
+    };
+    let wrong: Vec<String> = for_each(labs.len(), far).into_iter().flatten().collect();
+    assert!(labs.len() == 21 && wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 #[test]

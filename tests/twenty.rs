@@ -257,6 +257,63 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
     Ok(shown.is_some())
 }
 
+/// What `trace` finds of the first readout at the end of a lab's own run, quoted in a sentence: the measures that it proposes have the
+/// values that `verify` gives them, to the bit. Returns how many measures there were, and of how many the value is the one that `run`
+/// ends with, to the bit.
+fn traced(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result<[usize; 2], String> {
+    let report = |command: &str, file: &Path| report(command, file, models, &[]);
+    let lab = folder.join(format!("{name}.json"));
+    std::fs::write(&lab, text).unwrap();
+    let run = report("run", &lab);
+    let is_readout = |c: &Json| c.as_str().unwrap().starts_with("readout/");
+    let Some(column) = run["columns"].as_array().unwrap().iter().position(is_readout) else {
+        return Ok([0; 2]);
+    };
+    let end = &run["rows"].as_array().unwrap().last().unwrap()[column];
+    let Some(end) = end.as_f64() else { return Ok([0; 2]) };
+    let quote = format!("{end:.6}");
+    let units = ["rad", "m", "m/s", "rad/s", "J", "N", "N m"].map(|unit| format!("{quote} {unit}"));
+    let lesson =
+        |lab: &str| format!("# A lab\n\n```lab simlab\n{lab}\n```\n\nIt ends at {}.\n", units.join(", "));
+    let file = folder.join(format!("{name}.md"));
+    std::fs::write(&file, lesson(text)).unwrap();
+    let trace = report("trace", &file);
+    let Some(proposal) = trace["proposals"].get(0) else { return Ok([0; 2]) };
+    let mut with: Json = serde_json::from_str(text).unwrap();
+    with["verify"] = proposal["verify"].clone();
+    std::fs::write(&file, lesson(&with.to_string())).unwrap();
+    let checked = report("check", &file);
+    let measures = &checked["lessons"][0]["claims"][0]["measures"];
+    let mut found = [0; 2];
+    for number in
+        trace["numbers"].as_array().unwrap().iter().filter(|n| n["origin"] == "traced" && n["factor"] == "")
+    {
+        let (value, measure) = (number["value"].as_f64().unwrap(), number["measure"].as_str().unwrap());
+        let proposed = proposal["verify"]["measure"].as_object().unwrap();
+        let Some((label, _)) = proposed.iter().find(|(_, text)| **text == measure) else { continue };
+        let Some(verified) = measures[label]["value"].as_f64() else { continue };
+        if verified.to_bits() != value.to_bits() {
+            return Err(format!("{name}: {measure} is {value} by trace, {verified} by verify"));
+        }
+        found[0] += 1;
+        found[1] += usize::from(value.to_bits() == end.to_bits());
+    }
+    Ok(found)
+}
+
+#[test]
+fn trace_says_what_verify_says() {
+    let own = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));
+    let mut labs: Vec<Named> = own.collect();
+    labs.extend(corpus());
+    let folder = tempfile::tempdir().unwrap();
+    let found = for_each(labs.len(), |i| traced(folder.path(), &labs[i].0, &labs[i].1, labs[i].2));
+    let wrong: Vec<String> = found.iter().filter_map(|s| s.clone().err()).collect();
+    assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
+    let [measures, ends] = [0, 1].map(|k| found.iter().flatten().map(|count| count[k]).sum::<usize>());
+    assert!(measures >= 40 && ends >= 20, "{measures} measures were compared, {ends} with the end of `run`");
+}
+
 #[test]
 fn precision_and_verify_say_what_run_says() {
     let own = texts().into_iter().enumerate().map(|(i, text)| (format!("lab-{i}"), text, None));

@@ -3,9 +3,18 @@
 //! Clones of a model share the stamps of what is the same in them. A plan keeps those of the contents that it was made for, so that
 //! what differs from them is known whichever clone a step is taken with, and in whatever order clones were written.
 
+use crate::dynamics::ways;
 use crate::model::reflect::{self, FieldId, FieldSet, NFIELD, Object};
 use crate::model::stage::Stage;
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The fields of which the tree algorithms keep copies.
+static COPIED: LazyLock<FieldSet> = LazyLock::new(|| {
+    let mut set = FieldSet::EMPTY;
+    ways::copied().for_each(|field| set.insert(field));
+    set
+});
 
 /// Where identities and stamps come from: no two writes have the same.
 static NEXT: AtomicU64 = AtomicU64::new(1);
@@ -21,6 +30,8 @@ pub(super) struct Contents {
     pub(super) model: u64,
     /// The last write: contents with the same version are the same.
     pub(super) version: u64,
+    /// The last write of a field of which the tree algorithms keep copies.
+    pub(super) copied: u64,
     /// The last write of each field.
     stamps: Box<[u64; NFIELD]>,
 }
@@ -28,12 +39,15 @@ pub(super) struct Contents {
 impl Contents {
     /// Those of a model that has just been compiled.
     pub(super) fn new() -> Contents {
-        Contents { model: next(), version: next(), stamps: Box::new([0; NFIELD]) }
+        Contents { model: next(), version: next(), copied: next(), stamps: Box::new([0; NFIELD]) }
     }
 
     /// Notes that a field is written.
     pub(super) fn touch(&mut self, field: FieldId) {
         self.version = next();
+        if COPIED.contains(field) {
+            self.copied = self.version;
+        }
         if let Some(stamp) = self.stamps.get_mut(field.index()) {
             *stamp = self.version;
         }
@@ -42,12 +56,14 @@ impl Contents {
     /// Notes that any field may be written.
     pub(super) fn touch_all(&mut self) {
         self.version = next();
+        self.copied = self.version;
         self.stamps.fill(self.version);
     }
 
     /// Notes that what `mj_setConst` computes is written.
     pub(super) fn touch_constants(&mut self) {
         self.version = next();
+        self.copied = self.version;
         for field in constants() {
             if let Some(stamp) = self.stamps.get_mut(field.index()) {
                 *stamp = self.version;
@@ -97,7 +113,7 @@ impl Contents {
 
     /// Becomes the same as other contents; allocates nothing.
     pub(super) fn follow(&mut self, other: &Contents) {
-        (self.model, self.version) = (other.model, other.version);
+        (self.model, self.version, self.copied) = (other.model, other.version, other.copied);
         self.stamps.copy_from_slice(&*other.stamps);
     }
 }

@@ -71,6 +71,8 @@ pub struct Data<S: Scope = Full> {
     /// The model, and the version of its contents when the data were used last; 0 where the plan has not been held against any.
     model: u64,
     pub(super) version: u64,
+    /// The last write of the copies that the tree algorithms keep.
+    copied: u64,
     /// What the plan takes for granted.
     pub(super) assumed: Assumed,
     pub(super) demand: Demand,
@@ -136,6 +138,7 @@ impl<S: Scope> Data<S> {
             addresses: Arc::clone(&m.addresses),
             model: m.contents.model,
             version: 0,
+            copied: m.contents.copied,
             demand: plan.demand,
             touched: !S::FULL,
             scope: PhantomData,
@@ -310,6 +313,10 @@ impl<S: Scope> Data<S> {
     #[cold]
     pub(super) fn catch_up(&mut self, m: &Model, whole: bool) -> Result<(), Error> {
         self.belongs_to(m)?;
+        if self.copied != m.contents.copied {
+            self.copied = m.contents.copied;
+            reset::load(m, &mut self.inner);
+        }
         let Some(planned) = &mut self.assumed.made_for else {
             self.version = m.contents.version;
             return Ok(());

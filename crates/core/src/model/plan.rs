@@ -82,8 +82,6 @@ pub(crate) struct Plan {
     facts: u32,
     /// How trees may be computed.
     pub(crate) ways: Ways,
-    /// Those of which parameters may change that they keep copies of.
-    pub(crate) changing: Ways,
     /// What is read of sensors.
     pub(crate) sensed: Values,
     /// Every sensor is evaluated, read or not.
@@ -102,7 +100,6 @@ impl Default for Plan {
             kept: 0,
             facts: u32::MAX,
             ways: Ways::ALL,
-            changing: Ways::ALL,
             sensed: Values::ALL,
             every_sensor: true,
             more: None,

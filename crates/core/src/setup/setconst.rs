@@ -2,7 +2,7 @@
 
 use crate::constraint::ends;
 use crate::dynamics::kinematics::sameframe;
-use crate::dynamics::{self, camera, com, mass, walk};
+use crate::dynamics::{self, camera, com, mass, walk, ways};
 use crate::forces::{tendon, transmission};
 use crate::kinds::{geom, joint};
 use crate::math::*;
@@ -60,6 +60,7 @@ pub(crate) fn set_const0(m: &mut Model) {
 }
 
 fn positions(m: &Model, d: &mut Data) {
+    ways::load(m, &mut d.work.dynamics);
     dynamics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
     com::com_pos(m, d);
     tendon::tendons(m, d);

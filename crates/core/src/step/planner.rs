@@ -6,7 +6,6 @@
 
 use super::pipeline::{STAGES, passes};
 use super::scene::{Demand, FACTS, Scene};
-use crate::dynamics::ways;
 use crate::model::Model;
 use crate::model::plan::{Decision, Fact, Plan};
 use crate::model::stage::Stage;
@@ -47,7 +46,6 @@ impl Plan {
         let mut plan = Plan::default();
         (plan.ways, plan.more) = (ways, more);
         (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
-        plan.changing = ways::changing(|fields| scene.writes(fields));
         for (fact, holds) in FACTS {
             plan.state(fact, holds(&scene));
         }

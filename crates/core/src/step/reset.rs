@@ -63,6 +63,11 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     clear_left_out(m, d);
 }
 
+/// Takes what the tree algorithms keep from the model again.
+pub(crate) fn load(m: &Model, d: &mut Data) {
+    ways::load(m, &mut d.work.dynamics);
+}
+
 /// Measures the stages from here on by a clock, from nothing.
 pub(crate) fn clock(d: &mut Data, clock: fn() -> u64) {
     d.work.watch = Some(Box::new(Stopwatch::new(clock)));

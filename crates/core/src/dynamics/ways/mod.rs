@@ -260,18 +260,12 @@ pub(crate) fn solve_alone(m: &Model, ways: Ways) -> bool {
     })
 }
 
-/// The ways that keep copies of something that changes.
-pub(crate) fn changing(changes: impl Fn(&[FieldId]) -> bool) -> Ways {
-    let keeps = |i: &usize| changes(TABLE[*i].copies);
-    (0..TABLE.len()).filter(keeps).fold(Ways::GENERAL, |ways, i| ways.with(Way(i as u8)))
-}
-
 /// The fields of which ways keep copies.
 pub(crate) fn copied() -> impl Iterator<Item = FieldId> {
     TABLE.iter().flat_map(|row| row.copies).copied()
 }
 
-/// Takes what the ways keep from the model again.
+/// Takes what the ways keep from the model again: when data are made, and when a field of which they keep copies was written.
 pub(crate) fn load(m: &Model, w: &mut Scratch) {
     TABLE.iter().for_each(|row| (row.load)(m, w));
 }
@@ -312,12 +306,7 @@ macro_rules! each {
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn place(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |way, row, of| {
-        if d.plan.changing.has(way) {
-            (row.load)(m, w);
-        }
-        (of.place)(m, d, w);
-    });
+    each!(w, places, |_way, row, of| (of.place)(m, d, w));
 }
 
 /// Orientations of bodies as quaternions, `xquat`, after [`place`].
@@ -332,9 +321,6 @@ pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, ro
     w.rows_wanted = rows;
     each!(w, forces, |way, row, of| {
         if way.0 != GENERAL as u8 || general {
-            if row.places.is_none() && d.plan.changing.has(way) {
-                (row.load)(m, w);
-            }
             (of.mass)(m, d, w);
         }
     });
@@ -344,13 +330,7 @@ pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, ro
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    each!(w, forces, |way, row, of| {
-        // M may be constant, so that nothing was loaded for it.
-        if row.places.is_none() && d.plan.changing.has(way) {
-            (row.load)(m, w);
-        }
-        (of.bias)(m, d, w, gravity);
-    });
+    each!(w, forces, |_way, row, of| (of.bias)(m, d, w, gravity));
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive: so below.
