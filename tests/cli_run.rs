@@ -161,7 +161,7 @@ fn plan_tells_what_a_reader_brings() {
     assert_eq!(joins("qvel"), json!([]));
 }
 
-/// A run without a plan shows the same to the last byte.
+/// A run in which every field is computed shows the same to the last byte.
 #[test]
 fn a_full_run_is_the_same_run() {
     let folder = folder();

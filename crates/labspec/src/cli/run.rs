@@ -27,7 +27,7 @@ pub(super) struct Arguments {
     /// Sample after every K steps
     #[arg(long, value_name = "K", default_value_t = 1)]
     every: usize,
-    /// Run without a plan: every stage in every step, read or not. The same comes out, later
+    /// Compute every field in every step, read or not, as MuJoCo does. The results are the same; the run takes longer
     #[arg(long)]
     full: bool,
     /// What to print

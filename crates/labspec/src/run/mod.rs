@@ -26,7 +26,7 @@ pub use told::{broke, threw};
 use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
-use labspec_core::{Data, Demand, Model, Plan};
+use labspec_core::{Data, Demand, FieldSet, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -43,7 +43,7 @@ pub struct RunOptions {
     pub set: Vec<(String, Value)>,
     /// Buttons by label, and the times in s of their presses.
     pub press: Vec<(String, f64)>,
-    /// Runs without a plan: every stage in every step, read or not.
+    /// Computes every field in every step, read or not.
     pub full: bool,
 }
 
@@ -130,7 +130,8 @@ pub(crate) fn begin<'p>(
     demand: &Demand,
 ) -> Result<Begun<'p>, RunError> {
     let key = lab.keyframe();
-    let plan = if options.full { Plan::full() } else { Plan::new(model, demand) };
+    let all = Demand { reads: FieldSet::ALL, ..*demand };
+    let plan = Plan::new(model, if options.full { &all } else { demand });
     let mut session = Session::start_with(programs, model, key, Data::planned(model, plan));
     set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
