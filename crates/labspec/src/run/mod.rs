@@ -26,7 +26,8 @@ pub use told::{broke, threw};
 use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
-use labspec_core::{Data, Demand, FieldSet, Model, Plan};
+use labspec_core::reflect::FieldSet;
+use labspec_core::{Data, Demand, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
