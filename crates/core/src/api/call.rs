@@ -112,7 +112,7 @@ passes! {
     /// Momentum of subtrees (`mj_subtreeVel`): `subtree_linvel`, `subtree_angmom`.
     subtree_vel engine [cvel] |m, d| subtree::subtree_vel(m, d);
     /// `cacc`, `cfrc_ext`, `cfrc_int`; needs `qacc` and the forces of constraints (`mj_rnePostConstraint`).
-    rne_post_constraint engine [cvel] |m, d| body_force::rne_post_constraint(m, d);
+    rne_post_constraint engine [cvel cinert] |m, d| body_force::rne_post_constraint(m, d);
 }
 
 /// Back to a keyframe (`mj_resetDataKeyframe`).

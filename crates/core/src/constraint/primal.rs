@@ -278,10 +278,11 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
 /// Whether the cost of a block is one quadratic all along the search direction.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn stays(d: &Fields, s: &Iterate, b: &Block) -> bool {
-    if b.cost == Cost::Push {
-        return b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0));
+    match b.cost {
+        Cost::Quadratic => true,
+        Cost::Push => b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0)),
+        _ => by_rows!(b.nrow, R => stays_other::<R>(d, s, b)),
     }
-    by_rows!(b.nrow, R => stays_other::<R>(d, s, b))
 }
 
 /// The same for a constraint that does not push.

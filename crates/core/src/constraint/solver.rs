@@ -160,7 +160,10 @@ fn warm_start(
         let gauss = |k: usize| 0.5 * (s.ma[k] - d.qfrc_smooth[k]) * (d.qacc_warmstart[k] - d.qacc_smooth[k]);
         let apart = (0..m.ntree).filter(|&tree| !islands.has(tree)).flat_map(|tree| m.tree_dofs(tree));
         let warm = reached.iter().map(|r| r.cost).sum::<f64>() + apart.map(gauss).sum::<f64>();
-        if !costs_less(d, jac, s, warm) {
+        // Where all costs are quadratic, Newton's first step ends at the minimum from anywhere.
+        let quadratic =
+            || m.opt.solver == solver::NEWTON && jac.blocks.iter().all(|b| b.cost == Cost::Quadratic);
+        if quadratic() || !costs_less(d, jac, s, warm) {
             for (island, &from) in reached.iter().enumerate() {
                 Problem { m, d, s, trees, islands, jac, island }.run(from);
             }

@@ -5,12 +5,21 @@
 
 use crate::kinds::joint;
 use crate::math::{lanes, *};
+use crate::model::plan::Fact;
 use crate::model::{Fields, Model};
 
 /// `subtree_com`, `cinert`, `cdof`.
 #[inline(never)]
 pub(crate) fn com_pos(m: &Model, d: &mut Fields) {
     subtree_com(m, d);
+    if d.plan.has(Fact::BodyInertias) {
+        body_inertias(m, d);
+    }
+    motion_axes(m, d);
+}
+
+/// `cinert`: inertias of bodies about the centre of mass of their tree.
+pub(crate) fn body_inertias(m: &Model, d: &mut Fields) {
     let com = rows::<3>(&d.subtree_com);
     let (xipos, ximat) = (rows::<3>(&d.xipos), rows::<9>(&d.ximat));
     let moments = rows::<3>(&m.body_inertia);
@@ -23,7 +32,11 @@ pub(crate) fn com_pos(m: &Model, d: &mut Fields) {
         let mass = lanes::gather_one(&m.body_mass, four);
         lanes::scatter(inertia_about(moments, &axes, offset, mass), cinert, four);
     }
+}
 
+/// `cdof`: the axis of each degree of freedom, as the motion of a body whose reference point is the centre of mass of its tree.
+fn motion_axes(m: &Model, d: &mut Fields) {
+    let com = rows::<3>(&d.subtree_com);
     let (xanchor, xaxis, xmat) = (rows::<3>(&d.xanchor), rows::<3>(&d.xaxis), rows::<9>(&d.xmat));
     let cdof = rows_mut::<6>(&mut d.cdof);
     let joints = m.jnt_type.iter().zip(&m.jnt_bodyid).zip(&m.jnt_dofadr);

@@ -22,6 +22,8 @@ pub(crate) enum Fact {
     General,
     /// Composite inertias are computed: some tree takes the general way, or they are read.
     Composite,
+    /// Inertias of bodies about the centre of mass of their tree are computed.
+    BodyInertias,
     /// Forces of bodies are computed by recursion: some tree takes the general way.
     Recursion,
     /// M and the rows of its factorization are computed only in steps in which constraints act: nothing else looks at them.

@@ -63,6 +63,7 @@ impl Plan {
         plan.state(Fact::Unforced, !forced);
         let ties = plan.has(Fact::General) || plan.keeps(Stage::Solve) || plan.keeps(Stage::Sleep);
         plan.state(Fact::Ballistic, !forced && !ties);
+        plan.state(Fact::BodyInertias, scene.needs_body_inertias(&plan));
         let for_rows = scene.mass_for_rows(&plan);
         plan.state(Fact::MassForRows, for_rows);
         plan.arranged()

@@ -321,6 +321,18 @@ impl<'a> Scene<'a> {
         (!changes).then(|| damping::has_dampers(self.m))
     }
 
+    /// Whether something looks at the inertias of bodies: trees that take the general way, derivatives of the bias force, forces between
+    /// bodies.
+    pub(super) fn needs_body_inertias(&self, plan: &Plan) -> bool {
+        let m = self.m;
+        let explicit = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
+        self.large
+            || !explicit
+            || self.writes(&[option::integrator])
+            || plan.keeps(Stage::RnePost)
+            || [data::cinert, data::crb].into_iter().any(|f| self.reads_field(f))
+    }
+
     /// Whether only constraints look at M: trees take ways that do without its general
     /// rows, and so does the integrator.
     pub(super) fn mass_for_rows(&self, plan: &Plan) -> bool {

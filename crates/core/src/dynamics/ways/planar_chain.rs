@@ -188,6 +188,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
     kinematics::bodies(d, super::general::frames(w));
     com::com_pos(m, d);
+    com::body_inertias(m, d);
     for span in w.ways.planar_chain.spans.iter().map(|span| span.dofs.clone()) {
         rows_of_m::composite_inertia(m, d, &mut w.path, &[span]);
     }
