@@ -5,7 +5,7 @@
 
 use crate::support::{check_text, codes, compile, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Checked, Depth, Tried};
+use labspec::check::{self, CheckLevel, Checked, Tried};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
@@ -312,7 +312,7 @@ fn real_labs_are_covered() {
                 continue;
             }
             let lesson = load_lesson(SourceFile::read(&path).unwrap(), models.folder());
-            let checked = check::check(lesson, &models, Depth { claims: false, ..Depth::FULL });
+            let checked = check::check(lesson, &models, CheckLevel { claims: false, ..CheckLevel::FULL });
             for lab in &checked.labs {
                 let t = lab.tried.as_ref().unwrap();
                 // Two balls gain energy at the lower end of their damping ratio, in the library as here.

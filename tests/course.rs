@@ -9,7 +9,7 @@ mod wording;
 
 use crate::support::{for_each, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Checked, Depth};
+use labspec::check::{self, CheckLevel, Checked};
 use labspec::finding::Severity;
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
@@ -43,7 +43,7 @@ pub(super) fn models() -> Models {
 }
 
 /// What a check finds in a text.
-pub(super) fn checked(name: &str, text: &str, models: &Models, depth: Depth) -> Checked {
+pub(super) fn checked(name: &str, text: &str, models: &Models, depth: CheckLevel) -> Checked {
     check::check(load_lesson(SourceFile::new(name, text), models.folder()), models, depth)
 }
 
@@ -78,7 +78,7 @@ fn everything_that_the_course_says_is_true() {
     let mut questions = 0;
     let mut quotes = 0;
     for own in course() {
-        let checked = checked(&own.name, &own.text, &models, Depth::FULL);
+        let checked = checked(&own.name, &own.text, &models, CheckLevel::FULL);
         assert_eq!(complaints(&checked), [] as [&str; 0], "{}", own.name);
         let mut asked = 0;
         for claim in &checked.claims {

@@ -7,7 +7,7 @@ use crate::mutants::material::{self, What};
 use crate::needs::needs;
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope};
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
 use labspec_bind::units::written;
@@ -69,7 +69,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
                 writeln!(page, "  {label}: ctx.{name} is set to {}", word(measure)).unwrap();
             }
         }
-        let depth = Depth { programs: true, labs: false, claims: false };
+        let depth = CheckLevel { programs: true, labs: false, claims: false };
         for f in check::check(lesson, models, depth).findings {
             if CODES.contains(&f.code) {
                 writeln!(page, "  told: {} {}", f.code, f.message).unwrap();
@@ -103,7 +103,7 @@ fn told(keys: &str) -> Vec<String> {
     let text = format!("```lab simlab\n{{\"xml\": {}, {keys}}}\n```\n", serde_json::json!(model));
     let folder = ModelFolder::unknown();
     let lesson = load_lesson(SourceFile::new("t.md", text), &folder);
-    let depth = Depth { programs: true, labs: false, claims: false };
+    let depth = CheckLevel { programs: true, labs: false, claims: false };
     let checked = check::check(lesson, &Models::new(folder), depth);
     let errors: Vec<_> = checked.findings.iter().filter(|f| f.is_error()).collect();
     assert!(errors.is_empty(), "{keys}: {errors:#?}");

@@ -6,7 +6,7 @@
 
 use crate::support::{check_text, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::finding::{Applicability, Finding, Fix, Severity};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
@@ -43,7 +43,7 @@ impl Case {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         let broken = lesson.broken.len();
         let models = Models::new(self.models.clone());
-        let checked = check::check(lesson, &models, Depth { programs: true, ..Depth::STATIC });
+        let checked = check::check(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
         (checked.findings, broken)
     }
 }

@@ -1,10 +1,10 @@
-//! A set of scenes that nobody chose: made from a seed, long after the criteria of `advice/` were written. What is true of a run comes
+//! A set of scenes that nobody chose: made from a seed, long after the criteria of `monitors/` were written. What is true of a run comes
 //! from a second one with steps a hundred times shorter; `stability.rs` writes what comes of it into `docs/measured/stability.md`.
 
 #![allow(clippy::unwrap_used)]
 
 use crate::support::compile;
-use labspec::advice::watch;
+use labspec::monitors::watch;
 use labspec_core::math::rows;
 use labspec_core::{self as core, Data, Model, Warning, geom, integrator, solver};
 use std::fmt::Write;
@@ -172,7 +172,7 @@ fn run(m: &Model, each: usize, watched: bool) -> Seen {
         for _ in 0..if k == 0 { 0 } else { each } {
             core::step(m, &mut d).unwrap();
             if let Some(w) = &mut watch {
-                watch::look(w, m, &d);
+                watch::observe(w, m, &d);
             }
         }
         seen.warned |= [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc]

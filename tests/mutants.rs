@@ -17,7 +17,7 @@ use crate::needs::needs;
 use crate::support::{for_each, workspace};
 use claims::{Case, Needs};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::finding::Severity;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
@@ -103,15 +103,20 @@ fn planted(pieces: &[Piece]) -> Vec<Mutant> {
 fn codes(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
     let (name, text) = piece.file(json);
     // A quiz has answers, a lab has runs.
-    counted(name, text, models, if piece.what == What::Quiz { Depth::CLAIMS } else { Depth::FULL })
+    counted(name, text, models, if piece.what == What::Quiz { CheckLevel::CLAIMS } else { CheckLevel::FULL })
 }
 
 /// The same in the lesson of a lab of which something is claimed: what the claims say.
 fn claims_say(piece: &Piece, json: &Value, models: &Models) -> BTreeMap<&'static str, usize> {
-    piece.lesson(json).map_or(BTreeMap::new(), |text| counted("lesson.md", text, models, Depth::CLAIMS))
+    piece.lesson(json).map_or(BTreeMap::new(), |text| counted("lesson.md", text, models, CheckLevel::CLAIMS))
 }
 
-fn counted(name: &'static str, text: String, models: &Models, depth: Depth) -> BTreeMap<&'static str, usize> {
+fn counted(
+    name: &'static str,
+    text: String,
+    models: &Models,
+    depth: CheckLevel,
+) -> BTreeMap<&'static str, usize> {
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     let mut count = BTreeMap::new();
     for f in check::check(lesson, models, depth).findings {

@@ -5,7 +5,7 @@
 use crate::support::{model_text, workspace};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
-use labspec::player::{ControlKind, Place};
+use labspec::player::{ControlKind, DisplayedIn};
 use labspec::run::{self, RunOptions};
 use labspec::{Checker, Engine, Error, Models, NoModels, Player, Value};
 use labspec_core::xml::FileProblem;
@@ -50,10 +50,10 @@ fn a_page_draws_what_the_lab_says() {
     assert_eq!(player.controls()[2].kind, ControlKind::Button);
     let shown: Vec<_> = player.shown().iter().map(|s| (s.label.as_str(), s.unit.as_str(), s.place)).collect();
     let expected = [
-        ("heavy", "m", Place::Plot(0)),
-        ("v (m/s)", "m/s", Place::Plot(0)),
-        ("peak (m)", "m", Place::Readout(4)),
-        ("kicks", "", Place::Readout(3)),
+        ("heavy", "m", DisplayedIn::Plot(0)),
+        ("v (m/s)", "m/s", DisplayedIn::Plot(0)),
+        ("peak (m)", "m", DisplayedIn::Readout(4)),
+        ("kicks", "", DisplayedIn::Readout(3)),
     ];
     assert_eq!(shown, expected);
     assert_eq!((player.numbers().len(), player.values()[3].shown(3).as_str()), (4, "none"));

@@ -11,7 +11,7 @@ use labspec::precision::{Fate, Integrator, Kind, Options, Report, Row, compare};
 use labspec::run::{self, Cell, RunOptions, shown};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
-use labspec::stability;
+use labspec::stress;
 use labspec_core::{Model, integrator};
 use serde_json::Value;
 use std::path::PathBuf;
@@ -136,8 +136,8 @@ fn small_differences_grow_as_by_equations_by_hand() {
         let mut model = Model::clone(&model(&lab));
         (*model.edit().opt.timestep, *model.edit().opt.integrator) = (0.0002, integrator::RK4);
         let programs = Programs::compile(&lab, &model, &mut Vec::new());
-        let options = stability::Options { until: Some(until), ..Default::default() };
-        let report = stability::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
+        let options = stress::Options { until: Some(until), ..Default::default() };
+        let report = stress::probe(&lab, &model, &programs, &options, &mut |_| ()).unwrap();
         let found = report.sensitivity.parting.unwrap();
         let off = |x: f64, key: &str| (x / truth[key].as_f64().unwrap() - 1.0).abs();
         println!("{title}: {:e} {:e}", off(found.low, "low"), off(found.high, "high"));
@@ -308,7 +308,7 @@ fn controllers_of_time_have_a_reference_as_good_as_others() {
 
 #[test]
 fn no_cost_of_a_plan_is_negative() {
-    use labspec::plan::{Options as PlanOptions, plan};
+    use labspec::profile::{Options as PlanOptions, plan};
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let mut measured = 0;
     for (_, lab) in lesson.addressed().into_iter().take(8) {

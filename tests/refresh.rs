@@ -5,7 +5,7 @@
 
 use crate::support::{check_text, compile, model_text, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
@@ -276,7 +276,7 @@ fn the_real_labs_are_warned_only_of_what_a_run_shows() {
             let name = path.file_stem().unwrap().to_str().unwrap();
             let models = Models::new(ModelFolder::open(&shared.join("models")).unwrap());
             let lesson = load_lesson(SourceFile::read(path).unwrap(), models.folder());
-            let checked = check::check(lesson, &models, Depth { programs: true, ..Depth::STATIC });
+            let checked = check::check(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
             for f in &checked.findings {
                 let evidence = match f.code {
                     "missing-setconst" => " with the constants computed anew",

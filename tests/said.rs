@@ -5,7 +5,7 @@
 
 use crate::support::{check_text, codes};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Checked, Depth};
+use labspec::check::{self, CheckLevel, Checked};
 use labspec::lint::{ModelFolder, load_lesson_file};
 use labspec::verify::{Judgement, QuoteState, Verdict};
 use serde_json::{Value, json};
@@ -219,7 +219,7 @@ fn a_lab_may_stand_in_another_lesson() {
     let models = Models::new(ModelFolder::unknown());
     let check = |name: &str| {
         let lesson = load_lesson_file(&folder.path().join(name), models.folder()).unwrap();
-        check::check(lesson, &models, Depth::FULL)
+        check::check(lesson, &models, CheckLevel::FULL)
     };
     write("labs.md", &format!("# Labs\n{}{}", lab(Value::Null), lab(Value::Null)));
     write("quiz.md", &quiz("labs.md#2"));

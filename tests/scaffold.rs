@@ -6,7 +6,7 @@ use crate::needs::needs;
 use crate::support::workspace;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
-use labspec::scaffold::{Found, Scaffold, scaffold, written};
+use labspec::scaffold::{Scaffold, ScaffoldOutcome, scaffold, written};
 use labspec::source::SourceFile;
 use labspec::spec::Lesson;
 use labspec::verify::Verdict;
@@ -18,12 +18,12 @@ fn look(name: &str, text: &str, models: &Models) -> (Lesson, Vec<Scaffold>) {
     (lesson, all)
 }
 
-fn of<'s>(all: &'s [Scaffold], name: &str) -> &'s Found {
+fn of<'s>(all: &'s [Scaffold], name: &str) -> &'s ScaffoldOutcome {
     &all.iter().find(|one| one.name == name).unwrap_or_else(|| panic!("{name}: {all:?}")).found
 }
 
-fn verified(found: &Found) -> bool {
-    matches!(found, Found::Proposed { verdict: Some((Verdict::Verified, _)), .. })
+fn verified(found: &ScaffoldOutcome) -> bool {
+    matches!(found, ScaffoldOutcome::Proposed { verdict: Some((Verdict::Verified, _)), .. })
 }
 
 /// The `predict` questions of a public course and of a first lesson: each block verifies without an edit; with the key moved to any
@@ -58,7 +58,11 @@ fn predictions_of_real_lessons_are_scaffolded() {
             text.replace("\"answer\": 1,", "\"answer\": 0,").replace("\"answer\": 2,", "\"answer\": 1,");
         let (_, all) = look(file, &moved, &models);
         for name in names {
-            assert!(matches!(of(&all, name), Found::Contradicted { .. }), "{name}: {:#?}", of(&all, name));
+            assert!(
+                matches!(of(&all, name), ScaffoldOutcome::Contradicted { .. }),
+                "{name}: {:#?}",
+                of(&all, name)
+            );
         }
     }
     assert_eq!(good, 4);
@@ -87,7 +91,8 @@ fn words_of_change_move_a_control() {
         )
     };
     let (lesson, all) = one(&ask(0));
-    let Found::Proposed { verify, verdict, undecided, values } = of(&all, "quiz fall, question 1") else {
+    let ScaffoldOutcome::Proposed { verify, verdict, undecided, values } = of(&all, "quiz fall, question 1")
+    else {
         panic!("{all:?}")
     };
     assert_eq!(verdict.as_ref().map(|(v, _)| *v), Some(Verdict::Verified), "{verify:#} {verdict:?}");
@@ -98,13 +103,17 @@ fn words_of_change_move_a_control() {
     let again = load_lesson(SourceFile::new("fall.md", text.as_str()), &ModelFolder::unknown());
     assert_eq!(
         again.verifies().count(),
-        lesson.verifies().count() + all.iter().filter(|s| matches!(s.found, Found::Proposed { .. })).count()
+        lesson.verifies().count()
+            + all.iter().filter(|s| matches!(s.found, ScaffoldOutcome::Proposed { .. })).count()
     );
     let plain: Value =
         serde_json::from_str(text.split("```quiz").nth(1).unwrap().split("```").next().unwrap()).unwrap();
     assert_eq!(plain["questions"][0]["verify"], *verify);
     let (_, all) = one(&ask(1));
-    assert!(matches!(of(&all, "quiz fall, question 1"), Found::Contradicted { option: 0, .. }), "{all:?}");
+    assert!(
+        matches!(of(&all, "quiz fall, question 1"), ScaffoldOutcome::Contradicted { option: 0, .. }),
+        "{all:?}"
+    );
 }
 
 #[test]
@@ -118,12 +127,15 @@ fn what_cannot_be_told_is_left_open_with_the_reason() {
         (r#"{"kind": "mcq", "q": "What happens?", "options": ["It rises", "It stays the same"]}"#, "no key"),
     ] {
         let (_, all) = one(question);
-        let Found::Open(reason) = of(&all, "quiz fall, question 1") else { panic!("{question}: {all:?}") };
+        let ScaffoldOutcome::Open(reason) = of(&all, "quiz fall, question 1") else {
+            panic!("{question}: {all:?}")
+        };
         assert!(reason.contains(why), "{question}: {reason}");
     }
     let numeric = r#"{"kind": "numeric", "q": "With which speed does it fall after 0.3 s?", "answer": 2.943, "tol": 0.01, "unit": "m/s", "explain": "<p>$v = g t = 9.81 \\times 0.3$ = 2.943 m/s.</p>"}"#;
     let (_, all) = one(numeric);
-    let Found::Proposed { verdict: Some((verdict, _)), .. } = of(&all, "quiz fall, question 1") else {
+    let ScaffoldOutcome::Proposed { verdict: Some((verdict, _)), .. } = of(&all, "quiz fall, question 1")
+    else {
         panic!("{all:?}")
     };
     assert!(matches!(verdict, Verdict::Verified | Verdict::Computed));

@@ -7,8 +7,8 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 use crate::support::{compile, read_json, workspace};
-use labspec::advice::growth::Source;
-use labspec::advice::watch::{self, Noticed};
+use labspec::monitors::growth::Source;
+use labspec::monitors::watch::{self, Noticed};
 use labspec_core::{self as core, Data, Model, Warning, enable};
 use serde_json::{Value as Json, json};
 use std::fmt::Write;
@@ -36,7 +36,7 @@ fn run(xml: &str, steps: u64, long: u64, keep: &Json) -> Json {
         let before = d.time;
         for _ in 0..each {
             core::step(&m, &mut d).unwrap();
-            watch::look(&mut watch, &m, &d);
+            watch::observe(&mut watch, &m, &d);
             if told.is_null() && watch::noticed(&watch).time().is_finite() {
                 told = said(watch::noticed(&watch));
             }

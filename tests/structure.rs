@@ -212,13 +212,13 @@ fn rooms_of_the_engine_look_down() {
     }
 }
 
-/// The road of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
+/// The pipeline of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
 /// happens when it runs, what is true of that, and how it is shown. Facades and the program come last.
-const ROAD: [&str; 34] = [
+const PIPELINE: [&str; 34] = [
     "printable",
     "interrupt",
     "threads",
-    "covering",
+    "pairwise",
     "source",
     "finding",
     "markdown",
@@ -231,12 +231,12 @@ const ROAD: [&str; 34] = [
     "bind",
     "format",
     "reference",
-    "advice",
+    "monitors",
     "run",
     "verify",
     "precision",
-    "stability",
-    "plan",
+    "stress",
+    "profile",
     "check",
     "repair",
     "trace",
@@ -253,12 +253,12 @@ const ROAD: [&str; 34] = [
 
 /// A module looks at those before it, never at one that comes after.
 #[test]
-fn the_road_of_a_lesson_is_the_order_of_its_modules() {
+fn a_module_of_the_pipeline_uses_those_before_it() {
     let room = Room::read("labspec", "");
     assert!(room.text.len() > 150 && room.uses.values().map(BTreeSet::len).sum::<usize>() > 600);
     let place = |module: &str| {
         let top = module.split("::").next().unwrap_or_default();
-        ROAD.iter().position(|r| *r == top).unwrap_or_else(|| panic!("{module} is not on the road"))
+        PIPELINE.iter().position(|r| *r == top).unwrap_or_else(|| panic!("{module} is not in the pipeline"))
     };
     for (module, uses) in room.uses.iter().filter(|(module, _)| !module.is_empty()) {
         for used in uses.iter().filter(|used| !used.is_empty()) {

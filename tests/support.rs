@@ -7,7 +7,7 @@ pub(crate) mod report;
 pub(crate) mod schema;
 
 use labspec::bind::scene::Models;
-use labspec::check::{self, Checked, Depth};
+use labspec::check::{self, CheckLevel, Checked};
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
 use labspec::source::SourceFile;
@@ -93,7 +93,7 @@ pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {
 pub(crate) fn check_text(name: &str, text: &str) -> Checked {
     let models = Models::new(ModelFolder::unknown());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
-    check::check(lesson, &models, Depth::FULL)
+    check::check(lesson, &models, CheckLevel::FULL)
 }
 
 /// The codes of everything that was found.

@@ -5,7 +5,7 @@
 use crate::needs::needs;
 use crate::support::workspace;
 use labspec::bind::scene::Models;
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
 use labspec::spec::{LabAddress, Lesson};
@@ -81,7 +81,7 @@ fn accepted(case: &Case) -> (usize, Vec<String>) {
     }
     let lesson = case.lesson(&text);
     assert!(!lesson.has_errors(), "{:?}", lesson.findings);
-    let checked = check::check(lesson, &models, Depth::CLAIMS);
+    let checked = check::check(lesson, &models, CheckLevel::CLAIMS);
     let quotes = checked.claims.iter().flat_map(|c| &c.judgement.quotes);
     let right = quotes.clone().filter(|q| q.state == QuoteState::Right).count();
     let wrong = quotes.filter(|q| q.state != QuoteState::Right).map(|q| format!("{} {}", q.text, q.reason));

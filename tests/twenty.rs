@@ -11,7 +11,7 @@ use labspec::lint::{ModelFolder, load_lesson};
 use labspec::run::RunOptions;
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
-use labspec::stability;
+use labspec::stress;
 use labspec_core::Model;
 use labspec_expr::Value;
 use serde_json::Value as Json;
@@ -48,7 +48,7 @@ fn ready(text: &str) -> Ready {
 /// The codes of what `run` reports of a setting.
 fn run(ready: &Ready, set: Vec<(String, Value)>) -> BTreeSet<&'static str> {
     let options = RunOptions { set, every: 100, ..RunOptions::default() };
-    let table = stability::watched_run(&ready.lab, &ready.model, &ready.programs, &options).unwrap();
+    let table = stress::watched_run(&ready.lab, &ready.model, &ready.programs, &options).unwrap();
     assert_eq!(table.errors, Vec::<String>::new());
     table.breakdowns.iter().map(|b| b.rule.code).collect()
 }
@@ -149,7 +149,7 @@ fn report(command: &str, file: &Path, models: Option<&str>, more: &[&str]) -> Js
 /// Where the three do not report the same of a lab as it stands.
 fn three(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Option<String> {
     let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
-    let window = stability::window(lesson.all_labs()[0]).to_string();
+    let window = stress::window(lesson.all_labs()[0]).to_string();
     let file = folder.join(format!("{name}.json"));
     std::fs::write(&file, text).unwrap();
     let report = |command: &str, more: &[&str]| report(command, &file, models, more);
@@ -203,7 +203,7 @@ fn run_check_and_stability_report_the_same() {
 fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result<bool, String> {
     let lesson = load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown());
     let lab = lesson.all_labs()[0];
-    let window = stability::window(lab);
+    let window = stress::window(lab);
     let mut with: Json = serde_json::from_str(text).unwrap();
     let Some(expr) = with["readouts"][0]["expr"].as_str().map(str::to_string) else { return Ok(false) };
     with["verify"] = serde_json::json!({

@@ -58,7 +58,7 @@ fn expect(name: &str, verdict: Verdict, prose: &str, question: &str) {
     }
     for weight in &answer.weights {
         let margin = weight.margin.map_or("-".into(), |m| format!("{m:.9}"));
-        let _ = writeln!(shown, "  option {:?}: {}, margin {margin}", weight.option, weight.words());
+        let _ = writeln!(shown, "  option {:?}: {}, margin {margin}", weight.option, weight.describe());
     }
     let _ = write!(shown, "\n{}", report::human(&checked.findings, &[&checked.lesson.file], false));
     insta::with_settings!({prepend_module_to_snapshot => false, omit_expression => true}, {

@@ -3,7 +3,7 @@
 use super::places::{Place, digits, places, quotes, verifies};
 use super::{Own, checked, complaints, counts, course, for_each, models};
 use labspec::bind::scene::Models;
-use labspec::check::Depth;
+use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
 use std::ops::Range;
 
@@ -115,7 +115,7 @@ fn without_runs(text: &str) -> String {
 /// What becomes of a lie in the text, where the claim knows better: found at its place, or in the claim that has lost its text.
 fn is_found(name: &str, text: &str, place: &Place, lie: &str, models: &Models) -> bool {
     let lied = replaced(text, &[(place.at.clone(), lie.to_string())]);
-    let checked = checked(name, &lied, models, Depth::CLAIMS);
+    let checked = checked(name, &lied, models, CheckLevel::CLAIMS);
     let end = place.at.start + lie.len();
     let claim = |span: &Range<usize>| lied.get(span.clone()).is_some_and(|t| t.contains(&place.quote));
     checked.findings.iter().filter(|f| counts(f)).any(|f| {
@@ -132,7 +132,7 @@ fn a_number_that_is_changed_in_the_text_is_found() {
     let lessons: Vec<Own> =
         course().into_iter().map(|own| Own { text: without_runs(&own.text), ..own }).collect();
     for (l, own) in lessons.iter().enumerate() {
-        let plain = checked(&own.name, &own.text, &models, Depth::CLAIMS);
+        let plain = checked(&own.name, &own.text, &models, CheckLevel::CLAIMS);
         assert_eq!(complaints(&plain), [] as [&str; 0], "{}", own.name);
         for place in places(&own.text) {
             for (how, lie) in LIES {
@@ -173,7 +173,7 @@ fn believed(own: &Own, how: &str, lie: Lie, models: &Models) -> (usize, Vec<Stri
         }
     }
     changes.sort_by_key(|(at, _)| at.start);
-    let checked = checked(&own.name, &replaced(&own.text, &changes), models, Depth::CLAIMS);
+    let checked = checked(&own.name, &replaced(&own.text, &changes), models, CheckLevel::CLAIMS);
     let quoted: Vec<_> = checked.claims.iter().flat_map(|c| &c.judgement.quotes).collect();
     let all: Vec<_> = quoted.into_iter().filter(|q| lies.contains(&q.text)).collect();
     assert_eq!(all.len(), lies.len(), "{}", own.name);
@@ -250,7 +250,7 @@ fn every_wrong_key_is_found() {
         let (l, at, key) = &cases[i];
         let own = &lessons[*l];
         let lied = replaced(&own.text, &[(at.clone(), key.clone())]);
-        let checked = checked(&own.name, &lied, &models, Depth::CLAIMS);
+        let checked = checked(&own.name, &lied, &models, CheckLevel::CLAIMS);
         let end = at.start + key.len();
         checked.findings.iter().any(|f| counts(f) && f.span.start < end && at.start < f.span.end)
     });

@@ -3,7 +3,7 @@
 use super::places::{Place, places, verifies};
 use super::{checked, complaints, course, for_each, models};
 use crate::program::program;
-use labspec::check::Depth;
+use labspec::check::CheckLevel;
 use labspec::verify::QuoteState;
 use serde_json::Value;
 
@@ -105,7 +105,7 @@ fn another_layout_and_other_words_are_no_lie() {
         let text = change(&own.text);
         assert!(text != own.text || how == "other words", "{how} changes nothing of {}", own.name);
         assert_eq!(verifies(&text).len(), verifies(&own.text).len());
-        let checked = checked(&own.name, &text, &models, Depth::CLAIMS);
+        let checked = checked(&own.name, &text, &models, CheckLevel::CLAIMS);
         let quotes = checked.claims.iter().flat_map(|c| &c.judgement.quotes);
         let unsure = quotes.filter(|q| q.state != QuoteState::Right).map(|q| q.reason.clone());
         let all: Vec<String> = complaints(&checked).into_iter().chain(unsure).collect();

@@ -2,7 +2,7 @@
 
 use super::scenes::{NEVER, Scene};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Checked, Depth};
+use labspec::check::{self, CheckLevel, Checked};
 use labspec::ledger::State;
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
@@ -103,7 +103,7 @@ pub(super) fn text(scene: &Scene, claims: &[Claim]) -> String {
 pub(super) fn check(scene: &Scene, claims: &[Claim]) -> Checked {
     let models = Models::new(ModelFolder::unknown());
     let lesson = load_lesson(SourceFile::new("claims.md", text(scene, claims)), models.folder());
-    check::check(lesson, &models, Depth::CLAIMS)
+    check::check(lesson, &models, CheckLevel::CLAIMS)
 }
 
 /// The measures of both runs, by name.

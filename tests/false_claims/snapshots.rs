@@ -3,13 +3,13 @@
 use super::random::Random;
 use super::scenes::Scene;
 use labspec::bind::scene::Models;
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::ledger::State;
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
 use labspec::spec::Lesson;
 
-const DEPTH: Depth = Depth { programs: false, labs: true, claims: false };
+const DEPTH: CheckLevel = CheckLevel { programs: false, labs: true, claims: false };
 
 fn lesson(scenes: &[Scene], snapshot: Option<&str>) -> Lesson {
     let labs: String = scenes.iter().map(|s| format!("```lab simlab\n{}\n```\n\n", s.lab)).collect();

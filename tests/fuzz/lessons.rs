@@ -4,7 +4,7 @@ use super::{Random, tries};
 use crate::program::{CLEAN, FALL, wrong};
 use crate::support::{model_text, workspace};
 use labspec::bind::scene::Models;
-use labspec::check::{self, Depth};
+use labspec::check::{self, CheckLevel};
 use labspec::format::format;
 use labspec::lint::ModelFolder;
 use labspec::lint::load_lesson;
@@ -202,7 +202,7 @@ fn holds_nothing(text: &str) -> bool {
 }
 
 /// What a check says of a text: the report for people and the one for programs. Every place lies in the file.
-fn said(name: &str, text: &str, models: &ModelFolder, depth: Depth) -> String {
+fn said(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> String {
     let mut models = Models::new(models.clone());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     let checked = check::check(lesson, &models, depth);
@@ -245,7 +245,7 @@ fn damaged_lessons_are_read_checked_and_reported() {
         for _ in 0..1 + random.below(4) {
             mutate(&mut random, &corpus, &mut text);
         }
-        let depth = if runs { Depth::FULL } else { Depth::STATIC };
+        let depth = if runs { CheckLevel::FULL } else { CheckLevel::STATIC };
         let name = if text.trim_start().starts_with(['{', '[']) { "lesson.json" } else { "lesson.md" };
         let first = said(name, &text, &models, depth);
         assert!(runs || first == said(name, &text, &models, depth), "not the same twice");

@@ -1,7 +1,7 @@
 //! A lesson checked from memory: text in, findings and the ledger out.
 
 use crate::bind::{Functions, scene};
-use crate::check::{self, Checked, Depth};
+use crate::check::{self, CheckLevel, Checked};
 use crate::error::located;
 use crate::finding::{self, Finding, InFile};
 use crate::ledger::{Entry, Ledger, Outcome};
@@ -15,7 +15,7 @@ use std::path::Path;
 #[derive(Debug)]
 pub struct Checker {
     models: scene::Models,
-    depth: Depth,
+    depth: CheckLevel,
     rules: Rules,
     sources: Sources,
 }
@@ -59,13 +59,13 @@ impl Checker {
     /// A checker of lessons whose labs name these models: a map, a closure ([`Models`](crate::Models)), or a folder
     /// ([`ModelFolder`]). Only a folder is ever looked for among files.
     pub fn new(models: impl Into<ModelFolder>) -> Checker {
-        let depth = Depth::FULL;
+        let depth = CheckLevel::FULL;
         let (rules, sources) = (Rules::default(), Sources::default());
         Checker { models: scene::Models::new(models.into()), depth, rules, sources }
     }
 
     /// The same without runs of labs or without verdicts on claims: quicker, and it says less.
-    pub fn depth(mut self, depth: Depth) -> Checker {
+    pub fn depth(mut self, depth: CheckLevel) -> Checker {
         self.depth = depth;
         self
     }

@@ -145,7 +145,7 @@ pub struct Count {
     /// Left out of this check.
     pub left_out: usize,
     /// No better than the baseline says.
-    pub known: usize,
+    pub baselined: usize,
     /// Not claimed.
     pub not_claimed: usize,
 }
@@ -204,7 +204,7 @@ impl Ledger {
                 State::False => &mut count.wrong,
                 State::Unchecked => &mut count.unchecked,
                 State::LeftOut => &mut count.left_out,
-                State::Known => &mut count.known,
+                State::Known => &mut count.baselined,
                 State::NotClaimed => &mut count.not_claimed,
             } += 1;
         }

@@ -15,13 +15,11 @@
 //! checks lessons from memory, an [`Engine`] is a model with the language (it comes from the crate `labspec-bind`, which needs no
 //! lessons). [`Models`] is where models come from.
 
-pub mod advice;
 pub mod bind;
 pub mod check;
 pub mod checker;
 #[cfg(feature = "cli")]
 pub mod cli;
-mod covering;
 pub mod error;
 pub mod finding;
 pub mod format;
@@ -33,10 +31,12 @@ pub mod lint;
 pub mod lsp;
 pub mod markdown;
 pub mod models;
-pub mod plan;
+pub mod monitors;
+mod pairwise;
 pub mod player;
 pub mod precision;
 mod printable;
+pub mod profile;
 pub mod reference;
 pub mod repair;
 pub mod report;
@@ -45,7 +45,7 @@ pub mod run;
 pub mod scaffold;
 pub mod source;
 pub mod spec;
-pub mod stability;
+pub mod stress;
 #[cfg(feature = "cli")]
 mod threads;
 pub mod trace;

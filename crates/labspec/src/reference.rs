@@ -190,7 +190,7 @@ mod tests {
     use crate::bind::functions::{self, FunctionDoc};
     use crate::bind::scene::Models;
     use crate::bind::{ModelNames, Scope, World};
-    use crate::check::{self, Depth};
+    use crate::check::{self, CheckLevel};
     use crate::lint::ModelFolder;
     use crate::lint::load_lesson;
     use crate::source::SourceFile;
@@ -235,7 +235,7 @@ mod tests {
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
         let models = Models::new(ModelFolder::unknown());
-        let checked = check::check(lesson, &models, Depth::CLAIMS);
+        let checked = check::check(lesson, &models, CheckLevel::CLAIMS);
         let value = checked.claims.first().and_then(|c| c.judgement.measures.first()).map(|m| m.value);
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }
@@ -248,7 +248,7 @@ mod tests {
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
         let models = Models::new(ModelFolder::unknown());
-        let checked = check::check(lesson, &models, Depth::CLAIMS);
+        let checked = check::check(lesson, &models, CheckLevel::CLAIMS);
         let value = checked.claims.first().and_then(|c| c.judgement.quotes.first()).map(|q| q.computed);
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }

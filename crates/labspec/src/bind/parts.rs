@@ -6,28 +6,28 @@ use std::cell::RefCell;
 use std::path::Path;
 
 /// Makes a mark of some bytes, which other bytes do not share: a digest. Whoever keeps results brings it.
-pub type Mark = fn(&[&[u8]]) -> String;
+pub type Hash = fn(&[&[u8]]) -> String;
 
 /// A file that a model was made of.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Part {
+pub struct ModelFile {
     /// Its path from the folder of the model; empty for the model itself.
     pub path: String,
     /// Most bytes that it may have.
     pub limit: usize,
     /// The mark of its bytes, or of why there are none.
-    pub mark: String,
+    pub hash: String,
 }
 
 /// The mark of a model file's text.
-pub(super) fn mark_of_text(mark: Mark, text: Result<&str, &str>) -> String {
+pub(super) fn mark_of_text(mark: Hash, text: Result<&str, &str>) -> String {
     match text {
         Ok(text) => mark(&[b"text", text.as_bytes()]),
         Err(why) => mark(&[b"none", why.as_bytes()]),
     }
 }
 
-fn mark_of_bytes(mark: Mark, bytes: &Result<Vec<u8>, FileProblem>) -> String {
+fn mark_of_bytes(mark: Hash, bytes: &Result<Vec<u8>, FileProblem>) -> String {
     match bytes {
         Ok(bytes) => mark(&[b"bytes", bytes]),
         Err(why) => mark(&[b"none", format!("{why:?}").as_bytes()]),
@@ -35,7 +35,7 @@ fn mark_of_bytes(mark: Mark, bytes: &Result<Vec<u8>, FileProblem>) -> String {
 }
 
 /// The mark of a part as it is now.
-pub(super) fn mark_now(mark: Mark, model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
+pub(super) fn mark_now(mark: Hash, model: &Path, files: &dyn Files, path: &str, limit: usize) -> String {
     if path.is_empty() {
         let file = SourceFile::read(model);
         return mark_of_text(mark, file.as_ref().map(SourceFile::text).map_err(String::as_str));
@@ -46,17 +46,17 @@ pub(super) fn mark_now(mark: Mark, model: &Path, files: &dyn Files, path: &str, 
 /// Files that remember what was read of them, when it is to be marked.
 pub(super) struct Remembering<'f> {
     files: &'f dyn Files,
-    mark: Option<Mark>,
-    parts: RefCell<Vec<Part>>,
+    mark: Option<Hash>,
+    parts: RefCell<Vec<ModelFile>>,
 }
 
 impl<'f> Remembering<'f> {
-    pub(super) fn new(files: &'f dyn Files, mark: Option<Mark>) -> Remembering<'f> {
+    pub(super) fn new(files: &'f dyn Files, mark: Option<Hash>) -> Remembering<'f> {
         Remembering { files, mark, parts: RefCell::default() }
     }
 
     /// Every file that was asked for, once each.
-    pub(super) fn parts(self) -> Vec<Part> {
+    pub(super) fn parts(self) -> Vec<ModelFile> {
         let mut parts = self.parts.into_inner();
         parts.sort();
         parts.dedup();
@@ -69,7 +69,7 @@ impl Files for Remembering<'_> {
         let bytes = self.files.read(path, limit);
         if let Some(mark) = self.mark {
             let mark = mark_of_bytes(mark, &bytes);
-            self.parts.borrow_mut().push(Part { path: path.to_string(), limit, mark });
+            self.parts.borrow_mut().push(ModelFile { path: path.to_string(), limit, hash: mark });
         }
         bytes
     }

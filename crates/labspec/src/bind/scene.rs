@@ -1,14 +1,14 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
 use super::Functions;
-use super::parts::{self, Mark, Part, Remembering};
+use super::parts::{self, Hash, ModelFile, Remembering};
 use crate::finding::{Finding, InFile, Severity};
 use crate::lint::{ModelFolder, lesson_folder, root_of};
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{SourceFile, Sources, Text};
 use crate::spec::format::Asked;
-use crate::spec::{Lab, Scene};
+use crate::spec::{Lab, ModelSource};
 use labspec_core::xml::{self, FileProblem, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
 use std::collections::BTreeMap;
@@ -26,7 +26,7 @@ pub struct Models {
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
     /// How the files are marked; `None` when nobody keeps results.
-    mark: Option<Mark>,
+    mark: Option<Hash>,
     /// Texts that somebody holds in place of the folder's files.
     sources: Sources,
     /// Marks of parts, looked at once.
@@ -44,7 +44,7 @@ struct Loaded {
     model: Option<Arc<Model>>,
     /// Something was found in its files.
     talks: bool,
-    parts: Vec<Part>,
+    parts: Vec<ModelFile>,
 }
 
 /// What a mutex holds, whatever became of the others who held it.
@@ -59,7 +59,7 @@ impl Models {
     }
 
     /// The models of a folder for somebody who keeps results: every file that is read is marked, see [`Models::parts`].
-    pub fn marked(folder: ModelFolder, mark: Mark) -> Models {
+    pub fn marked(folder: ModelFolder, mark: Hash) -> Models {
         Models { folder, mark: Some(mark), ..Models::default() }
     }
 
@@ -102,12 +102,12 @@ impl Models {
     /// `findings`, those in a model file to the findings of the models, once.
     pub fn of(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
-            Scene::Xml(text) => {
+            ModelSource::Xml(text) => {
                 let examined = xml::examine(&text.value, &NoFiles, None);
                 findings.extend(examined.findings.iter().map(|d| inline(d, text)));
                 examined.model.map(Arc::new)
             }
-            Scene::Model(name) => {
+            ModelSource::Model(name) => {
                 let model = self.load(&name.value);
                 // A model that does not exist is reported by the rules of the lesson's structure.
                 if model.is_none() && self.folder.has(&name.value) {
@@ -151,8 +151,8 @@ impl Models {
     /// read.
     fn texts<T>(&self, lab: &Lab, of: impl FnOnce(&str, &dyn Files, Option<&str>) -> T) -> Option<T> {
         let name = match lab.scene()? {
-            Scene::Xml(text) => return Some(of(&text.value, &NoFiles, None)),
-            Scene::Model(name) => &name.value,
+            ModelSource::Xml(text) => return Some(of(&text.value, &NoFiles, None)),
+            ModelSource::Model(name) => &name.value,
         };
         let file = Some(format!("{name}.xml"));
         if let Some(given) = self.folder.given() {
@@ -186,7 +186,7 @@ impl Models {
 
     /// What a model that is in the folder was made of, and whether something is said of it. Nothing is known of models
     /// that are not [`Models::marked`].
-    pub fn parts(&self, name: &str) -> Option<(Vec<Part>, bool)> {
+    pub fn parts(&self, name: &str) -> Option<(Vec<ModelFile>, bool)> {
         self.loaded(name, |loaded| (loaded.parts.clone(), loaded.talks))
     }
 
@@ -236,8 +236,8 @@ impl Models {
         let shown = format!("{folder}/{name}.xml");
         let read = read_file(path, &self.sources);
         let text = read.as_ref().map(SourceFile::text).map_err(String::as_str);
-        let own = |mark| Part { path: String::new(), limit: 0, mark: parts::mark_of_text(mark, text) };
-        let mut made_of: Vec<Part> = self.mark.map(own).into_iter().collect();
+        let own = |mark| ModelFile { path: String::new(), limit: 0, hash: parts::mark_of_text(mark, text) };
+        let mut made_of: Vec<ModelFile> = self.mark.map(own).into_iter().collect();
         let (model, findings, files) = match read {
             Ok(file) => {
                 let file = SourceFile::new(shown, file.text());
@@ -256,7 +256,7 @@ impl Models {
     }
 
     /// Whether a model's files still are what they were.
-    pub fn is_made_of(&self, name: &str, parts: &[Part]) -> bool {
+    pub fn is_made_of(&self, name: &str, parts: &[ModelFile]) -> bool {
         let (Some(path), Some(mark)) = (self.folder.path(name), self.mark) else { return false };
         let place = path.parent().unwrap_or(Path::new(""));
         let folder = Folder::at(self.folder.root(), place).ok();
@@ -272,7 +272,7 @@ impl Models {
                     open(&self.marks).insert(at, now.clone());
                     now
                 });
-                now == part.mark
+                now == part.hash
             })
     }
 }
@@ -286,7 +286,7 @@ pub(crate) struct Compiled {
     /// Empty when there are no findings.
     pub(crate) files: Vec<SourceFile>,
     /// The other files that it was made of.
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<ModelFile>,
 }
 
 /// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
@@ -296,7 +296,7 @@ pub(crate) fn compile_file(
     path: &Path,
     root: &Path,
     sources: &Sources,
-    mark: Option<Mark>,
+    mark: Option<Hash>,
 ) -> Compiled {
     let files = Around::of(path, root, sources);
     compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
@@ -339,7 +339,7 @@ impl Files for Around<'_> {
 }
 
 /// Compiles the text of a model, which `files` has as `name`.
-fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>, mark: Option<Mark>) -> Compiled {
+fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>, mark: Option<Hash>) -> Compiled {
     let remembering = Remembering::new(files, mark);
     let examined = xml::examine(file.text(), &remembering, name);
     let mut sources = Vec::new();

@@ -1,6 +1,6 @@
 //! Findings that an author has looked at and keeps: they are put aside, counted, and shown on request.
 
-use super::Depth;
+use super::CheckLevel;
 use crate::finding::Finding;
 use crate::lint::MAX_FINDINGS;
 use crate::rules;
@@ -17,7 +17,11 @@ pub struct Allowed {
 }
 
 /// Takes what is allowed out of the findings, and adds what is wrong with the allowances themselves.
-pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Depth) -> Vec<Allowed> {
+pub(super) fn suppress_allowed(
+    lesson: &Lesson,
+    findings: &mut Vec<Finding>,
+    depth: CheckLevel,
+) -> Vec<Allowed> {
     let allowances = lesson.allowances();
     if allowances.is_empty() {
         return Vec::new();
@@ -93,7 +97,7 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
 }
 
 /// Whether a check to this depth can find what a rule of this layer says.
-fn looked_at(layer: Layer, depth: Depth) -> bool {
+fn looked_at(layer: Layer, depth: CheckLevel) -> bool {
     match layer {
         Layer::Run => depth.labs,
         Layer::Claim => depth.claims,

@@ -1,14 +1,14 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
 use super::partners::{self, Partners};
-use super::{Ready, claim_id, refresh};
+use super::{Ready, claim_id, setconst};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::json::read;
 use crate::ledger::State;
 use crate::rules;
 use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify, VerifyLab};
-use crate::verify::{self, Answer, BoundVerify, Judgement, QuoteState, Scene, ShownText, Stage};
+use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, ShownText, Stage};
 use labspec_core::Model;
 use std::ops::Range;
 use std::sync::Arc;
@@ -111,10 +111,10 @@ pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], models: &Models, findin
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
         if let Some((verify, own, _)) = owner.claim(lesson)
-            && let Some(cast) = cast(lesson, ready, verify, own, &stage, findings)
+            && let Some(cast) = resolve_labs(lesson, ready, verify, own, &stage, findings)
             && let Some(bound) = BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, &stage, findings)
         {
-            verify::look(&bound, verify, findings);
+            verify::lint_verify(&bound, verify, findings);
         }
     }
 }
@@ -126,20 +126,20 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
 }
 
 /// The labs of a `verify` object: its own, and that of each of its runs.
-pub(super) struct Cast<'r> {
-    pub(super) base: Option<Scene<'r>>,
-    pub(super) runs: Vec<Vec<Scene<'r>>>,
+pub(super) struct ResolvedLabs<'r> {
+    pub(super) base: Option<BoundLab<'r>>,
+    pub(super) runs: Vec<Vec<BoundLab<'r>>>,
 }
 
 /// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
-pub(super) fn cast<'r>(
+pub(super) fn resolve_labs<'r>(
     lesson: &'r Lesson,
     ready: &'r [Ready<'r>],
     verify: &'r Verify,
     own: Option<&'r Lab>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
-) -> Option<Cast<'r>> {
+) -> Option<ResolvedLabs<'r>> {
     let base = match &verify.lab {
         // Formulas need no lab: they have one in which nothing is.
         None if own.is_none() && verify.is_formulas() => {
@@ -156,10 +156,10 @@ pub(super) fn cast<'r>(
         };
         runs.push(stage.of_run(&lab?, run, findings)?);
     }
-    (base.is_some() || !runs.is_empty()).then_some(Cast { base, runs })
+    (base.is_some() || !runs.is_empty()).then_some(ResolvedLabs { base, runs })
 }
 
-fn scene_of<'r>(ready: &'r [Ready<'r>], lab: &Lab) -> Option<Scene<'r>> {
+fn scene_of<'r>(ready: &'r [Ready<'r>], lab: &Lab) -> Option<BoundLab<'r>> {
     ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(Ready::scene)
 }
 
@@ -169,7 +169,7 @@ fn named_scene<'r>(
     ready: &'r [Ready<'r>],
     named: &'r VerifyLab,
     findings: &mut Vec<Finding>,
-) -> Option<Scene<'r>> {
+) -> Option<BoundLab<'r>> {
     let scene = lesson.named(named).and_then(|lab| scene_of(ready, lab));
     let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
     let name = read::named(text.as_str());
@@ -196,7 +196,7 @@ pub(super) fn bound<'r>(
     own: Option<&'r Lab>,
     stage: &'r Stage<'r>,
 ) -> Option<BoundVerify<'r>> {
-    let Cast { base, runs } = cast(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
     BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())
 }
 
@@ -216,7 +216,7 @@ pub(super) fn begun<'r>(
     own: Option<&'r Lab>,
     stage: &'r Stage<'r>,
 ) -> Option<Begun> {
-    let Cast { base, runs } = cast(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
     let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
     Some(Begun { runs: bound.begun(), model: base.map(|scene| scene.model) })
 }
@@ -231,7 +231,7 @@ pub(super) fn curves<'r>(
     most: usize,
 ) -> Vec<verify::Curves> {
     let ignored = &mut Vec::new();
-    let cast = cast(lesson, ready, verify, own, stage, ignored);
+    let cast = resolve_labs(lesson, ready, verify, own, stage, ignored);
     let bound =
         cast.and_then(|cast| BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, stage, ignored));
     bound.map_or(Vec::new(), |bound| bound.curves(most))
@@ -248,7 +248,8 @@ pub(super) fn check<'l>(
     let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);
-    let mut court = Court { lesson, ready, shown, stage: Stage::new(models), partners, list: Vec::new() };
+    let mut court =
+        ClaimChecker { lesson, ready, shown, stage: Stage::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {
             Owner::Lab(lab) => court.judge_lab(name, lab, findings),
@@ -259,7 +260,7 @@ pub(super) fn check<'l>(
     court.list
 }
 
-struct Court<'a> {
+struct ClaimChecker<'a> {
     lesson: &'a Lesson,
     ready: &'a [Ready<'a>],
     shown: ShownText,
@@ -268,7 +269,7 @@ struct Court<'a> {
     list: Vec<Claim>,
 }
 
-impl Court<'_> {
+impl ClaimChecker<'_> {
     fn judge_lab(&mut self, name: String, lab: &Lab, findings: &mut Vec<Finding>) {
         if let Some(verify) = &lab.verify {
             let judgement = self.judge_as(&name, verify, Some(lab), None, &self.shown, findings);
@@ -330,15 +331,16 @@ impl Court<'_> {
     ) -> Judgement {
         let verify = self.lesson.whole(verify);
         let before = findings.len();
-        let Some(Cast { base, runs }) = cast(self.lesson, self.ready, verify, own, &self.stage, findings)
+        let Some(ResolvedLabs { base, runs }) =
+            resolve_labs(self.lesson, self.ready, verify, own, &self.stage, findings)
         else {
             let told = findings.len() > before;
             let reason = if told { "a run cannot be made" } else { "its lab cannot run" };
             return verify::unmade(verify, question, reason);
         };
         for (run, scenes) in verify.runs.iter().zip(&runs) {
-            if let Some(Scene { lab, model, programs, .. }) = scenes.first() {
-                refresh::check_run(verify, run, lab, model, programs, findings);
+            if let Some(BoundLab { lab, model, programs, .. }) = scenes.first() {
+                setconst::check_run(verify, run, lab, model, programs, findings);
             }
         }
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {

@@ -4,7 +4,7 @@
 //! next step, and keeps `data.time`, keeps t + h.
 
 use super::Ready;
-use super::refresh::digits;
+use super::setconst::digits;
 use crate::bind::{ModelNames, Scope};
 use crate::finding::Finding;
 use crate::rules;

@@ -258,8 +258,8 @@ pub fn evidence(claim: &Claim) -> Vec<String> {
     };
     let weights = claim.judgement.answer.iter().flat_map(|a| &a.weights);
     let weight = |w: &Weight| match w.option {
-        Some(i) => format!("option {i} {}", w.words()),
-        None => format!("the answer {}", w.words()),
+        Some(i) => format!("option {i} {}", w.describe()),
+        None => format!("the answer {}", w.describe()),
     };
     claim.judgement.measures.iter().map(measure).chain(weights.map(weight)).collect()
 }

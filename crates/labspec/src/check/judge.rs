@@ -1,11 +1,11 @@
 //! The claims of a lesson before a second judge: what it is asked, and what its recording makes of them.
 
 use super::claims;
-use crate::bind::parts::Mark;
+use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Left, Taken, Witness};
+use crate::verify::judge::{self, Judged, Left, Reference, Taken};
 use crate::verify::{ShownText, Stage};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -36,7 +36,7 @@ pub struct Recording {
 
 /// What a judge makes of a lesson.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Hearing {
+pub struct CrossCheck {
     /// What it is asked.
     pub requests: Vec<Request>,
     /// What it makes of every claim, by the name of its owner.
@@ -53,14 +53,14 @@ pub struct Hearing {
 pub fn hear(
     lesson: &Lesson,
     models: &Models,
-    mark: Mark,
+    mark: Hash,
     recording: Option<&Recording>,
     findings: &mut Vec<Finding>,
-) -> Hearing {
+) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
     let shown = ShownText::of(lesson);
-    let mut hearing = Hearing::default();
+    let mut hearing = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {
         let Some((verify, own, question)) = owner.claim(lesson) else { continue };
         let narrow = owner.block().map(|block| shown.within(block, verify));
@@ -75,7 +75,7 @@ pub fn hear(
         let requests: Vec<Request> = requests.collect();
         if let Some(recording) = recording {
             let runs = requests.iter().map(|r| taken(lesson, recording, r, &mut hearing)).collect();
-            let witness = Witness { engine: &recording.engine, runs };
+            let witness = Reference { engine: &recording.engine, runs };
             let judged = judge::judge(&bound, verify, question, shown, &witness, findings);
             hearing.claims.extend(judged.map(|judged| (name.clone(), judged)));
         }
@@ -89,7 +89,7 @@ fn taken<'r>(
     lesson: &Lesson,
     recording: &'r Recording,
     request: &Request,
-    hearing: &mut Hearing,
+    hearing: &mut CrossCheck,
 ) -> Result<&'r Taken, String> {
     request.task.as_ref().map_err(Clone::clone)?;
     if let Some(taken) = recording.runs.get(&request.hash) {

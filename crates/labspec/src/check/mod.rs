@@ -8,17 +8,17 @@ mod curves;
 mod entries;
 mod expect;
 mod judge;
+mod lab_runs;
 mod left_out;
 mod named;
+mod observations;
 mod params;
 mod partners;
 mod programs;
-mod refresh;
 mod reproduce;
-mod sight;
+mod setconst;
 mod snapshot;
 pub mod stored;
-mod trial;
 mod units;
 
 pub use allowed::Allowed;
@@ -26,10 +26,10 @@ pub use claim_id::is_about;
 pub use claims::Claim;
 pub use curves::{Drawn, curves};
 pub use entries::{evidence, ledger};
-pub use judge::{Hearing, Recording, Request, file_name, hear};
-pub use reproduce::{Basis, ClaimBasis, LabBasis, Settings, basis};
+pub use judge::{CrossCheck, Recording, Request, file_name, hear};
+pub use lab_runs::Tried;
+pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
 pub use snapshot::{Divergence, Kept, Renewal, RenewedLab, renew};
-pub use trial::Tried;
 pub(crate) use units::labels as labels_of;
 
 use crate::bind::Programs;
@@ -37,7 +37,7 @@ use crate::bind::scene::Models;
 use crate::finding::{self, Finding, InFile, Severity};
 use crate::rules;
 use crate::source::{SourceMap, Text};
-use crate::spec::{Lab, LabAddress, Lesson, Scene};
+use crate::spec::{Lab, LabAddress, Lesson, ModelSource};
 use crate::verify;
 use labspec_core::Model;
 use std::sync::{Arc, LazyLock};
@@ -77,12 +77,12 @@ pub struct Checked {
     /// What would be found, and the author has put aside with a reason.
     pub allowed: Vec<Allowed>,
     /// What was asked for.
-    pub depth: Depth,
+    pub depth: CheckLevel,
 }
 
 /// What a check does beyond structure, models and the names in every text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Depth {
+pub struct CheckLevel {
     /// Try what programs do that a page lets pass in silence.
     pub programs: bool,
     /// Run every lab.
@@ -91,13 +91,13 @@ pub struct Depth {
     pub claims: bool,
 }
 
-impl Depth {
+impl CheckLevel {
     /// Everything.
-    pub const FULL: Depth = Depth { programs: true, labs: true, claims: true };
+    pub const FULL: CheckLevel = CheckLevel { programs: true, labs: true, claims: true };
     /// The claims alone.
-    pub const CLAIMS: Depth = Depth { labs: false, ..Depth::FULL };
+    pub const CLAIMS: CheckLevel = CheckLevel { labs: false, ..CheckLevel::FULL };
     /// Nothing is run: labs and claims stand in the ledger as left out.
-    pub const STATIC: Depth = Depth { programs: false, labs: false, claims: false };
+    pub const STATIC: CheckLevel = CheckLevel { programs: false, labs: false, claims: false };
 }
 
 /// A lab with its model and programs.
@@ -110,35 +110,35 @@ struct Ready<'l> {
 }
 
 impl<'l> Ready<'l> {
-    fn scene(&'l self) -> verify::Scene<'l> {
-        verify::Scene::of(self.lab, &self.model, &self.programs)
+    fn scene(&'l self) -> verify::BoundLab<'l> {
+        verify::BoundLab::of(self.lab, &self.model, &self.programs)
     }
 }
 
 /// What a check found beyond the structure of a lesson, not yet tied to its file.
 #[derive(Debug, Default)]
-pub struct Found {
+pub struct LabOutcome {
     pub(crate) findings: Vec<Finding>,
     pub(crate) labs: Vec<RanLab>,
     pub(crate) claims: Vec<Claim>,
     pub(crate) snapshots: Vec<Kept>,
 }
 
-impl Found {
+impl LabOutcome {
     /// One finding, and nothing else.
-    pub fn of(finding: Finding) -> Found {
-        Found { findings: vec![finding], ..Found::default() }
+    pub fn of(finding: Finding) -> LabOutcome {
+        LabOutcome { findings: vec![finding], ..LabOutcome::default() }
     }
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
-pub fn check(lesson: Lesson, models: &Models, depth: Depth) -> Checked {
+pub fn check(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
     let found = examine(&lesson, models, depth);
     join(lesson, found, depth)
 }
 
 /// Binds, runs and verifies.
-pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
+pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcome {
     let mut findings = Vec::new();
     let labs = lesson.all_labs();
     let mut ready: Vec<Ready<'_>> =
@@ -147,8 +147,8 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
         ready.iter().for_each(|r| contact_time::check(r, &mut findings));
     }
-    let labs = if depth.labs { trial::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
-    told_once(lesson, &mut findings);
+    let labs = if depth.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
+    deduplicate(lesson, &mut findings);
     let snapshots = snapshot::check(lesson, &ready, depth, &mut findings);
     // An editor looks at a block at a time, and cannot know what the others claim.
     if depth.claims {
@@ -161,13 +161,13 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: Depth) -> Found {
         claims::bind(lesson, &ready, models, &mut findings);
         Vec::new()
     };
-    Found { findings, labs, claims, snapshots }
+    LabOutcome { findings, labs, claims, snapshots }
 }
 
 /// All labs that claims of a lesson are about. What is wrong with them has been told.
 fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<Ready<'l>> {
     let labs = lesson.all_labs().into_iter();
-    let own = labs.filter_map(|lab| prepare(lab, models, Depth::STATIC, &mut Vec::new()));
+    let own = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
     own.chain(beside(lesson, models)).collect()
 }
 
@@ -193,7 +193,7 @@ fn empty() -> Option<Ready<'static>> {
 }
 
 /// A control of which a reset takes everything away changes nothing, and the reset is what is told.
-fn told_once(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn deduplicate(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let of = |code: &str, f: &Finding| f.code == code;
     let lost = |span: &std::ops::Range<usize>, findings: &[Finding]| {
         let inside = |f: &Finding| span.start <= f.span.start && f.span.end <= span.end;
@@ -208,12 +208,12 @@ fn told_once(lesson: &Lesson, findings: &mut Vec<Finding>) {
 }
 
 /// A lesson together with what was found.
-pub fn join(lesson: Lesson, found: Found, depth: Depth) -> Checked {
-    let Found { mut findings, labs, claims, snapshots } = found;
+pub fn join(lesson: Lesson, found: LabOutcome, depth: CheckLevel) -> Checked {
+    let LabOutcome { mut findings, labs, claims, snapshots } = found;
     let mut all = lesson.findings.clone();
     crate::lint::withhold_fixes(&lesson, &mut findings);
     all.extend(findings);
-    let mut allowed = allowed::put_aside(&lesson, &mut all, depth);
+    let mut allowed = allowed::suppress_allowed(&lesson, &mut all, depth);
     let mut all: Vec<Finding> = all.into_iter().map(|f| f.at(&lesson.file)).collect();
     for aside in &mut allowed {
         aside.finding = aside.finding.clone().at(&lesson.file);
@@ -226,7 +226,7 @@ pub fn join(lesson: Lesson, found: Found, depth: Depth) -> Checked {
 fn prepare<'l>(
     lab: &'l Lab,
     models: &Models,
-    depth: Depth,
+    depth: CheckLevel,
     findings: &mut Vec<Finding>,
 ) -> Option<Ready<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
@@ -246,7 +246,7 @@ pub(crate) fn bind(
 ) -> Option<(Arc<Model>, Programs, usize)> {
     let Some(model) = models.of(lab, findings) else {
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
-        if let (Some(Scene::Model(name)), None) = (lab.scene(), models.folder().names()) {
+        if let (Some(ModelSource::Model(name)), None) = (lab.scene(), models.folder().names()) {
             let folder = models.folder();
             findings.extend(match folder.given() {
                 Some(_) if folder.has(&name.value) => None,

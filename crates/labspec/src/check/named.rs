@@ -176,7 +176,7 @@ fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[Named]) -> Option<Findi
 /// The words of a label without its unit.
 fn words_of(label: &str) -> Vec<String> {
     let end = crate::bind::of_label(label).and_then(|(unit, _)| label.rfind(unit));
-    words(end.and_then(|at| label.get(..at)).unwrap_or(label))
+    split_words(end.and_then(|at| label.get(..at)).unwrap_or(label))
 }
 
 /// Whether the label is a name and nothing else, of something that has what the expression reads.
@@ -241,7 +241,7 @@ fn shown<'l>(label: &'l Text, bound: &'l Bound, model: &Model, all: &[Named]) ->
 }
 
 /// The words of a label or a name, in small letters.
-fn words(text: &str) -> Vec<String> {
+fn split_words(text: &str) -> Vec<String> {
     let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| !w.is_empty());
     parts.map(str::to_lowercase).collect()
 }
@@ -256,8 +256,8 @@ fn elements(model: &Model) -> Vec<Named> {
             let body = body_of(model, kind, index).filter(|b| *b != 0);
             // A space of names stands before a stroke.
             let own = name.rsplit('/').next().unwrap_or(name);
-            if let (Some(body), false) = (body, words(own).is_empty()) {
-                all.push(Named { kind, noun, index, name: name.clone(), words: words(own), body });
+            if let (Some(body), false) = (body, split_words(own).is_empty()) {
+                all.push(Named { kind, noun, index, name: name.clone(), words: split_words(own), body });
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What the programs of a lab do that a page lets pass in silence.
 
-use super::refresh;
+use super::setconst;
 use crate::bind::{Bound, ControlProgram, Programs, functions, scalar};
 use crate::finding::Finding;
 use crate::rules;
@@ -12,7 +12,7 @@ use labspec_expr::{FieldKey, Host, Value};
 
 /// What programs do that a page lets pass in silence.
 pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
-    refresh::check(lab, model, programs, findings);
+    setconst::check(lab, model, programs, findings);
     for (index, control) in lab.controls.iter().enumerate() {
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
         let Some(bound) = action.run.as_ref().filter(|b| !action.init && !resets(b)) else { continue };
@@ -92,7 +92,7 @@ fn lost(
         }
         let name = format!("data.{}[{at}]", field.info().name);
         let [set, reset] =
-            [&set, &reset].map(|list| refresh::digits(list.get(at).copied().unwrap_or(f64::NAN), 6));
+            [&set, &reset].map(|list| setconst::digits(list.get(at).copied().unwrap_or(f64::NAN), 6));
         Some(format!(
             "with \"{}\" at {chosen}, {name} is {set}, and {reset} after a reset",
             control.label.value

@@ -3,7 +3,7 @@
 
 use super::Ready;
 use super::claims::{self, Owner};
-use crate::bind::parts::Mark;
+use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::precision::Integrator;
 use crate::run::{Budget, Session};
@@ -16,7 +16,7 @@ use std::ops::Range;
 
 /// The settings of a run, as it begins.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct RunSettings {
     /// The digest of the model, with what the run's controls and setup have changed in it.
     pub model: String,
     /// By name, as MJCF writes it.
@@ -47,7 +47,7 @@ pub struct LabBasis {
     /// The digest of its compiled model; `None` where it cannot run.
     pub model: Option<String>,
     /// As it stands; `None` where it cannot run.
-    pub settings: Option<Settings>,
+    pub settings: Option<RunSettings>,
 }
 
 /// A question or a lab with claims.
@@ -60,7 +60,7 @@ pub struct ClaimBasis {
     /// The digest of the compiled model of the lab that it is about; `None` where that cannot run.
     pub model: Option<String>,
     /// The runs by name; `None` for one that cannot be made.
-    pub runs: Vec<(String, Option<Settings>)>,
+    pub runs: Vec<(String, Option<RunSettings>)>,
 }
 
 /// What the check of a lesson rested on.
@@ -73,7 +73,7 @@ pub struct Basis {
 }
 
 /// Finds what a check of the lesson rests on: models are compiled and runs are set up, and nothing is run. `mark` makes digests.
-pub fn basis(lesson: &Lesson, models: &Models, mark: Mark) -> Basis {
+pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
     let ready = super::of_claims(lesson, models);
     let block = |span: &Range<usize>| mark(&[lesson.file.slice(span.clone()).as_bytes()]);
     let compiled = |ready: &Ready<'_>| mark(&[&ready.model.to_bytes()]);
@@ -105,9 +105,9 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Mark) -> Basis {
     Basis { labs, claims }
 }
 
-fn settings(model: &Model, mark: Mark) -> Settings {
+fn settings(model: &Model, mark: Hash) -> RunSettings {
     let opt = &model.opt;
-    Settings {
+    RunSettings {
         model: mark(&[&model.to_bytes()]),
         integrator: Integrator::of(model).name,
         solver: match opt.solver {

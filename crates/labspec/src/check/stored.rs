@@ -2,7 +2,7 @@
 //!
 //! Reading takes nothing for granted: what is not exactly what was written gives `None`.
 
-use super::{Claim, Divergence, Found, Kept, RanLab, Tried};
+use super::{Claim, Divergence, Kept, LabOutcome, RanLab, Tried};
 use crate::finding::{Applicability, ClaimId, Finding, Fix, Place, Severity};
 use crate::ledger::{Evidence, State};
 use crate::rules;
@@ -37,13 +37,13 @@ const VERDICTS: [Verdict; 7] = [
 ];
 
 /// Everything that was found, as JSON; `None` for what could not be read back as it is.
-pub fn write(found: &Found) -> Option<Value> {
+pub fn write(found: &LabOutcome) -> Option<Value> {
     let value = written(found);
     let again = read(&value)?;
     (written(&again) == value).then_some(value)
 }
 
-fn written(found: &Found) -> Value {
+fn written(found: &LabOutcome) -> Value {
     json!([
         found.findings.iter().map(finding).collect::<Vec<_>>(),
         found.labs.iter().map(lab).collect::<Vec<_>>(),
@@ -53,9 +53,9 @@ fn written(found: &Found) -> Value {
 }
 
 /// What was written.
-pub fn read(value: &Value) -> Option<Found> {
+pub fn read(value: &Value) -> Option<LabOutcome> {
     let [findings, labs, claims, snapshots] = parts(value)?;
-    Some(Found {
+    Some(LabOutcome {
         findings: list(findings, read_finding)?,
         labs: list(labs, read_lab)?,
         claims: list(claims, read_claim)?,

@@ -6,11 +6,11 @@
 
 use super::digest;
 use super::output::clear_abandoned;
-use crate::bind::parts::Part;
+use crate::bind::parts::ModelFile;
 use crate::bind::scene::Models;
-use crate::check::{self, Depth, Found, stored};
+use crate::check::{self, CheckLevel, LabOutcome, stored};
 use crate::source::Text;
-use crate::spec::{Lab, Lesson, Scene};
+use crate::spec::{Lab, Lesson, ModelSource};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -55,9 +55,9 @@ impl Cache {
         path: &Path,
         lesson: &Lesson,
         models: &Models,
-        depth: Depth,
-        spoilt: impl Fn() -> bool,
-    ) -> Found {
+        depth: CheckLevel,
+        cancelled: impl Fn() -> bool,
+    ) -> LabOutcome {
         if self.is_off() {
             return check::examine(lesson, models, depth);
         }
@@ -66,7 +66,7 @@ impl Cache {
             return found;
         }
         let found = check::examine(lesson, models, depth);
-        if !spoilt()
+        if !cancelled()
             && let Some(text) = entry(&key, lesson, models, &found)
         {
             self.save(&slot, text);
@@ -75,7 +75,7 @@ impl Cache {
     }
 
     /// Everything that a result depends on, but for the models.
-    fn key(&self, lesson: &Lesson, models: &Models, depth: Depth) -> String {
+    fn key(&self, lesson: &Lesson, models: &Models, depth: CheckLevel) -> String {
         let flags =
             [depth.programs, depth.labs, depth.claims, models.folder().names().is_some()].map(u8::from);
         let file = &lesson.file;
@@ -129,7 +129,7 @@ fn folder() -> Option<PathBuf> {
 }
 
 /// The name of a lesson's file in the cache.
-fn slot(path: &Path, depth: Depth) -> String {
+fn slot(path: &Path, depth: CheckLevel) -> String {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     let flags = [depth.programs, depth.labs, depth.claims].map(u8::from);
     digest::hex_of(&[real.as_os_str().as_encoded_bytes(), &flags])
@@ -137,15 +137,15 @@ fn slot(path: &Path, depth: Depth) -> String {
 
 /// The names of the models of a lesson's labs, once each.
 fn named_models(lesson: &Lesson) -> BTreeSet<&str> {
-    let named = |lab: &'_ Lab| matches!(lab.scene(), Some(Scene::Model(_)));
+    let named = |lab: &'_ Lab| matches!(lab.scene(), Some(ModelSource::Model(_)));
     let others = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
     let labs = lesson.all_labs().into_iter().chain(others).filter(|lab| named(lab));
     labs.filter_map(|lab| lab.model.as_ref().map(Text::as_str)).collect()
 }
 
 /// A result as a text: its digest in the first line, then what it depends on and what it is.
-fn entry(key: &str, lesson: &Lesson, models: &Models, found: &Found) -> Option<String> {
-    let part = |p: &Part| json!([p.path, p.limit, p.mark]);
+fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Option<String> {
+    let part = |p: &ModelFile| json!([p.path, p.limit, p.hash]);
     let used: Vec<Value> = named_models(lesson)
         .into_iter()
         .map(|name| match models.parts(name) {
@@ -160,7 +160,7 @@ fn entry(key: &str, lesson: &Lesson, models: &Models, found: &Found) -> Option<S
 
 /// The result in a text, if it is whole and about these models. Models that have something to say are compiled, so that
 /// they say it.
-fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<Found> {
+fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<LabOutcome> {
     let (mark, body) = text.split_once('\n')?;
     if digest::hex(body.as_bytes()) != mark {
         return None;
@@ -197,11 +197,11 @@ fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<Fou
     Some(found)
 }
 
-fn read_parts(parts: &Value) -> Option<Vec<Part>> {
+fn read_parts(parts: &Value) -> Option<Vec<ModelFile>> {
     let part = |value: &Value| {
         let [path, limit, mark]: &[Value; 3] = value.as_array()?.as_slice().try_into().ok()?;
         let limit = usize::try_from(limit.as_u64()?).ok()?;
-        Some(Part { path: path.as_str()?.to_string(), limit, mark: mark.as_str()?.to_string() })
+        Some(ModelFile { path: path.as_str()?.to_string(), limit, hash: mark.as_str()?.to_string() })
     };
     parts.as_array()?.iter().map(part).collect()
 }
@@ -266,7 +266,7 @@ mod tests {
     use crate::source::SourceFile;
     use std::cell::Cell;
 
-    const DEEP: Depth = Depth::FULL;
+    const DEEP: CheckLevel = CheckLevel::FULL;
     const LESSON: &str = r#"{"model": "drop", "title": "Drop", "stopAt": 0.1,
         "controls": [{"label": "v", "set": "data.qvel[2]", "min": 0, "max": 1, "value": 0}],
         "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "n", "expr": "data.qops"}],
@@ -344,7 +344,7 @@ mod tests {
     fn a_result_is_about_the_same_bytes() {
         let top = course();
         let cache = Cache { folder: Some(top.path().join("cache")), memory: None, program: "one".into() };
-        let fresh = |cache: &Cache, text: &str, depth: Depth| {
+        let fresh = |cache: &Cache, text: &str, depth: CheckLevel| {
             let models = models(top.path());
             let asked = Cell::new(false);
             let spoilt = || {
@@ -360,7 +360,7 @@ mod tests {
         assert!(!fresh(&cache, LESSON, DEEP));
         assert!(fresh(&cache, &newer, DEEP), "the lesson");
         assert!(!fresh(&cache, &newer, DEEP));
-        assert!(fresh(&cache, &newer, Depth::CLAIMS), "the depth");
+        assert!(fresh(&cache, &newer, CheckLevel::CLAIMS), "the depth");
         write_ball(top.path(), "<geom size='0.06'/>");
         assert!(fresh(&cache, &newer, DEEP), "a file that the model includes");
         assert!(!fresh(&cache, &newer, DEEP));

@@ -3,14 +3,14 @@
 use super::baseline::Baseline;
 use super::cache::Cache;
 use super::collect::{STDIN, collect};
-use super::course::{Course, Judge, Plan, look};
 use super::fix::{Mode, fix};
 use super::output::{Wanted, look_ahead, write_file};
 use super::policy::PolicyOptions;
+use super::scheduler::{Course, Judge, Plan, check_lessons};
 use super::stdio::{complain, print_json};
 use super::{Color, Failure, ModelOptions, Outcome, OutputKind, interrupted, machine, print, watch};
 use super::{judge, reproduction, since};
-use crate::check::{self, Depth};
+use crate::check::{self, CheckLevel};
 use crate::ledger::{self, Entry, State, Subject};
 use crate::report::html::Material;
 use crate::report::{self as drawn, Summary, printable, printable_path};
@@ -129,20 +129,20 @@ enum Format {
 }
 
 pub(super) fn check(a: &CheckArguments) -> Result<Outcome, Failure> {
-    let depth = if a.no_run { Depth::STATIC } else { Depth::FULL };
+    let depth = if a.no_run { CheckLevel::STATIC } else { CheckLevel::FULL };
     let fix = (a.fix || a.diff || a.unsafe_fixes).then_some(Mode { guesses: a.unsafe_fixes, diff: a.diff });
     let records = Records { write: a.record.as_deref(), html: a.html.as_deref(), since: a.since.as_deref() };
     work(&a.common, depth, false, fix, records)
 }
 
 pub(super) fn verify(a: &Arguments) -> Result<Outcome, Failure> {
-    work(a, Depth::CLAIMS, true, None, Records::default())
+    work(a, CheckLevel::CLAIMS, true, None, Records::default())
 }
 
 /// Checks once, or again and again as files change.
 fn work(
     a: &Arguments,
-    depth: Depth,
+    depth: CheckLevel,
     evidence: bool,
     mode: Option<Mode>,
     records: Records<'_>,
@@ -187,7 +187,7 @@ fn work(
         depth,
         jobs: a.jobs.map_or_else(known, NonZeroUsize::get),
         progress: a.format == Format::Human && std::io::stderr().is_terminal(),
-        told: (a.format == Format::Human && !a.statistics).then(|| a.color.on()),
+        reported: (a.format == Format::Human && !a.statistics).then(|| a.color.on()),
     };
     if let Some(mode) = mode {
         let repaired = fix(&plan, mode)?;
@@ -203,11 +203,11 @@ fn work(
         }
     }
     if !a.watch {
-        return report(a, &look(&plan, &cache)?, evidence, records, before.as_ref());
+        return report(a, &check_lessons(&plan, &cache)?, evidence, records, before.as_ref());
     }
     let settings: Vec<&Path> = a.policy.config().into_iter().chain(a.baseline.as_deref()).collect();
     watch::watch(&a.paths, &settings, || {
-        let course = look(&plan, &cache)?;
+        let course = check_lessons(&plan, &cache)?;
         Ok((report(a, &course, evidence, records, before.as_ref()), course.read))
     })
 }
@@ -249,7 +249,7 @@ fn report(
             curves: &course.curves,
             bases: &course.bases,
             findings: &course.findings,
-            allowed: &course.aside.allowed,
+            allowed: &course.suppressed.allowed,
             ledger: &course.ledger,
             sources: &sources,
             summary: &last_line(course),
@@ -266,10 +266,10 @@ fn report(
             }
             text.push_str(&overview(course, evidence));
             if let Some((file, changes)) = &changes {
-                text.push_str(&since::told(&file.display().to_string(), changes));
+                text.push_str(&since::summary(&file.display().to_string(), changes));
             }
             if let (Some(file), Some(engine)) = (&a.judge, &course.judged_by) {
-                text.push_str(&judge::told(file, engine, course));
+                text.push_str(&judge::summary(file, engine, course));
             }
             if outcome == found {
                 let _ = writeln!(text, "{}", last_line(course));
@@ -398,17 +398,17 @@ fn last_line(course: &Course) -> String {
     let found = Summary::of(&course.findings);
     let found = if course.findings.is_empty() { String::new() } else { found.to_string() };
     let judgement = course.ledger.conclusion(&found);
-    format!("{}: {judgement}{}", course.ledger.summary(), put_aside(course))
+    format!("{}: {judgement}{}", course.ledger.summary(), suppressed_summary(course))
 }
 
 /// What was found and not told, in numbers.
-fn put_aside(course: &Course) -> String {
-    let aside = &course.aside;
+fn suppressed_summary(course: &Course) -> String {
+    let aside = &course.suppressed;
     let ignored = Summary::of(&aside.ignored);
     let parts = [
         (aside.ignored.len(), format!("{ignored} ignored")),
         (aside.allowed.len(), format!("{} allowed by the lessons", many(aside.allowed.len(), "finding"))),
-        (aside.known.len(), format!("{} in the baseline", many(aside.known.len(), "finding"))),
+        (aside.baselined.len(), format!("{} in the baseline", many(aside.baselined.len(), "finding"))),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
     if parts.is_empty() { String::new() } else { format!(" ({})", parts.join(", ")) }
@@ -417,7 +417,7 @@ fn put_aside(course: &Course) -> String {
 /// What the lessons allow, a line for each finding, with the reason.
 fn allowed(course: &Course, sources: &[&SourceFile]) -> String {
     let mut text = String::new();
-    for aside in &course.aside.allowed {
+    for aside in &course.suppressed.allowed {
         let line = drawn::concise(std::slice::from_ref(&aside.finding), sources);
         let _ = writeln!(text, "{}\n  allowed: {}", line.trim_end(), printable(&aside.why));
     }

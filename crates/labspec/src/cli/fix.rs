@@ -3,8 +3,8 @@
 //! Which repairs are kept, and how they are proven, is decided in [`crate::repair`]. All other bytes of the file stay what they are.
 
 use super::collect::collect;
-use super::course::{Plan, is_other_json};
 use super::policy::Policies;
+use super::scheduler::{Plan, is_other_json};
 use super::target::model_folder_within;
 use super::{Failure, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;

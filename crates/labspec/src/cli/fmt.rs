@@ -1,7 +1,7 @@
 //! `labspec fmt`.
 
 use super::collect::{Collected, collect};
-use super::course::is_other_json;
+use super::scheduler::is_other_json;
 use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;

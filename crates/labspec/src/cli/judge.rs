@@ -3,10 +3,10 @@
 //! We write what it is to run, `tests/judge/record.mjs` runs it, and what that has recorded is read here.
 
 use super::Failure;
-use super::course::Course;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use crate::check::{Hearing, Recording, file_name};
+use super::scheduler::Course;
+use crate::check::{CrossCheck, Recording, file_name};
 use crate::printable::printable_lines;
 use crate::report::{printable_path, set_number};
 use crate::source::read_text;
@@ -123,7 +123,7 @@ struct Sum<'c> {
 impl<'c> Sum<'c> {
     fn of(course: &'c Course) -> Sum<'c> {
         let all = || course.checked.iter().zip(&course.hearings);
-        let of = |(c, hearing): (&crate::check::Checked, &'c Hearing)| {
+        let of = |(c, hearing): (&crate::check::Checked, &'c CrossCheck)| {
             let file = file_name(&c.lesson);
             hearing.claims.iter().map(move |(owner, judged)| (file.clone(), owner.as_str(), judged))
         };
@@ -147,7 +147,7 @@ pub(super) fn is_partial(course: &Course) -> bool {
 }
 
 /// What the judge says, for people.
-pub(super) fn told(file: &Path, engine: &str, course: &Course) -> String {
+pub(super) fn summary(file: &Path, engine: &str, course: &Course) -> String {
     let sum = Sum::of(course);
     let (compared, differing) = (sum.count(|j| j.compared), sum.count(|j| j.differing.len()));
     let (claims, turned) = (sum.count(|j| j.claims), sum.count(|j| j.turned));

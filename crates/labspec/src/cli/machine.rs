@@ -1,6 +1,6 @@
 //! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
 
-use super::course::Course;
+use super::scheduler::Course;
 use crate::check::{Checked, Claim, Divergence, Kept, RanLab};
 use crate::ledger::{Count, Entry, Evidence, Outcome, State, Subject};
 use crate::report::{self, key, set_number, set_place};
@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 
 /// The whole report, and what it comes to. `sources` are the files that places lie in.
 pub(super) fn value(name: &str, outcome: Outcome, course: &Course, sources: &[&SourceFile]) -> Value {
-    let Course { checked, ledger, aside, .. } = course;
+    let Course { checked, ledger, suppressed: aside, .. } = course;
     let mut value = report::json(&course.findings, sources);
     value["summary"]["outcome"] = json!(outcome.as_str());
     value["summary"]["claims"] =
@@ -21,7 +21,7 @@ pub(super) fn value(name: &str, outcome: Outcome, course: &Course, sources: &[&S
         value
     });
     value["aside"] = json!({
-        "ignored": aside.ignored.len(), "known": aside.known.len(), "allowed": allowed.collect::<Vec<_>>(),
+        "ignored": aside.ignored.len(), "known": aside.baselined.len(), "allowed": allowed.collect::<Vec<_>>(),
     });
     value["lessons"] = checked.iter().map(lesson).collect();
     value["ledger"] = ledger.entries().iter().map(|e| entry(e, sources)).collect();
@@ -31,7 +31,7 @@ pub(super) fn value(name: &str, outcome: Outcome, course: &Course, sources: &[&S
 fn count(c: &Count) -> Value {
     json!({
         "simulated": c.simulated, "computed": c.computed, "false": c.wrong, "unchecked": c.unchecked,
-        "leftOut": c.left_out, "known": c.known, "notClaimed": c.not_claimed,
+        "leftOut": c.left_out, "known": c.baselined, "notClaimed": c.not_claimed,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::stdio::print_json;
 use super::{Failure, ModelOptions, Outcome, interrupted, print, target};
-use crate::plan::{Code, Cost, Options, REPEATS, Report, name};
+use crate::profile::{Code, Cost, Options, REPEATS, Report, name};
 use crate::report::{printable, report};
 use crate::verify::significant;
 use clap::ValueEnum;
@@ -38,7 +38,7 @@ pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let options = Options { read: a.read.clone(), run: !a.no_run };
     let report =
-        crate::plan::plan(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
+        crate::profile::plan(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     match a.format {
         Format::Human => print(&human(&report))?,
         Format::Json => print_json(&value(&report), true)?,

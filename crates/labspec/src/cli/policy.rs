@@ -126,7 +126,7 @@ impl Policy {
 
 /// Settings of one file of settings.
 #[derive(Debug, Default)]
-struct Settings {
+struct PolicyFile {
     select: Vec<String>,
     ignore: Vec<String>,
     deny: Vec<String>,
@@ -143,8 +143,8 @@ struct Globs(Gitignore);
 #[derive(Default)]
 pub(super) struct Policies {
     options: PolicyOptions,
-    read: BTreeMap<PathBuf, Option<Arc<Settings>>>,
-    given: Option<Arc<Settings>>,
+    read: BTreeMap<PathBuf, Option<Arc<PolicyFile>>>,
+    given: Option<Arc<PolicyFile>>,
 }
 
 impl Policies {
@@ -170,7 +170,7 @@ impl Policies {
             Some(given) => Some(given.clone()),
             None => self.near(whole.parent())?,
         };
-        let none = Settings::default();
+        let none = PolicyFile::default();
         let near = settings.as_deref().unwrap_or(&none);
         let own = &self.options;
         let select = if own.select.is_empty() { &near.select } else { &own.select };
@@ -182,7 +182,7 @@ impl Policies {
     }
 
     /// The settings of a folder: its own, else those of the nearest folder around it.
-    fn near(&mut self, folder: Option<&Path>) -> Result<Option<Arc<Settings>>, Failure> {
+    fn near(&mut self, folder: Option<&Path>) -> Result<Option<Arc<PolicyFile>>, Failure> {
         let Some(folder) = folder else { return Ok(None) };
         if let Some(known) = self.read.get(folder) {
             return Ok(known.clone());
@@ -212,7 +212,7 @@ impl Globs {
 const KEYS: [&str; 5] = ["select", "ignore", "deny", "widgets", "paths"];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
-fn read(path: &Path) -> Result<Settings, Failure> {
+fn read(path: &Path) -> Result<PolicyFile, Failure> {
     let shown = printable_path(path);
     let cannot = |e: String| format!("{shown}: {e}");
     let text = read_text(path, MOST, "settings")?;
@@ -223,24 +223,24 @@ fn read(path: &Path) -> Result<Settings, Failure> {
         });
         cannot(format!("it is no TOML: {}{place}", e.message()))
     })?;
-    known(&table, &KEYS).map_err(cannot)?;
-    let list = |name: &str| words(&table, name, true).map_err(cannot);
+    reject_unknown_keys(&table, &KEYS).map_err(cannot)?;
+    let list = |name: &str| string_list(&table, name, true).map_err(cannot);
     let (select, ignore, deny) = (list("select")?, list("ignore")?, list("deny")?);
-    let widgets = words(&table, "widgets", false).map_err(cannot)?;
+    let widgets = string_list(&table, "widgets", false).map_err(cannot)?;
     let folder = path.canonicalize().ok().and_then(|p| p.parent().map(Path::to_path_buf)).unwrap_or_default();
     let mut paths = Vec::new();
     for entry in of_paths(&table).map_err(cannot)? {
-        known(entry, &OF_PATHS).map_err(cannot)?;
-        let globs = words(entry, "match", false)
+        reject_unknown_keys(entry, &OF_PATHS).map_err(cannot)?;
+        let globs = string_list(entry, "match", false)
             .and_then(|patterns| match patterns.is_empty() {
                 true => Err("[[paths]] needs `match`, a list of patterns such as \"drafts/**\"".to_string()),
                 false => Globs::new(&folder, &patterns),
             })
             .map_err(cannot)?;
-        let list = |name: &str| words(entry, name, true).map_err(cannot);
+        let list = |name: &str| string_list(entry, name, true).map_err(cannot);
         paths.push((globs, list("ignore")?, list("deny")?));
     }
-    Ok(Settings { select, ignore, deny, widgets, paths })
+    Ok(PolicyFile { select, ignore, deny, widgets, paths })
 }
 
 /// The tables of `[[paths]]`; none where nothing is said of paths.
@@ -251,7 +251,7 @@ fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
 }
 
 /// Every key is one of these.
-fn known(table: &toml::Table, keys: &[&str]) -> Result<(), String> {
+fn reject_unknown_keys(table: &toml::Table, keys: &[&str]) -> Result<(), String> {
     let Some(key) = table.keys().find(|key| !keys.contains(&key.as_str())) else { return Ok(()) };
     let near = match nearest(key, keys.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
@@ -261,7 +261,7 @@ fn known(table: &toml::Table, keys: &[&str]) -> Result<(), String> {
 }
 
 /// A list of texts; of rules, if so.
-fn words(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<String>, String> {
+fn string_list(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<String>, String> {
     let Some(value) = table.get(name) else { return Ok(Vec::new()) };
     let list = value.as_array().map(|list| list.iter().map(|v| v.as_str().map(String::from)).collect());
     let words: Option<Vec<String>> = list.unwrap_or(None);
@@ -277,7 +277,7 @@ fn words(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<String>,
 mod tests {
     use super::*;
 
-    fn told(policy: &Policy) -> Vec<(&'static str, Severity)> {
+    fn reported_rules(policy: &Policy) -> Vec<(&'static str, Severity)> {
         let finding = |code: &str| Finding::new(rules::find(code).unwrap(), 0..0, "");
         let mut all: Vec<Finding> =
             ["duplicate-readout", "unknown-key", "energy-grows"].map(finding).to_vec();
@@ -305,13 +305,13 @@ mod tests {
         let mut all = Policies::new(&PolicyOptions::default()).unwrap();
         let key = ("unknown-key", Severity::Error);
         let grows = rules::find("energy-grows").unwrap().severity;
-        assert_eq!(told(&all.of(&lesson).unwrap()), [key, ("energy-grows", grows)]);
-        assert_eq!(told(&all.of(&draft).unwrap()), [key]);
+        assert_eq!(reported_rules(&all.of(&lesson).unwrap()), [key, ("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.of(&draft).unwrap()), [key]);
         let denied = [("duplicate-readout", Severity::Error), key, ("energy-grows", Severity::Error)];
-        assert_eq!(told(&all.of(&inner).unwrap()), denied);
+        assert_eq!(reported_rules(&all.of(&inner).unwrap()), denied);
         let options = PolicyOptions { ignore: vec!["structure".into()], ..PolicyOptions::default() };
         let mut all = Policies::new(&options).unwrap();
-        assert_eq!(told(&all.of(&lesson).unwrap()), [("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.of(&lesson).unwrap()), [("energy-grows", grows)]);
     }
 
     #[test]

@@ -3,10 +3,10 @@
 //! Files are named from the folder of the record, so that it says the same on every machine.
 
 use super::Failure;
-use super::course::Course;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use crate::check::{Basis, Checked, Claim, ClaimBasis, LabBasis, Settings};
+use super::scheduler::Course;
+use crate::check::{Basis, Checked, Claim, ClaimBasis, LabBasis, RunSettings};
 use crate::ledger::{Entry, Ledger};
 use crate::report::{self, key, printable_path, set_number};
 use crate::source::read_text;
@@ -106,7 +106,7 @@ fn lab(b: &LabBasis) -> Value {
     })
 }
 
-fn settings(s: &Settings) -> Value {
+fn settings(s: &RunSettings) -> Value {
     let mut value = json!({
         "model": s.model, "timestep": null, "integrator": s.integrator, "solver": s.solver, "cone": s.cone,
         "iterations": s.iterations, "tolerance": null, "options": s.options, "contacts": s.contacts,

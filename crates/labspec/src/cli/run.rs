@@ -1,13 +1,13 @@
 //! `labspec run`.
 
-use super::handle::Handled;
+use super::lab_args::Handled;
 use super::output::{Wanted, wanted, write_png, write_with};
 use super::stdio::stream;
 use super::{Failure, Outcome, OutputKind, print, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};
-use crate::stability;
+use crate::stress;
 use clap::ValueEnum;
 use labspec_plot::{Chart, Series, line_chart};
 use std::fmt::Write;
@@ -79,7 +79,7 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     files.extend(painted.iter().map(|path| Wanted { kind: OutputKind::Picture, path: path.clone() }));
     a.handled.look_ahead(&target, &files)?;
     let table =
-        stability::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
+        stress::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
     if let Some(file) = &a.csv {
         write_with(file, OutputKind::Table, |out| table.write_csv(out))?;
     }

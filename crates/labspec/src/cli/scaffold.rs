@@ -6,7 +6,7 @@ use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, writ
 use crate::bind::scene::Models;
 use crate::lint::{load_lesson_file, reload_lesson};
 use crate::report::{printable, printable_lines, printable_path, report};
-use crate::scaffold::{Found, Scaffold, scaffold as look, written};
+use crate::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
 use crate::spec::Lesson;
 use crate::trace::laid_out;
 use crate::verify::{Verdict, significant};
@@ -46,7 +46,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
     if interrupted() {
         return Ok(Outcome::Clean);
     }
-    let proposals = all.iter().filter(|one| matches!(one.found, Found::Proposed { .. })).count();
+    let proposals = all.iter().filter(|one| matches!(one.found, ScaffoldOutcome::Proposed { .. })).count();
     if a.write && proposals > 0 {
         let text = written(&lesson, &all);
         // The file as it would be is read once more before anything is replaced.
@@ -63,7 +63,8 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
         Format::Human => print(&human(a, &lesson, &all))?,
         Format::Json => print_json(&value(&lesson, &all), true)?,
     }
-    let done = |one: &Scaffold| matches!(&one.found, Found::Proposed { verdict, .. } if sound(verdict));
+    let done =
+        |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if sound(verdict));
     Ok(if all.iter().all(done) { Outcome::Clean } else { Outcome::Findings })
 }
 
@@ -79,7 +80,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
         let at = lesson.file.position(one.span.start);
         let _ = writeln!(text, "{}:{} {}", at.line, at.column, printable(&one.name));
         match &one.found {
-            Found::Proposed { verify, values, undecided, verdict } => {
+            ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
                 counts[0] += 1;
                 for (name, x) in values {
                     let _ = writeln!(text, "  {} = {}", printable(name), significant(*x));
@@ -99,7 +100,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
                     let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&laid_out(verify)));
                 }
             }
-            Found::Contradicted { option, values } => {
+            ScaffoldOutcome::Contradicted { option, values } => {
                 counts[1] += 1;
                 let _ = writeln!(
                     text,
@@ -110,7 +111,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
                     let _ = writeln!(text, "    {} = {}", printable(name), significant(*x));
                 }
             }
-            Found::Open(why) => {
+            ScaffoldOutcome::Open(why) => {
                 counts[2] += 1;
                 let _ = writeln!(text, "  left open: {}", printable(why));
             }
@@ -135,7 +136,7 @@ fn value(lesson: &Lesson, all: &[Scaffold]) -> Value {
             "outcome": null, "verify": null, "values": [], "undecided": [], "verdict": null, "reason": null, "option": null,
         });
         match &one.found {
-            Found::Proposed { verify, values, undecided, verdict } => {
+            ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
                 value["outcome"] = json!("proposed");
                 value["verify"] = verify.clone();
                 value["values"] = measured(values);
@@ -143,12 +144,12 @@ fn value(lesson: &Lesson, all: &[Scaffold]) -> Value {
                 value["verdict"] = json!(verdict.as_ref().map(|(v, _)| v.as_str()));
                 value["reason"] = json!(verdict.as_ref().map(|(_, reason)| reason));
             }
-            Found::Contradicted { option, values } => {
+            ScaffoldOutcome::Contradicted { option, values } => {
                 value["outcome"] = json!("contradicted");
                 value["values"] = measured(values);
                 value["option"] = json!(option + 1);
             }
-            Found::Open(why) => {
+            ScaffoldOutcome::Open(why) => {
                 value["outcome"] = json!("open");
                 value["reason"] = json!(why);
             }

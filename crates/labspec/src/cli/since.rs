@@ -110,7 +110,7 @@ fn verdicts(old: &[Value], new: &[Value], steps: &mut Vec<Step>) {
         for i in 0..a.len().max(b.len()) {
             let [a, b] = [a.get(i), b.get(i)].map(|e| e.cloned().unwrap_or(Value::Null));
             let one = if a.is_null() { &b } else { &a };
-            let subject = words(one["subject"].as_str().unwrap_or_default());
+            let subject = describe_key(one["subject"].as_str().unwrap_or_default());
             let what =
                 one["what"].as_str().filter(|w| !w.is_empty()).map_or(String::new(), |w| format!(" \"{w}\""));
             differ(&format!("{subject}{what}"), &a["word"], &b["word"], steps);
@@ -197,7 +197,7 @@ fn one<'v>(list: &'v Value, key: &str, name: &str) -> &'v Value {
 }
 
 /// `quotedNumber` in words.
-fn words(key: &str) -> String {
+fn describe_key(key: &str) -> String {
     let mut words = String::new();
     for c in key.chars() {
         if c.is_ascii_uppercase() {
@@ -209,7 +209,7 @@ fn words(key: &str) -> String {
 }
 
 /// All changes, for people.
-pub(super) fn told(name: &str, all: &[Change]) -> String {
+pub(super) fn summary(name: &str, all: &[Change]) -> String {
     let name = printable(name);
     if all.is_empty() {
         return format!("since {name} nothing has changed\n");
@@ -240,7 +240,7 @@ fn line(step: &Step) -> String {
     match (&step.before, &step.now) {
         (Value::Null, Value::Null) => step.what.clone(),
         (a, b) if digest(a) && digest(b) => format!("{}: another one", step.what),
-        (a, b) => format!("{}: {} → {}{by}", step.what, shown(a), shown(b)),
+        (a, b) => format!("{}: {} → {}{by}", step.what, format_value(a), format_value(b)),
     }
 }
 
@@ -249,13 +249,13 @@ fn difference(step: &Step) -> Option<f64> {
     Some(step.now.as_f64()? - step.before.as_f64()?)
 }
 
-fn shown(value: &Value) -> String {
+fn format_value(value: &Value) -> String {
     match value {
         Value::Null => "not there".into(),
         Value::String(text) if text.len() == 64 => "there".into(),
         Value::String(text) => text.clone(),
         Value::Number(n) => n.as_f64().map_or(n.to_string(), significant),
-        Value::Array(list) => list.iter().map(shown).collect::<Vec<_>>().join(" "),
+        Value::Array(list) => list.iter().map(format_value).collect::<Vec<_>>().join(" "),
         other => other.to_string(),
     }
 }

@@ -1,9 +1,9 @@
 //! `labspec snapshot`: what the labs of lessons show, stored beside them; and the review of what has changed.
 
 use super::collect::{Collected, collect, lost_snapshots};
-use super::course::is_other_json;
 use super::output::{remove_file, write_file};
 use super::output_kind::OutputKind;
+use super::scheduler::is_other_json;
 use super::stdio::{print, print_json};
 use super::target::model_folder_within;
 use super::{Failure, ModelOptions, Outcome, interrupted, machine};
@@ -87,7 +87,7 @@ struct Looked {
 pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let asks = a.review && a.format == Format::Human && terminal;
-    let mut all = look(a)?;
+    let mut all = collect_lessons(a)?;
     for one in &mut all {
         if interrupted() {
             return Ok(Outcome::Findings);
@@ -107,7 +107,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
         store(one, a.accept)?;
     }
     match a.format {
-        Format::Human => print(&told(&all, asks))?,
+        Format::Human => print(&summary(&all, asks))?,
         Format::Json => print_json(&report::report("snapshot", machine(&all)), true)?,
     }
     let open = |one: &Looked| left(one).next().is_some() || (one.standing == Standing::Gone && !one.written);
@@ -117,7 +117,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
 }
 
 /// Reads every lesson, runs its labs, and compares.
-fn look(a: &Arguments) -> Result<Vec<Looked>, Failure> {
+fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
     let collected = collect(&a.paths);
     collected.complain();
     let Collected { files, problems, .. } = collected;
@@ -254,7 +254,7 @@ fn about(lab: &RenewedLab) -> String {
 }
 
 /// Everything, for people. What was asked about is not told again.
-fn told(all: &[Looked], asked: bool) -> String {
+fn summary(all: &[Looked], asked: bool) -> String {
     let mut text = String::new();
     let (mut same, mut open) = (0, 0);
     for one in all {

@@ -1,6 +1,6 @@
 //! `labspec stability`.
 
-use super::handle::Handled;
+use super::lab_args::Handled;
 use super::output::{wanted, write_png};
 use super::stdio::{Progress, print_json};
 use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
@@ -8,9 +8,9 @@ use crate::bind::Programs;
 use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
 use crate::spec::Lab;
-use crate::stability::{
-    Cell, Evidence, Fault, FaultKind, Found, Handling, Kind, Made, Map, Margin, Options, Report, Sensitivity,
-    probe,
+use crate::stress::{
+    Cell, Evidence, Fault, FaultGroup, FaultKind, Interaction, Kind, Made, Map, Margin, Options, Report,
+    Sensitivity, probe,
 };
 use clap::ValueEnum;
 use labspec_plot::{Cells, cells};
@@ -84,7 +84,7 @@ fn human(report: &Report, programs: &Programs) -> String {
     let mut text = String::new();
     let runs: usize = report.tried.iter().map(|t| t.made + t.cut).sum();
     let kinds: Vec<String> =
-        report.tried.iter().map(|t| format!("{} {}", t.made + t.cut, t.kind.words())).collect();
+        report.tried.iter().map(|t| format!("{} {}", t.made + t.cut, t.kind.description())).collect();
     let _ = writeln!(
         text,
         "{runs} run{} of {} s: {}.",
@@ -112,16 +112,16 @@ fn human(report: &Report, programs: &Programs) -> String {
     text
 }
 
-fn finding(found: &Found, programs: &Programs, text: &mut String) {
-    let Found { fault, handling, settings, worst, expected, remedies } = found;
+fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
+    let FaultGroup { fault, handling, settings, worst, expected, remedies } = found;
     let expected = if *expected { " (as the lab says it does)" } else { "" };
     let _ = writeln!(
         text,
         "\n{}{expected}: {}, at t = {} s, {}",
-        fault.kind.words(),
+        fault.kind.description(),
         printable(&fault.who),
         crate::run::time(fault.time),
-        printable(&handling.words(programs))
+        printable(&handling.describe(programs))
     );
     let _ = writeln!(text, "  {}", fault.measured());
     let _ = writeln!(text, "  cause: {}", printable(&fault.cause));
@@ -129,7 +129,7 @@ fn finding(found: &Found, programs: &Programs, text: &mut String) {
         let _ = write!(text, "  also in {} other settings", settings - 1);
         let _ = match worst {
             Some((handling, fault)) => {
-                writeln!(text, "; worst {}: {}", printable(&handling.words(programs)), fault.measured())
+                writeln!(text, "; worst {}: {}", printable(&handling.describe(programs)), fault.measured())
             }
             None => writeln!(text),
         };
@@ -185,11 +185,14 @@ fn margin(m: &Margin) -> [String; 6] {
         (Some(x), None) => format!("> {}", value(x)),
         (None, _) => "none".into(),
     };
-    let who = if m.knob.words() == "timestep" { String::new() } else { format!(" of {}", printable(&m.who)) };
-    let how =
-        m.how.as_ref().map_or(String::new(), |(kind, who)| format!("{}: {}", kind.words(), printable(who)));
+    let who =
+        if m.knob.description() == "timestep" { String::new() } else { format!(" of {}", printable(&m.who)) };
+    let how = m
+        .how
+        .as_ref()
+        .map_or(String::new(), |(kind, who)| format!("{}: {}", kind.description(), printable(who)));
     [
-        format!("{}{who}", m.knob.words()),
+        format!("{}{who}", m.knob.description()),
         value(m.now),
         largest,
         m.largest.map_or(String::new(), |x| two_digits(x / m.now)),
@@ -262,7 +265,7 @@ fn letters(map: &Map, text: &mut String) {
             printable(&last.to_string())
         );
     }
-    let legend = kinds.iter().enumerate().map(|(k, kind)| format!("{} {}", k + 1, kind.words()));
+    let legend = kinds.iter().enumerate().map(|(k, kind)| format!("{} {}", k + 1, kind.description()));
     let legend: Vec<String> = std::iter::once(". fine".into()).chain(legend).collect();
     let _ = writeln!(text, "  {}", legend.join(", "));
 }
@@ -290,7 +293,7 @@ fn index(kinds: &[FaultKind], cell: Cell) -> Option<usize> {
 
 fn chart(map: &Map, title: &str) -> String {
     let kinds = kinds(map);
-    let names = std::iter::once("fine").chain(kinds.iter().map(|k| k.words()));
+    let names = std::iter::once("fine").chain(kinds.iter().map(|k| k.description()));
     let values = |k: usize| map.values[k].iter().map(ToString::to_string).collect();
     cells(&Cells {
         title: title.to_string(),
@@ -310,7 +313,7 @@ fn left_out(report: &Report) -> Vec<String> {
     let mut list = Vec::new();
     for t in &report.tried {
         if t.left_out > 0 {
-            list.push(format!("{} of {}", t.left_out, t.kind.words()));
+            list.push(format!("{} of {}", t.left_out, t.kind.description()));
         }
     }
     let cut: usize = report.tried.iter().map(|t| t.cut).sum();
@@ -329,7 +332,7 @@ fn left_out(report: &Report) -> Vec<String> {
 }
 
 fn value(report: &Report, programs: &Programs) -> Value {
-    let tried = |t: &crate::stability::Tried| json!({"kind": key(t.kind.words()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
+    let tried = |t: &crate::stress::Tried| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
     let found: Vec<Value> = report.found.iter().map(|f| found_value(f, programs)).collect();
     crate::report::report(
         "stability",
@@ -353,19 +356,19 @@ fn value(report: &Report, programs: &Programs) -> Value {
 
 fn made_value(made: &Made, programs: &Programs) -> Value {
     json!({
-        "kind": key(made.handling.kind.words()), "setting": handling_value(&made.handling, programs),
+        "kind": key(made.handling.kind.description()), "setting": handling_value(&made.handling, programs),
         "covered": made.covered, "cut": made.cut,
-        "wrong": made.wrong.iter().map(|k| key(k.words())).collect::<Vec<_>>(),
+        "wrong": made.wrong.iter().map(|k| key(k.description())).collect::<Vec<_>>(),
     })
 }
 
-fn found_value(found: &Found, programs: &Programs) -> Value {
+fn found_value(found: &FaultGroup, programs: &Programs) -> Value {
     let mut value = fault_value(&found.fault);
     value["setting"] = handling_value(&found.handling, programs);
     value["touched"] = json!(found.handling.kind == Kind::Touched);
     value["settings"] = json!(found.settings);
     value["expected"] = json!(found.expected);
-    let remedy = |r: &crate::stability::Remedy| {
+    let remedy = |r: &crate::stress::Remedy| {
         let mut value = json!({"change": r.change});
         set_number(&mut value, "work", r.work);
         set_number(&mut value, "timeRatio", r.time);
@@ -383,8 +386,8 @@ fn found_value(found: &Found, programs: &Programs) -> Value {
 
 fn margin_value(m: &Margin) -> Value {
     json!({
-        "knob": key(m.knob.words()), "who": m.who, "unit": m.unit, "now": m.now, "largest": m.largest,
-        "breaks": m.breaks, "how": m.how.as_ref().map(|(kind, who)| json!({"kind": key(kind.words()), "who": who})),
+        "knob": key(m.knob.description()), "who": m.who, "unit": m.unit, "now": m.now, "largest": m.largest,
+        "breaks": m.breaks, "how": m.how.as_ref().map(|(kind, who)| json!({"kind": key(kind.description()), "who": who})),
         "bound": m.bound, "runs": m.runs, "geoms": m.geoms,
     })
 }
@@ -406,7 +409,7 @@ fn sensitivity_value(s: &Sensitivity) -> Value {
 fn map_value(map: &Map) -> Value {
     let cell = |c: &Cell| match c {
         Cell::Fine => "fine".to_string(),
-        Cell::Broken(kind) => key(kind.words()),
+        Cell::Broken(kind) => key(kind.description()),
         Cell::Unknown => "unknown".to_string(),
     };
     let rows: Vec<Vec<String>> = map.cells.iter().map(|row| row.iter().map(cell).collect()).collect();
@@ -432,15 +435,15 @@ fn fault_value(fault: &Fault) -> Value {
         value
     };
     json!({
-        "kind": key(fault.kind.words()), "time": fault.time, "who": fault.who, "cause": fault.cause,
+        "kind": key(fault.kind.description()), "time": fault.time, "who": fault.who, "cause": fault.cause,
         "evidence": fault.evidence.iter().map(evidence).collect::<Vec<_>>(),
     })
 }
 
 /// What a student does: a list of changes, each with its time.
-fn handling_value(handling: &Handling, programs: &Programs) -> Value {
+fn handling_value(handling: &Interaction, programs: &Programs) -> Value {
     let label = |i: usize| programs.controls.get(i).map_or("", |(label, _)| label.as_str());
-    let one = |a: &crate::stability::Action| {
+    let one = |a: &crate::stress::Action| {
         let value = a.value.as_ref().map_or(Value::Null, control_value);
         json!({"control": label(a.control), "time": a.time, "value": value})
     };

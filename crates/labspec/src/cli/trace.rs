@@ -73,7 +73,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                 let _ = writeln!(
                     text,
                     " = {} = {value}  ({}{chance})",
-                    printable(&hit.told()),
+                    printable(&hit.description()),
                     printable(&place(found, hit))
                 );
                 0
@@ -82,7 +82,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                 let _ = writeln!(
                     text,
                     " is not reproducible: {} = {}  ({}), and other digits where the start is moved by 1e-14",
-                    printable(&hit.told()),
+                    printable(&hit.description()),
                     significant(hit.value),
                     printable(&place(found, hit))
                 );
@@ -93,7 +93,12 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
                 1
             }
             Origin::Chance(hit) => {
-                let _ = writeln!(text, " may be chance ({}): {}", share(hit.chance), printable(&hit.told()));
+                let _ = writeln!(
+                    text,
+                    " may be chance ({}): {}",
+                    share(hit.chance),
+                    printable(&hit.description())
+                );
                 2
             }
             Origin::Claimed => {

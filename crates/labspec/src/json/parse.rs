@@ -47,7 +47,7 @@ const MAX_TRIED: usize = 128 << 10;
 /// then, and none that was not there before.
 fn try_repairs(text: &str, said: &mut [Problem]) {
     // What is told once counts once: two brackets may be missing at one place.
-    fn told(list: &[Problem]) -> Vec<Mistake> {
+    fn to_mistakes(list: &[Problem]) -> Vec<Mistake> {
         let mut all: Vec<&Problem> = Vec::new();
         for problem in list {
             if !all.iter().any(|p| p.span == problem.span && p.mistake.is(&problem.mistake)) {
@@ -57,7 +57,7 @@ fn try_repairs(text: &str, said: &mut [Problem]) {
         all.into_iter().map(|p| p.mistake.clone()).collect()
     }
     let count = |list: &[Mistake], mistake: &Mistake| list.iter().filter(|m| m.is(mistake)).count();
-    let before = told(said);
+    let before = to_mistakes(said);
     for (i, problem) in said.iter_mut().enumerate() {
         let Some((span, right)) = &problem.repair else { continue };
         let mut repaired = text.to_string();
@@ -67,7 +67,7 @@ fn try_repairs(text: &str, said: &mut [Problem]) {
             let below = SourceMap::verbatim(0..repaired.len());
             let mut parser = Parser::new(&repaired, &below);
             let _ = parser.root();
-            let left = told(&parser.finish());
+            let left = to_mistakes(&parser.finish());
             // The mistake itself is gone, and not only another one that it hid.
             let gone = count(&left, &problem.mistake) < count(&before, &problem.mistake);
             if gone && left.len() < before.len() && left.iter().all(|m| count(&before, m) > 0) {

@@ -2,7 +2,7 @@
 //! `jsonc-parser`, and nothing is a panic, a hang, or silence.
 
 use super::*;
-use crate::lint::json::told;
+use crate::lint::json::to_finding;
 use crate::source::SourceMap;
 use proptest::prelude::*;
 use std::ops::Range;
@@ -15,7 +15,7 @@ fn run(text: &str) -> Parsed {
 fn complaints(text: &str) -> Vec<(String, String)> {
     let parsed = run(text);
     assert!(parsed.broken, "{text} was accepted");
-    let told = |p: &Problem| (told(p).message, text[p.span.clone()].to_string());
+    let told = |p: &Problem| (to_finding(p).message, text[p.span.clone()].to_string());
     parsed.problems.iter().map(told).collect()
 }
 
@@ -274,7 +274,7 @@ fn too_many_values_are_refused() {
 fn duplicate_keys_are_found_and_strings_know_their_place() {
     let text = r#"{"a": "x\ny", "a": ""}"#;
     let parsed = run(text);
-    assert_eq!((told(&parsed.problems[0]).code, parsed.broken), ("duplicate-key", false));
+    assert_eq!((to_finding(&parsed.problems[0]).code, parsed.broken), ("duplicate-key", false));
     assert_eq!(parsed.problems[0].span, 15..16);
     let node = parsed.node.unwrap();
     let Json::Text(first) = &node.members()[0].value.json else { panic!() };

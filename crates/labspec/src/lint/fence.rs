@@ -6,7 +6,7 @@ use crate::rules;
 use std::ops::Range;
 
 /// What is said about damaged fences.
-pub(super) fn told(text: &str, problem: &Problem) -> Finding {
+pub(super) fn to_finding(text: &str, problem: &Problem) -> Finding {
     match problem {
         Problem::TooMuchMarkup => {
             Finding::new(rules::LESSON_LIMIT, 0..0, "nothing of this lesson is checked")

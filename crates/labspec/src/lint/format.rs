@@ -10,8 +10,8 @@ use crate::spec::{Expected, MOST_SWEPT, Meant, Misfit, Mistake};
 use std::ops::Range;
 
 /// What is said about a misfit.
-pub(super) fn told(misfit: &Misfit) -> Finding {
-    let mut finding = said(misfit.span.clone(), &misfit.mistake);
+pub(super) fn to_finding(misfit: &Misfit) -> Finding {
+    let mut finding = finding_at(misfit.span.clone(), &misfit.mistake);
     // The page does not read a `verify` object: it is nothing to the student, and everything to the check.
     let reason = |rule: &rules::Rule| *finding.code == *rule && finding.why.as_deref() == Some(rule.why);
     if misfit.in_verify && [rules::UNKNOWN_KEY, rules::WRONG_TYPE].into_iter().any(reason) {
@@ -21,7 +21,7 @@ pub(super) fn told(misfit: &Misfit) -> Finding {
     finding
 }
 
-fn said(span: Range<usize>, mistake: &Mistake) -> Finding {
+fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
     let open = || span.start..span.end.min(span.start + 1);
     let wrong = |message: String| Finding::new(rules::WRONG_TYPE, span.clone(), message);
     match mistake {

@@ -34,7 +34,8 @@ const MAX_TAGS: usize = 500;
 
 /// Everything that the rules of structure say of a lesson, in no order.
 fn check(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = lesson.problems.iter().map(|problem| told(lesson, problem)).collect();
+    let mut findings: Vec<Finding> =
+        lesson.problems.iter().map(|problem| to_finding(lesson, problem)).collect();
     check_text(lesson, &mut findings);
     check_objects(lesson, &mut findings);
     check_models(lesson, models, &mut findings);
@@ -42,11 +43,11 @@ fn check(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
 }
 
 /// What is said about something that was wrong where it was read.
-fn told(lesson: &Lesson, problem: &Problem) -> Finding {
+fn to_finding(lesson: &Lesson, problem: &Problem) -> Finding {
     match problem {
-        Problem::Fence(problem) => fence::told(lesson.file.text(), problem),
-        Problem::Json(problem) => json::told(problem),
-        Problem::Format(misfit) => format::told(misfit),
+        Problem::Fence(problem) => fence::to_finding(lesson.file.text(), problem),
+        Problem::Json(problem) => json::to_finding(problem),
+        Problem::Format(misfit) => format::to_finding(misfit),
     }
 }
 

@@ -8,11 +8,11 @@ use crate::json::{
 use crate::lint::ModelFolder;
 use crate::rules;
 use crate::source::Text;
-use crate::spec::{Lab, Scene};
+use crate::spec::{Lab, ModelSource};
 
 /// Whether the model that a lab names is there.
 pub(super) fn check(lab: &Lab, models: &ModelFolder, findings: &mut Vec<Finding>) {
-    if let Some(Scene::Model(name)) = lab.scene() {
+    if let Some(ModelSource::Model(name)) = lab.scene() {
         findings.extend(missing(name, models));
     }
 }

@@ -3,7 +3,7 @@
 use super::documents::Document;
 use super::places;
 use crate::bind::scene::Models;
-use crate::check::{self, Depth};
+use crate::check::{self, CheckLevel};
 use crate::finding::{Applicability, Finding, Fix};
 use crate::lint::reload_lesson;
 use crate::repair::{Looked, repair as repair_text, traces};
@@ -85,7 +85,7 @@ fn everything(document: &Document, lesson: &Lesson, models: &Models) -> Option<V
     if !document.findings.iter().any(is_safe) {
         return None;
     }
-    let depth = Depth { programs: true, ..Depth::STATIC };
+    let depth = CheckLevel { programs: true, ..CheckLevel::STATIC };
     let load = |text: &str| reload_lesson(lesson, text, models.folder());
     let look = |text: &str| {
         let lesson = load(text);

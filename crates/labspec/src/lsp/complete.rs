@@ -1,9 +1,9 @@
 //! What can be written at a place: keys and words of the format, names of the language and of the model.
 
+use super::check::lesson;
 use super::code;
 use super::course::Around;
 use super::documents::Document;
-use super::look::lesson;
 use super::places;
 use crate::bind::ModelNames;
 use crate::spec::Verify;

@@ -1,9 +1,9 @@
 //! The unit of what a text names, behind it, for who asks for it.
 
+use super::check::lesson;
 use super::code;
 use super::course::Around;
 use super::documents::Document;
-use super::look::lesson;
 use super::places;
 use crate::bind::ModelNames;
 use labspec_expr::{Mention, Schema, fields_in};

@@ -1,10 +1,10 @@
 //! What stands at a place: what a name of the language or the model means, and what it is worth at the start of its lab; what a key
 //! of the format takes.
 
+use super::check::lesson;
 use super::code;
 use super::course::Around;
 use super::documents::Document;
-use super::look::lesson;
 use super::places;
 use super::start::{started, unit, value};
 use crate::bind::Scope;

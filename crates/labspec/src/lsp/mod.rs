@@ -8,6 +8,7 @@
 //! * `complete`, `hover`, `names`, `rename`, `actions`, `hints`: an answer each
 
 mod actions;
+mod check;
 mod code;
 mod complete;
 mod course;
@@ -16,7 +17,6 @@ mod documents;
 mod elements;
 mod hints;
 mod hover;
-mod look;
 mod names;
 mod places;
 mod rename;

@@ -9,7 +9,7 @@ use crate::bind::ModelNames;
 use crate::bind::scene::Models;
 use crate::lint::{ModelFolder, load_lesson_at};
 use crate::source::{Overlay, SourceFile, Text};
-use crate::spec::{FileKind, Lab, Lesson, Scene};
+use crate::spec::{FileKind, Lab, Lesson, ModelSource};
 use labspec_expr::{Schema, names_in, texts_in};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -130,8 +130,8 @@ pub(super) fn model_named(lesson: &Lesson, models: &Models, byte: usize) -> Opti
 
 fn home(lab: &Lab, path: &Path, models: &Models) -> Option<Home> {
     match lab.scene()? {
-        Scene::Model(name) => models.folder().path(&name.value).map(Home::File),
-        Scene::Xml(_) => Some(Home::Lab(path.to_path_buf(), lab.span.clone())),
+        ModelSource::Model(name) => models.folder().path(&name.value).map(Home::File),
+        ModelSource::Xml(_) => Some(Home::Lab(path.to_path_buf(), lab.span.clone())),
     }
 }
 

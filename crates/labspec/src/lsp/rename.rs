@@ -17,10 +17,14 @@ pub(super) fn rename(name: &Name, places: &Places, new: &str, ground: &Ground<'_
         return Err(format!("the model has no {noun} that is called `{old}` in exactly one place"));
     }
     if let Some(doubt) = places.doubts.first() {
-        return Err(format!("{}: {}; nothing was changed", told(&doubt.file, doubt.span.start), doubt.why));
+        return Err(format!(
+            "{}: {}; nothing was changed",
+            describe_position(&doubt.file, doubt.span.start),
+            doubt.why
+        ));
     }
     if let Some(spot) = places.spots.iter().find(|spot| !spot.plain) {
-        let at = told(&spot.file, spot.span.start);
+        let at = describe_position(&spot.file, spot.span.start);
         return Err(format!("{at}: the name is written with escapes here; nothing was changed"));
     }
     let mut changes: Map<String, Value> = Map::new();
@@ -51,6 +55,6 @@ fn good(new: &str) -> Result<(), String> {
     }
 }
 
-fn told(file: &SourceFile, byte: usize) -> String {
+fn describe_position(file: &SourceFile, byte: usize) -> String {
     format!("{}, line {}", file.path(), file.position(byte).line)
 }

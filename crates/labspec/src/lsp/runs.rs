@@ -1,7 +1,7 @@
 //! What only runs find, on a thread of its own: started when a lesson is saved, stopped when newer text comes.
 
 use crate::bind::scene::Models;
-use crate::check::{self, Depth};
+use crate::check::{self, CheckLevel};
 use crate::finding::Finding;
 use crate::interrupt;
 use crate::lint::load_lesson_at;
@@ -45,7 +45,7 @@ impl Job {
         let work = move || {
             let findings = interrupt::until(asked.clone(), || {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
-                check::check(lesson, &models, Depth::FULL).findings
+                check::check(lesson, &models, CheckLevel::FULL).findings
             });
             // What a run that was stopped says is not used.
             if !asked.load(Ordering::Relaxed) {

@@ -1,13 +1,13 @@
 //! The loop: a message in, what it asks for out. All state belongs to this thread; runs go on beside it.
 
 use super::actions::actions;
+use super::check::{check_document, lesson};
 use super::complete::completions;
 use super::course::{Arounds, Opened, uri_of};
 use super::diagnostic::diagnostic;
 use super::documents::Document;
 use super::hints::hints;
 use super::hover::hover;
-use super::look::{lesson, look};
 use super::names::{self, Ground, Name, Places};
 use super::places;
 use super::rename::rename;
@@ -72,7 +72,7 @@ pub fn serve<'c>(
         documents: BTreeMap::new(),
         arounds: Arounds::default(),
         folders: Vec::new(),
-        settings: Settings::default(),
+        settings: EditorSettings::default(),
         job: None,
         jobs: 0,
     }
@@ -89,20 +89,20 @@ enum State {
 
 /// What the person wants.
 #[derive(Clone, Copy, Debug)]
-struct Settings {
+struct EditorSettings {
     /// Units behind what texts name.
     units: bool,
     /// Labs are run when a lesson is saved.
     run_on_save: bool,
 }
 
-impl Default for Settings {
-    fn default() -> Settings {
-        Settings { units: false, run_on_save: true }
+impl Default for EditorSettings {
+    fn default() -> EditorSettings {
+        EditorSettings { units: false, run_on_save: true }
     }
 }
 
-impl Settings {
+impl EditorSettings {
     /// Takes what is said, and leaves the rest.
     fn take(&mut self, said: &Value) {
         let said = said.get("labspec").unwrap_or(said);
@@ -130,7 +130,7 @@ struct Server<'c> {
     arounds: Arounds,
     /// The folders that the editor opened.
     folders: Vec<Opened>,
-    settings: Settings,
+    settings: EditorSettings,
     job: Option<Job>,
     /// How many checks were started.
     jobs: u64,
@@ -143,7 +143,7 @@ impl Server<'_> {
             let event = match events.try_recv() {
                 Ok(event) => event,
                 Err(_) => {
-                    self.look()?;
+                    self.check_documents()?;
                     match events.recv() {
                         Ok(event) => event,
                         Err(_) => return Ok(false),
@@ -418,12 +418,12 @@ impl Server<'_> {
     }
 
     /// Looks at every document that was changed.
-    fn look(&mut self) -> io::Result<()> {
+    fn check_documents(&mut self) -> io::Result<()> {
         let stale: Vec<String> = self.documents.values().filter(|d| d.stale).map(|d| d.uri.clone()).collect();
         for uri in stale {
             let Some(document) = self.documents.get_mut(&uri) else { continue };
             let around = self.arounds.of(&document.path, self.course.models);
-            let looked = catch_unwind(AssertUnwindSafe(|| look(document, around)));
+            let looked = catch_unwind(AssertUnwindSafe(|| check_document(document, around)));
             document.stale = false;
             if looked.is_err() {
                 document.findings.clear();
@@ -545,7 +545,7 @@ impl Server<'_> {
         // What is offered belongs to the text as it is.
         if document.stale {
             let uri = document.uri.clone();
-            self.look().map_err(|e| Refused(ErrorCode::InternalError, format!("{uri}: {e}")))?;
+            self.check_documents().map_err(|e| Refused(ErrorCode::InternalError, format!("{uri}: {e}")))?;
         }
         let uri = self.document(params)?.uri.clone();
         let Some(document) = self.documents.get_mut(&uri) else { return Ok(Value::Null) };

@@ -1,6 +1,6 @@
 //! From a text to a lab that is ready to play.
 
-use super::{Player, Saved, control, shown};
+use super::{Player, Saved, control, displayed};
 use crate::bind::Functions;
 use crate::bind::scene::Models;
 use crate::check;
@@ -86,10 +86,10 @@ impl Player {
         let demand = Demand { reads: FieldSet::ALL, ..programs.demand };
         let mut session = Session::start(Arc::new(programs), &model, lab.keyframe(), &demand);
         session.watch();
-        let (controls, shown) = (control::list(&lab), shown::list(&lab));
+        let (controls, shown) = (control::list(&lab), displayed::list(&lab));
         let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
         let mut player = Player { lab, file: lesson.file.clone(), loaded, controls, shown, now };
-        player.look();
+        player.observe();
         Ok(player)
     }
 }

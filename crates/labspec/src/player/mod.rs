@@ -4,11 +4,11 @@
 //! whatever it is given: what cannot be done is an [`Error`], and what breaks while the lab plays is a [`Finding`].
 
 mod control;
+mod displayed;
 mod load;
-mod shown;
 
 pub use control::{Control, ControlKind, Which};
-pub use shown::{Place, Shown};
+pub use displayed::{DisplayedIn, Shown};
 
 use crate::error::{Error, located};
 use crate::finding::Finding;
@@ -137,7 +137,7 @@ impl Player {
     pub fn reset(&mut self) {
         self.now.session.renew(Budget::TRIAL);
         self.now.session.start_over();
-        self.look();
+        self.observe();
     }
 
     /// Plays until a time, or until the lab stops by itself; returns the number of steps. A time that has passed is no step.
@@ -174,7 +174,7 @@ impl Player {
             each(session, made);
             if session.world.data.time() >= stop { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        self.look();
+        self.observe();
         self.frozen().map_or(Ok(made), Err)
     }
 
@@ -230,12 +230,12 @@ impl Player {
         }
         self.now.session.renew(Budget::TRIAL);
         what(&mut self.now.session);
-        self.look();
+        self.observe();
         self.frozen().map_or(Ok(()), Err)
     }
 
     /// Takes the values of everything that is shown.
-    fn look(&mut self) {
+    fn observe(&mut self) {
         let mut row = self.now.session.sample().into_iter();
         // Time stands first.
         row.next();

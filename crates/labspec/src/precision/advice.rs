@@ -167,7 +167,7 @@ fn about_own(report: &Report, own: usize) -> String {
     let row = &report.rows[own];
     let name = name(row);
     if !matches!(row.fate, super::Fate::Good | super::Fate::Warned) {
-        let why = row.told.first().map_or(String::new(), |t| format!(": {t}"));
+        let why = row.reported.first().map_or(String::new(), |t| format!(": {t}"));
         return format!("As the lab has it, {name}, the run is no good ({}{why}).", row.fate.word());
     }
     let known = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());

@@ -1,6 +1,6 @@
 //! Another program's runs of the same lab, as it recorded them: its errors and times stand beside ours, and never enter them.
 
-use super::case::{Case, Run};
+use super::case::{PrecisionCase, Run};
 use super::judge::{self, Compared, Errors};
 use super::reference::Reference;
 use crate::run::RunError;
@@ -90,7 +90,7 @@ impl Recording {
     /// It lacks a trace of the lab, or was recorded at other times.
     pub(super) fn judge(
         &self,
-        case: &Case<'_>,
+        case: &PrecisionCase<'_>,
         truth: &Reference,
         targets: &[Compared],
     ) -> Result<Beside, RunError> {

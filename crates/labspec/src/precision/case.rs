@@ -66,7 +66,7 @@ pub struct LeftOut {
 pub(super) const AGAIN: &str = "it is another one again";
 
 /// What all runs of a comparison share.
-pub(super) struct Case<'a> {
+pub(super) struct PrecisionCase<'a> {
     pub(super) lab: &'a Lab,
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
@@ -99,7 +99,7 @@ const LOOKS: usize = 100;
 #[derive(Clone, Copy, Default)]
 pub(super) struct Ask<'s> {
     /// Every coordinate of the start is moved by this.
-    pub(super) nudge: f64,
+    pub(super) perturbation: f64,
     /// All that is shown is of the state at hand, as in the truth; else what a page shows after a step is partly of the state before
     /// it: forces, energies, contacts. A fresh run is not watched for growth of energy, as every look begins that watch anew.
     pub(super) fresh: bool,
@@ -114,7 +114,7 @@ pub(super) struct Ask<'s> {
 impl Ask<'_> {
     /// As a reference is run.
     pub(super) const FRESH: Ask<'static> =
-        Ask { nudge: 0.0, fresh: true, cut: false, sought: None, stop: None };
+        Ask { perturbation: 0.0, fresh: true, cut: false, sought: None, stop: None };
 }
 
 /// What a run showed.
@@ -141,7 +141,7 @@ pub(super) struct Run {
     /// What became of it.
     pub(super) fate: Fate,
     /// Everything that was told about it.
-    pub(super) told: Vec<String>,
+    pub(super) reported: Vec<String>,
     /// Work, in the engine's own units, per simulated second.
     pub(super) work: f64,
 }
@@ -186,7 +186,7 @@ fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
     stated.or_else(computed).filter(|unit| unit != "1" && !unit.contains(", times"))
 }
 
-impl<'a> Case<'a> {
+impl<'a> PrecisionCase<'a> {
     /// The numbers that a lab shows, with their closed forms. Mistakes in these go to `findings`. Times are still missing.
     pub(super) fn new(
         lab: &'a Lab,
@@ -194,8 +194,8 @@ impl<'a> Case<'a> {
         programs: &'a Programs,
         set: &'a [(String, Value)],
         findings: &mut Vec<Finding>,
-    ) -> Case<'a> {
-        let mut case = Case {
+    ) -> PrecisionCase<'a> {
+        let mut case = PrecisionCase {
             lab,
             model,
             programs,
@@ -317,8 +317,11 @@ impl<'a> Case<'a> {
     /// A run under a setting.
     pub(super) fn run(&self, setting: &Setting, ask: Ask<'_>) -> Result<Run, RunError> {
         let mut session = self.start(Some(setting))?;
-        if ask.nudge != 0.0 {
-            session.perturb(run::Numerics { nudge: ask.nudge, ..run::Numerics::NOMINAL }, true);
+        if ask.perturbation != 0.0 {
+            session.perturb(
+                run::StepVariant { perturbation: ask.perturbation, ..run::StepVariant::NOMINAL },
+                true,
+            );
         }
         let rhythm = self.rhythm(setting.timestep);
         let steps = rhythm.count * rhythm.steps;
@@ -349,7 +352,7 @@ impl<'a> Case<'a> {
                     seen.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
                 }
             }
-            seen.look(session);
+            seen.observe(session);
             if let Some(finder) = &mut finder {
                 finder.see(session, &now, &evaluate);
             }
@@ -395,7 +398,7 @@ impl<'a> Case<'a> {
 
 impl Run {
     /// Looks at contacts and constraints after a step.
-    fn look(&mut self, session: &Session<'_>) {
+    fn observe(&mut self, session: &Session<'_>) {
         let d = session.world.data.fields();
         self.jumps |= d.nefc > d.ne;
         let deepest = d.contact.iter().map(|c| -c.dist).fold(f64::NAN, f64::max);
@@ -407,20 +410,20 @@ impl Run {
     /// What became of the run that ends here.
     fn judge(&mut self, session: &Session<'_>) {
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
-        self.told = Breakdown::all(session).into_iter().map(|b| b.what).collect();
+        self.reported = Breakdown::all(session).into_iter().map(|b| b.what).collect();
         self.fate = match session.ended() {
             _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
             _ if session.growth().is_some() => Fate::Grows,
             Some(End::Budget { time }) => {
-                self.told.push(format!("the run takes more work than it may and ends at {time} s"));
+                self.reported.push(format!("the run takes more work than it may and ends at {time} s"));
                 Fate::Stopped
             }
             Some(_) => Fate::Stopped,
-            None if !self.told.is_empty() => Fate::Warned,
+            None if !self.reported.is_empty() => Fate::Warned,
             None => Fate::Good,
         };
         if let Some(trouble) = session.troubles.first() {
-            self.told.push(trouble.message.clone());
+            self.reported.push(trouble.message.clone());
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What a setting costs: the work of its whole run as the engine counts it, which is the same everywhere and decides; and the time of
 //! its steps, measured again and again in turn with all others, so that what else the machine does meets them all.
 
-use super::case::Case;
+use super::case::PrecisionCase;
 use super::setting::{Integrator, Setting};
 use crate::interrupt;
 use crate::run::Session;
@@ -59,7 +59,7 @@ const LONG_ENOUGH: Duration = Duration::from_millis(2);
 const WITH_STARTS: Duration = Duration::from_millis(10);
 
 /// Median and quartiles of the time of each setting's whole run, µs per simulated second; NaN where a setting is not to be measured.
-pub(super) fn measure(case: &Case<'_>, settings: &[Option<Setting>]) -> Vec<[f64; 3]> {
+pub(super) fn measure(case: &PrecisionCase<'_>, settings: &[Option<Setting>]) -> Vec<[f64; 3]> {
     let mut times: Vec<Vec<f64>> = vec![Vec::new(); settings.len()];
     let mut spent = vec![Duration::ZERO; settings.len()];
     for k in 0..MOST_REPEATS {
@@ -87,7 +87,7 @@ pub(super) fn measure(case: &Case<'_>, settings: &[Option<Setting>]) -> Vec<[f64
 }
 
 /// One repeat.
-fn repeat(case: &Case<'_>, setting: &Setting) -> Option<f64> {
+fn repeat(case: &PrecisionCase<'_>, setting: &Setting) -> Option<f64> {
     let (first, steps) = whole_run(case, setting)?;
     let (mut time, mut made) = (first, steps);
     if first < LONG_ENOUGH {
@@ -102,7 +102,7 @@ fn repeat(case: &Case<'_>, setting: &Setting) -> Option<f64> {
 }
 
 /// The time of all steps of a run, and their number.
-fn whole_run(case: &Case<'_>, setting: &Setting) -> Option<(Duration, usize)> {
+fn whole_run(case: &PrecisionCase<'_>, setting: &Setting) -> Option<(Duration, usize)> {
     let mut session = case.start(Some(setting)).ok()?;
     let mut pending = case.presses.as_slice();
     let rhythm = case.rhythm(setting.timestep);

@@ -1,6 +1,6 @@
 //! What happens in the reference, how far other runs are from it, and how long nearby starts stay together.
 
-use super::case::{Ask, Case, Run};
+use super::case::{Ask, PrecisionCase, Run};
 use super::judge::Compared;
 use super::reference::{Known, Reference, method};
 use super::setting::Setting;
@@ -32,7 +32,7 @@ pub struct Nearby {
 }
 
 /// What happens in the reference before its horizon.
-pub(super) fn events(case: &Case<'_>, truth: &Reference, targets: &[Compared]) -> Vec<Event> {
+pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Compared]) -> Vec<Event> {
     let n = case.targets.len();
     let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let contact = if truth.run.touching { "first new contact" } else { "first contact" };
@@ -70,10 +70,10 @@ pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
 }
 
 /// How long two starts that nobody could tell apart show the same.
-pub(super) fn nearby(case: &Case<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
+pub(super) fn nearby(case: &PrecisionCase<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
     let setting = Setting { integrator: method(integrator::RKMK8), timestep: own / 2.0, solver: None };
     let (one, other) =
-        (case.run(&setting, Ask::FRESH)?, case.run(&setting, Ask { nudge: NUDGE, ..Ask::FRESH })?);
+        (case.run(&setting, Ask::FRESH)?, case.run(&setting, Ask { perturbation: NUDGE, ..Ask::FRESH })?);
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
         // Not to be told apart is less than the part, and no number is far from every other.

@@ -2,7 +2,7 @@
 //! step, and a table of runs with halved steps is extrapolated to a step of nothing (Aitken and Neville; Hairer, Nørsett and Wanner
 //! 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls jump are cut at the jump.
 
-use super::case::{Ask, Case, Run};
+use super::case::{Ask, PrecisionCase, Run};
 use super::moments::{Moment, Sought};
 use super::reference::{Reference, agree, known, run, so_far, too_long, worst_part};
 use crate::run::RunError;
@@ -54,7 +54,7 @@ impl Best {
 }
 
 /// The reference of a lab with a controller.
-pub(super) fn extrapolated(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+pub(super) fn extrapolated(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let first = (own / 2.0).min(case.interval);
     let ask = Ask { cut: true, ..Ask::FRESH };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
@@ -99,7 +99,7 @@ fn next_row(run: &Run, before: &[Entry]) -> Vec<Entry> {
 }
 
 /// Holds the steps between controls against another family's.
-fn finish(case: &Case<'_>, best: Best, sought: Sought, first: f64) -> Result<Reference, RunError> {
+fn finish(case: &PrecisionCase<'_>, best: Best, sought: Sought, first: f64) -> Result<Reference, RunError> {
     let Best { entry, coarse, mut uncertain, run: mut seen, step } = best;
     let ask = Ask { cut: true, ..Ask::FRESH };
     let other = if too_long(case, step) { None } else { run(case, integrator::GAUSS, step, ask)? };

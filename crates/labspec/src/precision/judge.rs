@@ -1,6 +1,6 @@
 //! Errors of a run against the reference.
 
-use super::case::{Case, Fate, Run, Shown};
+use super::case::{Fate, PrecisionCase, Run, Shown};
 use super::reference::{Reference, range};
 use crate::run::printed;
 
@@ -117,7 +117,7 @@ const DIGITS_ROUND: f64 = 1e-12;
 const CONSTANT: f64 = 1e-6;
 
 /// What the targets of a case are held against; `own` is the run as the lab has it.
-pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
+pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
     let one = |(i, target): (usize, &super::case::Target<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
@@ -163,7 +163,7 @@ pub(super) fn compared(case: &Case<'_>, reference: &Reference, own: &Run) -> Vec
 
 /// The errors of a run with some timestep, target by target.
 pub(super) fn errors(
-    case: &Case<'_>,
+    case: &PrecisionCase<'_>,
     reference: &Reference,
     targets: &[Compared],
     run: &Run,

@@ -1,6 +1,6 @@
 //! The timesteps of a comparison, and the samples at which their runs meet the truth.
 
-use super::case::Case;
+use super::case::PrecisionCase;
 use super::setting::{INTEGRATORS, Integrator};
 use super::{Options, Setting, Solver};
 use crate::run::{self, RunError};
@@ -52,7 +52,7 @@ impl Ladder {
     }
 
     /// The step of twice the length, where a run has enough of them and every press is between two of them.
-    pub(super) fn longer(&self, step: f64, case: &Case<'_>) -> Option<f64> {
+    pub(super) fn longer(&self, step: f64, case: &PrecisionCase<'_>) -> Option<f64> {
         let next = 2.0 * step;
         let meets = |(_, time): &(usize, f64)| (time / next - (time / next).round()).abs() < 1e-6;
         (self.length >= FEWEST * next * (1.0 - 1e-9) && case.presses.iter().all(meets)).then_some(next)

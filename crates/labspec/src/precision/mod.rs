@@ -35,7 +35,7 @@ use crate::interrupt;
 use crate::run::{self, RunError};
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
-use case::{Ask, Case};
+use case::{Ask, PrecisionCase};
 use kept::{Kept, change};
 use labspec_core::Model;
 use labspec_expr::Value;
@@ -81,7 +81,7 @@ pub struct Row {
     /// What became of the run.
     pub fate: Fate,
     /// What was told about it.
-    pub told: Vec<String>,
+    pub reported: Vec<String>,
     /// The largest error that is possible, as the reference is in doubt, too; in times of what nobody sees. NaN where nothing is
     /// known.
     pub score: f64,
@@ -141,7 +141,7 @@ pub fn compare(
     findings: &mut Vec<Finding>,
     tell: &mut dyn FnMut(&str),
 ) -> Result<Report, RunError> {
-    let mut case = Case::new(lab, model, programs, &options.set, findings);
+    let mut case = PrecisionCase::new(lab, model, programs, &options.set, findings);
     let ladder = prepare(&mut case, options)?;
     tell("the reference");
     let mut truth = None;
@@ -204,7 +204,7 @@ pub fn compare(
 }
 
 /// Checks that the lab can be compared; presses come where all timesteps meet.
-fn prepare(case: &mut Case<'_>, options: &Options) -> Result<Ladder, RunError> {
+fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, RunError> {
     if case.targets.is_empty() {
         let why = match case.left_out.first() {
             Some(out) => {
@@ -238,7 +238,7 @@ fn prepare(case: &mut Case<'_>, options: &Options) -> Result<Ladder, RunError> {
 
 /// What runs are held against.
 struct Judge<'j, 'a> {
-    case: &'j Case<'a>,
+    case: &'j PrecisionCase<'a>,
     ladder: &'j Ladder,
     truth: &'j Reference,
     targets: Vec<Compared>,
@@ -289,7 +289,7 @@ impl Judge<'_, '_> {
             penetration: if self.part < 1.0 { f64::NAN } else { run.penetration },
             cost: Cost::of_work(run.work),
             fate: run.fate,
-            told: run.told,
+            reported: run.reported,
             score,
         })
     }
@@ -301,7 +301,11 @@ fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
 }
 
 /// The report of a lab that no method comes through: what became of each setting, and nothing else.
-fn without_reference(case: Case<'_>, settings: &[Setting], ladder: &Ladder) -> Result<Report, RunError> {
+fn without_reference(
+    case: PrecisionCase<'_>,
+    settings: &[Setting],
+    ladder: &Ladder,
+) -> Result<Report, RunError> {
     let mut rows = Vec::new();
     for setting in settings {
         let run = case.run(setting, Ask::default())?;
@@ -315,7 +319,7 @@ fn without_reference(case: Case<'_>, settings: &[Setting], ladder: &Ladder) -> R
             penetration: run.penetration,
             cost: Cost::of_work(run.work),
             fate: run.fate,
-            told: run.told,
+            reported: run.reported,
             score: f64::NAN,
         });
     }

@@ -5,7 +5,7 @@
 //! continuous controller with the powers of the step: a table of ever shorter steps is extrapolated to a step of nothing
 //! (`extrapolation.rs`).
 
-use super::case::{Ask, Case, Fate, Run};
+use super::case::{Ask, Fate, PrecisionCase, Run};
 use super::extrapolation::extrapolated;
 use super::moments::{Moment, Sought};
 use super::setting::{INTEGRATORS, Integrator, Setting};
@@ -64,17 +64,22 @@ pub(super) fn method(id: i32) -> Integrator {
 ///
 /// # Errors
 /// A control that cannot be set so.
-pub(super) fn reference(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+pub(super) fn reference(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     if case.controlled() { extrapolated(case, own) } else { direct(case, own) }
 }
 
 /// A run that came to its end.
-pub(super) fn run(case: &Case<'_>, id: i32, timestep: f64, ask: Ask<'_>) -> Result<Option<Run>, RunError> {
+pub(super) fn run(
+    case: &PrecisionCase<'_>,
+    id: i32,
+    timestep: f64,
+    ask: Ask<'_>,
+) -> Result<Option<Run>, RunError> {
     let seen = case.run(&Setting { integrator: method(id), timestep, solver: None }, ask)?;
     Ok(matches!(seen.fate, Fate::Good | Fate::Warned).then_some(seen))
 }
 
-pub(super) fn too_long(case: &Case<'_>, timestep: f64) -> bool {
+pub(super) fn too_long(case: &PrecisionCase<'_>, timestep: f64) -> bool {
     case.count as f64 * (case.interval / timestep) > MOST_STEPS as f64
 }
 
@@ -87,7 +92,7 @@ struct Pair {
     ways: [Way; 2],
 }
 
-fn direct(case: &Case<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let mut first = None;
     for way in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, own / 16.0)] {
         if first.is_none() && !too_long(case, way.1) {
@@ -141,7 +146,7 @@ fn in_words((id, timestep): Way) -> String {
 }
 
 /// Runs both once more, for what happens in them.
-fn find_moments(case: &Case<'_>, pair: &mut Pair) -> Result<(), RunError> {
+fn find_moments(case: &PrecisionCase<'_>, pair: &mut Pair) -> Result<(), RunError> {
     let r = &mut pair.reference;
     let mut found: Vec<Run> = Vec::new();
     for (id, timestep) in pair.ways {
@@ -163,7 +168,7 @@ fn find_moments(case: &Case<'_>, pair: &mut Pair) -> Result<(), RunError> {
 /// The moments of two runs, as far as they agree. A passage is as uncertain as the number that passes, too, and all times are as
 /// uncertain as a sum of so many steps.
 pub(super) fn known(
-    case: &Case<'_>,
+    case: &PrecisionCase<'_>,
     uncertain: &[Vec<f64>],
     [a, b]: [&[Moment]; 2],
     steps: f64,

@@ -53,7 +53,7 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
 #[cfg(test)]
 mod tests {
     use crate::bind::scene::Models;
-    use crate::check::{self, Depth};
+    use crate::check::{self, CheckLevel};
     use crate::finding::Finding;
     use crate::lint::{ModelFolder, load_lesson};
     use crate::source::SourceFile;
@@ -66,7 +66,7 @@ mod tests {
         let lab = serde_json::json!({"xml": model, "trail": trail});
         let folder = ModelFolder::unknown();
         let lesson = load_lesson(SourceFile::new("t.md", format!("```lab simlab\n{lab}\n```\n")), &folder);
-        check::check(lesson, &Models::new(folder), Depth::STATIC).findings
+        check::check(lesson, &Models::new(folder), CheckLevel::STATIC).findings
     }
 
     #[test]

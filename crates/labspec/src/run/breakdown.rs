@@ -2,7 +2,7 @@
 //! and what to write instead.
 
 use super::{Session, silent};
-use crate::advice::stability::{self, Part, Suspect};
+use crate::monitors::stability::{self, StiffPart, Suspect};
 use crate::rules::{self, Rule};
 use labspec_core::{Model, Obj, Warning, WarningStat, joint};
 
@@ -218,12 +218,12 @@ pub fn owner(model: &Model, s: &Suspect) -> String {
         _ => s.id.to_string(),
     };
     match (s.part, s.object) {
-        (Part::Servo, _) => format!("the servo {name}"),
-        (Part::Constraint, Obj::Geom) => format!("the contact of geom {name}"),
-        (Part::Constraint, Obj::Pair) => format!("the contact of pair {name}"),
-        (Part::Constraint, _) => format!("the equality {name}"),
+        (StiffPart::Servo, _) => format!("the servo {name}"),
+        (StiffPart::Constraint, Obj::Geom) => format!("the contact of geom {name}"),
+        (StiffPart::Constraint, Obj::Pair) => format!("the contact of pair {name}"),
+        (StiffPart::Constraint, _) => format!("the equality {name}"),
         (part, object) => {
-            let what = if part == Part::Limit { "limit" } else { "spring or damper" };
+            let what = if part == StiffPart::Limit { "limit" } else { "spring or damper" };
             format!("the {what} of {} {name}", if object == Obj::Tendon { "tendon" } else { "joint" })
         }
     }
@@ -241,10 +241,10 @@ pub fn how_stiff(s: &Suspect) -> String {
 /// What to make softer.
 pub fn softer(s: &Suspect) -> String {
     let attribute = match (s.part, s.object) {
-        (Part::Servo, _) => "`kp` and `kv`",
-        (Part::Spring, _) => "`stiffness` and `damping`",
-        (Part::Limit, _) => "`solreflimit`",
-        (Part::Constraint, _) => "`solref`",
+        (StiffPart::Servo, _) => "`kp` and `kv`",
+        (StiffPart::Spring, _) => "`stiffness` and `damping`",
+        (StiffPart::Limit, _) => "`solreflimit`",
+        (StiffPart::Constraint, _) => "`solref`",
     };
     format!("softer {attribute}, or `integrator=\"discrete\"`")
 }

@@ -3,6 +3,7 @@
 mod breakdown;
 mod budget;
 mod held;
+mod messages;
 mod play;
 mod samples;
 mod session;
@@ -10,18 +11,17 @@ pub mod settings;
 mod silent;
 mod steady;
 mod table;
-mod told;
 
 pub use breakdown::{Breakdown, Shorter, how_stiff, owner, softer, time, two_digits};
 pub use budget::{Budget, End};
 pub use held::Held;
+pub use messages::{broke, threw};
 pub use play::{Play, play};
 pub use samples::Samples;
-pub use session::{Numerics, Session, Trouble};
+pub use session::{Session, StepVariant, Trouble};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
 pub use table::{Cell, Table, printed, shown};
-pub use told::{broke, threw};
 
 use crate::bind::Programs;
 use crate::spec::Lab;

@@ -4,11 +4,11 @@ use super::budget::{Budget, End};
 use super::held::Held;
 use super::steady::Steady;
 use super::table::Cell;
-use crate::advice::growth::Growth;
-use crate::advice::watch::{self, Noticed, Watch};
 use crate::bind::coupled::{self, Coupled};
 use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
 use crate::interrupt;
+use crate::monitors::growth::Growth;
+use crate::monitors::watch::{self, Monitors, Noticed};
 use crate::source::Text;
 use labspec_core::reflect::{FieldId, Kind, data, option};
 use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Warning, WarningStat};
@@ -32,20 +32,21 @@ pub struct Trouble {
 
 /// A change of the numerics that a lesson does not mention, to see whether its answers depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Numerics {
+pub struct StepVariant {
     /// The timestep is multiplied by this.
     pub timestep: f64,
     /// The constraint problem is solved to rounding.
     pub tight: bool,
     /// Every coordinate of the start is moved by this: far less than anybody could measure.
-    pub nudge: f64,
+    pub perturbation: f64,
     /// Another integrator, where the scene has the one that it has unless somebody says otherwise.
     pub integrator: Option<i32>,
 }
 
-impl Numerics {
+impl StepVariant {
     /// As the lesson states it.
-    pub const NOMINAL: Numerics = Numerics { timestep: 1.0, tight: false, nudge: 0.0, integrator: None };
+    pub const NOMINAL: StepVariant =
+        StepVariant { timestep: 1.0, tight: false, perturbation: 0.0, integrator: None };
 }
 
 /// A running lab. Its clone goes on as it would.
@@ -101,7 +102,7 @@ fn moves(bound: &Bound) -> bool {
 /// A run that is watched for what goes wrong without a word.
 #[derive(Clone, Debug)]
 struct Watched {
-    watch: Watch,
+    watch: Monitors,
     /// Something from outside changed the state or the model since the last step.
     disturbed: bool,
 }
@@ -339,7 +340,7 @@ impl<'p> Session<'p> {
         }
         let World { model, data, .. } = &self.world;
         if let Some(w) = &mut self.watched {
-            watch::look(&mut w.watch, model, data);
+            watch::observe(&mut w.watch, model, data);
         }
         self.note_warnings();
     }
@@ -450,7 +451,7 @@ impl<'p> Session<'p> {
 
     /// Changes the numerics. What the lesson states itself is left alone: `mentioned` says that it states the
     /// timestep.
-    pub fn perturb(&mut self, numerics: Numerics, mentioned: bool) {
+    pub fn perturb(&mut self, numerics: StepVariant, mentioned: bool) {
         let opt = self.world.model.edit().opt;
         if !mentioned {
             *opt.timestep *= numerics.timestep;
@@ -464,8 +465,8 @@ impl<'p> Session<'p> {
             (*opt.tolerance, *opt.ls_tolerance) = (0.0, 1e-10);
             (*opt.iterations, *opt.ls_iterations) = (200, 100);
         }
-        if numerics.nudge != 0.0 {
-            self.world.data.edit().qpos.iter_mut().for_each(|q| *q += numerics.nudge);
+        if numerics.perturbation != 0.0 {
+            self.world.data.edit().qpos.iter_mut().for_each(|q| *q += numerics.perturbation);
             self.forward();
         }
     }

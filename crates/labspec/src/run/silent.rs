@@ -1,12 +1,12 @@
 //! What goes wrong without a word, in a teacher's words: what happens, why it matters, and what to write instead.
 
 use super::breakdown::{Advice, Breakdown, joint_of, time, two_digits};
-use crate::advice::growth::{Growth, Source};
-use crate::advice::limits::Past;
-use crate::advice::sunk::Sunk;
-use crate::advice::through::Through;
-use crate::advice::unsolved::Unsolved;
-use crate::advice::watch::Noticed;
+use crate::monitors::growth::{Growth, Source};
+use crate::monitors::limits::Past;
+use crate::monitors::sunk::Sunk;
+use crate::monitors::through::Through;
+use crate::monitors::unsolved::Unsolved;
+use crate::monitors::watch::Noticed;
 use crate::rules;
 use labspec_core::{Model, joint, solver};
 

@@ -2,10 +2,10 @@
 
 use super::pairs;
 use super::relation::{Relation, says};
-use crate::run::Numerics;
+use crate::run::StepVariant;
 use crate::source::Text;
 use crate::spec::Question;
-use crate::trace::{Block, Candidate, Trial, Tried, words};
+use crate::trace::{Block, Candidate, Trial, Tried, split_words};
 use crate::verify::{Stage, Stated, plain};
 use std::collections::BTreeSet;
 
@@ -64,7 +64,8 @@ pub(super) fn choose<'t, 'l>(
 ) -> Result<Choice<'t, 'l>, String> {
     let asked = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
-    let spoken: BTreeSet<String> = words(&asked).chain(options.iter().flat_map(|o| words(o))).collect();
+    let spoken: BTreeSet<String> =
+        split_words(&asked).chain(options.iter().flat_map(|o| split_words(o))).collect();
     let relations: Vec<Option<Relation>> = options.iter().map(|o| Relation::read(o)).collect();
     let mut best: Option<Choice<'t, 'l>> = None;
     let mut keep = |choice: Choice<'t, 'l>| {
@@ -84,7 +85,7 @@ pub(super) fn choose<'t, 'l>(
         }
         let runs = pairs::runs(question, &asked, tried.lab, numbers);
         let values: Vec<Vec<f64>> =
-            runs.trials.iter().map(|t| tried.values_of(t, stage, Numerics::NOMINAL)).collect();
+            runs.trials.iter().map(|t| tried.values_of(t, stage, StepVariant::NOMINAL)).collect();
         let broke = |run: usize| values.get(run).is_none_or(|v| v.iter().all(|x| x.is_nan()));
         for &(before, after) in &runs.pairs {
             let unnamed = if before == 0 || after == 0 { UNNAMED } else { 0.0 };
@@ -163,13 +164,14 @@ fn orders<'t, 'l>(tried: &'t Tried<'l>, options: &[String]) -> Vec<Choice<'t, 'l
     for (k, (i, a)) in meets.iter().enumerate() {
         for (j, b) in meets.iter().skip(k + 1) {
             let alone = |own: &[&str], other: &[&str]| -> BTreeSet<String> {
-                let of =
-                    |names: &[&str]| -> BTreeSet<String> { names.iter().flat_map(|n| words(n)).collect() };
+                let of = |names: &[&str]| -> BTreeSet<String> {
+                    names.iter().flat_map(|n| split_words(n)).collect()
+                };
                 of(own).difference(&of(other)).cloned().collect()
             };
             let [first, second] = [alone(a, b), alone(b, a)];
             let relation = |option: &String| {
-                let spoken: BTreeSet<String> = words(option).collect();
+                let spoken: BTreeSet<String> = split_words(option).collect();
                 let text = option.to_lowercase();
                 let speaks = [&first, &second].map(|own| !own.is_disjoint(&spoken));
                 let both = ["both", "same", "together"].iter().any(|w| says(&text, w));

@@ -15,7 +15,7 @@ mod pairs;
 mod relation;
 
 use crate::bind::scene::Models;
-use crate::check::{self, Depth};
+use crate::check::{self, CheckLevel};
 use crate::lint::reload_lesson;
 use crate::spec::{LabAddress, Lesson, Question, QuestionKind};
 use crate::trace::{self, Block, Origin, Traces, Tried, trace};
@@ -32,12 +32,12 @@ pub struct Scaffold {
     /// Its object in the file, braces included.
     pub span: Range<usize>,
     /// What came of it.
-    pub found: Found,
+    pub found: ScaffoldOutcome,
 }
 
 /// What came of a question or a lab.
 #[derive(Clone, Debug)]
-pub enum Found {
+pub enum ScaffoldOutcome {
     /// An object to accept.
     Proposed {
         /// The object.
@@ -73,9 +73,9 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
         let block = blocks.iter().find(|(of, _)| *of == address).map(|(_, block)| block.clone());
         let found = match block {
             Some(verify) => {
-                Found::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }
+                ScaffoldOutcome::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }
             }
-            None => Found::Open("no number of the text comes from it: nothing to quote".into()),
+            None => ScaffoldOutcome::Open("no number of the text comes from it: nothing to quote".into()),
         };
         all.push(Scaffold { name: format!("lab {address}"), span: lab.span.clone(), found });
     }
@@ -89,9 +89,9 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
             let name = format!("quiz {id}, question {number}");
             tell(&name);
             let found = match &question.verify {
-                Some(_) => {
-                    Found::Open("it has a `verify` already, without a condition for each option".into())
-                }
+                Some(_) => ScaffoldOutcome::Open(
+                    "it has a `verify` already, without a condition for each option".into(),
+                ),
                 None => propose(lesson, question, &found, &stage),
             };
             all.push(Scaffold { name, span: question.span.clone(), found });
@@ -102,29 +102,29 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
 }
 
 /// What is proposed for a question.
-fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Stage<'_>) -> Found {
+fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Stage<'_>) -> ScaffoldOutcome {
     match &question.kind {
         QuestionKind::Choice { options, answer, .. } => {
             let Some(key) = answer.as_ref().map(|a| a.value) else {
-                return Found::Open("it has no key".into());
+                return ScaffoldOutcome::Open("it has no key".into());
             };
             let labs = labs(question, found);
             if labs.is_empty() {
-                return Found::Open(
+                return ScaffoldOutcome::Open(
                     "there is no lab that it could be run in: write one under `verify`".into(),
                 );
             }
             let numbers: Vec<_> = found.numbers.iter().map(|n| n.stated.clone()).collect();
             match choose::choose(question, options, &labs, &numbers, stage) {
-                Err(why) => Found::Open(why),
+                Err(why) => ScaffoldOutcome::Open(why),
                 Ok(choice) if choice.option as f64 != key => {
-                    Found::Contradicted { option: choice.option, values: choice.values.clone() }
+                    ScaffoldOutcome::Contradicted { option: choice.option, values: choice.values.clone() }
                 }
                 Ok(choice) => proposed(lesson, question, found, choice),
             }
         }
         QuestionKind::Numeric { .. } => numeric(question, found),
-        QuestionKind::Open { .. } => Found::Open("an open question has no key".into()),
+        QuestionKind::Open { .. } => ScaffoldOutcome::Open("an open question has no key".into()),
     }
 }
 
@@ -139,7 +139,12 @@ fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t Tried<'l>
 }
 
 /// The object of a question with options.
-fn proposed(lesson: &Lesson, question: &Question, found: &Traces<'_>, choice: Choice<'_, '_>) -> Found {
+fn proposed(
+    lesson: &Lesson,
+    question: &Question,
+    found: &Traces<'_>,
+    choice: Choice<'_, '_>,
+) -> ScaffoldOutcome {
     let mut block = Block::default();
     let mut values = Vec::new();
     let conditions = choice.conditions(&mut block, &mut values);
@@ -167,13 +172,18 @@ fn proposed(lesson: &Lesson, question: &Question, found: &Traces<'_>, choice: Ch
         verify.insert("says".into(), Value::Array(says));
     }
     let undecided = conditions.iter().enumerate().filter(|(_, c)| *c == "undecided").map(|(i, _)| i + 1);
-    Found::Proposed { verify: Value::Object(verify), values, undecided: undecided.collect(), verdict: None }
+    ScaffoldOutcome::Proposed {
+        verify: Value::Object(verify),
+        values,
+        undecided: undecided.collect(),
+        verdict: None,
+    }
 }
 
 /// The object of a question whose answer is a number.
-fn numeric(question: &Question, found: &Traces<'_>) -> Found {
+fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
     let QuestionKind::Numeric { answer: Some(answer), .. } = &question.kind else {
-        return Found::Open("it has no answer".into());
+        return ScaffoldOutcome::Open("it has no answer".into());
     };
     let tol = question.numeric().map_or(0.0, |(_, tol)| tol);
     // The answer itself, else a number of the text that is the answer.
@@ -196,14 +206,16 @@ fn numeric(question: &Question, found: &Traces<'_>) -> Found {
             }
         };
         verify.insert("value".into(), json!(value));
-        return Found::Proposed {
+        return ScaffoldOutcome::Proposed {
             verify: Value::Object(verify),
             values: vec![(value, hit.value)],
             undecided: Vec::new(),
             verdict: None,
         };
     }
-    Found::Open("no run of the lesson's labs and no formula of the explanation has this value".into())
+    ScaffoldOutcome::Open(
+        "no run of the lesson's labs and no formula of the explanation has this value".into(),
+    )
 }
 
 /// The lesson with everything that is proposed.
@@ -211,7 +223,7 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
     let mut text = lesson.file.text().to_string();
     let mut places: Vec<(usize, String)> = Vec::new();
     for one in all {
-        let Found::Proposed { verify, .. } = &one.found else { continue };
+        let ScaffoldOutcome::Proposed { verify, .. } = &one.found else { continue };
         let Some(object) = text.get(one.span.clone()) else { continue };
         let Some(inner) = object.strip_suffix('}') else { continue };
         let at = one.span.start + inner.trim_end().len();
@@ -231,10 +243,10 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
 /// Checks what is proposed, as it would stand in the lesson.
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
     let text = written(lesson, all);
-    let depth = Depth { labs: false, ..Depth::FULL };
+    let depth = CheckLevel { labs: false, ..CheckLevel::FULL };
     let checked = check::check(reload_lesson(lesson, &text, models.folder()), models, depth);
     for one in all {
-        let Found::Proposed { verdict, .. } = &mut one.found else { continue };
+        let ScaffoldOutcome::Proposed { verdict, .. } = &mut one.found else { continue };
         let claim = checked.claims.iter().find(|c| c.name == one.name);
         let answer = claim.and_then(|c| c.judgement.answer.as_ref());
         *verdict = answer.map(|a| (a.verdict, a.reason.clone()));

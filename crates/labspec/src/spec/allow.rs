@@ -1,10 +1,10 @@
 //! Findings that an author has looked at and keeps: `"lint": {"allow": […], "why": "…"}` in a lab, a quiz or a question, and
 //! `<!-- labspec allow CODE, CODE: reason -->` before a block of prose.
 
+use super::comment::Comment;
 use super::fields::Fields;
 use super::format::LINT;
 use super::problem::Problem;
-use super::remark::Comment;
 use super::{Lesson, read as values};
 use crate::json::Node;
 use crate::source::Text;

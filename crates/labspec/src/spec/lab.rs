@@ -100,7 +100,7 @@ impl Default for Camera {
 
 /// Where the scene of a lab comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Scene<'a> {
+pub enum ModelSource<'a> {
     /// A named model of the model folder.
     Model(&'a Text),
     /// MJCF in the lab itself.
@@ -146,10 +146,10 @@ impl Lab {
     }
 
     /// The scene; `None` when the lab states none or two, which is an error already reported.
-    pub fn scene(&self) -> Option<Scene<'_>> {
+    pub fn scene(&self) -> Option<ModelSource<'_>> {
         match (&self.model, &self.xml) {
-            (Some(model), None) => Some(Scene::Model(model)),
-            (None, Some(xml)) => Some(Scene::Xml(xml)),
+            (Some(model), None) => Some(ModelSource::Model(model)),
+            (None, Some(xml)) => Some(ModelSource::Xml(xml)),
             _ => None,
         }
     }

@@ -1,8 +1,8 @@
 //! A lesson: what its fences hold, in order, and how labs are addressed.
 
+use super::comment::{self, Remark};
 use super::kind::{FileKind, Nature, kind_of, nature};
 use super::problem::{Mistake, Problem};
-use super::remark::{self, Remark};
 use super::{Lab, Quiz, Verify, VerifyLab, lab, quiz, shared};
 use crate::finding::{Finding, Severity};
 use crate::json::{self, Json, Node};
@@ -216,7 +216,7 @@ fn inline(verify: &Verify) -> impl Iterator<Item = &Lab> {
 /// is among the problems, and what is right is there.
 pub fn read_lesson(file: SourceFile) -> Lesson {
     let mut lesson = read_at(file, None);
-    lesson.remarks = remark::read(&mut lesson);
+    lesson.remarks = comment::read(&mut lesson);
     lesson.wholes = shared::wholes(&lesson);
     lesson
 }

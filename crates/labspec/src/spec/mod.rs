@@ -5,6 +5,7 @@
 //! a problem with its place, and what is right is still there for the checks.
 
 mod allow;
+mod comment;
 mod control;
 mod fields;
 pub mod format;
@@ -15,17 +16,16 @@ mod plot;
 mod problem;
 mod quiz;
 mod read;
-mod remark;
 mod shared;
 mod verify;
 
 pub use allow::Allowance;
+pub use comment::Remark;
 pub use control::{Action, Choice, Control, ControlKind};
 pub use kind::{FileKind, kind_of};
-pub use lab::{Camera, Expect, Form, Lab, Scene};
+pub use lab::{Camera, Expect, Form, Lab, ModelSource};
 pub use lesson::{LabAddress, LabEntry, Lesson, Other, Widget, read_lesson, read_other};
 pub use plot::{Plot, Readout, RefLine, Trace};
 pub use problem::{Expected, Meant, Misfit, Mistake, Problem};
 pub use quiz::{ChoiceStyle, Question, QuestionKind, Quiz};
-pub use remark::Remark;
 pub use verify::{Change, Column, Exact, Find, MOST_SWEPT, Run, Said, Stands, Sweep, Verify, VerifyLab};

@@ -294,7 +294,7 @@ pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Verify> {
         over: f.map("over").iter().filter_map(|m| over(m, f.problems)).collect(),
         value: f.text("value"),
         wrong: f.list("wrong").iter().filter_map(|n| read::text(n, "a wrong value", f.problems)).collect(),
-        says: f.list("says").iter().filter_map(|n| said(n, f.problems)).collect(),
+        says: f.list("says").iter().filter_map(|n| read_says(n, f.problems)).collect(),
         table: f.list("table").iter().filter_map(|n| column(n, f.problems)).collect(),
         exact: f.map("exact").iter().filter_map(|m| exact(m, f.problems)).collect(),
     };
@@ -498,7 +498,7 @@ fn press(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Number)> {
     None
 }
 
-fn said(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
+fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
     if node.is_broken() {
         return None;
     }

@@ -1,8 +1,8 @@
 //! What could be measured in a lab: what it shows, at the start, at the end, at named times and at contacts; how fast its bodies
 //! move; constants of its model. The simplest come first.
 
+use super::split_words;
 use super::trials::{second, si};
-use super::words;
 use crate::bind::{ModelNames, Programs, Scope, dimensions, of_label};
 use crate::check;
 use crate::run::{self, Play, Session};
@@ -116,7 +116,7 @@ pub(super) fn candidates(
 }
 
 fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, named: &str) {
-    let words = words(named).collect();
+    let words = split_words(named).collect();
     all.push(Candidate { text, dimension, cost, words, constant: false, time: None });
 }
 
@@ -242,7 +242,7 @@ fn simple(name: &str) -> bool {
 fn constants(m: &Model, all: &mut Vec<Candidate>) {
     let unit = |text: &str| labspec_bind::units::parse(text).unwrap_or(Dimension::NUMBER);
     let mut add = |text: String, dimension, cost, named: &str| {
-        let words = words(named).collect();
+        let words = split_words(named).collect();
         all.push(Candidate { text, dimension, cost, words, constant: true, time: None });
     };
     add("model.opt.timestep".into(), second(), 1.0, "timestep step");

@@ -31,7 +31,7 @@ use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::check;
 use crate::interrupt;
-use crate::run::Numerics;
+use crate::run::StepVariant;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lab, LabAddress, Lesson};
 use crate::verify::{NUDGED, NUDGED_BACK, Stage, Stated, answered, claimed, stated};
@@ -84,7 +84,7 @@ pub fn trace<'l>(lesson: &'l Lesson, models: &Models, tell: &mut dyn FnMut(&str)
         let candidates = candidates::candidates(lab, &model, &programs, &numbers);
         let made =
             |t: &Trial, numerics| trials::values(t, lab, &model, &programs, &candidates, &stage, numerics);
-        let values = trials.iter().map(|t| made(t, Numerics::NOMINAL)).collect();
+        let values = trials.iter().map(|t| made(t, StepVariant::NOMINAL)).collect();
         labs.push(Tried { address, lab, owner, model, programs, trials, candidates, values });
     }
     let bindings = formula::bindings(&numbers);
@@ -126,7 +126,7 @@ fn steady(numbers: &[Stated], origins: &mut [Origin], labs: &[Tried<'_>], stage:
 
 impl Tried<'_> {
     /// Makes a run of the lab, and takes every measure. What breaks has no values.
-    pub(crate) fn values_of(&self, trial: &Trial, stage: &Stage<'_>, numerics: Numerics) -> Vec<f64> {
+    pub(crate) fn values_of(&self, trial: &Trial, stage: &Stage<'_>, numerics: StepVariant) -> Vec<f64> {
         let Tried { lab, model, programs, candidates, .. } = self;
         trials::values(trial, lab, model, programs, candidates, stage, numerics)
     }
@@ -146,7 +146,7 @@ fn text(value: &str) -> Text {
 }
 
 /// The words of a text, in small letters, that say something.
-pub(crate) fn words(text: &str) -> impl Iterator<Item = String> + '_ {
+pub(crate) fn split_words(text: &str) -> impl Iterator<Item = String> + '_ {
     let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 2);
     parts.map(str::to_lowercase)
 }

@@ -1,7 +1,7 @@
 //! What was found, as an author takes it over: a `verify` object for each lab.
 
 use super::trials::Trial;
-use super::{Hit, Origin, Traces, words};
+use super::{Hit, Origin, Traces, split_words};
 use crate::json::Scalar;
 use crate::spec::LabAddress;
 use serde_json::{Map, Value, json};
@@ -153,7 +153,7 @@ const EMPTY: [&str; 9] = ["data", "model", "with", "contact", "joint", "math", "
 
 /// A name that the language knows as one: the words of a text.
 fn name_of(text: &str, otherwise: &str) -> String {
-    let words: Vec<String> = words(text).filter(|w| !EMPTY.contains(&w.as_str())).take(WORDS).collect();
+    let words: Vec<String> = split_words(text).filter(|w| !EMPTY.contains(&w.as_str())).take(WORDS).collect();
     let name: String = words.join("_").chars().filter(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
     match name.chars().next() {
         Some(c) if c.is_ascii_alphabetic() => name,

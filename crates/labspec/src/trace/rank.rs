@@ -2,7 +2,7 @@
 
 use super::formula::{self, Binding};
 use super::trials::{Trial, si};
-use super::{Tried, words};
+use super::{Tried, split_words};
 use crate::verify::Stated;
 use std::collections::BTreeSet;
 
@@ -40,7 +40,7 @@ pub struct Hit {
 
 impl Hit {
     /// What gives the number of the text: `1000 * (a - b)`.
-    pub fn told(&self) -> String {
+    pub fn description(&self) -> String {
         let Hit { factor, measure, .. } = self;
         let mut deep = 0;
         let sum = measure.char_indices().any(|(i, c)| {
@@ -270,9 +270,9 @@ impl<'n> Around<'n> {
         let beside = numbers.iter().filter(other).filter(|n| n.context == s.context).collect();
         let paragraph = numbers.iter().filter(other).filter(|n| n.paragraph == s.paragraph).collect();
         let text = format!("{} {}", s.context, s.column).to_lowercase();
-        let wide = words(&s.paragraph).collect();
+        let wide = split_words(&s.paragraph).collect();
         let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR).collect();
-        Around { words: words(&text).collect(), wide, text, beside, paragraph, near }
+        Around { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
     }
 
     /// How far-fetched a time is here.

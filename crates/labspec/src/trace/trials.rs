@@ -4,10 +4,10 @@ use super::candidates::Candidate;
 use super::text;
 use crate::bind::{Programs, given_by, scalar};
 use crate::json::{Number, Scalar};
-use crate::run::{Numerics, settings};
+use crate::run::{StepVariant, settings};
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
-use crate::verify::{self, BoundVerify, Scene, Stage, Stated};
+use crate::verify::{self, BoundLab, BoundVerify, Stage, Stated};
 use labspec_core::Model;
 use labspec_expr::Value;
 use labspec_expr::dimension::{Dimension, Measure};
@@ -184,13 +184,13 @@ pub(super) fn values(
     programs: &Programs,
     candidates: &[Candidate],
     stage: &Stage<'_>,
-    numerics: Numerics,
+    numerics: StepVariant,
 ) -> Vec<f64> {
     let none = || vec![f64::NAN; candidates.len()];
     let name = |i: usize| text(&format!("m{i}"));
     let measure = candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect();
     let verify = Verify::measuring(0..0, vec![trial.run("run")], measure);
-    let scene = Scene::of(lab, model, programs);
+    let scene = BoundLab::of(lab, model, programs);
     let bound = BoundVerify::new(&verify, None, &[vec![scene]], stage, &mut Vec::new());
     let found = bound.and_then(|bound| verify::measured(&bound, numerics));
     found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)

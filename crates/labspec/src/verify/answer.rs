@@ -1,8 +1,8 @@
 //! The answer of a question: one condition per option, or the value of a number, under the numerics of the lesson and under
 //! others that it does not mention.
 
-use super::condition::Weighed;
-use super::found::Found;
+use super::condition::ConditionMargin;
+use super::found::MeasuredValue;
 use super::outcome::Outcome;
 use super::{
     BoundVerify, CLOSER, Outcomes, PERTURBED, decided, empty, grounded, option_numbers, over, quote, shorten,
@@ -102,7 +102,7 @@ impl Weight {
     }
 
     /// `holds, by 0.02`; `does not hold, by 0.6`.
-    pub fn words(&self) -> String {
+    pub fn describe(&self) -> String {
         let Some(holds) = self.holds else { return "is not decided by this evidence".to_string() };
         let spread = match self.spread {
             Some(spread) if spread > 0.0 => {
@@ -161,7 +161,7 @@ fn conditions(
     verify: &Verify,
     tried: bool,
     findings: &mut Vec<Finding>,
-) -> Result<Vec<Option<(Found, Weighed)>>, String> {
+) -> Result<Vec<Option<(MeasuredValue, ConditionMargin)>>, String> {
     let ground = if tried { grounded } else { decided };
     let mut all = Vec::new();
     let mut reason = None;
@@ -218,7 +218,7 @@ fn options(
     };
     let (held, open) = (with(Some(true)), with(None));
     let condition = |i: usize| verify.options.get(i).map_or(verify.span.clone(), |c| c.span());
-    let words = |i: usize| weights.get(i).map_or(String::new(), Weight::words);
+    let words = |i: usize| weights.get(i).map_or(String::new(), Weight::describe);
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
 
     if open.contains(&answer) {
@@ -272,7 +272,7 @@ fn options(
                 let now = now.iter().enumerate().map(|(i, found)| weight(i, found.as_ref()));
                 let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
                 let i = now.option.unwrap_or(answer);
-                (i, format!("then the condition of {} {}", name(i), now.words()))
+                (i, format!("then the condition of {} {}", name(i), now.describe()))
             }
         };
         let now = format!("with the lesson's own numerics this {}", words(i));
@@ -332,14 +332,14 @@ pub(super) fn same(bound: &BoundVerify<'_>, outcome: &Outcome, verify: &Verify, 
     for (now, then) in now.zip(weights) {
         if now.holds != then.holds {
             let i = now.option.unwrap_or(0);
-            return Same::No(format!("the condition of option {i} {}", now.words()));
+            return Same::No(format!("the condition of option {i} {}", now.describe()));
         }
         least = least.min(now.margin.map_or(f64::INFINITY, f64::abs));
     }
     Same::Yes(least)
 }
 
-fn weight(i: usize, found: Option<&(Found, Weighed)>) -> Weight {
+fn weight(i: usize, found: Option<&(MeasuredValue, ConditionMargin)>) -> Weight {
     let weighed = found.map(|(_, w)| w);
     Weight {
         option: Some(i),

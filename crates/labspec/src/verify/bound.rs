@@ -7,15 +7,15 @@ use super::found;
 use super::layout::{Layout, Slot};
 use super::measure::Sampled;
 use super::outcome::{Outcome, RunOutcome};
-use super::perform::{self, Asked};
 use super::reads;
-use super::search::{self, Case};
-use super::stage::{Scene, Stage};
+use super::run_cache::{BoundLab, Stage};
+use super::runner::{self, Asked};
+use super::search::{self, SearchCase};
 use super::units;
 use crate::bind::{ModelNames, Scope, Shown, to_finding};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{Budget, Numerics, Session};
+use crate::run::{Budget, Session, StepVariant};
 use crate::source::Text;
 use crate::spec::{Find, Run, Sweep, Verify};
 use labspec_core::reflect::{FieldId, Object, option};
@@ -35,7 +35,7 @@ pub(super) struct Named<'a> {
 /// A lab with the measures that are taken in its runs.
 #[derive(Debug)]
 pub(super) struct BoundScene<'a> {
-    pub(super) scene: Scene<'a>,
+    pub(super) scene: BoundLab<'a>,
     pub(super) globals: Globals,
     pub(super) measures: Vec<(&'a str, Named<'a>)>,
     /// What it shows under labels, and which of them are asked for.
@@ -104,8 +104,8 @@ impl<'a> BoundVerify<'a> {
     /// the object itself, where there is one, is `base`. What is wrong goes to `findings`; `None` when it cannot run.
     pub fn new(
         verify: &'a Verify,
-        base: Option<&Scene<'a>>,
-        scenes: &[Vec<Scene<'a>>],
+        base: Option<&BoundLab<'a>>,
+        scenes: &[Vec<BoundLab<'a>>],
         stage: &'a Stage<'a>,
         findings: &mut Vec<Finding>,
     ) -> Option<BoundVerify<'a>> {
@@ -267,7 +267,7 @@ impl<'a> BoundVerify<'a> {
     /// views make none.
     pub(super) fn moves_anything(&self, label: &Text, from: f64, to: f64) -> bool {
         const STEPS: usize = 20;
-        let Some(Scene { lab, model, programs, .. }) = self.lab() else { return false };
+        let Some(BoundLab { lab, model, programs, .. }) = self.lab() else { return false };
         let start = |x: f64| {
             let mut session =
                 Session::start_within(programs.clone(), model, lab.keyframe(), &Demand::ANY, Budget::TRIAL);
@@ -316,7 +316,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The place of a lab in the list, to which it is added the first time.
-    fn add(&mut self, scene: &Scene<'a>) -> usize {
+    fn add(&mut self, scene: &BoundLab<'a>) -> usize {
         if let Some(known) = self.scenes.iter().position(|s| s.scene.is(scene)) {
             return known;
         }
@@ -383,7 +383,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The labs of every run, as [`BoundVerify::new`] takes them.
-    pub(super) fn labs(&self) -> Vec<Vec<Scene<'a>>> {
+    pub(super) fn labs(&self) -> Vec<Vec<BoundLab<'a>>> {
         let of = |run: &'a Run| {
             let own = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
             own.filter_map(|b| self.scene_of(b).map(|s| s.scene.clone())).collect()
@@ -407,7 +407,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The lab of the object with its model and programs.
-    pub(super) fn lab(&self) -> Option<&Scene<'a>> {
+    pub(super) fn lab(&self) -> Option<&BoundLab<'a>> {
         self.scenes.first().map(|s| &s.scene)
     }
 
@@ -416,7 +416,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// Makes every run and takes every measure. `None` when a run cannot be made.
-    pub(super) fn outcome(&self, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<Outcome> {
+    pub(super) fn outcome(&self, numerics: StepVariant, findings: &mut Vec<Finding>) -> Option<Outcome> {
         let mut runs = Vec::new();
         for run in &self.runs {
             let scene = self.scene_of(run)?;
@@ -448,7 +448,12 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
-    fn search(&self, find: &Find, numerics: Numerics, findings: &mut Vec<Finding>) -> Option<search::Limit> {
+    fn search(
+        &self,
+        find: &Find,
+        numerics: StepVariant,
+        findings: &mut Vec<Finding>,
+    ) -> Option<search::Limit> {
         let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
         let mut runs = self.runs.iter().filter(named);
         let (Some(run), None) = (runs.next(), runs.next()) else {
@@ -463,8 +468,12 @@ impl<'a> BoundVerify<'a> {
             );
             return None;
         };
-        let case =
-            Case { find, run: run.spec, measure: &self.verify.measure, scene: &self.scene_of(run)?.scene };
+        let case = SearchCase {
+            find,
+            run: run.spec,
+            measure: &self.verify.measure,
+            scene: &self.scene_of(run)?.scene,
+        };
         search::search(&case, self.stage, numerics, findings)
     }
 
@@ -478,13 +487,13 @@ impl<'a> BoundVerify<'a> {
     pub(super) fn perform(
         &self,
         run: &BoundRun<'a>,
-        numerics: Numerics,
+        numerics: StepVariant,
         measures: &[&Named<'_>],
         findings: &mut Vec<Finding>,
-    ) -> Option<perform::Made> {
+    ) -> Option<runner::Made> {
         let place = run.spec.map_or(self.verify.span.clone(), |r| r.name.span());
         let asked = Asked { scene: self.scene_of(run)?, run, numerics, measures, place };
-        perform::perform(&asked, self.stage, findings)
+        runner::perform(&asked, self.stage, findings)
     }
 
     /// The place of a run in the lesson, and whether the lesson says that it breaks.
@@ -495,9 +504,8 @@ impl<'a> BoundVerify<'a> {
 
     /// Whether every run states its own timestep, so that half of it says nothing new.
     pub(super) fn states_every_timestep(&self) -> bool {
-        let states = |run: &BoundRun<'_>| {
-            self.scene_of(run).is_some_and(|s| perform::states(s, run, option::timestep))
-        };
+        let states =
+            |run: &BoundRun<'_>| self.scene_of(run).is_some_and(|s| runner::states(s, run, option::timestep));
         self.runs.iter().all(states)
     }
 
@@ -507,7 +515,7 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// Looks at the names of expressions over the outcome before there is one.
-    pub(super) fn look<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
+    pub(super) fn lint_texts<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
         for text in texts {
             let Some(claim) = self.claim(text) else { return };
             let errors = claim.diagnostics.iter().filter(|d| d.is_error());
@@ -523,7 +531,7 @@ impl<'a> BoundVerify<'a> {
     pub(crate) fn curves(&self, most: usize) -> Vec<Curves> {
         let one = |run: &BoundRun<'a>| {
             let (scene, place) = (self.scene_of(run)?, self.verify.span.clone());
-            let asked = Asked { scene, run, numerics: Numerics::NOMINAL, measures: &[], place };
+            let asked = Asked { scene, run, numerics: StepVariant::NOMINAL, measures: &[], place };
             curves::of_run(&asked, self.stage)
         };
         self.runs.iter().take(most).filter_map(one).collect()
@@ -531,7 +539,7 @@ impl<'a> BoundVerify<'a> {
 
     /// The model of every run as it begins: after the run's controls and its setup. `None` for a run that cannot be made.
     pub(crate) fn begun(&self) -> Vec<(String, Option<Model>)> {
-        let begin = |run: &BoundRun<'_>| perform::begun(self.scenes.get(run.scene)?, run);
+        let begin = |run: &BoundRun<'_>| runner::begun(self.scenes.get(run.scene)?, run);
         self.runs.iter().map(|run| (run.name.to_string(), begin(run))).collect()
     }
 }

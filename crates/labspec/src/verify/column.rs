@@ -2,7 +2,7 @@
 
 use super::grounded;
 use super::quote;
-use super::says::{self, Court, Given, Quote};
+use super::says::{self, Given, Quote, QuoteChecker};
 use super::units;
 use crate::finding::Finding;
 use crate::rules;
@@ -15,7 +15,7 @@ const LOOK: u64 = 1000;
 const MOST_WORDS: usize = 20;
 
 /// Holds a column, or one cell of it, to what was measured.
-pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Finding>) -> Vec<Quote> {
+pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut Vec<Finding>) -> Vec<Quote> {
     let stage = court.bound.stage();
     stage.spend(LOOK * court.shown.cells() as u64);
     if stage.left() == 0 {
@@ -83,7 +83,7 @@ pub(super) fn check(court: Court<'_, '_>, claim: &Column, findings: &mut Vec<Fin
 
 /// One cell; `member` picks its number out of a list.
 fn cell(
-    court: Court<'_, '_>,
+    court: QuoteChecker<'_, '_>,
     text: &Text,
     is: &Stands,
     unit: &Option<quote::Unit>,
@@ -94,7 +94,7 @@ fn cell(
         Stands::Words(words) => words,
         Stands::Number(expr) => {
             let expr = part(expr, member);
-            let places = vec![quote::Place { at: text.span(), unit: unit.clone() }];
+            let places = vec![quote::QuotePlace { at: text.span(), unit: unit.clone() }];
             let claim = quote::Claim { quote: text, part: text.as_str(), expr: &expr };
             let part = quote::whole(text.as_str());
             return match Given::of(court, &expr, findings) {
@@ -148,7 +148,7 @@ fn cell(
         }
     }
     let claim = quote::Claim { quote: text, part: "", expr: &expr };
-    says::words(court, &claim, &given, &[text.span()], findings)
+    says::describe_quote(court, &claim, &given, &[text.span()], findings)
 }
 
 /// What was compared with nothing, and was told so.
@@ -159,7 +159,7 @@ fn refused(text: &Text, told: Finding, findings: &mut Vec<Finding>) -> Quote {
 }
 
 /// The numbers of a list.
-fn values(court: Court<'_, '_>, list: &Text, findings: &mut Vec<Finding>) -> Result<Vec<f64>, String> {
+fn values(court: QuoteChecker<'_, '_>, list: &Text, findings: &mut Vec<Finding>) -> Result<Vec<f64>, String> {
     let mut number = |text: &Text| {
         grounded(court.bound, &court.outcomes.nominal, text, findings).map(|f| f.value.to_number())
     };

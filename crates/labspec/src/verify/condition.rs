@@ -5,7 +5,7 @@ use labspec_expr::{Comparison, parse_expression};
 
 /// What became of a condition.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Weighed {
+pub(super) struct ConditionMargin {
     /// It holds.
     pub(super) holds: bool,
     /// How far the nearest comparison that decides it is from turning over, in the unit of what is compared: negative where it
@@ -57,12 +57,12 @@ const MOST_TURNED: usize = 48;
 
 /// How a condition came out, and how far it is from the opposite. `decides` tells of each comparison whether it depends on
 /// what was measured; `turn` gives the truth of the condition where one comparison comes out the other way.
-pub(super) fn weigh(
+pub(super) fn evaluate(
     holds: bool,
     comparisons: &[Comparison],
     decides: &dyn Fn(usize) -> bool,
     turn: &mut dyn FnMut(usize) -> Option<bool>,
-) -> Weighed {
+) -> ConditionMargin {
     let mut decisive: Option<f64> = None;
     let mut any: Option<f64> = None;
     let nearer =
@@ -78,7 +78,7 @@ pub(super) fn weigh(
         }
     }
     let margin = decisive.or(any).map(|size| if holds { size } else { -size });
-    Weighed { holds, margin, without_number: None }
+    ConditionMargin { holds, margin, without_number: None }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What a lab shows in a run: its traces over time, for a report that draws them.
 
-use super::perform::{self, Asked};
-use super::stage::Stage;
+use super::run_cache::Stage;
+use super::runner::{self, Asked};
 use crate::run::Session;
 use crate::spec::Plot;
 use labspec_expr::Value;
@@ -35,7 +35,7 @@ pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves>
     if traces == 0 {
         return None;
     }
-    let mut ready = perform::ready(asked, stage, &mut Vec::new())?;
+    let mut ready = runner::ready(asked, stage, &mut Vec::new())?;
     let every = ready.count.div_ceil(SAMPLES).max(1);
     let mut times = Vec::new();
     let mut values = vec![Vec::new(); traces];
@@ -51,7 +51,7 @@ pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves>
         }
     };
     let mut seen = 0;
-    perform::play(asked, &mut ready, |session, made| {
+    runner::play(asked, &mut ready, |session, made| {
         seen = made;
         if made % every == 0 {
             take(session);

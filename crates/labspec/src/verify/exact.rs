@@ -5,7 +5,7 @@
 //! (Richardson 1911) is the error of the formula. A right formula leaves less than the extrapolations differ among
 //! themselves; a wrong one leaves itself.
 
-use super::stage::{Scene, Stage};
+use super::run_cache::{BoundLab, Stage};
 use super::{BoundVerify, significant};
 use crate::bind::{Bound, ModelNames, Programs, Scope, functions, include, to_finding};
 use crate::finding::Finding;
@@ -113,8 +113,8 @@ fn hold(
     findings: &mut Vec<Finding>,
 ) -> ClosedForm {
     let unchecked = |reason: &str| ClosedForm::unchecked(claim, reason);
-    let Some(Scene { lab, model, programs, .. }) = bound.lab() else { return unchecked("it has no lab") };
-    let case = Case { lab, model, programs, trace, form };
+    let Some(BoundLab { lab, model, programs, .. }) = bound.lab() else { return unchecked("it has no lab") };
+    let case = ClosedFormRuns { lab, model, programs, trace, form };
     let mut runs = Vec::new();
     for parts in [1, 2, 4] {
         match case.run(parts, bound.stage()) {
@@ -166,7 +166,7 @@ pub(super) fn bind<'b>(
     claim: &Exact,
     findings: &mut Vec<Finding>,
 ) -> Result<(Vec<&'b Bound>, Bound), &'static str> {
-    let Scene { lab, model, programs, .. } = bound.lab().ok_or("it has no lab")?;
+    let BoundLab { lab, model, programs, .. } = bound.lab().ok_or("it has no lab")?;
     let named =
         lab.traces().zip(&programs.probes).filter(|(trace, _)| trace.label.value == claim.trace.value);
     let probes: Vec<_> = named.map(|(_, probe)| probe.bound.as_ref()).collect();
@@ -346,7 +346,7 @@ fn largest(n: usize, x: impl Fn(usize) -> f64) -> (usize, f64) {
 }
 
 /// What the runs share.
-struct Case<'a> {
+struct ClosedFormRuns<'a> {
     lab: &'a Lab,
     model: &'a Model,
     programs: &'a Programs,
@@ -354,7 +354,7 @@ struct Case<'a> {
     form: &'a Bound,
 }
 
-impl Case<'_> {
+impl ClosedFormRuns<'_> {
     /// Order of the integrator that the lab runs with.
     fn order(&self) -> i32 {
         if self.start().world.model.opt.integrator == integrator::RK4 { 4 } else { 1 }

@@ -3,7 +3,7 @@
 
 use super::bound::{BoundVerify, Named};
 use super::claim::{Claim, Inputs, Traced};
-use super::condition::{self, Weighed};
+use super::condition::{self, ConditionMargin};
 use super::evidence::{self, Kind, Outlook};
 use super::layout::Slot;
 use super::outcome::Outcome;
@@ -17,7 +17,7 @@ use std::rc::Rc;
 
 /// The value of an expression over the measures, and what it rests on.
 #[derive(Clone, Debug)]
-pub(super) struct Found {
+pub(super) struct MeasuredValue {
     pub(super) value: Value,
     /// Whether a simulation says it.
     pub(super) evidence: Evidence,
@@ -49,7 +49,12 @@ struct Evaluated {
 
 impl BoundVerify<'_> {
     /// The value of an expression over the outcome. What is wrong with it goes to `findings`.
-    pub(super) fn find(&self, outcome: &Outcome, text: &Text, findings: &mut Vec<Finding>) -> Option<Found> {
+    pub(super) fn find(
+        &self,
+        outcome: &Outcome,
+        text: &Text,
+        findings: &mut Vec<Finding>,
+    ) -> Option<MeasuredValue> {
         let claim = self.claim(text)?;
         findings.extend(claim.diagnostics.iter().map(|d| to_finding(d, text)));
         let program = claim.program.as_ref()?;
@@ -66,7 +71,7 @@ impl BoundVerify<'_> {
         if !program.aggregates().is_empty() {
             let [run] = self.runs.as_slice() else { return None };
             if let Some(x) = outcome.measured_elsewhere(&text.value) {
-                return Some(Found {
+                return Some(MeasuredValue {
                     value: Value::Number(x),
                     evidence,
                     unread: nothing_read && claim.names.numbers,
@@ -102,7 +107,7 @@ impl BoundVerify<'_> {
         let is_condition = matches!(value, Value::Boolean(_));
         let unread = nothing_read && (claim.names.numbers || claim.names.lists && is_condition);
         let trace = Some(Rc::new(Evaluated { claim, inputs, traced }));
-        Some(Found { value, evidence, unread, broke, undecided, trace })
+        Some(MeasuredValue { value, evidence, unread, broke, undecided, trace })
     }
 
     /// How a run broke that a claim rests on, unless it reads the warnings of that run.
@@ -143,7 +148,7 @@ impl BoundVerify<'_> {
 
     /// Whether a claim could have come out otherwise, had the runs given something else. `says` tells what the claim says with a
     /// value; the truth of a condition, or a number, where it is `None`.
-    pub(super) fn could_differ(&self, found: &Found, says: Option<&dyn Fn(&Value) -> bool>) -> bool {
+    pub(super) fn could_differ(&self, found: &MeasuredValue, says: Option<&dyn Fn(&Value) -> bool>) -> bool {
         // What somebody else evaluated was evaluated here, too.
         let Some(evaluated) = &found.trace else { return true };
         let Evaluated { claim, inputs, .. } = &**evaluated;
@@ -178,7 +183,12 @@ impl BoundVerify<'_> {
     }
 
     /// Whether the value of a text says that something holds or not, as options, words and searches need it; a finding where not.
-    pub(super) fn is_condition(&self, found: &Found, text: &Text, findings: &mut Vec<Finding>) -> bool {
+    pub(super) fn is_condition(
+        &self,
+        found: &MeasuredValue,
+        text: &Text,
+        findings: &mut Vec<Finding>,
+    ) -> bool {
         let is = self.is_truth(found);
         if !is {
             findings.push(no_condition(text, &found.value));
@@ -187,7 +197,7 @@ impl BoundVerify<'_> {
     }
 
     /// A truth value, or a number that is 0 or 1 whatever the runs give, as that of `holds(…)`: a count that happens to be 1 is none.
-    fn is_truth(&self, found: &Found) -> bool {
+    fn is_truth(&self, found: &MeasuredValue) -> bool {
         let truth = |x: f64| x == 0.0 || x == 1.0;
         let Value::Number(x) = found.value else { return matches!(found.value, Value::Boolean(_)) };
         // What somebody else evaluated was tried here, too.
@@ -225,11 +235,11 @@ impl BoundVerify<'_> {
     }
 
     /// How a condition came out, and how far it is from the opposite.
-    pub(super) fn weigh_found(&self, found: &Found) -> Weighed {
+    pub(super) fn weigh_found(&self, found: &MeasuredValue) -> ConditionMargin {
         let holds = found.value.truthy();
         let without_number = found.undecided.as_ref().map(|u| u.part.clone());
         let Some(evaluated) = found.trace.as_ref().filter(|_| without_number.is_none()) else {
-            return Weighed { holds, margin: None, without_number };
+            return ConditionMargin { holds, margin: None, without_number };
         };
         let Evaluated { claim, inputs, traced } = &**evaluated;
         let measured = claim.measured(self);
@@ -254,7 +264,7 @@ impl BoundVerify<'_> {
             let turned = claim.evaluate(self, inputs, Some(i))?.ok()?;
             Some(turned.value.truthy())
         };
-        condition::weigh(holds, &traced.comparisons, &decides, &mut turn)
+        condition::evaluate(holds, &traced.comparisons, &decides, &mut turn)
     }
 
     /// Those of the texts that look at the samples of the only run themselves.

@@ -2,9 +2,9 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | the labs of the runs, as they stand or changed | `stage` |
+//! | the labs of the runs, as they stand or changed | `run_cache` |
 //! | runs and measures, bound to their labs | `bound` |
-//! | one run, with what is measured in it | `perform`, `measure`, `reads` |
+//! | one run, with what is measured in it | `runner`, `measure`, `reads` |
 //! | values that are searched for | `search` |
 //! | what conditions read | `outcome`, at the places of `layout` |
 //! | an expression over measures, compiled once | `claim` |
@@ -36,12 +36,12 @@ mod measure;
 mod option_numbers;
 mod outcome;
 mod over;
-mod perform;
 mod quote;
 mod reads;
+mod run_cache;
+mod runner;
 mod says;
 mod search;
-mod stage;
 mod units;
 
 pub use answer::{Answer, UNDECIDED, Verdict, Weight};
@@ -53,13 +53,13 @@ pub use quote::{
     claimed, counted, folded, plain, quoted, stated,
 };
 pub use reads::labels;
+pub use run_cache::{BoundLab, Stage};
 pub use says::Quote;
-pub use stage::{Scene, Stage};
 
 use crate::finding::Finding;
 use crate::ledger::State;
 use crate::rules;
-use crate::run::Numerics;
+use crate::run::StepVariant;
 use crate::source::Text;
 use crate::spec::{Question, Verify};
 use labspec_core::integrator;
@@ -107,21 +107,21 @@ pub struct Measured {
     pub halved: Option<f64>,
 }
 
-pub(crate) const HALVED: Numerics = Numerics { timestep: 0.5, ..Numerics::NOMINAL };
-const QUARTERED: Numerics = Numerics { timestep: 0.25, ..Numerics::NOMINAL };
-const FAST: Numerics = Numerics { integrator: Some(integrator::IMPLICITFAST), ..Numerics::NOMINAL };
-const RK4: Numerics = Numerics { integrator: Some(integrator::RK4), ..Numerics::NOMINAL };
-const TIGHT: Numerics = Numerics { tight: true, ..Numerics::NOMINAL };
+pub(crate) const HALVED: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
+const QUARTERED: StepVariant = StepVariant { timestep: 0.25, ..StepVariant::NOMINAL };
+const FAST: StepVariant = StepVariant { integrator: Some(integrator::IMPLICITFAST), ..StepVariant::NOMINAL };
+const RK4: StepVariant = StepVariant { integrator: Some(integrator::RK4), ..StepVariant::NOMINAL };
+const TIGHT: StepVariant = StepVariant { tight: true, ..StepVariant::NOMINAL };
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
 const NUDGE: f64 = 1e-14;
-pub(crate) const NUDGED: Numerics = Numerics { nudge: NUDGE, ..Numerics::NOMINAL };
-pub(crate) const NUDGED_BACK: Numerics = Numerics { nudge: -NUDGE, ..Numerics::NOMINAL };
+pub(crate) const NUDGED: StepVariant = StepVariant { perturbation: NUDGE, ..StepVariant::NOMINAL };
+pub(crate) const NUDGED_BACK: StepVariant = StepVariant { perturbation: -NUDGE, ..StepVariant::NOMINAL };
 
 /// Other numerics that every answer is put to.
 const CHANGES: usize = 4;
 
 /// The changes of the numerics that an answer must survive, and how to call them. The first and the third are those of quotes.
-const PERTURBED: [(Numerics, &str); CHANGES] = [
+const PERTURBED: [(StepVariant, &str); CHANGES] = [
     (HALVED, "at half the timestep"),
     (TIGHT, "with the solver run to convergence"),
     (NUDGED, "with a start moved by 1e-14"),
@@ -129,11 +129,11 @@ const PERTURBED: [(Numerics, &str); CHANGES] = [
 ];
 
 /// Those that an answer must survive besides, where what the others change of a condition could turn it over.
-const CLOSER: [(Numerics, &str); 2] =
+const CLOSER: [(StepVariant, &str); 2] =
     [(QUARTERED, "at a quarter of the timestep"), (RK4, "with the integrator RK4")];
 
 /// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
-pub(crate) fn measured(bound: &BoundVerify<'_>, numerics: Numerics) -> Option<Vec<f64>> {
+pub(crate) fn measured(bound: &BoundVerify<'_>, numerics: StepVariant) -> Option<Vec<f64>> {
     let outcome = bound.outcome(numerics, &mut Vec::new())?;
     let run = outcome.runs.into_iter().next().filter(|run| run.broke.is_none())?;
     Some(run.measures.into_iter().map(|(_, x)| x).collect())
@@ -172,7 +172,7 @@ pub(crate) fn check_nominal(
     shown: &ShownText,
 ) -> Option<Judgement> {
     let findings = &mut Vec::new();
-    let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
+    let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
     let perturbed = std::array::from_fn(|_| Some(nominal.clone()));
     let outcomes = Outcomes { nominal, perturbed, nudged_back: None };
     Some(judge(bound, &outcomes, verify, question, shown, findings))
@@ -195,7 +195,7 @@ fn judge(
         judgement.answer = answer::check(bound, outcomes, verify, question, findings);
     }
     judgement.quotes = {
-        let court = says::Court { bound, outcomes, shown };
+        let court = says::QuoteChecker { bound, outcomes, shown };
         says::check(court, verify, question, findings)
     };
     judgement.exact = verify.exact.iter().map(|claim| exact::check(bound, claim, findings)).collect();
@@ -203,9 +203,9 @@ fn judge(
 }
 
 /// Looks at every text of a `verify` object, and runs nothing.
-pub(crate) fn look(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
+pub(crate) fn lint_verify(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
     let options = verify.options.iter().filter(|text| !answer::is_undecided(text));
-    bound.look(options.chain(&verify.value).chain(verify.quoted()), findings);
+    bound.lint_texts(options.chain(&verify.value).chain(verify.quoted()), findings);
     for claim in &verify.exact {
         let _ = exact::bind(bound, claim, findings);
     }
@@ -253,7 +253,7 @@ impl Judgement {
 
 /// Every run under every numerics that is needed.
 fn outcomes(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) -> Option<Outcomes> {
-    let nominal = bound.outcome(Numerics::NOMINAL, findings)?;
+    let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
     let answers = verify.claims_answer();
     let quotes = !verify.says.is_empty() || !verify.table.is_empty();
     let needed = |i: usize| answers || quotes && (i == 0 || i == 2);
@@ -323,7 +323,7 @@ fn grounded(
     outcome: &Outcome,
     text: &Text,
     findings: &mut Vec<Finding>,
-) -> Result<found::Found, String> {
+) -> Result<found::MeasuredValue, String> {
     let found = decided(bound, outcome, text, findings)?;
     // What has no finite value is told as that.
     let some = !matches!(found.value, labspec_expr::Value::Number(x) if !x.is_finite());
@@ -339,7 +339,7 @@ fn decided(
     outcome: &Outcome,
     text: &Text,
     findings: &mut Vec<Finding>,
-) -> Result<found::Found, String> {
+) -> Result<found::MeasuredValue, String> {
     if condition::is_bare_constant(&text.value) {
         let message = format!("`{}` is a bare constant: evidence of nothing", text.value.trim());
         findings.push(

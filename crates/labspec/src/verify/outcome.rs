@@ -3,7 +3,7 @@
 use super::layout::{Layout, LayoutRun};
 use super::measure::Doubt;
 use crate::bind::{ModelNames, NUMBERS, Scope};
-use crate::run::Numerics;
+use crate::run::StepVariant;
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
     CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
@@ -44,7 +44,7 @@ pub(super) struct Outcome {
     pub(super) found: Vec<(String, f64)>,
     /// Where each was looked for, in words.
     pub(super) looked: Vec<String>,
-    pub(super) numerics: Numerics,
+    pub(super) numerics: StepVariant,
     /// Expressions that look at the samples themselves, measured by somebody else; empty where we measure.
     pub(super) elsewhere: Vec<(String, f64)>,
 }

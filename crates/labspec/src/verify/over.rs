@@ -6,11 +6,11 @@
 
 use super::answer::{self, Answer, Same, Verdict};
 use super::{BoundVerify, significant};
-use crate::covering;
 use crate::finding::Finding;
 use crate::json::{Number, Scalar};
+use crate::pairwise;
 use crate::rules;
-use crate::run::{Numerics, settings};
+use crate::run::{StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_expr::Value;
@@ -188,15 +188,15 @@ impl Space<'_, '_, '_> {
     fn search(&mut self, findings: &mut Vec<Finding>) -> Option<Option<Counterexample>> {
         let levels = vec![2; self.axes.len()];
         let corners = match 1usize.checked_shl(levels.len() as u32) {
-            Some(n) if n <= FEW => covering::all(&levels),
-            _ => covering::pairwise(&levels, ROWS).0,
+            Some(n) if n <= FEW => pairwise::all(&levels),
+            _ => pairwise::pairwise(&levels, ROWS).0,
         };
         let mut starts: Vec<Vec<f64>> =
             corners.iter().map(|row| row.iter().map(|k| *k as f64).collect()).collect();
         starts.push(vec![0.5; self.axes.len()]);
         let mut best: Option<(f64, Vec<f64>)> = None;
         for parts in starts {
-            let (turned, margin) = self.look(&parts, findings)?;
+            let (turned, margin) = self.evaluate_at(&parts, findings)?;
             if turned.is_some() {
                 return Some(turned);
             }
@@ -214,7 +214,7 @@ impl Space<'_, '_, '_> {
                     if let Some(part) = there.get_mut(k) {
                         *part = (*part + way).clamp(0.0, 1.0);
                     }
-                    let (turned, margin) = self.look(&there, findings)?;
+                    let (turned, margin) = self.evaluate_at(&there, findings)?;
                     if turned.is_some() {
                         return Some(turned);
                     }
@@ -231,7 +231,11 @@ impl Space<'_, '_, '_> {
     }
 
     /// Whether the answer turns over in a setting, and how far it is from that.
-    fn look(&mut self, parts: &[f64], findings: &mut Vec<Finding>) -> Option<(Option<Counterexample>, f64)> {
+    fn evaluate_at(
+        &mut self,
+        parts: &[f64],
+        findings: &mut Vec<Finding>,
+    ) -> Option<(Option<Counterexample>, f64)> {
         let values: Vec<f64> = self.axes.iter().zip(parts).map(|(axis, part)| axis.at(*part)).collect();
         let key: Vec<u64> = values.iter().map(|x| x.to_bits()).collect();
         if let Some(known) = self.tried.get(&key) {
@@ -242,7 +246,7 @@ impl Space<'_, '_, '_> {
         let base = self.bound.lab().cloned();
         let labs = if self.verify.runs.is_empty() { vec![base.clone().into_iter().collect()] } else { labs };
         let again = BoundVerify::new(&verify, base.as_ref(), &labs, stage, findings)?;
-        let outcome = again.outcome(Numerics::NOMINAL, findings)?;
+        let outcome = again.outcome(StepVariant::NOMINAL, findings)?;
         let same = answer::same(&again, &outcome, &verify, &self.weights);
         // What ends because the work of a check is spent says nothing of the answer.
         if !matches!(same, Same::Yes(_)) && stage.left() == 0 {

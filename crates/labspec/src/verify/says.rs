@@ -1,6 +1,6 @@
 //! What the text says: numbers and words that are quoted, and the cells of tables.
 
-use super::found::Found;
+use super::found::MeasuredValue;
 use super::outcome::Outcome;
 use super::quote::{self, Other, QuoteState};
 use super::{BoundVerify, Outcomes, ShownText, column, grounded, units};
@@ -55,7 +55,7 @@ impl Quote {
 
 /// What quotes are held to.
 #[derive(Clone, Copy)]
-pub(super) struct Court<'c, 'b> {
+pub(super) struct QuoteChecker<'c, 'b> {
     pub(super) bound: &'c BoundVerify<'b>,
     pub(super) outcomes: &'c Outcomes,
     pub(super) shown: &'c ShownText,
@@ -63,7 +63,7 @@ pub(super) struct Court<'c, 'b> {
 
 /// What becomes of everything that a `verify` object says is said. `question` is what carries it, unless a lab does.
 pub(super) fn check(
-    court: Court<'_, '_>,
+    court: QuoteChecker<'_, '_>,
     verify: &Verify,
     question: Option<&Question>,
     findings: &mut Vec<Finding>,
@@ -80,7 +80,7 @@ pub(super) fn check(
 
 /// One line: a number, or several, and what its words say.
 fn line(
-    court: Court<'_, '_>,
+    court: QuoteChecker<'_, '_>,
     said: &Said,
     question: Option<&Question>,
     findings: &mut Vec<Finding>,
@@ -115,7 +115,7 @@ fn line(
         all.push(match given.is_condition() {
             true => {
                 let at: Vec<Range<usize>> = at.iter().map(|place| place.at.clone()).collect();
-                words(court, &claim(""), &given, &at, findings)
+                describe_quote(court, &claim(""), &given, &at, findings)
             }
             false => {
                 let part = parts.next().unwrap_or_else(|| quote::whole(""));
@@ -128,18 +128,18 @@ fn line(
 
 /// The value of an expression in the lesson's own runs, and in others.
 pub(super) struct Given {
-    found: Found,
+    found: MeasuredValue,
     timestep: Vec<Other>,
     start: Vec<Other>,
 }
 
 impl Given {
     pub(super) fn of(
-        court: Court<'_, '_>,
+        court: QuoteChecker<'_, '_>,
         expr: &Text,
         findings: &mut Vec<Finding>,
     ) -> Result<Given, String> {
-        let Court { bound, outcomes, .. } = court;
+        let QuoteChecker { bound, outcomes, .. } = court;
         let found = grounded(bound, &outcomes.nominal, expr, findings)?;
         let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
         let back = "with a start moved by -1e-14";
@@ -155,7 +155,7 @@ impl Given {
     /// Whether it can decide about words; a finding where not.
     pub(super) fn is_condition_of(
         &self,
-        court: Court<'_, '_>,
+        court: QuoteChecker<'_, '_>,
         expr: &Text,
         findings: &mut Vec<Finding>,
     ) -> bool {
@@ -175,11 +175,11 @@ fn value_of(bound: &BoundVerify<'_>, outcome: &Outcome, expr: &Text, how: &'stat
 
 /// What becomes of a number.
 pub(super) fn number(
-    court: Court<'_, '_>,
+    court: QuoteChecker<'_, '_>,
     claim: &quote::Claim<'_>,
-    part: &quote::Part,
+    part: &quote::QuotePart,
     given: Given,
-    places: Vec<quote::Place>,
+    places: Vec<quote::QuotePlace>,
     findings: &mut Vec<Finding>,
 ) -> Quote {
     let unit = &|| units::of_claim(court.bound, &court.outcomes.nominal, claim.expr);
@@ -192,8 +192,8 @@ pub(super) fn number(
 }
 
 /// What becomes of words that say that a condition holds.
-pub(super) fn words(
-    court: Court<'_, '_>,
+pub(super) fn describe_quote(
+    court: QuoteChecker<'_, '_>,
     claim: &quote::Claim<'_>,
     given: &Given,
     at: &[Range<usize>],

@@ -6,12 +6,12 @@
 //! the limit are looked at.
 
 use super::bound::BoundVerify;
-use super::perform::TIMESTEP;
+use super::run_cache::{BoundLab, Stage, misspelt};
+use super::runner::TIMESTEP;
 use super::significant;
-use super::stage::{Scene, Stage, misspelt};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::Numerics;
+use crate::run::StepVariant;
 use crate::source::Text;
 use crate::spec::{Find, Run, Verify};
 use labspec_core::xml::Patch;
@@ -25,11 +25,11 @@ const BESIDE: [f64; 2] = [0.004, 0.02];
 const HALVINGS: usize = 60;
 
 /// A search: in which run, with which measures, of which lab.
-pub(super) struct Case<'c> {
+pub(super) struct SearchCase<'c> {
     pub(super) find: &'c Find,
     pub(super) run: Option<&'c Run>,
     pub(super) measure: &'c [(Text, Text)],
-    pub(super) scene: &'c Scene<'c>,
+    pub(super) scene: &'c BoundLab<'c>,
 }
 
 /// What was found with a value.
@@ -50,9 +50,9 @@ pub(super) struct Limit {
 
 /// Makes the search; `None` when a run cannot be made, a value of NaN when there is no one limit. Both are reported.
 pub(super) fn search(
-    case: &Case<'_>,
+    case: &SearchCase<'_>,
     stage: &Stage<'_>,
-    numerics: Numerics,
+    numerics: StepVariant,
     findings: &mut Vec<Finding>,
 ) -> Option<Limit> {
     let find = case.find;
@@ -237,7 +237,7 @@ fn no_limit(find: &Find, ends: [bool; 2]) -> Option<NoLimit> {
 }
 
 /// The attribute of the model that is changed; `None` for a control.
-fn path(case: &Case<'_>) -> Option<String> {
+fn path(case: &SearchCase<'_>) -> Option<String> {
     let what = &case.find.what.value;
     match case.scene.lab.control(what) {
         Some(_) => None,
@@ -248,10 +248,10 @@ fn path(case: &Case<'_>) -> Option<String> {
 
 /// Whether the condition holds with this value; in a run that breaks it does not. The part that compares NaN, where nothing decides.
 fn holds(
-    case: &Case<'_>,
+    case: &SearchCase<'_>,
     stage: &Stage<'_>,
     x: f64,
-    numerics: Numerics,
+    numerics: StepVariant,
     findings: &mut Vec<Finding>,
 ) -> Option<Result<Tried, String>> {
     let find = case.find;

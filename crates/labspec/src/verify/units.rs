@@ -6,7 +6,7 @@ use super::outcome::{Outcome, OutcomeNames, Units};
 use crate::bind::Scope;
 use crate::bind::{given, given_by};
 use crate::source::Text;
-use crate::verify::Scene;
+use crate::verify::BoundLab;
 use labspec_bind::units;
 use labspec_expr::dimension::{BASES, Dimension, Measure};
 use labspec_expr::{Compiler, Given};
@@ -20,7 +20,7 @@ pub(super) struct Known {
 
 impl Known {
     pub(super) fn of(bound: &BoundVerify<'_>) -> Option<Known> {
-        let Scene { lab, model, programs, .. } = bound.lab()?;
+        let BoundLab { lab, model, programs, .. } = bound.lab()?;
         let runs =
             bound.cast().map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
         let runs = runs.collect();

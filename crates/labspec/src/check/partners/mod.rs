@@ -6,8 +6,8 @@
 
 mod rests;
 
-use super::claims::{self, Cast, cast};
-use super::{Ready, refresh};
+use super::claims::{self, ResolvedLabs, resolve_labs};
+use super::{Ready, setconst};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::scene::Models;
 use crate::bind::{ControlProgram, Programs};
@@ -60,7 +60,7 @@ pub(super) struct Partners<'a> {
 
 /// Under which numerics runs are made.
 #[derive(Clone, Copy)]
-enum Numerics {
+enum Variants {
     /// Those of the lesson.
     Nominal,
     /// All that a claim has to survive.
@@ -69,7 +69,7 @@ enum Numerics {
 
 /// Who judges, and what.
 #[derive(Clone, Copy)]
-struct Case<'c> {
+struct ClaimOwner<'c> {
     verify: &'c Verify,
     own: Option<&'c Lab>,
     question: Option<&'c Question>,
@@ -150,17 +150,17 @@ impl<'a> Partners<'a> {
         judgement: &mut Judgement,
         findings: &mut Vec<Finding>,
     ) {
-        let case = Case { verify, own, question, shown };
+        let case = ClaimOwner { verify, own, question, shown };
         let candidates = self.involved(case);
         if candidates.is_empty() {
             return;
         }
         // What other numerics change of a claim is asked where the lesson's own say something else.
-        let nominal = self.judge(case, self.corrected(), &self.stage, Numerics::Nominal);
+        let nominal = self.judge(case, self.corrected(), &self.stage, Variants::Nominal);
         if nominal.is_some_and(|second| !differs(judgement, &second)) {
             return;
         }
-        let Some(second) = self.judge(case, self.corrected(), &self.stage, Numerics::All) else { return };
+        let Some(second) = self.judge(case, self.corrected(), &self.stage, Variants::All) else { return };
         if !differs(judgement, &second) || self.contrasted(case, judgement, &second) {
             return;
         }
@@ -169,22 +169,22 @@ impl<'a> Partners<'a> {
         let evidence = rests.evidence.clone();
         rests.apply(case, judgement, second, findings);
         for cause in causes.iter().filter(|c| c.own) {
-            for (rule, pairs) in refresh::by_rule(cause.pairs) {
+            for (rule, pairs) in setconst::by_rule(cause.pairs) {
                 let span = cause.text.span();
                 if findings.iter().any(|f| f.code == rule.code && f.span == span) {
                     continue;
                 }
                 let with: Vec<&str> = pairs.iter().map(|p| p.corrected).collect();
                 let why = format!("{evidence} with {}", with.join(" and "));
-                let finding = refresh::left(rule, span, &cause.who, &pairs, Severity::Warning);
+                let finding = setconst::left(rule, span, &cause.who, &pairs, Severity::Warning);
                 findings.push(if evidence.is_empty() { finding } else { finding.why(why) });
             }
         }
     }
 
     /// The programs of the labs of an object, and the setups of its runs.
-    fn involved(&self, case: Case<'_>) -> Vec<Candidate<'a>> {
-        let Case { verify, own, .. } = case;
+    fn involved(&self, case: ClaimOwner<'_>) -> Vec<Candidate<'a>> {
+        let ClaimOwner { verify, own, .. } = case;
         let base = verify.lab.as_ref().map_or(own, |named| self.lesson.named(named));
         let of_run = |run| lab_of(self.lesson, base, run);
         let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
@@ -198,7 +198,7 @@ impl<'a> Partners<'a> {
         for run in &verify.runs {
             let lab = of_run(run).and_then(|lab| self.labs.iter().find(|r| std::ptr::eq(r.lab, lab)));
             let (Some(text), Some(ready)) = (&run.setup, lab) else { continue };
-            let bench = refresh::Bench::new(ready.lab, &ready.model, &ready.programs);
+            let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
             let Some(bound) = bench.compile(text, &text.value, None) else { continue };
             let pairs = PairSet::written_by(&bound.program);
             let pairs = pairs.without(allowed(self.lesson, text, pairs));
@@ -213,23 +213,23 @@ impl<'a> Partners<'a> {
     /// Judges with these labs.
     fn judge(
         &self,
-        case: Case<'_>,
+        case: ClaimOwner<'_>,
         labs: &[Ready<'_>],
         stage: &Stage<'_>,
-        numerics: Numerics,
+        numerics: Variants,
     ) -> Option<Judgement> {
         let mut ignored = Vec::new();
-        let Case { verify, own, question, shown } = case;
-        let Cast { base, runs } = cast(self.lesson, labs, verify, own, stage, &mut ignored)?;
+        let ClaimOwner { verify, own, question, shown } = case;
+        let ResolvedLabs { base, runs } = resolve_labs(self.lesson, labs, verify, own, stage, &mut ignored)?;
         let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut ignored)?;
         match numerics {
-            Numerics::Nominal => verify::check_nominal(&bound, verify, question, shown),
-            Numerics::All => Some(verify::check(&bound, verify, question, shown, &mut ignored)),
+            Variants::Nominal => verify::check_nominal(&bound, verify, question, shown),
+            Variants::All => Some(verify::check(&bound, verify, question, shown, &mut ignored)),
         }
     }
 
     /// Whether every run that the correction changes has the corrected one beside it: then the author shows the difference on purpose.
-    fn contrasted(&self, case: Case<'_>, first: &Judgement, second: &Judgement) -> bool {
+    fn contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
             let begun = claims::begun(self.lesson, labs, case.verify, case.own, &stage);
@@ -248,7 +248,12 @@ impl<'a> Partners<'a> {
     }
 
     /// The programs, and the pairs of each, that make the difference when they alone are corrected.
-    fn causes(&self, case: Case<'_>, candidates: &[Candidate<'a>], first: &Judgement) -> Vec<Candidate<'a>> {
+    fn causes(
+        &self,
+        case: ClaimOwner<'_>,
+        candidates: &[Candidate<'a>],
+        first: &Judgement,
+    ) -> Vec<Candidate<'a>> {
         let single = |c: &Candidate<'_>| c.pairs.pairs().count() == 1;
         if candidates.len() == 1 && candidates.iter().all(single) {
             return candidates.to_vec();
@@ -260,7 +265,7 @@ impl<'a> Partners<'a> {
                 let programs = vec![(candidate.text.clone(), one)];
                 let alone = Coupled { programs, others: PairSet::NONE, changes, refresh: false };
                 let labs = corrected(self.labs, &alone);
-                let second = self.judge(case, &labs, &Stage::new(self.models), Numerics::All)?;
+                let second = self.judge(case, &labs, &Stage::new(self.models), Variants::All)?;
                 differs(first, &second).then_some(one)
             };
             let pairs: PairSet = candidate.pairs.pairs().filter_map(matters).collect();
@@ -340,7 +345,7 @@ mod tests {
     use super::*;
     use crate::lint::{ModelFolder, load_lesson_file};
     use crate::run::Session;
-    use crate::stability::{self, Action, Handling, Kind};
+    use crate::stress::{self, Action, Interaction, Kind};
     use std::path::{Path, PathBuf};
 
     /// The lessons of a folder, `.md` and `.json`.
@@ -396,11 +401,11 @@ mod tests {
                 let mut labs: Vec<Ready<'_>> = labs.filter_map(bound).collect();
                 let correction = correction(&observe(&lesson, &mut labs));
                 for (ready, amended) in labs.iter().zip(corrected(&labs, &correction)) {
-                    let base = Handling { kind: Kind::AsItStands, actions: Vec::new() };
-                    for handling in stability::list(ready.lab, 1.0, &base).0 {
+                    let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };
+                    for handling in stress::list(ready.lab, 1.0, &base).0 {
                         let (seen, behind) = bits(ready, &ready.programs, &handling.actions);
                         let (wanted, _) = bits(&amended, &amended.programs, &handling.actions);
-                        let what = handling.words(&ready.programs);
+                        let what = handling.describe(&ready.programs);
                         assert!(behind || seen == wanted, "{}: {what}", path.display());
                         if behind { left += 1 } else { clean += 1 }
                     }

@@ -1,6 +1,6 @@
 //! What becomes of claims that rest on a partner that was left behind, and what is said of them.
 
-use super::{Candidate, Case, moved, pairs};
+use super::{Candidate, ClaimOwner, moved, pairs};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::ledger::State;
@@ -37,7 +37,7 @@ impl Rests {
     /// Puts the second verdict in place of the first where a claim is not true any more; one that stays true says that it was tried.
     pub(super) fn apply(
         &self,
-        case: Case<'_>,
+        case: ClaimOwner<'_>,
         first: &mut Judgement,
         second: Judgement,
         findings: &mut Vec<Finding>,

@@ -8,13 +8,13 @@ mod runs;
 
 pub use compare::Divergence;
 
-use super::{Depth, Ready};
+use super::{CheckLevel, Ready};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
 use crate::printable::{printable, printable_path};
 use crate::rules;
-use crate::run::{Budget, Numerics};
+use crate::run::{Budget, StepVariant};
 use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
 use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
@@ -135,7 +135,7 @@ fn name_of(file: &SourceFile) -> String {
 pub(super) fn check(
     lesson: &Lesson,
     ready: &[Ready<'_>],
-    depth: Depth,
+    depth: CheckLevel,
     findings: &mut Vec<Finding>,
 ) -> Vec<Kept> {
     let Some(stored) = stored(lesson) else { return Vec::new() };
@@ -250,7 +250,7 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     let ready: Vec<Ready<'_>> = lesson
         .all_labs()
         .into_iter()
-        .filter_map(|lab| super::prepare(lab, models, Depth::STATIC, &mut ignored))
+        .filter_map(|lab| super::prepare(lab, models, CheckLevel::STATIC, &mut ignored))
         .collect();
     let (old, fault) = match stored(lesson) {
         None => (Vec::new(), None),
@@ -278,7 +278,7 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
 /// The lines of a lab, with the digits that its numerics can tell.
 fn fresh(now: &TakenLab<'_, '_>) -> Option<String> {
     let ready = now.ready.filter(|_| !now.runs.is_empty())?;
-    let under = |numerics: Numerics, handling| {
+    let under = |numerics: StepVariant, handling| {
         let budget = Budget { left: 3 * Budget::TRIAL.left };
         runs::play(ready, handling, numerics, budget).ok().map(|(taken, _)| taken)
     };

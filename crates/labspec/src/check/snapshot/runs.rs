@@ -2,9 +2,9 @@
 
 use super::super::Ready;
 use crate::precision::Integrator;
-use crate::run::{self, Budget, Cell, Numerics, Play, RunError, Session};
+use crate::run::{self, Budget, Cell, Play, RunError, Session, StepVariant};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
-use crate::stability::window;
+use crate::stress::window;
 use crate::verify::significant;
 use labspec_core::reflect::option;
 use labspec_core::{Model, solver};
@@ -17,7 +17,7 @@ const LOOKS: usize = 10;
 const PRESS: f64 = 0.1;
 
 /// What a student does before the run, and how the file calls it.
-pub(super) struct Handling {
+pub(super) struct SnapshotInput {
     pub(super) name: String,
     set: Vec<(String, Value)>,
     press: Vec<(String, f64)>,
@@ -40,7 +40,7 @@ pub(super) struct TakenLab<'r, 'l> {
     pub(super) lab: &'l Lab,
     /// `None` where it cannot run.
     pub(super) ready: Option<&'r Ready<'l>>,
-    pub(super) runs: Vec<(Handling, Taken)>,
+    pub(super) runs: Vec<(SnapshotInput, Taken)>,
 }
 
 /// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
@@ -55,7 +55,9 @@ pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [Ready<'l>]) -> Vec<Ta
         let mut runs = Vec::new();
         for (i, handling) in handlings(lab).into_iter().enumerate() {
             let Some(one) = one.filter(|_| i == 0 || share > 0) else { break };
-            let Ok((taken, spent)) = play(one, &handling, Numerics::NOMINAL, Budget::TRIAL) else { continue };
+            let Ok((taken, spent)) = play(one, &handling, StepVariant::NOMINAL, Budget::TRIAL) else {
+                continue;
+            };
             share = share.saturating_sub(spent);
             left = left.saturating_sub(spent);
             runs.push((handling, taken));
@@ -66,14 +68,14 @@ pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [Ready<'l>]) -> Vec<Ta
 }
 
 /// As it stands, then with each control moved.
-fn handlings(lab: &Lab) -> Vec<Handling> {
-    let mut all = vec![Handling { name: "as it stands".into(), set: Vec::new(), press: Vec::new() }];
+fn handlings(lab: &Lab) -> Vec<SnapshotInput> {
+    let mut all = vec![SnapshotInput { name: "as it stands".into(), set: Vec::new(), press: Vec::new() }];
     for control in &lab.controls {
         let label = &control.label.value;
         let mut moved = |value: Value, start: &Value| {
             if value != *start {
                 let name = format!("with \"{label}\" at {value}");
-                all.push(Handling { name, set: vec![(label.clone(), value)], press: Vec::new() });
+                all.push(SnapshotInput { name, set: vec![(label.clone(), value)], press: Vec::new() });
             }
         };
         match &control.kind {
@@ -89,7 +91,7 @@ fn handlings(lab: &Lab) -> Vec<Handling> {
             ControlKind::Button { .. } => {
                 let name = format!("after \"{label}\" is pressed");
                 let press = vec![(label.clone(), PRESS.min(0.5 * window(lab)))];
-                all.push(Handling { name, set: Vec::new(), press });
+                all.push(SnapshotInput { name, set: Vec::new(), press });
             }
         }
     }
@@ -99,8 +101,8 @@ fn handlings(lab: &Lab) -> Vec<Handling> {
 /// Makes a run; with the work that it took.
 pub(super) fn play(
     ready: &Ready<'_>,
-    handling: &Handling,
-    numerics: Numerics,
+    handling: &SnapshotInput,
+    numerics: StepVariant,
     budget: Budget,
 ) -> Result<(Taken, u64), RunError> {
     let (lab, programs) = (ready.lab, &ready.programs);
@@ -153,7 +155,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
 }
 
 /// Whether the lesson itself states the timestep: then half of it says nothing of the digits.
-fn states_timestep(ready: &Ready<'_>, handling: &Handling) -> bool {
+fn states_timestep(ready: &Ready<'_>, handling: &SnapshotInput) -> bool {
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == option::timestep.index());
     let set = handling.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));
     set.chain(ready.programs.setup.iter().map(|b| b.program.effects())).any(writes)

@@ -90,7 +90,7 @@ fn row_value(row: &Row, report: &Report) -> Value {
         "own": row.own,
         "fate": key(row.fate.word()),
         "diverged": row.fate == Fate::Diverged,
-        "told": row.told,
+        "told": row.reported,
         "wrong": row.errors.iter().map(|e| e.wrong).collect::<Vec<_>>(),
         "compared": row.errors.iter().map(|e| e.samples).collect::<Vec<_>>(),
         "eventsBelow": at_most.collect::<Vec<_>>(),

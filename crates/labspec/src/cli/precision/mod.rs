@@ -4,7 +4,7 @@ mod chart;
 mod machine;
 mod table;
 
-use super::handle::Handled;
+use super::lab_args::Handled;
 use super::output::{wanted, write_png, write_with};
 use super::stdio::{Progress, print_json, stream};
 use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
@@ -212,7 +212,7 @@ fn compared_at(report: &Report) -> String {
 /// What became of each run.
 fn fates(report: &Report, text: &mut String) {
     for row in &report.rows {
-        let told = row.told.first().map_or(String::new(), |t| format!(": {}", printable(t)));
+        let told = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
         let _ = writeln!(
             text,
             "  {} at {} ms {}{told}",

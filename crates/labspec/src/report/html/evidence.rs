@@ -90,7 +90,7 @@ fn quotes(claim: &Claim, context: &Context<'_>) -> String {
             computed,
             verdict(state, word),
             format!("{}{more}", lines.join(", ")),
-            text(&context.names.told(&q.reason)),
+            text(&context.names.shorten(&q.reason)),
         ]
     };
     let rows: Vec<Vec<String>> = claim.judgement.quotes.iter().map(row).collect();
@@ -148,7 +148,7 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
             verdict(state, word),
             settings::done(made, &r.name),
             own,
-            text(&context.names.told(how)),
+            text(&context.names.shorten(how)),
         ]
     };
     let rows: Vec<Vec<String>> = judgement.runs.iter().enumerate().map(row).collect();

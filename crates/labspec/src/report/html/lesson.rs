@@ -5,7 +5,7 @@ use super::evidence::evidence;
 use super::question::{self, Asked};
 use super::text::{Names, code, many, plain, text};
 use super::verdict::{severity, verdict};
-use crate::check::{Allowed, Basis, Checked, Claim, Drawn, Settings};
+use crate::check::{Allowed, Basis, Checked, Claim, Drawn, RunSettings};
 use crate::finding::Finding;
 use crate::ledger::{Entry, Ledger, State, Subject};
 use crate::source::SourceFile;
@@ -34,7 +34,7 @@ impl<'a> Context<'a> {
     }
 
     /// The runs of a claim, with the settings of each as it begins.
-    pub(super) fn runs(&self, claim: &str) -> Option<&'a [(String, Option<Settings>)]> {
+    pub(super) fn runs(&self, claim: &str) -> Option<&'a [(String, Option<RunSettings>)]> {
         let known = self.basis?.claims.iter().find(|known| known.name == claim)?;
         Some(&known.runs)
     }
@@ -56,7 +56,7 @@ impl<'a> Context<'a> {
 }
 
 /// A lesson, ready to be written.
-pub(super) struct Part<'a> {
+pub(super) struct LessonPage<'a> {
     /// Where links to it lead.
     pub(super) anchor: String,
     /// Its file.
@@ -70,13 +70,13 @@ pub(super) struct Part<'a> {
     context: Context<'a>,
 }
 
-impl<'a> Part<'a> {
+impl<'a> LessonPage<'a> {
     pub(super) fn new(
         number: usize,
         checked: &'a Checked,
         page: &super::Material<'a>,
         names: &'a Names,
-    ) -> Part<'a> {
+    ) -> LessonPage<'a> {
         let lesson = &checked.lesson;
         let path = lesson.file.path();
         let mut own = Ledger::default();
@@ -96,7 +96,7 @@ impl<'a> Part<'a> {
         };
         let anchor = format!("lesson-{number}");
         let questions = asked(checked, &context, &anchor);
-        Part {
+        LessonPage {
             name: names.short(path),
             summary: own.summary(),
             findings: page.findings.iter().filter(|f| f.path == *path).collect(),
@@ -135,8 +135,8 @@ fn asked<'a>(checked: &'a Checked, context: &Context<'a>, anchor: &str) -> Vec<A
 }
 
 /// The lesson as a piece of the page.
-pub(super) fn write(part: &Part<'_>) -> String {
-    let Part { anchor, name, summary, findings, allowed, questions, context, .. } = part;
+pub(super) fn write(part: &LessonPage<'_>) -> String {
+    let LessonPage { anchor, name, summary, findings, allowed, questions, context, .. } = part;
     let mut out = format!("<section class=\"lesson\" id=\"{anchor}\">\n<h2>{}</h2>\n", text(name));
     if let Some(title) = context.lesson.file.text().lines().find_map(|line| line.strip_prefix("# ")) {
         let _ = writeln!(out, "<p class=\"title\">{}</p>", text(title));
@@ -189,11 +189,11 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
             "<li>{} {}{place}<p>{}</p>",
             severity(f.severity),
             code(f.code),
-            text(&names.told(&f.message))
+            text(&names.shorten(&f.message))
         );
         for (word, said) in [("why", &f.why), ("help", &f.help)] {
             if let Some(said) = said.as_ref().filter(|said| !said.is_empty()) {
-                let _ = write!(out, "<p class=\"soft\">{word}: {}</p>", text(&names.told(said)));
+                let _ = write!(out, "<p class=\"soft\">{word}: {}</p>", text(&names.shorten(said)));
             }
         }
         out.push_str("</li>\n");
@@ -203,8 +203,8 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
 }
 
 /// The labs: what their runs came to, and what they claim.
-fn labs(part: &Part<'_>) -> String {
-    let Part { checked, context, questions, .. } = part;
+fn labs(part: &LessonPage<'_>) -> String {
+    let LessonPage { checked, context, questions, .. } = part;
     let of = |verify: Option<&Verify>| {
         verify.and_then(|v| checked.claims.iter().find(|claim| claim.span == v.span))
     };
@@ -221,7 +221,7 @@ fn labs(part: &Part<'_>) -> String {
             text(name)
         );
         if let Some(e) = entry.filter(|e| !e.remark.is_empty()) {
-            let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.told(&e.remark)));
+            let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.shorten(&e.remark)));
         }
         if let Some(claim) = of(verify) {
             out.push_str(&evidence(claim, verify, context));
@@ -247,7 +247,7 @@ fn labs(part: &Part<'_>) -> String {
 }
 
 /// The numbers with units that nothing holds to a run.
-fn unclaimed(part: &Part<'_>) -> String {
+fn unclaimed(part: &LessonPage<'_>) -> String {
     let all = &part.coverage.unclaimed;
     if all.is_empty() {
         return String::new();

@@ -28,7 +28,7 @@ use crate::check::{Allowed, Basis, Checked, Drawn};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
 use crate::source::SourceFile;
-use lesson::Part;
+use lesson::LessonPage;
 use text::{Names, many, text};
 
 /// What a page is made of.
@@ -60,8 +60,12 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 /// The page. The same material gives the same bytes.
 pub fn page(material: &Material<'_>) -> String {
     let names = Names::of(material.lessons.iter().map(|c| &**c.lesson.file.path()));
-    let parts: Vec<Part<'_>> =
-        material.lessons.iter().enumerate().map(|(i, c)| Part::new(i + 1, c, material, &names)).collect();
+    let parts: Vec<LessonPage<'_>> = material
+        .lessons
+        .iter()
+        .enumerate()
+        .map(|(i, c)| LessonPage::new(i + 1, c, material, &names))
+        .collect();
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\"/>\n\
@@ -70,7 +74,7 @@ pub fn page(material: &Material<'_>) -> String {
          <title>{}, checked</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n",
         many(parts.len(), "lesson")
     );
-    out.push_str(&overview::write(&parts, &names.told(material.summary)));
+    out.push_str(&overview::write(&parts, &names.shorten(material.summary)));
     parts.iter().for_each(|part| out.push_str(&lesson::write(part)));
     out.push_str(&others(material, &names));
     out.push_str("</main>\n<footer><p>");

@@ -1,6 +1,6 @@
 //! The top of the page: what it all comes to, and how much of what the course says is claimed.
 
-use super::lesson::Part;
+use super::lesson::LessonPage;
 use super::question::Asked;
 use super::text::{many, plain, text};
 use super::verdict::{bar, verdict};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The whole course in one view.
-pub(super) fn write(parts: &[Part<'_>], summary: &str) -> String {
+pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
     let mut out = format!("<header>\n<h1>{}, checked</h1>\n", many(parts.len(), "lesson"));
     let _ = writeln!(out, "<p class=\"summary\">{}</p>\n</header>", plain(summary));
     out.push_str("<section id=\"coverage\">\n<h2>How much is claimed</h2>\n");
@@ -23,7 +23,7 @@ pub(super) fn write(parts: &[Part<'_>], summary: &str) -> String {
 }
 
 /// Questions that have a keyed answer.
-fn keyed<'p, 'a>(part: &'p Part<'a>) -> impl Iterator<Item = &'p Asked<'a>> {
+fn keyed<'p, 'a>(part: &'p LessonPage<'a>) -> impl Iterator<Item = &'p Asked<'a>> {
     part.questions.iter().filter(|q| q.word != "open")
 }
 
@@ -32,8 +32,8 @@ fn is_claimed(asked: &&Asked<'_>) -> bool {
 }
 
 /// Numbers and questions of the whole course.
-fn whole(parts: &[Part<'_>]) -> String {
-    let sum = |of: &dyn Fn(&Part<'_>) -> usize| parts.iter().map(of).sum::<usize>();
+fn whole(parts: &[LessonPage<'_>]) -> String {
+    let sum = |of: &dyn Fn(&LessonPage<'_>) -> usize| parts.iter().map(of).sum::<usize>();
     let (questions, checked) = (sum(&|p| keyed(p).count()), sum(&|p| keyed(p).filter(is_claimed).count()));
     let (numbers, claimed) = (sum(&|p| p.coverage.all()), sum(&|p| p.coverage.claimed));
     let mut out = String::from("<dl class=\"whole\">\n");
@@ -48,7 +48,7 @@ fn whole(parts: &[Part<'_>]) -> String {
 }
 
 /// A line for each lesson.
-fn table(parts: &[Part<'_>]) -> String {
+fn table(parts: &[LessonPage<'_>]) -> String {
     let mut out = String::from("<div class=\"box\"><table>\n<thead><tr>");
     for head in ["lesson", "answers", "numbers with units", "findings"] {
         let _ = write!(out, "<th scope=\"col\">{head}</th>");
@@ -87,8 +87,8 @@ fn called(state: State, word: &str) -> &str {
 }
 
 /// Every question under its verdict, and those with options that nothing decides.
-fn verdicts(parts: &[Part<'_>]) -> String {
-    let mut by_word: BTreeMap<(State, &str), Vec<(&Part<'_>, &Asked<'_>)>> = BTreeMap::new();
+fn verdicts(parts: &[LessonPage<'_>]) -> String {
+    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &Asked<'_>)>> = BTreeMap::new();
     let mut undecided = Vec::new();
     let mut options = 0;
     for part in parts {
@@ -119,7 +119,7 @@ fn verdicts(parts: &[Part<'_>]) -> String {
     out
 }
 
-fn list(title: &str, all: &[(&Part<'_>, &Asked<'_>)], open: bool) -> String {
+fn list(title: &str, all: &[(&LessonPage<'_>, &Asked<'_>)], open: bool) -> String {
     let open = if open { " open=\"open\"" } else { "" };
     let mut out = format!("<details{open}><summary>{title}</summary>\n<ul>\n");
     for (part, q) in all {

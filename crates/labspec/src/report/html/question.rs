@@ -85,7 +85,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
         }
     }
     if !remark.is_empty() {
-        let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.told(remark)));
+        let _ = writeln!(out, "<p class=\"why\">{}</p>", text(&context.names.shorten(remark)));
     }
     if let Some(explain) = &question.explain {
         let _ = writeln!(
@@ -104,7 +104,7 @@ pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
 /// A condition, and how well it holds.
 fn weighed(written: Option<&str>, weight: Option<&Weight>) -> String {
     let Some(written) = written else { return String::new() };
-    let held = weight.map_or(String::new(), |w| condition(w.holds, &w.words()));
+    let held = weight.map_or(String::new(), |w| condition(w.holds, &w.describe()));
     if written.trim() == verify::UNDECIDED {
         return format!("<p class=\"condition\">{held}</p>\n");
     }

@@ -1,7 +1,7 @@
 //! How a run is made: what is done in it, and the settings that it has as it begins.
 
 use super::text::{code, plain, text};
-use crate::check::Settings;
+use crate::check::RunSettings;
 use crate::json::Scalar;
 use crate::spec::{Run, Sweep, VerifyLab};
 use crate::verify::significant;
@@ -58,8 +58,8 @@ fn scalar(value: &Scalar) -> String {
 }
 
 /// Numerics of a run as it begins, in one line.
-pub(super) fn numerics(s: &Settings) -> String {
-    let Settings { integrator, solver, cone, iterations, .. } = s;
+pub(super) fn numerics(s: &RunSettings) -> String {
+    let RunSettings { integrator, solver, cone, iterations, .. } = s;
     let timestep = plain(&significant(s.timestep));
     let tolerance = plain(&format!("{:e}", s.tolerance));
     let mut all = format!(

@@ -87,7 +87,7 @@ impl Names {
     }
 
     /// A sentence that may name files.
-    pub(super) fn told<'t>(&self, text: &'t str) -> Cow<'t, str> {
+    pub(super) fn shorten<'t>(&self, text: &'t str) -> Cow<'t, str> {
         let whole = self.folder.len() > 1 && self.folder.starts_with(['/', '\\']);
         if whole && text.contains(&self.folder) {
             Cow::Owned(text.replace(&self.folder, ""))
@@ -122,7 +122,7 @@ mod tests {
         let names = Names::of(["/home/me/course/a.md", "/home/me/course/b/c.md"].into_iter());
         assert_eq!(names.short("/home/me/course/b/c.md"), "b/c.md");
         assert_eq!(names.short("/home/me/models/x.xml"), "x.xml");
-        assert_eq!(names.told("no /home/me/course/a.md"), "no a.md");
+        assert_eq!(names.shorten("no /home/me/course/a.md"), "no a.md");
         assert_eq!(Names::of(["a.md"].into_iter()).short("a.md"), "a.md");
         assert_eq!(Names::of(["a/x.md", "b/x.md"].into_iter()).short("b/x.md"), "b/x.md");
         assert_eq!(Names::of(std::iter::empty()).short("/root/a.md"), "a.md");

@@ -1,7 +1,7 @@
 //! Sliders, selects and buttons.
 
 use super::plot::DIGITS;
-use super::{Absent, Family, Key, Object, Part, Together, Type, Word, key};
+use super::{Absent, Family, Key, Object, PairHalf, Together, Type, Word, key};
 use crate::spec::Form;
 
 static TYPES: [Word; 3] = [
@@ -89,8 +89,10 @@ pub static SLIDER: Object = Object {
     together: EFFECT,
 };
 
-static CHOICE_PARTS: [Part; 2] =
-    [Part { what: "the text that is shown", of: Type::Text }, Part { what: "the value", of: Type::Scalar }];
+static CHOICE_PARTS: [PairHalf; 2] = [
+    PairHalf { what: "the text that is shown", of: Type::Text },
+    PairHalf { what: "the value", of: Type::Scalar },
+];
 static CHOICE: Type = Type::Pair(&CHOICE_PARTS);
 
 /// A select.

@@ -4,7 +4,7 @@ use super::complete::completions_of;
 use super::{Asked, Completion, VERIFY, completions};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::SourceFile;
-use crate::spec::{FileKind, kind_of, remark};
+use crate::spec::{FileKind, comment, kind_of};
 use std::ops::Range;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub fn completions_in(
     };
     let scan = markdown::scan(file);
     let Some(Block { body, .. }) = scan.blocks.iter().find(holds) else {
-        let Some(claim) = remark::claim_at(file.text(), &scan, offset) else { return Vec::new() };
+        let Some(claim) = comment::claim_at(file.text(), &scan, offset) else { return Vec::new() };
         let inside = file.slice(claim.clone());
         let found = completions_of(Some(&VERIFY), inside, offset - claim.start, names).into_iter();
         let place = |at: Range<usize>| claim.start + at.start..claim.start + at.end;

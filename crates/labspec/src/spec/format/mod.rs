@@ -136,7 +136,7 @@ pub enum Type {
     /// A list of exactly so many numbers.
     Numbers(usize),
     /// A list of two: what comes first, and what comes second.
-    Pair(&'static [Part; 2]),
+    Pair(&'static [PairHalf; 2]),
     /// An object whose keys are names that the author chooses.
     Map(&'static Map),
     /// An object whose keys are some of these words, each with `true` or `false`.
@@ -169,7 +169,7 @@ pub struct Word {
 
 /// One half of a pair.
 #[derive(Debug)]
-pub struct Part {
+pub struct PairHalf {
     /// What it is: `the label of a button`.
     pub what: &'static str,
     /// What it takes.

@@ -2,7 +2,7 @@
 
 use super::describe::{default, number};
 use super::{CONTROL, QUESTION};
-use super::{Family, Key, LAB, Limits, OBJECTS, Object, Part, QUIZ, Together, Type, Word};
+use super::{Family, Key, LAB, Limits, OBJECTS, Object, PairHalf, QUIZ, Together, Type, Word};
 use serde_json::{Map, Value, json};
 
 /// What a schema is of.
@@ -153,7 +153,7 @@ fn value(of: &Type, limits: &Limits) -> Map<String, Value> {
             ("maxItems", json!(n)),
         ]),
         Type::Pair(parts) => {
-            let part = |p: &Part| {
+            let part = |p: &PairHalf| {
                 let mut schema = value(&p.of, &none);
                 schema.insert("description".into(), json!(p.what));
                 Value::Object(schema)

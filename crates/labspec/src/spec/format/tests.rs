@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bind::scene::Models;
-use crate::check::{self, Depth};
+use crate::check::{self, CheckLevel};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::lint::load_lesson;
@@ -98,7 +98,7 @@ fn checked(object: &Object, value: &Value) -> Vec<Finding> {
     std::fs::write(folder.path().join("fall.xml"), model).unwrap();
     let models = Models::new(ModelFolder::open(folder.path()).unwrap());
     let lesson = load_lesson(SourceFile::new("t.md", lesson_text(object, value)), models.folder());
-    check::check(lesson, &models, Depth::FULL).findings
+    check::check(lesson, &models, CheckLevel::FULL).findings
 }
 
 fn every_key() -> impl Iterator<Item = (&'static Object, &'static Key)> {

@@ -1,6 +1,6 @@
 //! What a machine can check: runs, measures over them, and what must hold.
 
-use super::{Absent, LAB, Map, Object, Part, Together, Type, Word, key};
+use super::{Absent, LAB, Map, Object, PairHalf, Together, Type, Word, key};
 use crate::spec::Form;
 
 /// How long a run is where nothing says it, in s.
@@ -25,17 +25,17 @@ static SWEPT: Map = Map {
     of: Type::Either(&LIST, &RANGE),
 };
 static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
-static KEYED: [Part; 2] = [
-    Part { what: "the heading of the column that tells the rows apart", of: Type::Text },
-    Part { what: "the list of its numbers", of: Type::Code(Form::Expression) },
+static KEYED: [PairHalf; 2] = [
+    PairHalf { what: "the heading of the column that tells the rows apart", of: Type::Text },
+    PairHalf { what: "the list of its numbers", of: Type::Code(Form::Expression) },
 ];
 static A_COLUMN: Type = Type::Object(&COLUMN);
 static SPACE: Map = Map { names: "the label of a slider", of: Type::List(&NUMBER) };
 static SETTINGS: Map = Map { names: "the label of a slider or a select", of: Type::Scalar };
 
-static QUOTE: [Part; 2] = [
-    Part { what: "the text that a reader sees, with its number", of: Type::Text },
-    Part {
+static QUOTE: [PairHalf; 2] = [
+    PairHalf { what: "the text that a reader sees, with its number", of: Type::Text },
+    PairHalf {
         what: "what the number must be, or a list: one for each of its numbers, and conditions that its words state",
         of: Type::Either(&EXPRESSION, &EXPRESSIONS),
     },
@@ -45,9 +45,9 @@ static IN_WORDS: Map = Map { names: "what stands in a cell", of: Type::Code(Form
 static WORDED: Type = Type::Map(&IN_WORDS);
 static SAID: Type = Type::Pair(&QUOTE);
 
-static PRESSED: [Part; 2] = [
-    Part { what: "the label of a button", of: Type::Text },
-    Part { what: "the time in s", of: Type::Number },
+static PRESSED: [PairHalf; 2] = [
+    PairHalf { what: "the label of a button", of: Type::Text },
+    PairHalf { what: "the time in s", of: Type::Number },
 ];
 static PRESS: Type = Type::Pair(&PRESSED);
 

@@ -17,7 +17,7 @@ use super::outcome::Outcome;
 use super::{Answer, BoundVerify, Outcomes, Quote, ShownText, answer, says, significant};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::Numerics;
+use crate::run::StepVariant;
 use crate::source::Text;
 use crate::spec::{Question, Verify};
 use std::collections::BTreeMap;
@@ -52,7 +52,7 @@ pub struct Judged {
 }
 
 /// What a judge is called, and what it found in each run of an object; `None` for a run of which it has nothing.
-pub(crate) struct Witness<'w> {
+pub(crate) struct Reference<'w> {
     /// `MuJoCo 3.14.0`.
     pub(crate) engine: &'w str,
     /// In the order of [`tasks`]; with why nothing is there.
@@ -66,10 +66,10 @@ pub(crate) fn judge(
     verify: &Verify,
     question: Option<&Question>,
     shown: &ShownText,
-    witness: &Witness<'_>,
+    witness: &Reference<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<Judged> {
-    let nominal = bound.outcome(Numerics::NOMINAL, &mut Vec::new())?;
+    let nominal = bound.outcome(StepVariant::NOMINAL, &mut Vec::new())?;
     let mut judged = Judged::default();
     let theirs = numbers::replaced(bound, verify, &nominal, witness, &mut judged);
     numbers::compare(bound, verify, &nominal, &theirs, &mut judged);
@@ -143,6 +143,6 @@ fn verdicts(
         Outcomes { nominal: outcome.clone(), perturbed: [const { None }; super::CHANGES], nudged_back: None };
     let ignored = &mut Vec::new();
     let answer = question.and_then(|q| answer::check(bound, &outcomes, verify, q, ignored));
-    let court = says::Court { bound, outcomes: &outcomes, shown };
+    let court = says::QuoteChecker { bound, outcomes: &outcomes, shown };
     (answer, says::check(court, verify, question, ignored))
 }

@@ -1,7 +1,7 @@
 //! The numbers of a judge beside ours: put in place of them, and compared.
 
 use super::task::own_texts;
-use super::{Judged, Witness};
+use super::{Judged, Reference};
 use crate::spec::Verify;
 use crate::verify::outcome::Outcome;
 use crate::verify::{BoundVerify, NUDGED, TIGHT};
@@ -16,7 +16,7 @@ pub(super) fn replaced(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     nominal: &Outcome,
-    witness: &Witness<'_>,
+    witness: &Reference<'_>,
     judged: &mut Judged,
 ) -> Outcome {
     let mut theirs = nominal.clone();

@@ -7,7 +7,7 @@ use crate::source::Text;
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{ControlKind, Lab, Verify};
 use crate::verify::bound::{BoundRun, BoundScene};
-use crate::verify::perform::is_timestep;
+use crate::verify::runner::is_timestep;
 use crate::verify::{BoundVerify, answer};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};

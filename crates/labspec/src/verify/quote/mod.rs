@@ -8,6 +8,7 @@ mod denial;
 mod fold;
 mod hidden;
 mod html;
+mod messages;
 mod number;
 mod numeral;
 mod option_text;
@@ -15,11 +16,10 @@ mod places;
 mod prose;
 mod quantity;
 mod read;
-mod shown;
+mod rendered;
 mod siunitx;
 mod stated;
 mod table;
-mod told;
 mod unit;
 mod unit_check;
 mod unit_text;
@@ -28,9 +28,9 @@ mod words;
 pub(super) use answer_unit::{AnswerUnit, answer_unit, is_unit};
 pub use number::{Form, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
-pub(super) use read::{Part, parts, reading, whole};
+pub(super) use read::{QuotePart, parts, reading, whole};
 pub use read::{Unread, quoted};
-pub use shown::ShownText;
+pub use rendered::ShownText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use unit_check::{Held, conversion, hold};
 use unit_text::Link;
@@ -115,7 +115,7 @@ pub(super) struct Claim<'c> {
 
 /// A place where a quote stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Place {
+pub(super) struct QuotePlace {
     /// Bytes of the file.
     pub(super) at: Range<usize>,
     /// The unit that the text has behind the last number of the quote, or over its column, where the quote has none.
@@ -123,8 +123,9 @@ pub(super) struct Place {
 }
 
 /// Where a quote stands: in the question that claims it first.
-pub(super) fn places(quote: &Text, question: Option<&Question>, shown: &ShownText) -> Vec<Place> {
-    let own = |p: &&Place| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);
+pub(super) fn places(quote: &Text, question: Option<&Question>, shown: &ShownText) -> Vec<QuotePlace> {
+    let own =
+        |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);
     let (own, others): (Vec<_>, Vec<_>) = shown.found(quote.as_str()).iter().partition(own);
     own.into_iter().chain(others).cloned().collect()
 }
@@ -133,11 +134,12 @@ pub(super) fn places(quote: &Text, question: Option<&Question>, shown: &ShownTex
 /// sure are no places, unless there are no others.
 fn unit_at(
     reading: &read::Reading,
-    places: &mut Vec<Place>,
+    places: &mut Vec<QuotePlace>,
     found: Option<&Dimension>,
 ) -> Option<(Unit, Held)> {
-    let unit = |place: &Place| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
-    let held = |place: &Place| unit(place).map(|unit| (hold(&unit, found), unit));
+    let unit =
+        |place: &QuotePlace| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
+    let held = |place: &QuotePlace| unit(place).map(|unit| (hold(&unit, found), unit));
     let best = places.iter().map(|p| (held(p).map_or(Held::Fits, |(held, _)| held), p));
     let rank = |held: Held| match held {
         Held::Fits => 0,
@@ -159,7 +161,7 @@ fn unit_at(
 pub(super) fn check(
     said: &Claim<'_>,
     reading: &Result<read::Reading, Unread>,
-    mut places: Vec<Place>,
+    mut places: Vec<QuotePlace>,
     value: &Value<'_>,
     shown: &ShownText,
     findings: &mut Vec<Finding>,
@@ -180,11 +182,11 @@ pub(super) fn check(
     let reading = match reading {
         Ok(reading) => reading,
         Err(Unread::NoNumber) => {
-            return unclear(outcome, "the quote holds no number", told::no_number(said), findings);
+            return unclear(outcome, "the quote holds no number", messages::no_number(said), findings);
         }
         Err(Unread::Form(form)) => {
             let reason = format!("the quote is {form}, which is not read");
-            return unclear(outcome, &reason, told::unread(said, form), findings);
+            return unclear(outcome, &reason, messages::unread(said, form), findings);
         }
     };
     let measured = match reading.unit.is_some() || places.iter().any(|p| p.unit.is_some()) {
@@ -212,14 +214,14 @@ pub(super) fn check(
     outcome.read = Some(read);
     if outcome.places.is_empty() {
         let hidden = shown.hidden(said.quote.as_str());
-        return unclear(outcome, "no reader sees this text", told::not_found(said, hidden), findings);
+        return unclear(outcome, "no reader sees this text", messages::not_found(said, hidden), findings);
     }
     if !computed.is_finite() {
-        return unclear(outcome, "the expression has no value", told::no_value(said, computed), findings);
+        return unclear(outcome, "the expression has no value", messages::no_value(said, computed), findings);
     }
     let moved = |others: &[Other]| -> Vec<(&'static str, String)> {
         let differs = others.iter().filter(|o| read.differ(computed, o.value));
-        differs.map(|o| (o.how, told::printed(&read, o.value))).collect()
+        differs.map(|o| (o.how, messages::printed(&read, o.value))).collect()
     };
     let chaotic = moved(&start_others);
     let values: Vec<f64> = start_others.iter().map(|o| o.value).chain([computed]).collect();
@@ -228,14 +230,14 @@ pub(super) fn check(
     let readings: Vec<Quoted> = readings.collect();
     if !chaotic.is_empty() && readings.into_iter().any(|q| may_come_out(&q, &values)) {
         outcome.moved = chaotic;
-        let finding = told::chaotic(said, &outcome, &read, &values);
+        let finding = messages::chaotic(said, &outcome, &read, &values);
         return unclear(outcome, "no reader can reproduce these digits", finding, findings);
     }
     if !chaotic.is_empty() {
         outcome.moved = chaotic;
         outcome.reason = format!("the text says {read}, and no run comes near");
         outcome.state = QuoteState::Wrong;
-        findings.push(told::far(said, &outcome, &read, &values));
+        findings.push(messages::far(said, &outcome, &read, &values));
         return outcome;
     }
     outcome.moved = moved(&timestep_others);
@@ -248,7 +250,7 @@ pub(super) fn check(
                 let gives = written(&found);
                 outcome.reason = format!("the text says {}, the expression gives {gives}", unit.text);
                 outcome.state = QuoteState::Wrong;
-                findings.push(told::wrong_unit(said, &outcome, &unit.text, &gives));
+                findings.push(messages::wrong_unit(said, &outcome, &unit.text, &gives));
                 return outcome;
             }
             (Some((unit, Held::Unsure)), Some(found)) => {
@@ -257,32 +259,33 @@ pub(super) fn check(
                     Link::Clause => format!("the text names {} apart from the number", unit.text),
                     _ => format!("{} may be a unit or a symbol", unit.text),
                 };
-                let finding = told::unsure_unit(said, &outcome, &unit, &gives);
+                let finding = messages::unsure_unit(said, &outcome, &unit, &gives);
                 return unclear(outcome, &reason, finding, findings);
             }
             _ => {}
         }
         if !outcome.moved.is_empty() {
-            findings.push(told::of_timestep(said, &outcome, &read));
+            findings.push(messages::of_timestep(said, &outcome, &read));
         }
         outcome.state = QuoteState::Right;
         return outcome;
     }
     if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(computed)) {
-        let finding = told::doubtful(said, &outcome, &read, why, Some(other));
+        let finding = messages::doubtful(said, &outcome, &read, why, Some(other));
         return unclear(outcome, "the quote can be read in two ways", finding, findings);
     }
     if let Some(why) = reading.unsure {
-        let finding = told::doubtful(said, &outcome, &read, why, None);
+        let finding = messages::doubtful(said, &outcome, &read, why, None);
         return unclear(outcome, "the quote can be read in two ways", finding, findings);
     }
     let text = reading.unit.as_ref().map_or("", |unit| unit.text.as_str());
     if let Some(shift) = unit::shift(&read, text, computed) {
-        let finding = told::other_unit(said, &outcome, &read, &shift);
+        let finding = messages::other_unit(said, &outcome, &read, &shift);
         return unclear(outcome, "text and expression differ by a power of ten", finding, findings);
     }
-    findings.push(told::wrong(said, &outcome, &read));
-    outcome.reason = format!("the text says {read}, the simulation gives {}", told::printed(&read, computed));
+    findings.push(messages::wrong(said, &outcome, &read));
+    outcome.reason =
+        format!("the text says {read}, the simulation gives {}", messages::printed(&read, computed));
     outcome.state = QuoteState::Wrong;
     outcome
 }

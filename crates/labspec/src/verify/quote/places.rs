@@ -21,7 +21,7 @@ struct Needle {
     digit: usize,
     /// What it states when it stands alone.
     quantities: Vec<Quantity>,
-    found: Vec<Found>,
+    found: Vec<QuoteMatch>,
 }
 
 /// A tree of the needles' bytes from their first digits on.
@@ -118,7 +118,7 @@ impl Search {
     }
 
     /// Where a quote stands.
-    pub(super) fn found(&self, number: usize) -> &[Found] {
+    pub(super) fn found(&self, number: usize) -> &[QuoteMatch] {
         self.needles.get(number).map_or(&[], |n| &n.found)
     }
 }
@@ -140,7 +140,7 @@ fn whole_words(text: &str, range: &Range<usize>) -> bool {
 
 /// A place of a quote.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Found {
+pub(super) struct QuoteMatch {
     /// Bytes of the text that was searched.
     pub(super) bytes: Range<usize>,
     /// The unit that the text has behind the last number of the quote, where the quote ends with that number.
@@ -176,7 +176,7 @@ impl Readable {
 
     /// Whether what stands at a range says what the quote says when it stands alone: the same numbers, with the same signs, factors
     /// and units, and none of them a part of something else.
-    fn says(&self, bytes: &Range<usize>, own: &[Quantity]) -> Option<Found> {
+    fn says(&self, bytes: &Range<usize>, own: &[Quantity]) -> Option<QuoteMatch> {
         if !whole_words(&self.flat, bytes) {
             return None;
         }
@@ -184,7 +184,7 @@ impl Readable {
         let (start, end) = (at(bytes.start)?, at(bytes.end)?);
         let among = |all: &[Quantity]| says(all, start..end, own);
         let unit = among(&self.quantities).or_else(|| among(&self.apart))?;
-        Some(Found { bytes: bytes.clone(), unit })
+        Some(QuoteMatch { bytes: bytes.clone(), unit })
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::hidden::Hidden;
 use super::html;
-use super::shown::Piece;
+use super::rendered::Piece;
 use super::table::{Table, Tables};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};

@@ -123,19 +123,19 @@ fn last_equals(chars: Chars<'_>, all: &[Quantity]) -> Option<usize> {
 
 /// A part of a quote that states one number.
 #[derive(Clone, Debug)]
-pub(in crate::verify) struct Part {
+pub(in crate::verify) struct QuotePart {
     /// Its text, for messages.
     pub(in crate::verify) text: String,
     pub(in crate::verify) reading: Result<Reading, Unread>,
 }
 
 /// The whole of a quote that states one number.
-pub(in crate::verify) fn whole(text: &str) -> Part {
-    Part { text: text.to_string(), reading: reading(text) }
+pub(in crate::verify) fn whole(text: &str) -> QuotePart {
+    QuotePart { text: text.to_string(), reading: reading(text) }
 }
 
 /// The parts of a text that state one number each, in order. A range is one, unless both of its ends are `wanted`.
-pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<Part> {
+pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<QuotePart> {
     let chars = characters(text);
     let chars = Chars(&chars);
     let mut all = quantities(chars);
@@ -149,7 +149,7 @@ pub(in crate::verify) fn parts(text: &str, wanted: usize) -> Vec<Part> {
         chars.text(from, to)
     };
     let last = all.len().saturating_sub(1);
-    let part = |(i, q): (usize, &Quantity)| Part {
+    let part = |(i, q): (usize, &Quantity)| QuotePart {
         text: text_of(i),
         reading: of_quantity(q).map(|reading| Reading { last: i == last, ..reading }),
     };

@@ -45,7 +45,7 @@ const MOST: usize = 1000;
 /// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     let mut all = Vec::new();
-    for piece in super::shown::pieces(lesson) {
+    for piece in super::rendered::pieces(lesson) {
         let mut text = piece.text;
         if piece.html {
             let (shown, inner) = html::strip(&text.value);

@@ -1,6 +1,6 @@
 //! Words that say that something holds: `stable`, `it tips over`.
 
-use super::{Claim, QuoteState, ShownText, told};
+use super::{Claim, QuoteState, ShownText, messages};
 use crate::finding::{Finding, Severity};
 use crate::rules;
 use std::ops::Range;
@@ -25,11 +25,11 @@ pub(in crate::verify) fn check_words(
     findings: &mut Vec<Finding>,
 ) -> (QuoteState, String) {
     let Some(first) = places.first() else {
-        let finding = told::not_found(said, shown.hidden(said.quote.as_str()));
+        let finding = messages::not_found(said, shown.hidden(said.quote.as_str()));
         findings.push(finding);
         return (QuoteState::Unclear, "no reader sees this text".into());
     };
-    let words = told::shown(said);
+    let words = messages::shown(said);
     let mut tell = |rule, severity, message: String, why: &str, help: &str| {
         findings.push(
             Finding::error(rule, first.clone(), message)

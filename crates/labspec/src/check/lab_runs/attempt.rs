@@ -1,0 +1,116 @@
+//! One run that looks for what breaks.
+
+use super::super::Ready;
+use super::Trial;
+use super::seen::Seen;
+use crate::check::observations::{Beyond, Mark, Record};
+use crate::finding::Finding;
+use crate::run::{self, Breakdown, Budget, End, Play, settings};
+use crate::spec::Expect;
+use crate::stress::{self, Fault, StressCase};
+use labspec_core::Model;
+use std::ops::ControlFlow;
+
+/// How often what a lab shows is looked at, at least, besides its start.
+const SAMPLES: usize = 200;
+
+/// Work for trying what helps against what broke in a run.
+const TRIES: u64 = 1_000_000_000;
+
+/// Why a run ended before its time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ended {
+    /// A program of the lab threw.
+    Threw,
+    /// The budget was spent.
+    Spent,
+}
+
+/// A run that was made.
+pub(super) struct Attempt {
+    /// Length of what was run, s.
+    pub(super) covered: f64,
+    /// Work that it took.
+    pub(super) spent: u64,
+    pub(super) broke: bool,
+    /// Something threw, or a number was none and the engine began anew: what was shown is not that of a whole run.
+    pub(super) lost: bool,
+    pub(super) ended: Option<Ended>,
+    /// The model as the lab left it.
+    pub(super) model: Model,
+    /// What was seen.
+    pub(super) record: Record,
+    /// Everything that went wrong, loudly or not.
+    pub(super) faults: Vec<Fault>,
+}
+
+/// Makes one run and reports what broke.
+///
+/// # Errors
+/// The run cannot be made.
+pub(super) fn make(
+    ready: &Ready<'_>,
+    case: &StressCase<'_>,
+    trial: &Trial<'_>,
+    budget: Budget,
+    seen: &mut Seen<'_>,
+    findings: &mut Vec<Finding>,
+) -> Result<Attempt, run::RunError> {
+    let (lab, wanted) = (ready.lab, trial.length);
+    let place = trial.place(lab);
+    for action in &trial.handling.actions {
+        if let (Some(control), Some(value)) = (lab.controls.get(action.control), &action.value) {
+            settings::value(control, value)?;
+        }
+    }
+    let mut session = case.start(&trial.handling, budget.left);
+    let timestep = session.world.model.opt.timestep;
+    // As long as plots show costs what it costs; what an author asks for has a limit.
+    let until = lab.stop_at.is_none().then(|| wanted.min(timestep * (run::MAX_STEPS - 1) as f64));
+    let steps = run::count_steps(lab, until, None, timestep)?;
+
+    let mut eyes = case.eyes(&trial.handling, &session);
+    let every = (steps / SAMPLES).max(1);
+    let played = Play { steps, every: 1, presses: &[], watched: true };
+    let (mut rows, mut mark, mut beyond) = (Vec::new(), Mark::default(), Beyond::default());
+    let made = run::play(&mut session, &played, |session, step| {
+        if step % every == 0 || step == steps {
+            let row = seen.observe(session, &trial.done);
+            mark.observe(&row, session);
+            if step > 0 {
+                beyond.observe(session);
+            }
+            rows.push(row);
+        }
+        eyes.observe(session, step, step == steps);
+        ControlFlow::Continue(())
+    });
+    let ended = match session.ended() {
+        None => None,
+        Some(End::Threw | End::Foreign) => Some(Ended::Threw),
+        Some(End::Budget { .. } | End::Interrupted) => Some(Ended::Spent),
+    };
+    let covered = if made == steps { wanted } else { made as f64 * timestep };
+    let before = findings.len();
+    for t in &session.troubles {
+        if seen.is_new(t) {
+            findings.push(run::threw(t, &trial.done));
+        }
+    }
+    let breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
+    let mut tries = TRIES;
+    for breakdown in Breakdown::all(&session) {
+        let tried = match breaks {
+            true => breakdown,
+            false => stress::with_tried_timestep(case, &trial.handling, wanted, breakdown, &mut tries),
+        };
+        findings.push(run::broke(&tried, &trial.done, place.clone()));
+    }
+    let broke = findings.len() > before;
+    findings.extend(seen.take());
+    let (spent, faults) = (session.spent() + TRIES - tries, eyes.faults(&session));
+    mark.close(&session.world.model);
+    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
+    let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
+    Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
+}

@@ -1,0 +1,314 @@
+//! The runs that look for what breaks, within a budget of work for the whole file: every lab as it stands and with each control at
+//! its ends; then whatever else a student may do to it.
+
+mod attempt;
+mod interactions;
+mod seen;
+
+use super::observations::{self, Record};
+use super::{RanLab, Ready};
+use crate::finding::Finding;
+use crate::monitors::stability as stiff;
+use crate::rules;
+use crate::run::{self, Budget};
+use crate::spec::{Control, ControlKind, Lab, LabAddress, Lesson};
+use crate::stress::{self, Action, Fault, FaultGroup, Interaction, Kind, StressCase};
+use attempt::{Attempt, Ended};
+use labspec_core::Model;
+use labspec_expr::Value;
+use seen::Seen;
+use std::ops::Range;
+
+/// When buttons are pressed, s.
+const PRESS: f64 = 0.1;
+/// What is kept for each lab that is still to be run as it stands.
+const RESERVE: u64 = 50_000_000;
+
+/// What the runs of a lab covered.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tried {
+    /// Runs that were made.
+    pub runs: usize,
+    /// How long each was meant to be, s.
+    pub wanted: f64,
+    /// How long the shortest was, s.
+    pub covered: f64,
+    /// Runs that were not made: they cannot be, the budget was spent, or the lab breaks as it stands.
+    pub skipped: usize,
+    /// Something broke.
+    pub broke: bool,
+    /// Why a run ended before its time: one short sentence.
+    pub ended: Option<String>,
+}
+
+/// One thing that a student may do to a lab.
+struct Trial<'a> {
+    handling: Interaction,
+    /// How long it is run, s.
+    length: f64,
+    /// What was done, for the message.
+    done: String,
+    /// The control, unless it is the lab as it stands.
+    control: Option<&'a Control>,
+    /// Its place in the list, and its value; a button has none.
+    moved: Option<(usize, Option<Value>)>,
+}
+
+impl Trial<'_> {
+    /// Where to point.
+    fn place(&self, lab: &Lab) -> Range<usize> {
+        self.control.map_or(lab.place(), |c| c.label.span())
+    }
+}
+
+/// A run that cannot be made.
+fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
+    Finding::error(rules::RUN_IMPOSSIBLE, place, e.0)
+}
+
+/// A lab on its way through its runs.
+struct LabRunState<'a> {
+    ready: &'a Ready<'a>,
+    case: StressCase<'a>,
+    wanted: f64,
+    /// Those with controls, in order.
+    left: std::vec::IntoIter<Trial<'a>>,
+    /// What went wrong in its runs, each kind once.
+    faults: Vec<FaultGroup>,
+    seen: Seen<'a>,
+    tried: Option<Tried>,
+    /// What was seen in its runs.
+    records: Vec<Record>,
+    /// A run lost its numbers, so that not every run came to its end.
+    lost: bool,
+    /// It breaks as it stands, or never begins to run: it would with every control.
+    hopeless: bool,
+}
+
+impl LabRunState<'_> {
+    /// Keeps what went wrong in a run, once for each kind and body.
+    fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
+        let Trial { handling, length, .. } = trial;
+        let (faults, spent) = stress::genuine(&self.case, handling, faults, *length, *left);
+        *left = left.saturating_sub(spent);
+        faults.into_iter().for_each(|f| stress::add(&mut self.faults, f, handling));
+    }
+
+    /// Counts runs that were not made.
+    fn skip(&mut self, runs: usize) {
+        if let Some(tried) = &mut self.tried {
+            tried.skipped += runs;
+        }
+    }
+}
+
+/// Runs every lab that has an address, as it stands and with each control at its ends.
+pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
+    let addressed = lesson.addressed();
+    let mut left = Budget::FILE.left;
+    let mut tours: Vec<(&LabAddress, &Lab, Option<LabRunState<'_>>)> = Vec::new();
+    // What is found in each lab: its author may expect some of it.
+    let mut found = vec![Vec::new(); addressed.len()];
+    for (i, (address, lab)) in addressed.iter().enumerate() {
+        let later = (addressed.len() - i - 1) as u64;
+        let share = left.saturating_sub(RESERVE * later).clamp(RESERVE.min(left), Budget::TRIAL.left);
+        let one = ready.iter().find(|r| std::ptr::eq(r.lab, *lab));
+        let begin = |r| begin(r, Budget { left: share }, &mut left, &mut found[i]);
+        tours.push((address, lab, one.map(begin)));
+    }
+    // What is left is shared by the labs as they come.
+    let mut others = tours.len() as u64;
+    for (tour, found) in tours.iter_mut().map(|(.., tour)| tour).zip(&mut found) {
+        let Some(tour) = tour else { continue };
+        let mut share = left / others.max(1);
+        others = others.saturating_sub(1);
+        let before = share;
+        go_on(tour, &mut share, found);
+        left -= before - share;
+        let all = tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
+        found.extend(tour.seen.never(all));
+        if all && tour.ready.mistakes == 0 && !tour.lost {
+            observations::check(tour.ready, &tour.records, tour.wanted, found);
+        }
+    }
+    // What is beyond that has a budget of its own.
+    let (mut left, mut others) = (Budget::FILE.left, tours.len() as u64);
+    for (tour, found) in tours.iter_mut().map(|(.., tour)| tour).zip(&mut found) {
+        let mut share = left / others.max(1);
+        others = others.saturating_sub(1);
+        let before = share;
+        tour.iter_mut().for_each(|tour| interactions::go_on(tour, &mut share, found));
+        left -= before - share;
+    }
+    for ((_, lab, tour), mut found) in tours.iter().zip(found) {
+        let runs = tour.as_ref().and_then(|t| t.tried.as_ref()).map_or(0, |t| t.runs);
+        super::expect::settle(lab, runs, &mut found, 0);
+        findings.extend(found);
+    }
+    let ran = |(address, lab, tour): (&LabAddress, &Lab, Option<LabRunState<'_>>)| {
+        let tried = tour.and_then(|t| t.tried);
+        let runs = tried.as_ref().map_or(0, |t| t.runs);
+        let mistakes = ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map_or(0, |r| r.mistakes);
+        RanLab {
+            address: address.clone(),
+            title: lab.title().to_string(),
+            runs,
+            ran: runs > 0,
+            tried,
+            mistakes,
+            expected: lab.expect.is_some(),
+        }
+    };
+    tours.into_iter().map(ran).collect()
+}
+
+/// The lab as it stands.
+fn begin<'a>(
+    ready: &'a Ready<'a>,
+    budget: Budget,
+    left: &mut u64,
+    findings: &mut Vec<Finding>,
+) -> LabRunState<'a> {
+    let wanted = stress::window(ready.lab);
+    let trials = trials(ready.lab, wanted);
+    let mut tour = LabRunState {
+        ready,
+        case: StressCase::new(ready.lab, &ready.model, &ready.programs, interactions::nothing()),
+        wanted,
+        faults: Vec::new(),
+        left: trials.into_iter(),
+        seen: Seen::new(ready),
+        tried: None,
+        records: Vec::new(),
+        lost: false,
+        hopeless: false,
+    };
+    let Some(first) = tour.left.next() else { return tour };
+    match attempt::make(ready, &tour.case, &first, budget, &mut tour.seen, findings) {
+        Ok(attempt) => {
+            *left = left.saturating_sub(attempt.spent);
+            if !attempt.broke
+                && let Some(f) = too_stiff(&attempt.model, ready.lab.place(), attempt.covered)
+            {
+                findings.push(f);
+            }
+            tour.hopeless = attempt.broke || attempt.covered == 0.0 && wanted > 0.0;
+            tour.tried =
+                Some(Tried { runs: 0, wanted, covered: wanted, skipped: 0, broke: false, ended: None });
+            count(&mut tour, &first, attempt, left);
+        }
+        Err(e) => {
+            findings.push(impossible(first.place(ready.lab), e));
+            tour.hopeless = true;
+        }
+    }
+    if tour.hopeless {
+        let skipped = tour.left.by_ref().count();
+        tour.skip(skipped);
+    }
+    tour
+}
+
+/// The runs with each control at its ends, while something is left.
+fn go_on(tour: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Finding>) {
+    while let Some(trial) = tour.left.next() {
+        if *left == 0 {
+            let skipped = 1 + tour.left.by_ref().count();
+            return tour.skip(skipped);
+        }
+        let budget = Budget { left: Budget::TRIAL.left.min(*left) };
+        match attempt::make(tour.ready, &tour.case, &trial, budget, &mut tour.seen, findings) {
+            Ok(attempt) => {
+                *left = left.saturating_sub(attempt.spent);
+                count(tour, &trial, attempt, left);
+            }
+            Err(e) => {
+                findings.push(impossible(trial.place(tour.ready.lab), e));
+                tour.skip(1);
+            }
+        }
+    }
+}
+
+/// Counts a run that was made.
+fn count(tour: &mut LabRunState<'_>, trial: &Trial<'_>, attempt: Attempt, left: &mut u64) {
+    tour.note(trial, attempt.faults, left);
+    tour.records.push(attempt.record);
+    tour.lost |= attempt.lost;
+    let Some(tried) = &mut tour.tried else { return };
+    tried.runs += 1;
+    tried.broke |= attempt.broke;
+    if attempt.covered < tried.covered {
+        tried.covered = attempt.covered;
+        let [covered, wanted] = [attempt.covered, tour.wanted].map(seconds);
+        tried.ended = match attempt.ended {
+            Some(Ended::Threw) => Some(format!("frozen after {covered} of {wanted} s")),
+            Some(Ended::Spent) => Some(format!("first {covered} of {wanted} s")),
+            None => None,
+        };
+    }
+}
+
+/// A time as a report names it: `4.0`, `0.25`, `20`.
+fn seconds(t: f64) -> String {
+    if t >= 10.0 && t.fract() == 0.0 || t == 0.0 { format!("{t:.0}") } else { run::two_digits(t) }
+}
+
+/// As it stands, then with each control at its ends.
+fn trials(lab: &Lab, wanted: f64) -> Vec<Trial<'_>> {
+    let alone = |action| Interaction { kind: Kind::End, actions: vec![action] };
+    let mut trials = vec![Trial {
+        handling: interactions::nothing(),
+        length: wanted,
+        done: "as it stands".into(),
+        control: None,
+        moved: None,
+    }];
+    for (index, control) in lab.controls.iter().enumerate() {
+        let label = &control.label.value;
+        let mut set = |value: Value| {
+            trials.push(Trial {
+                done: format!("with \"{label}\" at {value}"),
+                length: wanted,
+                handling: alone(Action { time: 0.0, control: index, value: Some(value.clone()) }),
+                control: Some(control),
+                moved: Some((index, Some(value))),
+            });
+        };
+        match &control.kind {
+            ControlKind::Slider { min, max, .. } => {
+                set(Value::Number(min.value));
+                set(Value::Number(max.value));
+            }
+            ControlKind::Select { options, .. } => {
+                options.iter().for_each(|o| set(crate::bind::scalar(&o.value)))
+            }
+            ControlKind::Button { .. } => trials.push(Trial {
+                done: format!("after \"{label}\" is pressed"),
+                length: wanted,
+                handling: alone(Action { time: PRESS.min(0.5 * wanted), control: index, value: None }),
+                control: Some(control),
+                moved: Some((index, None)),
+            }),
+        }
+    }
+    trials
+}
+
+/// What of a lab's scene no step of its length can follow, though its run did not show it.
+fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding> {
+    let worst = stiff::suspects(model).into_iter().next()?;
+    let [owner, how] = [run::owner(model, &worst), run::how_stiff(&worst)];
+    Some(
+        Finding::warning(rules::STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))
+            .why(format!(
+                "nothing goes wrong in the {} s that were run, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
+                seconds(covered)
+            ))
+            .help(format!(
+                "write a timestep of {} s, or {}",
+                run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
+                run::softer(&worst)
+            )),
+    )
+}

@@ -1,0 +1,116 @@
+//! Runs of a lab that are made to be sure: with several controls moved, or from another state.
+
+use super::record::{Mark, Record};
+use super::saturated::Beyond;
+use crate::bind::Programs;
+use crate::check::Ready;
+use crate::run::{self, Breakdown, Budget, Cell, Play, Session};
+use labspec_expr::Value;
+use std::ops::ControlFlow;
+
+/// What a student does at a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Move {
+    pub(super) step: usize,
+    pub(super) control: usize,
+    /// `None` presses a button.
+    pub(super) value: Option<Value>,
+}
+
+impl Move {
+    /// A press that does nothing: everything is computed anew, as after any press.
+    pub(super) fn nothing(step: usize) -> Move {
+        Move { step, control: usize::MAX, value: None }
+    }
+}
+
+/// A lab, and what may still be spent on it.
+pub(super) struct Bench<'a> {
+    pub(super) ready: &'a Ready<'a>,
+    /// Its programs, or what is tried instead.
+    pub(super) programs: &'a Programs,
+    pub(super) left: u64,
+    /// Runs that were made.
+    pub(super) runs: usize,
+}
+
+/// How often a run is looked at.
+const SAMPLES: usize = 60;
+/// How far a state is moved, in turn.
+const NUDGES: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
+/// Steps after each.
+const STEPS: usize = 3;
+
+impl Bench<'_> {
+    /// What one run may spend.
+    pub(super) fn budget(&self) -> Budget {
+        Budget { left: Budget::TRIAL.left.min(self.left) }
+    }
+
+    pub(super) fn start(&self) -> Session<'_> {
+        let (Ready { lab, model, .. }, programs) = (self.ready, self.programs);
+        let budget = self.budget();
+        Session::start_within(programs, model, lab.keyframe(), &programs.demand, budget)
+    }
+
+    /// Number of steps of a run of this length, and the timestep.
+    pub(super) fn steps(&self, length: f64) -> Option<(usize, f64)> {
+        let timestep = self.start().world.model.opt.timestep;
+        let steps = run::count_steps(self.ready.lab, Some(length), None, timestep).ok()?;
+        Some((steps, timestep))
+    }
+
+    /// A run with these moves; `None` when it breaks, or when too much was spent.
+    pub(super) fn run(&mut self, moves: &[Move], steps: usize) -> Option<Record> {
+        let mut session = self.start();
+        let (mut rows, mut mark) = (Vec::new(), Mark::default());
+        let every = (steps / SAMPLES).max(1);
+        run::play(&mut session, &Play::steps(steps), |session, step| {
+            for m in moves.iter().filter(|m| m.step == step) {
+                match &m.value {
+                    Some(value) => session.set_control(m.control, value.clone()),
+                    None if m.control == usize::MAX => session.refresh(),
+                    None => session.press(m.control),
+                }
+            }
+            if step % every == 0 || step == steps {
+                let row = session.sample();
+                mark.observe(&row, session);
+                rows.push(row);
+            }
+            ControlFlow::Continue(())
+        });
+        mark.close(&session.world.model);
+        let (spent, sound) =
+            (session.spent(), session.ended().is_none() && Breakdown::of(&session).is_none());
+        drop(session);
+        self.left = self.left.saturating_sub(spent);
+        self.runs += 1;
+        (sound && self.left > 0).then_some(Record { moved: None, rows, mark, beyond: Beyond::default() })
+    }
+
+    /// What is shown from other states than the lab's own.
+    pub(super) fn perturbed_run(&mut self) -> Vec<Vec<Cell>> {
+        let mut session = self.start();
+        let mut rows = Vec::new();
+        let mut seed = 1_u64;
+        let mut random = move || {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for size in NUDGES {
+            let edit = session.world.data.edit();
+            for list in [edit.qpos, edit.qvel, edit.ctrl, edit.mocap_pos] {
+                list.iter_mut().for_each(|x| *x += size * random());
+            }
+            session.refresh();
+            rows.push(session.sample());
+            (0..STEPS).for_each(|_| session.step());
+            rows.push(session.sample());
+        }
+        let spent = session.spent();
+        drop(session);
+        self.left = self.left.saturating_sub(spent);
+        rows
+    }
+}

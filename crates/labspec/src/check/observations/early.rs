@@ -1,0 +1,122 @@
+//! A lab that stops before anything has happened.
+
+use super::Looked;
+use crate::check::setconst::digits;
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::Cell;
+use labspec_core::reflect::data;
+
+/// A lab that runs for so many steps shows something.
+const FEW: usize = 50;
+/// How long it is run to see what would happen, s.
+const LONGER: f64 = 2.0;
+/// A run of this part of a plot's width is a dot.
+const DOT: f64 = 0.02;
+/// A curve has moved when it has come this share of its way.
+const MOVED: f64 = 0.02;
+
+pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
+    let ready = looked.bench.ready;
+    let Some(stop) = &ready.lab.stop_at else { return };
+    let Some((steps, timestep)) = looked.bench.steps(looked.length) else { return };
+    if stop.value > 0.0 && stop.value < (1.0 - 1e-9) * timestep {
+        findings.push(
+            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
+                .why(format!(
+                    "`stopAt` is {} s, and a step is {} s long",
+                    digits(stop.value, 4),
+                    digits(timestep, 4)
+                ))
+                .help("let it run longer; for one step that is meant, write the length of a step"),
+        );
+        return;
+    }
+    if steps >= FEW || steps == 0 {
+        return;
+    }
+    let Some(all) = looked.bench.steps(LONGER).and_then(|(n, _)| looked.bench.run(&[], n)) else { return };
+    let Some(start) = all.rows.first() else { return };
+    let Some((time, what)) =
+        (1..start.len()).filter_map(|c| first(looked, &all.rows, c)).min_by(|a, b| a.0.total_cmp(&b.0))
+    else {
+        return;
+    };
+    // What has moved when the lab stops, it shows.
+    let seen = looked.records.iter().any(|r| {
+        (1..start.len()).any(|c| match (all_range(&all.rows, c), r.rows.first(), r.rows.last()) {
+            (Some(range), Some(a), Some(b)) => changed(looked, c, range, a.get(c), b.get(c)),
+            _ => false,
+        })
+    });
+    let windows = ready.lab.plots.iter().filter(|p| !p.traces.is_empty()).map(|p| p.window());
+    let shortest = windows.filter(|w| w.is_finite()).fold(f64::INFINITY, f64::min);
+    let run = steps as f64 * timestep;
+    if seen && shortest.is_finite() && run < DOT * shortest {
+        let [run, shortest] = [run, shortest].map(|x| digits(x, 3));
+        findings.push(
+            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops when its curves have hardly begun")
+                .why(format!("it runs for {run} s, and its shortest plot is {shortest} s wide: a student sees a dot at its edge"))
+                .help("let it run longer, or narrow the `window` of the plot"),
+        );
+        return;
+    }
+    if seen || time <= stop.value {
+        return;
+    }
+    findings.push(
+        Finding::warning(
+            rules::STOPS_EARLY,
+            stop.span.clone(),
+            "the lab stops before anything that it shows has changed",
+        )
+        .why(format!(
+            "it runs for {steps} step{} of {} s; run on, the first thing that changes is {what}, at t = {} s",
+            if steps == 1 { "" } else { "s" },
+            digits(timestep, 4),
+            digits(time, 3)
+        ))
+        .help("let it run longer, or leave `stopAt` out"),
+    );
+}
+
+/// Whether a column reads time and nothing else.
+fn clock(looked: &Looked<'_>, c: usize) -> bool {
+    let probe = c.checked_sub(1).and_then(|i| looked.bench.ready.programs.probes.get(i));
+    let Some(effects) = probe.and_then(|p| p.bound.as_ref()).map(|b| b.program.effects()) else {
+        return true;
+    };
+    !effects.reads_everything
+        && effects.ctx_reads.is_empty()
+        && effects.reads.iter().all(|a| a.field.0 as usize == data::time.index())
+}
+
+/// How far a column goes; `None` for what is no number, and for a clock.
+fn all_range(rows: &[Vec<Cell>], c: usize) -> Option<f64> {
+    let numbers = rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite());
+    let (low, high) = numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+    (high > low).then_some(high - low)
+}
+
+/// Whether somebody sees that a column has changed.
+fn changed(looked: &Looked<'_>, c: usize, range: f64, a: Option<&Cell>, b: Option<&Cell>) -> bool {
+    let (Some(a), Some(b)) = (a, b) else { return false };
+    if clock(looked, c) {
+        return false;
+    }
+    let lab = looked.bench.ready.lab;
+    match c.checked_sub(1 + lab.traces().count()).and_then(|i| lab.readouts.get(i)) {
+        Some(readout) => a.shown(readout.digits()) != b.shown(readout.digits()),
+        None => (a.number() - b.number()).abs() > MOVED * range,
+    }
+}
+
+/// When a column changes first, and what it is called.
+fn first(looked: &Looked<'_>, rows: &[Vec<Cell>], c: usize) -> Option<(f64, String)> {
+    let range = all_range(rows, c)?;
+    let start = rows.first()?.get(c);
+    let row = rows.iter().find(|r| changed(looked, c, range, start, r.get(c)))?;
+    let name =
+        looked.bench.ready.programs.probes.get(c - 1)?.name.splitn(3, '/').last().unwrap_or("").to_string();
+    Some((row.first()?.number(), format!("\"{name}\"")))
+}

@@ -1,0 +1,67 @@
+//! `mj_setConst` in the middle of a run: it puts the coordinates back to the model's own, and the scene jumps.
+
+use super::Looked;
+use crate::bind::{ControlProgram, functions};
+use crate::check::programs::{choices, resets, sets};
+use crate::check::setconst::digits;
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::{self, Play};
+use labspec_core::Obj;
+use std::ops::ControlFlow;
+
+/// Steps before the control is moved, at most.
+const STEPS: usize = 400;
+/// A smaller jump is none.
+const SMALL: f64 = 1e-6;
+
+pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
+    let ready = looked.bench.ready;
+    let steps = looked.bench.steps(looked.length).map_or(STEPS, |(n, _)| (n / 2).min(STEPS));
+    for (index, (label, program)) in ready.programs.controls.iter().enumerate() {
+        let (bound, value) = match program {
+            ControlProgram::Change(_, action) if action.reset => continue,
+            ControlProgram::Change(_, action) => (
+                action.run.as_ref(),
+                ready.lab.controls.get(index).and_then(|c| choices(c).into_iter().next()),
+            ),
+            ControlProgram::Press(run) => (run.as_ref(), None),
+        };
+        let Some(bound) = bound else { continue };
+        let calls = &bound.program.effects().calls;
+        if !calls.iter().any(|f| functions::name(*f) == Some("mj_setConst"))
+            || resets(bound)
+            || sets(bound, &ready.model).is_some()
+        {
+            continue;
+        }
+        let mut session = looked.bench.start();
+        run::play(&mut session, &Play::steps(steps), |_, _| ControlFlow::Continue(()));
+        let before = session.world.data.fields().qpos.clone();
+        match value {
+            Some(value) => session.set_control(index, value),
+            None => session.press(index),
+        }
+        let after = &session.world.data.fields().qpos;
+        let far = before.iter().zip(after).enumerate().map(|(i, (a, b))| (i, *a, *b));
+        let Some((i, a, b)) = far.max_by(|x, y| (x.1 - x.2).abs().total_cmp(&(y.1 - y.2).abs())) else {
+            continue;
+        };
+        if session.ended().is_some() || (a - b).abs() <= SMALL {
+            continue;
+        }
+        let model = &ready.model;
+        let joint =
+            (0..model.njnt).rev().find(|j| model.jnt_qposadr.get(*j).is_some_and(|adr| *adr as usize <= i));
+        let name = joint.and_then(|j| model.names.of(Obj::Joint).get(j)).filter(|n| !n.is_empty());
+        let of = name.map_or(String::new(), |n| format!(" of joint \"{n}\""));
+        let [a, b, time] = [a, b, session.world.data.time()].map(|x| digits(x, 4));
+        findings.push(
+            Finding::warning(rules::SETCONST_JUMPS, bound.text.span(), format!("the scene jumps when \"{label}\" is moved"))
+                .why(format!(
+                    "mj_setConst puts the coordinates back to the model's own: at t = {time} s, data.qpos[{i}]{of} goes from {a} to {b}"
+                ))
+                .help("add \"reset\": true, or keep the coordinates: const q = data.qpos.slice(); …; data.qpos.set(q)"),
+        );
+    }
+}

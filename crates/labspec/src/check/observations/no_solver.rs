@@ -1,0 +1,42 @@
+//! A solver that may not iterate at all, where there is something to solve.
+
+use super::Looked;
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::{self, Play};
+use labspec_core::reflect::option;
+use std::ops::ControlFlow;
+
+/// Steps in which forces are looked for.
+const STEPS: usize = 500;
+
+pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
+    let ready = looked.bench.ready;
+    let mut session = looked.bench.start();
+    if session.world.model.opt.iterations != 0 {
+        return;
+    }
+    // Somebody who chooses the number wants to see what it does.
+    let programs = &ready.programs;
+    let sets = |b: &crate::bind::Bound| {
+        let writes = |w: &labspec_expr::Access| w.field.0 as usize == option::iterations.index();
+        b.program.effects().writes.iter().any(writes)
+    };
+    let own = programs.setup.as_ref().filter(|b| sets(b)).map(|b| b.text.span());
+    if programs.bound().filter(|b| sets(b)).count() > usize::from(own.is_some()) {
+        return;
+    }
+    let mut found = None;
+    run::play(&mut session, &Play::steps(STEPS), |session, _| {
+        let data = session.world.data.fields();
+        found = (data.nefc > 0).then_some((data.nefc, data.time));
+        if found.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let Some((rows, time)) = found else { return };
+    let time = crate::check::setconst::digits(time, 3);
+    findings.push(
+        Finding::warning(rules::SOLVER_STOPS_EARLY, own.unwrap_or(ready.lab.place()), "the solver may not iterate: `opt.iterations` is 0")
+            .why(format!("at t = {time} s there are {rows} rows of contacts, limits or ties, and nothing looks for their forces"))
+            .help("leave `iterations` at its default of 100"),
+    );
+}

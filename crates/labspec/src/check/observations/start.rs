@@ -1,0 +1,72 @@
+//! How a lab begins: bodies that are deep inside of each other, and are thrown out.
+
+use super::Looked;
+use crate::check::setconst::digits;
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::{self, Play, Session};
+use labspec_core::{Data, Model, Obj, Plan, geom};
+use std::ops::ControlFlow;
+
+/// A contact deeper than this part of the smaller geom's half thickness is no contact.
+const DEEP: f64 = 0.3;
+/// What is thrown out has come half of the way after so many steps.
+const STEPS: usize = 200;
+
+pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
+    let ready = looked.bench.ready;
+    // Every stage: contacts are not computed where nothing reads them.
+    let data = Data::planned(&ready.model, Plan::full());
+    let mut session = Session::start_with(&ready.programs, &ready.model, ready.lab.keyframe(), data);
+    let Some((pair, depth)) = deepest(&session) else { return };
+    let mut out = None;
+    run::play(&mut session, &Play::steps(STEPS), |session, step| {
+        let left = contact(session, pair);
+        if step > 0 && left <= 0.5 * depth {
+            out = Some(session.world.data.time());
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    });
+    let Some(time) = out else { return };
+    let name = |g: usize| match ready.model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
+        Some(geom) => format!("geom \"{geom}\""),
+        None => format!("geom {g}"),
+    };
+    let [a, b] = pair.map(name);
+    let [depth, time] = [1000.0 * depth, time].map(|x| digits(x, 3));
+    findings.push(
+        Finding::warning(rules::STARTS_INSIDE, ready.lab.place(), format!("{b} begins {depth} mm inside of {a}"))
+            .why(format!("the contact throws it out: after {time} s, half of that is gone, and the speed of it is no physics of the scene"))
+            .help("let it begin where the two touch: move it in the model, in the keyframe or in the setup"),
+    );
+}
+
+/// The deepest contact that is too deep, of what may move.
+fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
+    let (model, data) = (&session.world.model, session.world.data.fields());
+    let deep = data.contact.iter().filter_map(|c| {
+        let pair = [c.geom1, c.geom2];
+        let size = pair.iter().map(|g| half(model, *g)).fold(f64::INFINITY, f64::min);
+        (c.efc_address.is_some() && -c.dist > DEEP * size).then_some((pair, -c.dist))
+    });
+    deep.max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// How deep these two are in each other.
+fn contact(session: &Session<'_>, pair: [usize; 2]) -> f64 {
+    let all = session.world.data.fields().contact.iter();
+    let own = all.filter(|c| [c.geom1, c.geom2] == pair);
+    own.map(|c| -c.dist).fold(0.0, f64::max)
+}
+
+/// Half of the smallest extent of a geom, m; infinite where it has none.
+fn half(m: &Model, g: usize) -> f64 {
+    let size = |k: usize| m.geom_size.get(3 * g + k).copied().unwrap_or(0.0);
+    match m.geom_type.get(g).copied() {
+        Some(geom::SPHERE | geom::CAPSULE) => size(0),
+        Some(geom::CYLINDER) => size(0).min(size(1)),
+        Some(geom::BOX | geom::ELLIPSOID) => size(0).min(size(1)).min(size(2)),
+        _ => f64::INFINITY,
+    }
+}

@@ -1,0 +1,448 @@
+//! Runs of a lab as it is, and with other statements behind a program: what is tried, and what is sampled.
+
+use super::difference::Columns;
+use super::{ProgramSite, Suspect};
+use crate::bind::coupled::{self, Coupled, PairSet};
+use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
+use crate::check::programs::choices;
+use crate::run::{self, Breakdown, Cell, Play, Session, StepVariant, settings};
+use crate::source::Text;
+use crate::spec::{Control, ControlKind, Lab, Run, Verify};
+use labspec_core::reflect::FieldSet;
+use labspec_core::{Demand, Model};
+use labspec_expr::{Access, Compiler, Effects, Type, Value};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops::ControlFlow;
+
+/// Most steps of one of these runs.
+const STEPS: usize = 2_000;
+/// Most work of all runs of one lab, in steps of a scene of one coordinate.
+const WORK: usize = 4_000_000;
+/// Most cells of one run.
+const CELLS: usize = 200_000;
+/// Longest text that is compared letter by letter.
+const LONG: usize = 64;
+/// Most runs that show one program.
+const MOST_TRIALS: usize = 12;
+
+/// Most runs with another control moved besides.
+const MOST_COMBINED: usize = 24;
+
+/// What a student does at a step.
+#[derive(Clone)]
+enum Move {
+    Set(usize, Value),
+    Press(usize),
+}
+
+/// One run: what is done, and how a message calls it.
+pub(super) struct Trial {
+    moves: Vec<(usize, Move)>,
+    pub(super) description: String,
+}
+
+/// What is run.
+pub(in crate::check) struct Bench<'a> {
+    lab: &'a Lab,
+    model: &'a Model,
+    programs: &'a Programs,
+    work_left: usize,
+}
+
+/// A run: its samples.
+pub(super) type Rows = Vec<Vec<Cell>>;
+
+/// A run: its samples, or why it says nothing.
+pub(super) type Record = Result<Rows, String>;
+
+impl<'a> Bench<'a> {
+    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
+        Bench { lab, model, programs, work_left: WORK }
+    }
+
+    /// What the samples of its runs are.
+    pub(super) fn columns(&self, s: &Suspect<'_>) -> Columns<'a> {
+        let whole = matches!(s.place, ProgramSite::Run(_)) || self.programs.probes.is_empty();
+        Columns { whole, lab: self.lab, programs: self.programs }
+    }
+
+    /// The model of the lab.
+    pub(super) fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// The programs of the lab.
+    pub(super) fn programs(&self) -> &'a Programs {
+        self.programs
+    }
+
+    /// Number of steps of the lab, or of the run of a question, within bounds.
+    pub(super) fn steps(&self, s: &Suspect<'_>) -> Result<usize, String> {
+        let session = Session::start(self.programs, self.model, self.lab.keyframe(), &self.programs.demand);
+        let timestep = session.world.model.opt.timestep;
+        let (until, steps) = match s.place {
+            ProgramSite::Run(run) => {
+                (run.until.as_ref().map(|n| n.value), run.steps.as_ref().map(|n| n.value.max(0.0) as usize))
+            }
+            _ => (None, None),
+        };
+        run::count_steps(self.lab, until, steps, timestep).map(|n| n.min(STEPS)).map_err(|e| e.0)
+    }
+
+    /// The runs that could show it.
+    pub(super) fn trials(&self, s: &Suspect<'_>, steps: usize) -> Vec<Trial> {
+        let mut all = vec![Trial { moves: Vec::new(), description: "as it stands".into() }];
+        let half = steps / 2;
+        let mut add = |at: usize, index: usize, value: Option<Value>| {
+            let label = self.lab.controls.get(index).map_or("", |c| c.label.as_str());
+            let later = if at > 0 { " in mid-run" } else { "" };
+            let said = match &value {
+                Some(value) => format!("with \"{label}\" at {value}{later}"),
+                None => format!("after \"{label}\" is pressed{later}"),
+            };
+            let what = value.map_or(Move::Press(index), |v| Move::Set(index, v));
+            all.push(Trial { moves: vec![(at, what)], description: said });
+        };
+        match s.place {
+            ProgramSite::Run(run) => return vec![self.as_asked(run)],
+            ProgramSite::Control(own) => {
+                let Some(control) = self.lab.controls.get(own) else { return all };
+                let values = choices(control);
+                if let ControlKind::Button { .. } = control.kind {
+                    add(0, own, None);
+                    add(half, own, None);
+                }
+                for value in &values {
+                    add(0, own, Some(value.clone()));
+                }
+                if let ControlKind::Slider { min, max, .. } = &control.kind {
+                    let step = control.step().unwrap_or(0.0);
+                    let middle = min.value + (0.5 * (max.value - min.value) / step).round() * step;
+                    if middle.is_finite() {
+                        add(0, own, Some(Value::Number(middle)));
+                    }
+                }
+                for value in &values {
+                    add(half, own, Some(value.clone()));
+                }
+            }
+            // What other controls choose may be what it writes.
+            ProgramSite::Setup | ProgramSite::Controller => {
+                for (i, control) in self.lab.controls.iter().enumerate() {
+                    choices(control).into_iter().for_each(|value| add(0, i, Some(value)));
+                }
+            }
+        }
+        all.truncate(MOST_TRIALS);
+        all
+    }
+
+    /// Whether a program reads what another control of the lab writes: variables, or fields, where it calls no function that reads
+    /// them all.
+    pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
+        let own = s.bound.program.effects();
+        let written = |e: &Effects| {
+            let field = |a: &Access| e.writes.iter().any(|w| w.field == a.field);
+            own.calls.is_empty() && own.reads.iter().any(field)
+        };
+        let others = self.programs.controls.iter().filter_map(|(_, program)| match program {
+            ControlProgram::Change(_, action) => action.run.as_ref(),
+            ControlProgram::Press(run) => run.as_ref(),
+        });
+        let mut others = others.filter(|other| other.text != s.bound.text);
+        let variables = own.any_ctx || !own.ctx_reads.is_empty();
+        variables || own.calls_values || others.any(|o| written(o.program.effects()))
+    }
+
+    /// Runs with another control at its ends besides: a ball may roll only when a ramp is tilted.
+    pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<Trial> {
+        let ProgramSite::Control(own) = s.place else { return Vec::new() };
+        let Some(control) = self.lab.controls.get(own) else { return Vec::new() };
+        let moves = |index: usize, control: &Control| -> Vec<(Move, String)> {
+            let label = control.label.as_str();
+            match control.kind {
+                ControlKind::Button { .. } => {
+                    vec![(Move::Press(index), format!("after \"{label}\" is pressed"))]
+                }
+                _ => {
+                    let of = |v: Value| (Move::Set(index, v.clone()), format!("with \"{label}\" at {v}"));
+                    choices(control).into_iter().map(of).collect()
+                }
+            }
+        };
+        let mut all = Vec::new();
+        for (index, other) in self.lab.controls.iter().enumerate().filter(|(i, _)| *i != own) {
+            for (theirs, how) in moves(index, other) {
+                for (ours, said) in moves(own, control) {
+                    let said = format!("{said} and {}", how.trim_start_matches("with "));
+                    all.push(Trial { moves: vec![(0, theirs.clone()), (0, ours)], description: said });
+                }
+            }
+        }
+        all.truncate(MOST_COMBINED);
+        all
+    }
+
+    /// The run of a question: its settings, then its setup, then its presses.
+    fn as_asked(&self, run: &Run) -> Trial {
+        let index = |label: &Text| self.lab.controls.iter().position(|c| c.label.value == label.value);
+        let set = run.set.iter().filter_map(|(label, value)| {
+            let i = index(label)?;
+            let value = settings::value(self.lab.controls.get(i)?, &crate::bind::scalar(value)).ok()?;
+            Some((0, Move::Set(i, value)))
+        });
+        let timestep = self.model.opt.timestep;
+        let press = run.press.iter().filter_map(|(label, time)| {
+            Some(((time.value / timestep).ceil().max(0.0) as usize, Move::Press(index(label)?)))
+        });
+        Trial {
+            moves: set.chain(press).collect(),
+            description: format!("in the run {}", crate::json::read::named(&run.name.value)),
+        }
+    }
+
+    /// Makes a run, as it is or amended, sampled after every step.
+    pub(super) fn record(
+        &mut self,
+        s: &Suspect<'_>,
+        amended: Option<&Amended>,
+        trial: &Trial,
+        steps: usize,
+    ) -> Record {
+        self.record_under(s, amended, trial, steps, StepVariant::NOMINAL)
+    }
+
+    /// The same under other numerics: half the timestep, or a moved start.
+    pub(super) fn record_under(
+        &mut self,
+        s: &Suspect<'_>,
+        amended: Option<&Amended>,
+        trial: &Trial,
+        steps: usize,
+        numerics: StepVariant,
+    ) -> Record {
+        let programs = amended.map_or(self.programs, |a| &a.programs);
+        let setup = match s.place {
+            ProgramSite::Run(_) => Some(amended.map_or(s.bound, |a| &a.bound)),
+            _ => None,
+        };
+        let whole = self.columns(s).whole || !s.pairs.is_empty();
+        let run = self.perform(programs, setup, whole, trial, steps, numerics)?;
+        Ok(run.rows)
+    }
+
+    /// Makes a run of a lab that observes partners, and says whether one was left behind in it.
+    pub(super) fn observe(
+        &mut self,
+        s: &Suspect<'_>,
+        amended: &Amended,
+        trial: &Trial,
+        steps: usize,
+    ) -> Result<(Rows, bool), String> {
+        let setup = matches!(s.place, ProgramSite::Run(_)).then_some(&amended.bound);
+        let whole = self.columns(s).whole || !s.pairs.is_empty();
+        let run = self.perform(&amended.programs, setup, whole, trial, steps, StepVariant::NOMINAL)?;
+        Ok((run.rows, run.left_behind))
+    }
+
+    /// Makes a run with these programs; `whole` samples all coordinates too.
+    fn perform(
+        &mut self,
+        programs: &Programs,
+        setup: Option<&Bound>,
+        whole: bool,
+        trial: &Trial,
+        steps: usize,
+        numerics: StepVariant,
+    ) -> Result<Performed, String> {
+        // Twice the steps of half the length: what happens, happens at the same time.
+        let finer = if numerics.timestep < 1.0 { 2 } else { 1 };
+        let steps = steps * finer;
+        let mut demand = programs.demand;
+        setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
+        let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
+        let sets = |m: &Move| matches!(m, Move::Set(..));
+        let width = 1 + programs.probes.len() + if whole { self.model.nq } else { 0 };
+        let every = (steps / finer + 1).saturating_mul(width).div_ceil(CELLS).max(1) * finer;
+        let mut rows = Vec::new();
+        let mut too_long = false;
+        run::play(&mut session, &Play::steps(steps), |session, step| {
+            if step > 0 {
+                let (nv, rows) = (self.model.nv, session.world.data.fields().nefc);
+                let work = 1 + nv + self.model.ngeom + rows.saturating_mul(nv) / 8;
+                let Some(left) = self.work_left.checked_sub(work) else {
+                    too_long = true;
+                    return ControlFlow::Break(());
+                };
+                self.work_left = left;
+            }
+            let due = trial.moves.iter().filter(|(at, _)| *at * finer == step).map(|(_, m)| m);
+            let (set, press): (Vec<&Move>, Vec<&Move>) = due.partition(|m| sets(m));
+            let moved = step == 0 || !set.is_empty() || !press.is_empty();
+            set.into_iter().for_each(|m| act(session, m));
+            if let Some(bound) = setup.filter(|_| step == 0) {
+                session.run_statements(&bound.program, &bound.text);
+            }
+            press.into_iter().for_each(|m| act(session, m));
+            if moved && numerics != StepVariant::NOMINAL {
+                // A control that resets the lab takes a moved start back.
+                session.perturb(numerics, step > 0);
+            }
+            if step % every == 0 || step == steps {
+                let mut row: Vec<Cell> = session.sample().into_iter().map(short).collect();
+                if whole {
+                    row.extend(session.world.data.fields().qpos.iter().map(|q| Cell::Number(*q)));
+                }
+                rows.push(row);
+            }
+            ControlFlow::Continue(())
+        });
+        if too_long {
+            return Err("it would take too long".to_string());
+        }
+        let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
+        if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
+            return Err(format!("its statements fail: {}", trouble.message));
+        }
+        match (Breakdown::of(&session), session.ended()) {
+            (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
+            (None, Some(_)) => Err("it ends before its time".to_string()),
+            (None, None) => Ok(Performed { rows, left_behind: session.left_behind() }),
+        }
+    }
+
+    /// Whether another run of the same object is what this one would be when it is corrected: then the
+    /// author shows the difference on purpose.
+    pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify, anew: &Amended) -> bool {
+        let ProgramSite::Run(own) = s.place else { return false };
+        let Ok(steps) = self.steps(s) else { return false };
+        let trial = self.as_asked(own);
+        let Ok(anew) = self.record(s, Some(anew), &trial, steps) else { return false };
+        verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
+            let setup = run.setup.as_ref().map(|text| self.compile(text, &text.value, None));
+            let Some(setup) = setup.map_or(Some(None), |bound| bound.map(Some)) else { return false };
+            let trial = self.as_asked(run);
+            let other =
+                self.perform(self.programs, setup.as_ref(), true, &trial, steps, StepVariant::NOMINAL);
+            other.is_ok_and(|other| self.columns(s).difference(&anew, &other.rows).is_none())
+        })
+    }
+
+    /// Whether another run of the same object begins with the parameters and the partners that this one has when it is corrected:
+    /// then the author shows the difference on purpose.
+    pub(super) fn paired(&self, s: &Suspect<'_>, verify: &Verify) -> bool {
+        let ProgramSite::Run(own) = s.place else { return false };
+        let right = self.corrected(s, s.pairs);
+        let right = self.begun(&right.programs, Some(&right.bound), own);
+        if coupled::agree(&self.begun(self.programs, Some(s.bound), own), &right) {
+            return false;
+        }
+        verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
+            let setup = run.setup.as_ref().and_then(|text| self.compile(text, &text.value, None));
+            coupled::agree(&self.begun(self.programs, setup.as_ref(), run), &right)
+        })
+    }
+
+    /// The model as a run begins.
+    fn begun(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
+        let mut demand = programs.demand;
+        setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
+        let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);
+        let trial = self.as_asked(run);
+        let sets = trial.moves.iter().filter(|(_, m)| matches!(m, Move::Set(..)));
+        sets.for_each(|(_, m)| act(&mut session, m));
+        if let Some(bound) = setup {
+            session.run_statements(&bound.program, &bound.text);
+        }
+        session.world.model
+    }
+
+    /// The lab with these partners corrected behind the program, and with constants computed anew where that is missing.
+    pub(super) fn corrected(&self, s: &Suspect<'_>, pairs: PairSet) -> Amended {
+        let mut programs = self.programs.clone();
+        coupled_in(s, pairs).install(&mut programs, self.model);
+        Amended { programs, bound: s.bound.clone() }
+    }
+
+    /// The lab, with constants computed anew where `refreshed` says so, which observes the partners of the program.
+    pub(super) fn observed(&self, s: &Suspect<'_>, refreshed: bool) -> Amended {
+        let mut programs = self.programs.clone();
+        if refreshed {
+            coupled_in(s, PairSet::NONE).install(&mut programs, self.model);
+        }
+        programs.observed = Some(coupled_in(s, s.pairs));
+        Amended { programs, bound: s.bound.clone() }
+    }
+
+    /// The lab with other statements in place of the program.
+    pub(super) fn amended(&self, s: &Suspect<'_>, statements: &str) -> Option<Amended> {
+        let bound = self.compile(&s.bound.text, statements, s.given)?;
+        let mut programs = self.programs.clone();
+        match s.place {
+            ProgramSite::Setup => programs.setup = Some(bound.clone()),
+            ProgramSite::Controller => programs.controller = Some(bound.clone()),
+            ProgramSite::Control(i) => match programs.controls.get_mut(i).map(|(_, c)| c) {
+                Some(ControlProgram::Change(_, action)) => action.run = Some(bound.clone()),
+                Some(ControlProgram::Press(run)) => *run = Some(bound.clone()),
+                None => return None,
+            },
+            ProgramSite::Run(_) => {}
+        }
+        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
+        programs.demand = demand;
+        Some(Amended { programs, bound })
+    }
+
+    /// Statements of the lab, with the place of the text that they stand for.
+    pub(in crate::check) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
+        let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
+        let mut globals = self.programs.globals.clone();
+        let mut compiler = Compiler::new(&names, &mut globals).with_value(given);
+        let program = compiler.statements(source).program?;
+        Some(Bound { text: place.clone(), program })
+    }
+}
+
+/// What corrects these partners of a program, and its constants where they are missing.
+fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
+    Coupled {
+        programs: vec![(s.bound.text.clone(), pairs)],
+        others: PairSet::NONE,
+        changes: PairSet::NONE,
+        refresh: s.inertial.is_some(),
+    }
+}
+
+/// A run that was made.
+struct Performed {
+    rows: Rows,
+    /// A partner was left behind in it, as far as its programs observe that.
+    left_behind: bool,
+}
+
+/// A lab with other statements.
+pub(super) struct Amended {
+    programs: Programs,
+    bound: Bound,
+}
+
+/// A long text as its beginning and a number that stands for all of it.
+fn short(cell: Cell) -> Cell {
+    match cell {
+        Cell::Text(t) if t.len() > LONG => {
+            let start: String = t.chars().take(LONG / 2).collect();
+            let mut hash = DefaultHasher::new();
+            t.hash(&mut hash);
+            Cell::Text(format!("{start}… ({:016x})", hash.finish()))
+        }
+        other => other,
+    }
+}
+
+fn act(session: &mut Session<'_>, what: &Move) {
+    match what {
+        Move::Set(i, value) => session.set_control(*i, value.clone()),
+        Move::Press(i) => session.press(*i),
+    }
+}

@@ -1,0 +1,197 @@
+//! A lab as it is, with its constants computed anew, and with the partners of what a program changes: what the runs show.
+
+use super::Suspect;
+use super::advice::{self, Advice};
+use super::bench::{Amended, Bench, Rows, Trial};
+use super::difference::{BEYOND, Difference};
+use crate::bind::coupled::{PairSet, Repair};
+use crate::run::StepVariant;
+use crate::verify::HALVED;
+
+/// A start that is moved by less than anybody can set.
+const MOVED: StepVariant = StepVariant { perturbation: 1e-9, ..StepVariant::NOMINAL };
+/// A part of the range by which a repaired run may differ from the corrected one: what the order of operations makes.
+const ROUNDED: f64 = 1e-6;
+
+/// What the runs of a lab show of a program.
+pub(super) struct Compared {
+    /// What the constants change, in words.
+    pub(super) constants: Option<String>,
+    /// What the partners change, in words, and which of them do; nothing where none does.
+    pub(super) partners: Option<(String, PairSet)>,
+    /// What to write: how constants are computed anew, and the whole program where its partners are corrected too.
+    pub(super) advice: Advice,
+    pub(super) repaired: Option<String>,
+    /// Why it could not be tried what partners change.
+    pub(super) untried: Option<String>,
+}
+
+/// The runs of one trial.
+struct Runs<'t> {
+    trial: &'t Trial,
+    as_is: Rows,
+    /// With constants computed anew.
+    anew: Rows,
+    /// With partners corrected besides; `None` where that changes nothing, since none was left behind.
+    corrected: Option<Rows>,
+}
+
+impl Runs<'_> {
+    /// The run with partners corrected.
+    fn corrected(&self) -> &Rows {
+        self.corrected.as_ref().unwrap_or(&self.anew)
+    }
+}
+
+/// The lab with what is missing.
+struct Variants {
+    /// As it is, which observes its partners.
+    as_is: Amended,
+    /// With constants computed anew; `None` where they are. It observes its partners.
+    refreshed: Option<Amended>,
+    /// With all partners corrected besides.
+    coupled: Option<Amended>,
+    steps: usize,
+}
+
+impl Bench<'_> {
+    /// Runs everything. `Err` says why constants could not be tried.
+    pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
+        let steps = self.steps(s)?;
+        let trials = self.trials(s, steps);
+        let as_is = self.observed(s, false);
+        let refreshed = s.inertial.is_some().then(|| self.observed(s, true));
+        let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
+        let variants = Variants { as_is, refreshed, coupled, steps };
+        let (mut untried, mut uncoupled) = (None, None);
+        let mut all: Vec<Runs<'_>> = Vec::new();
+        for trial in &trials {
+            match self.runs(s, &variants, trial, &mut uncoupled) {
+                Ok(runs) => all.push(runs),
+                Err(reason) => untried = untried.or(Some(reason)),
+            }
+        }
+        let constants = all.iter().find(|r| self.columns(s).difference(&r.as_is, &r.anew).is_some());
+        if let (None, Some(reason), true) = (constants, &untried, s.inertial.is_some()) {
+            return Err(reason.clone());
+        }
+        let mut partners = self.partners(s, &all, &variants);
+        // What a program leaves behind in no run alone, it does together with another control only where it reads what that writes.
+        let left = all.iter().any(|runs| runs.corrected.is_some()) || self.reads_of_others(s);
+        let others = if partners.is_none() && left { self.combined(s) } else { Vec::new() };
+        for trial in &others {
+            let Ok(runs) = self.runs(s, &variants, trial, &mut None) else { continue };
+            partners = self.partners(s, std::slice::from_ref(&runs), &variants);
+            if partners.is_some() {
+                all.push(runs);
+                break;
+            }
+        }
+        let matter = partners.as_ref().map_or(PairSet::NONE, |(_, pairs)| *pairs);
+        if matter != s.pairs {
+            let exactly = if matter.is_empty() { None } else { Some(self.corrected(s, matter)) };
+            for runs in &mut all {
+                let exactly = exactly.as_ref().filter(|_| runs.corrected.is_some());
+                runs.corrected = exactly.and_then(|e| self.record(s, Some(e), runs.trial, steps).ok());
+            }
+        }
+        let constants = all.iter().find_map(|r| {
+            let columns = self.columns(s);
+            let own = columns.difference(&r.as_is, &r.anew)?;
+            let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, r.corrected())? };
+            let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
+            Some(shown.describe(&r.trial.description, &format!("the constants computed anew{and}")))
+        });
+        let repair = Repair::of(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
+        let both = [Advice::Plain, Advice::Keep];
+        let (advice, repaired) = match &repair {
+            None => {
+                let source = advice::source(s);
+                let plain = format!("{source}{}", Advice::Plain.tail(&source));
+                let good =
+                    matter.is_empty() && constants.is_some() && self.gives(s, &plain, &all, steps, 0.0);
+                (if good { Advice::Plain } else { Advice::Keep }, None)
+            }
+            Some(repair) => {
+                let texts = both.map(|advice| (advice, advice::repaired(s, repair, advice)));
+                let good = texts.into_iter().find(|(_, text)| self.gives(s, text, &all, steps, ROUNDED));
+                good.map_or((Advice::Keep, None), |(advice, text)| (advice, Some(text)))
+            }
+        };
+        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+    }
+
+    /// The runs of one trial; why partners could not be corrected in it goes to `uncoupled`.
+    fn runs<'t>(
+        &mut self,
+        s: &Suspect<'_>,
+        variants: &Variants,
+        trial: &'t Trial,
+        uncoupled: &mut Option<String>,
+    ) -> Result<Runs<'t>, String> {
+        let told = |reason: String| format!("{}, {reason}", trial.description);
+        let steps = variants.steps;
+        let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(told)?;
+        let (anew, left) = match &variants.refreshed {
+            Some(refreshed) => self.observe(s, refreshed, trial, steps).map_err(told)?,
+            None => (as_is.clone(), left),
+        };
+        let coupled = variants.coupled.as_ref().filter(|_| left);
+        let corrected = match coupled.map(|c| self.record(s, Some(c), trial, steps)) {
+            Some(Ok(rows)) => Some(rows),
+            other => {
+                *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(told));
+                None
+            }
+        };
+        Ok(Runs { trial, as_is, anew, corrected })
+    }
+
+    /// Whether these statements in place of a program give the corrected runs, to this part of what is shown.
+    fn gives(&mut self, s: &Suspect<'_>, text: &str, all: &[Runs<'_>], steps: usize, part: f64) -> bool {
+        let Some(program) = self.amended(s, text) else { return false };
+        all.iter().all(|runs| {
+            let made = self.record(s, Some(&program), runs.trial, steps);
+            let columns = self.columns(s);
+            made.is_ok_and(|rows| match part > 0.0 {
+                true => columns.close(runs.corrected(), &rows, part),
+                false => columns.difference(runs.corrected(), &rows).is_none(),
+            })
+        })
+    }
+
+    /// What correcting the partners changes in the first trial in which it does, and which of them change it.
+    fn partners(
+        &mut self,
+        s: &Suspect<'_>,
+        all: &[Runs<'_>],
+        variants: &Variants,
+    ) -> Option<(String, PairSet)> {
+        let columns = self.columns(s);
+        let (refreshed, steps) = (variants.refreshed.as_ref(), variants.steps);
+        let (runs, found): (&Runs<'_>, Difference) = all.iter().find_map(|runs| {
+            let noise = || {
+                let moved = self.record_under(s, refreshed, runs.trial, steps, MOVED).ok()?;
+                let halved = self.record_under(s, refreshed, runs.trial, steps, HALVED).ok()?;
+                Some(vec![(moved, BEYOND), (halved, 1.0)])
+            };
+            Some((runs, columns.mismatch(&runs.anew, runs.corrected.as_ref()?, noise)?))
+        })?;
+        let mut matter: PairSet = s.pairs;
+        if s.pairs.pairs().count() > 1 {
+            let without = |(one, _)| {
+                let others = self.corrected(s, s.pairs.without(one));
+                let rows = self.record(s, Some(&others), runs.trial, steps).ok()?;
+                columns.mismatch(&rows, runs.corrected(), || Some(Vec::new())).map(|_| one)
+            };
+            let alone: PairSet = s.pairs.pairs().filter_map(without).collect();
+            matter = if alone.is_empty() { s.pairs } else { alone };
+        }
+        let trial = match refreshed {
+            Some(_) => format!("{} and the constants computed anew", runs.trial.description),
+            None => runs.trial.description.clone(),
+        };
+        let with: Vec<&str> = matter.pairs().map(|(_, pair)| pair.corrected).collect();
+        Some((found.describe(&trial, &with.join(" and ")), matter))
+    }
+}

@@ -1,0 +1,177 @@
+//! What a reader would see differ between two runs of a lab: traces, readouts, coordinates, beyond rounding.
+
+use crate::bind::Programs;
+use crate::run::{self, Cell};
+use crate::spec::Lab;
+use labspec_expr::Value;
+
+/// A difference that cannot be seen, of the range of a trace.
+const VISIBLE: f64 = 1e-9;
+/// A difference that rounding makes, of the largest value.
+const ROUNDING: f64 = 1e-12;
+
+/// A sample that differs between the lab as it is and with its constants computed anew.
+pub(super) struct Difference {
+    name: String,
+    time: f64,
+    cells: (Cell, Cell),
+}
+
+impl Difference {
+    /// In words; `anew` is what the other run has.
+    pub(super) fn describe(&self, trial: &str, anew: &str) -> String {
+        let (x, y) = match &self.cells {
+            (Cell::Number(x), Cell::Number(y)) => {
+                // As many digits as tell them apart.
+                let shown = |n| (digits(*x, n), digits(*y, n));
+                (4..17).map(shown).find(|(a, b)| a != b).unwrap_or_else(|| shown(17))
+            }
+            (x, y) => (x.shown(4), y.shown(4)),
+        };
+        format!("{trial}, {} is {x} at t = {} s, and {y} with {anew}", self.name, digits(self.time, 6))
+    }
+}
+
+/// What the columns of a run are: time, traces, readouts, and coordinates where they are sampled.
+pub(super) struct Columns<'a> {
+    /// Coordinates count besides what is shown.
+    pub(super) whole: bool,
+    pub(super) lab: &'a Lab,
+    pub(super) programs: &'a Programs,
+}
+
+/// A part of the range of what is shown by which a wrong partner has to change it: less is what the numerics of a lab make.
+const MATTERS: f64 = 1e-3;
+/// How many times what a moved start changes it has to be.
+pub(super) const BEYOND: f64 = 10.0;
+
+/// How far two runs are apart in a column, at most.
+#[derive(Clone, Copy, Debug, Default)]
+struct Apart {
+    most: f64,
+    range: f64,
+    largest: f64,
+    time: f64,
+    cells: [f64; 2],
+}
+
+/// How far two runs are apart in a column of numbers.
+fn apart(a: &[Vec<Cell>], b: &[Vec<Cell>], column: usize) -> Apart {
+    let (mut low, mut high, mut found) = (f64::INFINITY, f64::NEG_INFINITY, Apart::default());
+    for (x, y) in a.iter().zip(b) {
+        let (Some(time), Some(Cell::Number(x)), Some(Cell::Number(y))) =
+            (x.first(), x.get(column), y.get(column))
+        else {
+            continue;
+        };
+        if !(x.is_finite() && y.is_finite()) {
+            continue;
+        }
+        (low, high) = (low.min(*x).min(*y), high.max(*x).max(*y));
+        let by = (x - y).abs();
+        if by > found.most {
+            found = Apart { most: by, time: time.number(), cells: [*x, *y], ..found };
+        }
+    }
+    Apart { range: high - low, largest: low.abs().max(high.abs()), ..found }
+}
+
+impl Columns<'_> {
+    /// What of two runs is another motion or another curve, beyond what numerics change: what the lab shows first, then its
+    /// coordinates. `noise` makes the first run again under other numerics, with the factor that a difference must have.
+    pub(super) fn mismatch(
+        &self,
+        a: &[Vec<Cell>],
+        b: &[Vec<Cell>],
+        noise: impl FnOnce() -> Option<Vec<(Vec<Vec<Cell>>, f64)>>,
+    ) -> Option<Difference> {
+        let width = a.first().map_or(0, Vec::len);
+        let all = (1..width).map(|column| (column, apart(a, b, column)));
+        let seen = |d: &Apart| d.most > MATTERS * d.range && d.most > ROUNDING * d.largest;
+        let found: Vec<(usize, Apart)> = all.filter(|(_, d)| seen(d)).collect();
+        if found.is_empty() {
+            return None;
+        }
+        let noise = noise()?;
+        let beyond = |(column, d): &(usize, Apart)| {
+            noise.iter().all(|(other, factor)| d.most > factor * apart(a, other, *column).most)
+        };
+        let coordinate = |column: usize| column > self.programs.probes.len();
+        let part = |d: &Apart| d.most / d.range;
+        let (column, d) = found
+            .into_iter()
+            .filter(beyond)
+            .max_by(|(i, x), (j, y)| coordinate(*j).cmp(&coordinate(*i)).then(part(x).total_cmp(&part(y))))?;
+        let cells = d.cells.map(Cell::Number);
+        Some(Difference { name: self.column(column), time: d.time, cells: cells.into() })
+    }
+
+    /// Whether no number of two runs differs by more than this part of what its column spans.
+    pub(super) fn close(&self, a: &[Vec<Cell>], b: &[Vec<Cell>], part: f64) -> bool {
+        let width = a.first().map_or(0, Vec::len);
+        let near = |d: Apart| d.most <= part * d.range || d.most <= ROUNDING * d.largest;
+        a.len() == b.len() && (1..width).all(|column| near(apart(a, b, column)))
+    }
+
+    /// The largest visible difference of two runs in what the lab shows, or in its coordinates where it shows nothing.
+    pub(super) fn difference(&self, a: &[Vec<Cell>], b: &[Vec<Cell>]) -> Option<Difference> {
+        let width = a.first().map_or(0, Vec::len);
+        let width = if self.whole { width } else { width.min(1 + self.programs.probes.len()) };
+        let mut worst: Option<(f64, Difference)> = None;
+        for column in 1..width {
+            let cells =
+                || a.iter().zip(b).filter_map(|(x, y)| Some((x.first()?, x.get(column)?, y.get(column)?)));
+            let numbers = cells().flat_map(|(_, x, y)| [x.number(), y.number()]).filter(|x| x.is_finite());
+            let (low, high) =
+                numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
+            let (range, largest) = (high - low, low.abs().max(high.abs()));
+            for (time, x, y) in cells() {
+                let Some(size) = self.visible(column, x, y, range, largest) else { continue };
+                if worst.as_ref().is_none_or(|(most, _)| size > *most) {
+                    let name = self.column(column);
+                    worst =
+                        Some((size, Difference { name, time: time.number(), cells: (x.clone(), y.clone()) }));
+                }
+            }
+        }
+        worst.map(|(_, d)| d)
+    }
+
+    /// How much of the range two samples differ by; `None` when nobody can see it.
+    fn visible(&self, column: usize, x: &Cell, y: &Cell, range: f64, largest: f64) -> Option<f64> {
+        let (Cell::Number(p), Cell::Number(q)) = (x, y) else { return (x != y).then_some(1.0) };
+        if !(p.is_finite() && q.is_finite()) {
+            return (p.to_bits() != q.to_bits() && !(p.is_nan() && q.is_nan())).then_some(1.0);
+        }
+        if p == q {
+            return None;
+        }
+        let apart = (p - q).abs();
+        let printed = || {
+            let readout = column.checked_sub(1 + self.lab.traces().count());
+            let readout = readout.and_then(|i| self.lab.readouts.get(i));
+            readout.is_some_and(|r| run::shown(*p, r.digits()) != run::shown(*q, r.digits()))
+        };
+        let seen = apart > VISIBLE * range || printed();
+        (seen && apart > ROUNDING * largest).then_some(apart / range)
+    }
+
+    /// What a column is called.
+    fn column(&self, column: usize) -> String {
+        match self.programs.probes.get(column - 1) {
+            Some(probe) => {
+                // `plot/0/label`, `readout/label`: a label may have a slash of its own.
+                let (kind, rest) = probe.name.split_once('/').unwrap_or(("", &probe.name));
+                let label = if kind == "plot" { rest.split_once('/').map_or(rest, |(_, l)| l) } else { rest };
+                format!("\"{label}\"")
+            }
+            None => format!("data.qpos[{}]", column - 1 - self.programs.probes.len()),
+        }
+    }
+}
+
+/// A number with so many significant digits, without trailing zeros.
+pub(in crate::check) fn digits(x: f64, count: usize) -> String {
+    let rounded: f64 = format!("{x:.*e}", count.saturating_sub(1)).parse().unwrap_or(x);
+    Value::Number(rounded).to_string()
+}

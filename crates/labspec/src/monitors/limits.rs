@@ -1,0 +1,204 @@
+//! Limits: whether a joint is where its range does not let it be.
+//!
+//! A limit pushes back like a spring with a time constant T, so a joint that arrives with the speed v goes beyond it by about
+//! v T / e, and one that a load presses on stays a little beyond it: both are softness, and pass for it. Two things do not:
+//!
+//! * a joint that is beyond its limit by a large part of its range because one step took it there, before anything could push
+//!   back, or that stays there: what presses is stronger than the limit;
+//! * a joint that is beyond it by more than half its range, for however short a time.
+
+use labspec_core::math::rows;
+use labspec_core::{Data, Model, Scope, disable, joint};
+
+/// A joint past its limit by this part of its range is not held by it.
+const FAR: f64 = 0.5;
+/// Nor past it by this part, when a step that is itself longer took it there, or for so long and so many steps.
+const BEYOND: f64 = 0.2;
+const LASTS: f64 = 0.25;
+const STEPS: u32 = 32;
+/// What is less is nobody's concern: an angle, rad, and a length in parts of the scene.
+const ANGLE: f64 = 0.1;
+const LENGTH: f64 = 0.02;
+/// No slide is judged by more than so many sizes of the scene.
+const SCENES: f64 = 10.0;
+
+/// A joint past its limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Past {
+    /// Since when, s.
+    pub time: f64,
+    /// The joint.
+    pub joint: usize,
+    /// How far beyond its limit, m or rad.
+    pub beyond: f64,
+    /// How much it may move, m or rad.
+    pub range: f64,
+    /// How far one step moved it, when that took it past; `None` when something presses it there.
+    pub step: Option<f64>,
+}
+
+/// A joint with limits.
+#[derive(Clone, Copy, Debug)]
+struct Limited {
+    joint: usize,
+    qpos: usize,
+    /// Its range, and what is not worth a second look.
+    range: [f64; 2],
+    pass: [f64; 2],
+    /// What its size is judged by, m or rad.
+    size: f64,
+    /// Where it was before the step.
+    before: f64,
+    /// It began beyond its limit, and has not come back yet.
+    outside: bool,
+    /// Steps for which it has been beyond, and the time of the first.
+    lasted: u32,
+    since: f64,
+}
+
+/// The joints that are watched.
+#[derive(Clone, Debug)]
+pub struct LimitMonitor {
+    joints: Vec<Limited>,
+}
+
+/// The limits of a model, in a run that is now at `d`.
+pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> LimitMonitor {
+    let on = !m.opt.disabled(disable::LIMIT) && !m.opt.disabled(disable::CONSTRAINT);
+    let limited = |j: usize| {
+        let turns = match m.jnt_type[j] {
+            joint::HINGE => true,
+            joint::SLIDE => false,
+            _ => return None,
+        };
+        let [low, high] = *rows::<2>(&m.jnt_range).get(j)?;
+        let (most, least) = if turns {
+            (2.0 * std::f64::consts::PI, ANGLE)
+        } else {
+            (SCENES * m.stat.extent, LENGTH * m.stat.extent)
+        };
+        let size = (high - low).min(most).max(least / BEYOND);
+        let slack = BEYOND * size;
+        let range = [low, high];
+        let qpos = m.jnt_qposadr[j] as usize;
+        let before = *d.fields().qpos.get(qpos)?;
+        let pass = [low - slack, high + slack];
+        (on && m.jnt_limited[j]).then_some(Limited {
+            joint: j,
+            qpos,
+            range,
+            pass,
+            size,
+            before,
+            outside: before < pass[0] || before > pass[1],
+            lasted: 0,
+            since: 0.0,
+        })
+    };
+    LimitMonitor { joints: (0..m.njnt).filter_map(limited).collect() }
+}
+
+/// To be called after each step.
+#[inline]
+pub fn observe<S: Scope>(w: &mut LimitMonitor, d: &Data<S>) -> Option<Past> {
+    let qpos = &d.fields().qpos;
+    w.joints.iter_mut().find_map(|j| {
+        let q = qpos.get(j.qpos)?;
+        let before = std::mem::replace(&mut j.before, *q);
+        if *q >= j.pass[0] && *q <= j.pass[1] {
+            (j.lasted, j.outside) = (0, false);
+            return None;
+        }
+        far(j, d.time(), [before, *q])
+    })
+}
+
+/// What is to be said of a joint that is far beyond its limit.
+#[cold]
+fn far(j: &mut Limited, time: f64, [before, q]: [f64; 2]) -> Option<Past> {
+    let step = q - before;
+    let beyond = |q: f64| (j.range[0] - q).max(q - j.range[1]);
+    if j.lasted == 0 {
+        j.since = time;
+    }
+    j.lasted += 1;
+    // A step that leads back is no reason to be there.
+    let outward = if q > j.range[1] { step } else { -step };
+    let jumped = outward > BEYOND * j.size && beyond(before) < BEYOND * j.size && step.is_finite();
+    let stays = j.lasted >= STEPS && time - j.since >= LASTS;
+    let step = jumped.then_some(step.abs());
+    let range = j.range[1] - j.range[0];
+    let pressed = !j.outside && beyond(q) > FAR * j.size;
+    (jumped || stays || pressed).then(|| Past {
+        time: j.since,
+        joint: j.joint,
+        beyond: beyond(q),
+        range,
+        step,
+    })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use labspec_core::{step, xml};
+
+    fn run(joint: &str, rest: &str, speed: f64) -> Option<Past> {
+        let text = format!(
+            "<mujoco><option gravity=\"0 0 0\"/><worldbody><body><joint name=\"j\" axis=\"0 1 0\" {joint}/>\
+             <geom size=\".1\" pos=\".5 0 0\" mass=\"1\"/></body></worldbody>{rest}</mujoco>"
+        );
+        let m = xml::compile(&text).unwrap();
+        let mut d = Data::new(&m);
+        d.edit().qvel[0] = speed;
+        let mut w = watch(&m, &d);
+        (0..500).find_map(|_| {
+            step(&m, &mut d).unwrap();
+            observe(&mut w, &d)
+        })
+    }
+
+    #[test]
+    fn a_step_past_a_limit_is_told_and_a_soft_limit_is_not() {
+        let found = run("range=\"-45 45\"", "", 1000.0).unwrap();
+        assert!(found.joint == 0 && found.time < 0.003 && found.step.unwrap() > 1.9, "{found:?}");
+        assert!(found.beyond > 1.1 && (found.range - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{found:?}");
+        for speed in [0.0, 10.0, 50.0, 100.0] {
+            assert_eq!(run("range=\"-45 45\"", "", speed), None, "{speed} rad/s");
+        }
+        // A method whose stages see the limit ends its step with another speed than it moved with.
+        let rk4 = run("range=\"-45 45\"", "<option integrator=\"RK4\"/>", 1e4).unwrap();
+        assert!(rk4.time < 0.003 && rk4.step.unwrap() > 10.0, "{rk4:?}");
+        // Nothing is said where nothing limits.
+        assert_eq!(run("", "", 1000.0), None);
+    }
+
+    #[test]
+    fn a_motor_that_holds_a_joint_beyond_its_limit_is_told() {
+        let motor = |force: f64| {
+            let rest = format!(
+                "<actuator><position joint=\"j\" kp=\"{force}\" kv=\"{}\"/></actuator>",
+                force / 50.0
+            );
+            run("range=\"10 40\" ref=\"0\" damping=\"1\"", &rest, 0.0)
+        };
+        // It starts 10 degrees outside: a servo of 1e5 N m/rad keeps it there.
+        assert_eq!(motor(1.0), None);
+        let found = motor(1e5).unwrap();
+        assert!(found.step.is_none() && found.beyond > 0.13, "{found:?}");
+    }
+
+    #[test]
+    fn what_starts_outside_and_comes_back_is_not_told() {
+        let text = "<mujoco><worldbody><body><joint type=\"slide\" range=\"0 .1\"/><geom size=\".1\" mass=\"1\"/></body></worldbody></mujoco>";
+        let m = xml::compile(text).unwrap();
+        let mut d = Data::new(&m);
+        d.edit().qpos[0] = 0.3;
+        let mut w = watch(&m, &d);
+        for _ in 0..500 {
+            step(&m, &mut d).unwrap();
+            assert_eq!(observe(&mut w, &d), None);
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! Passing through: whether a body went through another one because its steps were too long for it.
+//!
+//! A contact is found where two bodies overlap at the start of a step. What moves by more than the thickness of a wall in one
+//! step may be before it in one and behind it in the next, or so far in it that the contact pushes it out at the wrong side.
+//! Proof is a middle of a geom that passes a middle plane of a wall, inside the wall's outline, in a step that moved it by
+//! no small part of the wall's thickness: for solid bodies no way leads there.
+//!
+//! The poses of the last two steps are looked at only while something is fast for the thinnest wall and near one.
+
+use super::sunk::{Size, size};
+use labspec_core::math::rows;
+use labspec_core::reflect::Stage;
+use labspec_core::{Data, Fields, Model, Scope, may_touch};
+
+/// A motion in a step by this part of the thickness is fast: a few such steps, and the contact pushes the wrong way.
+const FAST: f64 = 0.1;
+/// Steps from one look at the speeds to the next while nothing is fast and near.
+const EVERY: u32 = 10;
+/// How much faster things may become in between, and how far they may be.
+const MARGIN: f64 = 2.0;
+
+/// A body that went through another one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Through {
+    /// When the step began that did it, s.
+    pub time: f64,
+    /// The geom that passed, and the one it went through.
+    pub geoms: [usize; 2],
+    /// How far it moved against the other one in the step, m.
+    pub moved: f64,
+    /// How thick the other one is, m.
+    pub thickness: f64,
+}
+
+/// The poses of the last step, when they are looked at.
+#[derive(Clone, Debug)]
+pub struct TunnellingMonitor {
+    /// Geoms that may touch another one, with what they measure.
+    geoms: Vec<usize>,
+    sizes: Vec<Size>,
+    thinnest: f64,
+    pos: Vec<f64>,
+    mat: Vec<f64>,
+    /// How far each geom moved in the last step, its turning included, m.
+    moved: Vec<f64>,
+    kept: bool,
+    left: u32,
+}
+
+/// The geoms of a model; none where nothing touches or their poses are not known.
+pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
+    let plan = d.plan();
+    let known = plan.keeps(Stage::Collision) && plan.keeps(Stage::GeomPoses);
+    let touches = |g: &usize| m.geom_contype[*g] != 0 || m.geom_conaffinity[*g] != 0;
+    let geoms: Vec<usize> = (0..m.ngeom).filter(touches).filter(|_| known).collect();
+    let sizes: Vec<Size> = (0..m.ngeom).map(|g| size(m, g)).collect();
+    let thinnest = geoms.iter().map(|&g| sizes[g].thickness).fold(f64::INFINITY, f64::min);
+    let poses = |n: usize| vec![0.0; n * m.ngeom];
+    TunnellingMonitor {
+        geoms,
+        sizes,
+        thinnest,
+        pos: poses(3),
+        mat: poses(9),
+        moved: poses(1),
+        kept: false,
+        left: 0,
+    }
+}
+
+/// Forgets what was seen: something from outside has changed the state.
+pub fn restart(w: &mut TunnellingMonitor) {
+    (w.kept, w.left) = (false, 0);
+}
+
+/// To be called after each step.
+#[inline]
+pub fn observe<S: Scope>(w: &mut TunnellingMonitor, m: &Model, d: &Data<S>) -> Option<Through> {
+    if w.left > 0 {
+        w.left -= 1;
+        return None;
+    }
+    pass(w, m, d.fields())
+}
+
+/// Keeps the poses; with those of the step before, looks at what moved, and at what passed.
+#[inline(never)]
+fn pass(w: &mut TunnellingMonitor, m: &Model, f: &Fields) -> Option<Through> {
+    if w.geoms.len() < 2 || f.geom_xpos.len() != w.pos.len() || f.geom_xmat.len() != w.mat.len() {
+        w.left = u32::MAX;
+        return None;
+    }
+    let mut found = None;
+    let mut awake = !w.kept;
+    if w.kept {
+        let fastest = measure(w, f);
+        if fastest > 0.5 * FAST * w.thinnest {
+            (awake, found) = walls(w, m, f);
+        }
+    }
+    w.kept = awake;
+    if awake {
+        w.pos.copy_from_slice(&f.geom_xpos);
+        w.mat.copy_from_slice(&f.geom_xmat);
+    } else {
+        w.left = EVERY;
+    }
+    found
+}
+
+/// How far each geom moved; returns the longest way.
+fn measure(w: &mut TunnellingMonitor, f: &Fields) -> f64 {
+    let far = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+    let mut most: f64 = 0.0;
+    for &g in &w.geoms {
+        let radius = if w.sizes[g].length.is_finite() { 0.5 * w.sizes[g].length } else { 0.0 };
+        let turned = far(&w.mat[9 * g..9 * g + 9], &f.geom_xmat[9 * g..9 * g + 9]);
+        w.moved[g] = far(&w.pos[3 * g..3 * g + 3], &f.geom_xpos[3 * g..3 * g + 3]) + radius * turned;
+        most = most.max(w.moved[g]);
+    }
+    most
+}
+
+/// Looks at every pair of a wall and a geom that is fast for it: whether it is near, and whether it passed.
+fn walls(w: &TunnellingMonitor, m: &Model, f: &Fields) -> (bool, Option<Through>) {
+    let (now, mut near) = (rows::<3>(&f.geom_xpos), false);
+    for &wall in w.geoms.iter().filter(|&&g| w.sizes[g].thickness.is_finite()) {
+        let Size { thickness, length } = w.sizes[wall];
+        for &g in w.geoms.iter().filter(|&&g| g != wall && w.sizes[g].thickness.is_finite()) {
+            let moved = w.moved[g] + w.moved[wall];
+            if moved <= 0.5 * FAST * thickness {
+                continue;
+            }
+            let gap = [0, 1, 2].map(|k| now[g][k] - now[wall][k]).map(|x| x * x).iter().sum::<f64>().sqrt();
+            let soon = moved * (1.0 + MARGIN * f64::from(EVERY));
+            if gap > 0.5 * (length + w.sizes[g].length) + soon || !may_touch(m, g, wall).unwrap_or(false) {
+                continue;
+            }
+            near = true;
+            if let Some(moved) = passed(w, m, f, g, wall) {
+                let time = (f.time - m.opt.timestep).max(0.0);
+                return (true, Some(Through { time, geoms: [g, wall], moved, thickness }));
+            }
+        }
+    }
+    (near, None)
+}
+
+/// How far the middle of a geom moved in the frame of a wall, m, when it went through one of its middle planes inside its outline.
+fn passed(w: &TunnellingMonitor, m: &Model, f: &Fields, g: usize, wall: usize) -> Option<f64> {
+    let before = within(&w.pos, &w.mat, g, wall)?;
+    let after = within(&f.geom_xpos, &f.geom_xmat, g, wall)?;
+    let aabb = rows::<6>(&m.geom_aabb).get(wall)?;
+    let [before, after] = [before, after].map(|x| [0, 1, 2].map(|k| x[k] - aabb[k]));
+    let half = [aabb[3], aabb[4], aabb[5]];
+    let crossed = (0..3).any(|k| {
+        let part = before[k] / (before[k] - after[k]);
+        let at = |j: usize| before[j] + part * (after[j] - before[j]);
+        // Without a crossing this is no part of the way, or no number; what only trembles at the plane does not cross it.
+        let far = (before[k] - after[k]).abs() > 2.0 * FAST * half[k];
+        far && (0.0..=1.0).contains(&part) && (0..3).all(|j| j == k || at(j).abs() < half[j])
+    });
+    let way = [0, 1, 2].map(|k| after[k] - before[k]).map(|x| x * x).iter().sum::<f64>().sqrt();
+    crossed.then_some(way)
+}
+
+/// The middle of a geom in the frame of another one.
+fn within(pos: &[f64], mat: &[f64], g: usize, wall: usize) -> Option<[f64; 3]> {
+    let (pos, mat) = (rows::<3>(pos), rows::<9>(mat).get(wall)?);
+    let away = [0, 1, 2].map(|k| pos[g][k] - pos[wall][k]);
+    Some([0, 1, 2].map(|k| mat[k] * away[0] + mat[3 + k] * away[1] + mat[6 + k] * away[2]))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use labspec_core::{step, xml};
+
+    fn run(wall: &str, ball: &str, speed: f64) -> Option<Through> {
+        let text = format!(
+            "<mujoco><worldbody>{wall}<body name=\"ball\" pos=\"0 0 .15\"><freejoint/><geom {ball} mass=\".1\"/></body></worldbody></mujoco>"
+        );
+        let m = xml::compile(&text).unwrap();
+        let mut d = Data::new(&m);
+        let dof = m.nv - 6;
+        d.edit().qvel[dof + 2] = -speed;
+        let mut w = watch(&m, &d);
+        (0..500).find_map(|_| {
+            step(&m, &mut d).unwrap();
+            observe(&mut w, &m, &d)
+        })
+    }
+
+    #[test]
+    fn boxes_that_change_places_are_told() {
+        let cube = |z: f64| {
+            format!(
+                "<body pos=\"0 0 {z}\"><freejoint/><geom type=\"box\" size=\".1 .1 .1\" mass=\"1\"/></body>"
+            )
+        };
+        let text = format!(
+            "<mujoco><option timestep=\".1\"/><worldbody><geom type=\"plane\" size=\"1 1 1\"/>{}</worldbody></mujoco>",
+            [cube(0.1), cube(0.3), cube(0.5)].concat()
+        );
+        let m = xml::compile(&text).unwrap();
+        let mut d = Data::new(&m);
+        let mut w = watch(&m, &d);
+        let found = (0..20).find_map(|_| {
+            step(&m, &mut d).unwrap();
+            observe(&mut w, &m, &d)
+        });
+        assert!(d.qpos[16] < d.qpos[9], "the third box is below the second one");
+        assert!(found.is_some_and(|f| f.moved > 0.2 && f.geoms.contains(&3)), "{found:?}");
+    }
+
+    const PLATE: &str = "<geom type=\"box\" size=\"1 1 .0005\"/>";
+
+    #[test]
+    fn a_ball_that_passes_a_plate_is_told() {
+        for (radius, speeds) in [(0.01, vec![1.0, 3.0, 10.0, 100.0]), (0.1, vec![30.0, 100.0, 300.0])] {
+            for speed in speeds {
+                let found = run(PLATE, &format!("size=\"{radius}\""), speed).unwrap();
+                assert_eq!((found.geoms, found.thickness), ([1, 0], 0.001), "{speed} m/s");
+                assert!(found.moved > 0.1e-3 && found.moved > 0.9e-3 * speed, "{speed} m/s: {found:?}");
+            }
+        }
+        for speed in [0.0, 0.1, 1.0, 3.0, 10.0] {
+            assert_eq!(run(PLATE, "size=\".1\"", speed), None, "{speed} m/s");
+        }
+    }
+
+    #[test]
+    fn what_may_pass_is_not_told() {
+        // Bits that do not meet, a hole, a body that flies by.
+        assert_eq!(run(PLATE, "size=\".01\" contype=\"2\" conaffinity=\"2\"", 10.0), None);
+        let hole = "<geom type=\"box\" pos=\".6 0 0\" size=\".5 1 .0005\"/><geom type=\"box\" pos=\"-.6 0 0\" size=\".5 1 .0005\"/>";
+        assert_eq!(run(hole, "size=\".01\"", 10.0), None);
+        assert_eq!(run("<geom type=\"box\" pos=\"2 0 0\" size=\"1 1 .0005\"/>", "size=\".01\"", 10.0), None);
+        // A card that turns.
+        let card = "<body pos=\"0 .5 .1\"><joint axis=\"1 0 0\"/><geom type=\"box\" size=\".1 .3 .0005\" mass=\"1\"/></body>";
+        assert_eq!(run(card, "size=\".01\" pos=\"0 1.5 0\"", 0.0), None);
+    }
+}

@@ -1,0 +1,426 @@
+//! One run of a lab under the hands of a student, and what goes wrong in it.
+
+use super::bodies::geom_name;
+use super::fault::{Evidence, Fault, FaultKind};
+use super::interaction::{Action, Interaction, Kind, TOUCH};
+use super::watch::RunMonitor;
+use crate::bind::{Bound, Programs};
+use crate::monitors::stability;
+use crate::monitors::watch::Noticed;
+use crate::run::{self, Budget, End, Play, Session};
+use crate::spec::Lab;
+use labspec_core::reflect::{FieldId, data};
+use labspec_core::{Demand, Model, Warning, WarningStat, joint};
+use std::collections::VecDeque;
+use std::ops::ControlFlow;
+
+/// What all runs share.
+pub(crate) struct StressCase<'a> {
+    pub(super) lab: &'a Lab,
+    pub(super) model: &'a Model,
+    pub(super) programs: &'a Programs,
+    pub(super) demand: Demand,
+    /// A program runs before every step: it may push whatever it likes.
+    pub(super) controlled: bool,
+    /// It may also write where bodies are.
+    pub(super) jumps: bool,
+    /// What is shown stores something when it is computed, so that it belongs to the run.
+    shows: bool,
+    /// What stands before everything else that is done.
+    pub(super) base: Interaction,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outcome {
+    pub(crate) faults: Vec<Fault>,
+    /// How much of the run was made, s.
+    pub(super) covered: f64,
+    /// Work.
+    pub(crate) spent: u64,
+    /// How fast each body moved on at the end, by name, m/s.
+    pub(super) speeds: Vec<(String, f64)>,
+    /// Geoms that touched.
+    pub(super) touching: Vec<[usize; 2]>,
+    /// It ended before its time as the work was more than it may do.
+    pub(crate) cut: bool,
+}
+
+/// A run under the hands of a student: what is still to be done to it, and everything that is looked at meanwhile.
+pub(crate) struct Eyes<'h> {
+    /// What is to be done, in order of time.
+    pending: VecDeque<&'h Action>,
+    watch: RunMonitor,
+    shows: bool,
+    controlled: bool,
+}
+
+impl Eyes<'_> {
+    /// Does what is due; whether something was.
+    fn act(&mut self, session: &mut Session<'_>) -> bool {
+        let now = session.world.data.time();
+        let mut acted = false;
+        while let Some(action) = self.pending.front().filter(|a| now >= a.time - 1e-12).copied() {
+            match &action.value {
+                Some(value) => session.set_control(action.control, value.clone()),
+                None => session.press(action.control),
+            }
+            acted = true;
+            self.pending.pop_front();
+        }
+        acted
+    }
+
+    /// Presses what is to be pressed before the first sample is taken.
+    pub(super) fn press_at_start(&mut self, session: &mut Session<'_>) {
+        self.act(session);
+    }
+
+    /// At the start, and after every step: what is due is done, unless the run is over, and everything is looked at.
+    pub(crate) fn observe(&mut self, session: &mut Session<'_>, made: usize, over: bool) {
+        let acted = !over && self.act(session);
+        let disturbed = made == 0 || acted;
+        if self.shows {
+            session.sample();
+        }
+        if disturbed {
+            self.watch.disturb(&session.world.model, session.world.data.fields());
+        } else {
+            self.watch.observe(&session.world.model, session.world.data.fields());
+        }
+    }
+
+    /// What went wrong, when the run is over.
+    pub(crate) fn faults(self, session: &Session<'_>) -> Vec<Fault> {
+        let mut faults = reported(session);
+        // What blew up is reported; all else that was seen follows from it.
+        let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
+        let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
+        let noticed = noticed(&session.world.model, &session.noticed()).filter(|f| f.time < when);
+        faults.extend(noticed);
+        let seen = self.watch.faults(&session.world.model).into_iter();
+        let own = seen
+            .filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()))
+            .filter(|f| f.kind != FaultKind::Drifts || !self.controlled);
+        for mut fault in own {
+            match faults.iter_mut().find(|known| known.covers(&fault)) {
+                None => faults.push(fault),
+                // The same, with more to say of it.
+                Some(known) if known.kind == fault.kind => {
+                    fault.by_run = known.by_run;
+                    *known = fault;
+                }
+                Some(_) => {}
+            }
+        }
+        faults
+    }
+}
+
+/// A change of the model that a run is made with, after everything that is done at its start.
+pub(crate) type Change<'c> = &'c dyn Fn(&mut Session<'_>);
+
+impl<'a> StressCase<'a> {
+    pub(crate) fn new(
+        lab: &'a Lab,
+        model: &'a Model,
+        programs: &'a Programs,
+        base: Interaction,
+    ) -> StressCase<'a> {
+        let mut demand = programs.demand;
+        [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| demand.reads.insert(f));
+        let probes = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
+        let stores = |b: &Bound| {
+            let e = b.program.effects();
+            !e.ctx_writes.is_empty()
+                || !e.writes.is_empty()
+                || e.writes_everything
+                || e.any_ctx
+                || e.calls_values
+        };
+        let places = Some(data::qpos);
+        let jumps = |b: &Bound| {
+            let e = b.program.effects();
+            e.writes_everything
+                || e.calls_values
+                || e.writes.iter().any(|w| FieldId::new(w.field.0 as usize) == places)
+        };
+        StressCase {
+            lab,
+            model,
+            programs,
+            demand,
+            controlled: programs.controller.is_some(),
+            jumps: probes().chain(&programs.controller).any(jumps),
+            shows: probes().any(stores),
+            base,
+        }
+    }
+
+    /// The same with another model, of which nothing but numbers differs.
+    pub(super) fn with_model<'b>(&'b self, model: &'b Model) -> StressCase<'b> {
+        StressCase { lab: self.lab, model, programs: self.programs, base: self.base.clone(), ..*self }
+    }
+
+    /// The lab with everything done that comes before the first step.
+    pub(crate) fn start(&self, handling: &Interaction, budget: u64) -> Session<'a> {
+        let key = self.lab.keyframe();
+        let budget = Budget { left: budget };
+        let mut session = Session::start_within(self.programs, self.model, key, &self.demand, budget);
+        for action in handling.actions.iter().filter(|a| a.time <= 0.0) {
+            match &action.value {
+                Some(value) => session.set_control(action.control, value.clone()),
+                None => session.press(action.control),
+            }
+        }
+        if handling.kind == Kind::Touched {
+            session.world.data.edit().qvel.iter_mut().for_each(|v| *v += TOUCH);
+            session.refresh();
+        }
+        session
+    }
+
+    /// Number of steps of a run that lasts so long.
+    pub(crate) fn steps(&self, timestep: f64, length: f64) -> usize {
+        let most = (run::MAX_STEPS - 1) as f64;
+        let count = (length / timestep).round();
+        if count.is_finite() && timestep > 0.0 { count.clamp(0.0, most) as usize } else { 0 }
+    }
+
+    /// The eyes on a run that has begun.
+    pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> Eyes<'h> {
+        Eyes {
+            pending: handling.actions.iter().filter(|a| a.time > 0.0).collect(),
+            watch: RunMonitor::new(&session.world.model, self.jumps),
+            shows: self.shows,
+            controlled: self.controlled,
+        }
+    }
+
+    /// The same on a run whose samples evaluate what is shown, and that begins with what `handling` presses.
+    pub(super) fn eyes_of_table<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> Eyes<'h> {
+        Eyes { pending: handling.actions.iter().collect(), shows: false, ..self.eyes(handling, session) }
+    }
+
+    /// Makes a run of so many seconds.
+    pub(crate) fn run(
+        &self,
+        handling: &Interaction,
+        change: Option<Change<'_>>,
+        length: f64,
+        budget: u64,
+    ) -> Outcome {
+        self.run_to_model(handling, change, length, budget).0
+    }
+
+    /// The same, and the model as the lab left it.
+    pub(super) fn run_to_model(
+        &self,
+        handling: &Interaction,
+        change: Option<Change<'_>>,
+        length: f64,
+        budget: u64,
+    ) -> (Outcome, Model) {
+        let mut session = self.start(handling, budget);
+        if let Some(change) = change {
+            change(&mut session);
+            session.refresh();
+        }
+        let timestep = session.world.model.opt.timestep;
+        let steps = self.steps(timestep, length);
+        let mut eyes = self.eyes(handling, &session);
+        let played = Play { steps, every: 1, presses: &[], watched: true };
+        let made = run::play(&mut session, &played, |session, made| {
+            eyes.observe(session, made, made == steps);
+            let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
+            if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        let speeds = eyes.watch.rest.speeds(&session.world.model);
+        let touching = eyes.watch.touching();
+        let faults = eyes.faults(&session);
+        let outcome = Outcome {
+            faults,
+            covered: if made == steps { length } else { made as f64 * timestep },
+            spent: session.spent(),
+            speeds,
+            touching,
+            cut: matches!(session.ended(), Some(End::Budget { .. } | End::Interrupted)),
+        };
+        (outcome, session.world.model)
+    }
+}
+
+/// Numbers that are none.
+const DIVERGED: [Warning; 3] = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
+
+fn warned(session: &Session<'_>, warning: Warning) -> Option<WarningStat> {
+    session.warnings.get(warning as usize).copied().filter(|stat| stat.number > 0)
+}
+
+/// What the engine warned of, energy from nothing, and programs that threw.
+fn reported(session: &Session<'_>) -> Vec<Fault> {
+    let m = &session.world.model;
+    let mut list = Vec::new();
+    let growth = session.growth();
+    let first = DIVERGED.into_iter().filter_map(|w| Some((w, warned(session, w)?)));
+    let first = first.min_by(|a, b| a.1.first_time.total_cmp(&b.1.first_time));
+    let step = Evidence { name: "timestep", value: m.opt.timestep, unit: "s" };
+    if let Some(g) = growth.filter(|g| first.is_none_or(|(_, stat)| g.time < stat.first_time)) {
+        let broke =
+            first.map(|(_, stat)| Evidence { name: "no number at", value: stat.first_time, unit: "s" });
+        let mut evidence = vec![
+            Evidence { name: "energy gained", value: g.gain, unit: "J" },
+            Evidence { name: "energy at the start", value: g.held, unit: "J" },
+        ];
+        evidence.extend([step.clone()].into_iter().chain(broke));
+        list.push(Fault {
+            kind: FaultKind::Grows,
+            time: g.time,
+            who: joint_of_dof(m, g.dof),
+            cause: likely(m).unwrap_or_else(|| unknown(m)),
+            evidence,
+            size: g.gain,
+            by_run: true,
+        });
+    } else if let Some((warning, stat)) = first {
+        let who = match warning {
+            Warning::BadQpos => joint_of_place(m, stat.lastinfo),
+            _ => joint_of_dof(m, stat.lastinfo),
+        };
+        let evidence = vec![step, Evidence { name: "larger than", value: 1e10, unit: "" }];
+        let cause = likely(m).unwrap_or_else(|| unknown(m));
+        list.push(Fault {
+            kind: FaultKind::Diverges,
+            time: stat.first_time,
+            who,
+            cause,
+            evidence,
+            size: 1.0,
+            by_run: true,
+        });
+    }
+    for warning in [Warning::Inertia, Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull] {
+        let Some(stat) = warned(session, warning) else { continue };
+        let (who, cause) = match warning {
+            Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "what it moves has no inertia above zero"),
+            Warning::BadCtrl => (format!("control {}", stat.lastinfo), "a program writes what is no number"),
+            _ => ("the whole scene".into(), "more bodies touch than contacts are kept"),
+        };
+        list.push(Fault {
+            kind: FaultKind::Warns,
+            time: stat.first_time,
+            who,
+            cause: cause.into(),
+            evidence: vec![Evidence { name: "warnings", value: stat.number as f64, unit: "" }],
+            size: 1.0,
+            by_run: true,
+        });
+    }
+    list.extend(session.troubles.iter().map(|t| Fault {
+        kind: FaultKind::Throws,
+        time: t.time,
+        who: "a program of the lab".into(),
+        cause: t.message.clone(),
+        evidence: Vec::new(),
+        size: 1.0,
+        by_run: true,
+    }));
+    list
+}
+
+/// The first thing that a run noticed besides energy: the others may follow from it.
+fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
+    let fault = |kind, time, who: String, cause: &str, size, evidence| Fault {
+        kind,
+        time,
+        who,
+        cause: cause.into(),
+        evidence,
+        size,
+        by_run: true,
+    };
+    let number = |name, value, unit| Evidence { name, value, unit };
+    let both = |geoms: [usize; 2]| geoms.map(|g| geom_name(m, g));
+    let past = noticed.past.map(|p| {
+        let unit = if m.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
+        let cause = match p.step {
+            Some(_) => "one step takes it past its limit before the limit can push",
+            None => "what moves or presses it is stronger than its limit",
+        };
+        let mut evidence = vec![number("beyond", p.beyond, unit), number("range", p.range, unit)];
+        evidence.extend(p.step.map(|step| number("way in one step", step, unit)));
+        let who = joint_of_dof(m, m.jnt_dofadr.get(p.joint).map_or(0, |&dof| dof as usize));
+        fault(FaultKind::PastLimit, p.time, who, cause, p.beyond / p.range, evidence)
+    });
+    let through = noticed.through.map(|t| {
+        let [mover, wall] = both(t.geoms);
+        let evidence = vec![
+            number("way in one step", t.moved, "m"),
+            number("thickness of what it passes", t.thickness, "m"),
+        ];
+        let cause = "no step meets the two in contact from the right side";
+        let size = t.moved / t.thickness;
+        fault(FaultKind::Tunnels, t.time, format!("{mover} through {wall}"), cause, size, evidence)
+    });
+    let unsolved = noticed.unsolved.map(|u| {
+        let evidence = vec![
+            number("iterations", u.iterations as f64, ""),
+            number("missing part of the forces", u.part, ""),
+        ];
+        let cause = "the solver makes as many iterations as it may, and its forces do not hold yet";
+        fault(FaultKind::Unsolved, u.time, joint_of_dof(m, u.dof), cause, u.part, evidence)
+    });
+    let sunk = noticed.sunk.map(|s| {
+        let [a, b] = both(s.geoms);
+        let evidence = vec![
+            number("depth", s.depth, "m"),
+            number("thickness of the thinner one", s.thickness, "m"),
+            number("force", s.force, "N"),
+        ];
+        let cause = "the contact is softer than the load needs";
+        fault(FaultKind::Sinks, s.time, format!("{a} and {b}"), cause, s.depth / s.thickness, evidence)
+    });
+    [past, through, unsolved, sunk].into_iter().flatten().min_by(|a, b| a.time.total_cmp(&b.time))
+}
+
+/// What of the model is too stiff for its timestep, in words.
+pub(super) fn likely(m: &Model) -> Option<String> {
+    let worst = stability::suspects(m).into_iter().next()?;
+    Some(format!(
+        "{} is {} for a step of {} s: the largest that can follow it is {} s",
+        run::owner(m, &worst),
+        run::how_stiff(&worst),
+        m.opt.timestep,
+        run::two_digits(worst.timestep)
+    ))
+}
+
+fn unknown(m: &Model) -> String {
+    format!(
+        "no single spring, servo or contact is too stiff for a step of {} s; several together may be",
+        m.opt.timestep
+    )
+}
+
+/// The joint of a degree of freedom, in words.
+pub(super) fn joint_of_dof(m: &Model, dof: usize) -> String {
+    named(m, &m.jnt_dofadr, joint::nv, dof)
+}
+
+/// The joint of a coordinate.
+fn joint_of_place(m: &Model, i: usize) -> String {
+    named(m, &m.jnt_qposadr, joint::nq, i)
+}
+
+fn named(m: &Model, start: &[i32], width: fn(i32) -> usize, i: usize) -> String {
+    let holds = |j: &usize| {
+        let first = start.get(*j).map_or(0, |&a| a as usize);
+        (first..first + width(m.jnt_type.get(*j).copied().unwrap_or(joint::HINGE))).contains(&i)
+    };
+    let Some(j) = (0..m.njnt).find(holds) else { return format!("degree of freedom {i}") };
+    let body = || super::bodies::body_name(m, m.jnt_bodyid.get(j).map_or(0, |&b| b as usize));
+    match m.names.joint.get(j) {
+        Some(name) if !name.is_empty() => format!("joint \"{name}\""),
+        _ => format!("the joint of {}", body()),
+    }
+}

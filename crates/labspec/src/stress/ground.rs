@@ -1,0 +1,116 @@
+//! Bodies that fall through a height field: a middle that was above the surface, and is below it by half of the body's own thickness.
+
+use super::bodies::{body_of, geom_name, may_meet, seen_from, thickness};
+use super::fault::{Evidence, Fault, FaultKind};
+use labspec_core::math::{Vec3, norm, rows, sub};
+use labspec_core::{Fields, Model, geom};
+
+/// A geom over a height field.
+pub(super) struct Over {
+    geoms: [usize; 2],
+    /// Where it was seen last, in the axes of the field, while it was above the surface.
+    above: Option<Vec3>,
+    done: bool,
+}
+
+/// Geoms that may meet a height field, at most `most` pairs.
+pub(super) fn over(m: &Model, most: usize) -> Vec<Over> {
+    let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
+    let fields: Vec<usize> = (0..m.ngeom).filter(|&p| m.geom_type.get(p) == Some(&geom::HFIELD)).collect();
+    let of = |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
+    let pairs = fields.iter().flat_map(of).filter(|[g, _]| thickness(m, *g).is_finite());
+    pairs.take(most).map(|geoms| Over { geoms, above: None, done: false }).collect()
+}
+
+impl Over {
+    /// Something from outside moved bodies to where they are now.
+    pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
+        let [g, p] = self.geoms;
+        let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p);
+        self.above = place.filter(|place| surface(m, p, *place).is_some_and(|z| z <= place[2]));
+    }
+
+    /// After a step: what fell through.
+    pub(super) fn observe(&mut self, m: &Model, d: &Fields) -> Option<Fault> {
+        let [g, p] = self.geoms;
+        if self.done {
+            return None;
+        }
+        let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p)?;
+        let Some(surface) = surface(m, p, place) else {
+            self.above = None;
+            return None;
+        };
+        let depth = surface - place[2];
+        if depth <= 0.0 {
+            self.above = Some(place);
+            return None;
+        }
+        let before = self.above?;
+        if depth <= 0.5 * thickness(m, g) {
+            return None;
+        }
+        self.done = true;
+        Some(fell(m, d, self.geoms, norm(sub(place, before)), depth))
+    }
+}
+
+/// The height of a field's surface below a place in its own axes; `None` beside it.
+fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
+    let id = usize::try_from(*m.geom_dataid.get(p)?).ok()?;
+    let [rx, ry, top, _] = *rows::<4>(&m.hfield_size).get(id)?;
+    let count = |list: &[i32]| list.get(id).and_then(|n| usize::try_from(*n).ok());
+    let (nrow, ncol, first) = (count(&m.hfield_nrow)?, count(&m.hfield_ncol)?, count(&m.hfield_adr)?);
+    // The cell, and where in it.
+    let along = |x: f64, half: f64, n: usize| {
+        let t = (x + half) / (2.0 * half) * n.checked_sub(1)? as f64;
+        let cell = t.floor().clamp(0.0, n.saturating_sub(2) as f64);
+        (n > 1 && (0.0..=(n - 1) as f64).contains(&t)).then_some((cell as usize, t - cell))
+    };
+    let ((c, s), (r, t)) = (along(place[0], rx, ncol)?, along(place[1], ry, nrow)?);
+    let at = |r: usize, c: usize| m.hfield_data.get(first + r * ncol + c).copied();
+    let [a, b, c, d] = [at(r, c)?, at(r, c + 1)?, at(r + 1, c)?, at(r + 1, c + 1)?];
+    Some(top * ((1.0 - t) * ((1.0 - s) * a + s * b) + t * ((1.0 - s) * c + s * d)))
+}
+
+fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Fault {
+    let own = thickness(m, g);
+    let cause = if way > own {
+        "since it was last above the surface it moved farther than it is thick: no step saw it touch"
+    } else {
+        "the contact is too weak to hold it: it is pressed below the surface"
+    };
+    Fault {
+        kind: FaultKind::Tunnels,
+        time: (d.time - m.opt.timestep).max(0.0),
+        who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
+        cause: cause.into(),
+        evidence: vec![
+            Evidence { name: "depth below the surface", value: depth, unit: "m" },
+            Evidence { name: "way since it was above it", value: way, unit: "m" },
+            Evidence { name: "own thickness", value: own, unit: "m" },
+        ],
+        size: depth / own,
+        by_run: false,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_surface_is_between_its_samples() {
+        let text = "<mujoco><asset><hfield name=\"h\" nrow=\"2\" ncol=\"3\" size=\"2 1 .5 .1\" elevation=\"0 0 1  0 .5 1\"/></asset>\
+                    <worldbody><geom type=\"hfield\" hfield=\"h\"/></worldbody></mujoco>";
+        let m = labspec_core::xml::compile(text).unwrap();
+        let at = |x: f64, y: f64| surface(&m, 0, [x, y, 9.0]);
+        // Rows go up along y or down in the file; the ends along x are the same in both.
+        assert_eq!((at(-2.0, 0.0), at(2.0, 0.3), at(1.0, 0.0)), (Some(0.0), Some(0.5), Some(0.3125)));
+        assert_eq!(
+            (at(0.0, 1.0).unwrap() + at(0.0, -1.0).unwrap(), at(2.1, 0.0), at(0.0, -1.1)),
+            (0.25, None, None)
+        );
+    }
+}

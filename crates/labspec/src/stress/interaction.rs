@@ -1,0 +1,317 @@
+//! What a student can do to a lab: sliders moved, options chosen, buttons pressed, each at its time; and the list of what is tried.
+
+use crate::bind::{Programs, scalar};
+use crate::pairwise;
+use crate::run::{RunError, presses, settings};
+use crate::spec::{ControlKind, Lab};
+use labspec_expr::Value;
+
+/// A control is changed or a button is pressed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Action {
+    /// When, in s of the lab's own clock; at 0 before the first step.
+    pub time: f64,
+    /// Which control, from 0.
+    pub control: usize,
+    /// What it is set to; `None` for a press.
+    pub value: Option<Value>,
+}
+
+/// Why a run is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// Nothing is done.
+    AsItStands,
+    /// Nothing but a touch that nobody sees: what stands exactly in its balance shows nothing otherwise.
+    Touched,
+    /// One slider at an end, or one option chosen.
+    End,
+    /// One button.
+    Button,
+    /// All buttons, one after the other.
+    InOrder,
+    /// Several controls at their ends, perhaps with a button.
+    Corner,
+    /// Controls and buttons in turn while the lab runs.
+    Interleaved,
+}
+
+impl Kind {
+    /// All of them, in the order in which they are tried.
+    pub const ALL: [Kind; 7] = [
+        Kind::AsItStands,
+        Kind::Touched,
+        Kind::End,
+        Kind::Button,
+        Kind::InOrder,
+        Kind::Corner,
+        Kind::Interleaved,
+    ];
+
+    /// In words.
+    pub fn description(self) -> &'static str {
+        match self {
+            Kind::AsItStands => "as it stands",
+            Kind::Touched => "with a touch",
+            Kind::End => "each control at its ends",
+            Kind::Button => "each button",
+            Kind::InOrder => "buttons in order",
+            Kind::Corner => "corners",
+            Kind::Interleaved => "all in turn while it runs",
+        }
+    }
+}
+
+/// A run that a student can make.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interaction {
+    /// Why.
+    pub kind: Kind,
+    /// What is done, in order of time.
+    pub actions: Vec<Action>,
+}
+
+impl Interaction {
+    /// What stands before everything else that is done: controls set before the first step, and buttons pressed at their times.
+    ///
+    /// # Errors
+    /// A student cannot do this.
+    pub(super) fn base(
+        lab: &Lab,
+        programs: &Programs,
+        set: &[(String, Value)],
+        press: &[(String, f64)],
+    ) -> Result<Interaction, RunError> {
+        let mut actions = Vec::new();
+        for (label, given) in set {
+            let (control, value) = settings::chosen(lab, programs, label, given)?;
+            actions.retain(|a: &Action| a.control != control);
+            actions.push(Action { time: 0.0, control, value: Some(value) });
+        }
+        let pressed = presses(programs, press)?.into_iter();
+        actions.extend(pressed.map(|(control, time)| Action { time, control, value: None }));
+        Ok(Interaction { kind: Kind::AsItStands, actions })
+    }
+
+    /// More that is done on this base. What it sets before the first step is set instead of what the base sets.
+    pub(crate) fn and(&self, kind: Kind, more: Vec<Action>) -> Interaction {
+        let sets = |a: &Action| a.time <= 0.0 && a.value.is_some();
+        let again = |a: &&Action| !(sets(a) && more.iter().any(|b| sets(b) && b.control == a.control));
+        let mut actions: Vec<Action> = self.actions.iter().filter(again).cloned().collect();
+        actions.extend(more);
+        // In order of time, of one time what is set before what is pressed; otherwise as they came.
+        actions.sort_by(|a, b| a.time.total_cmp(&b.time).then(sets(b).cmp(&sets(a))));
+        Interaction { kind, actions }
+    }
+
+    /// In words: `with "kp" at 5000, "Drop" pressed at 0.1 s`.
+    pub fn describe(&self, programs: &Programs) -> String {
+        let label = |i: usize| programs.controls.get(i).map_or("", |(label, _)| label.as_str());
+        let one = |a: &Action| match &a.value {
+            Some(value) if a.time > 0.0 => {
+                format!("\"{}\" at {value} from {} s on", label(a.control), crate::run::time(a.time))
+            }
+            Some(value) => format!("\"{}\" at {value}", label(a.control)),
+            None => format!("\"{}\" pressed at {} s", label(a.control), crate::run::time(a.time)),
+        };
+        let done = match self.actions.as_slice() {
+            [] => "as it stands".into(),
+            list => format!("with {}", list.iter().map(one).collect::<Vec<_>>().join(", ")),
+        };
+        match self.kind {
+            Kind::Touched => format!("{done}, after a touch (every joint begins with a speed of {TOUCH:e})"),
+            _ => done,
+        }
+    }
+}
+
+/// The speed of every joint after a touch, m/s or rad/s.
+pub(super) const TOUCH: f64 = 1e-6;
+/// When the first button is pressed, s.
+const PRESS: f64 = 0.1;
+/// All combinations are tried when there are no more than this.
+const FEW: usize = 16;
+/// Most rows of a covering design, most controls in it, and most options of each.
+const MOST_ROWS: usize = 200;
+const MOST_FACTORS: usize = 60;
+const MOST_LEVELS: usize = 30;
+
+/// How many pairs of levels of two factors there are.
+fn pairs(levels: &[usize]) -> usize {
+    let mut before = 0usize;
+    let mut count = 0usize;
+    for n in levels {
+        count = count.saturating_add(before.saturating_mul(*n));
+        before = before.saturating_add(*n);
+    }
+    count
+}
+
+/// Everything that is tried on a base, the simplest first, for a lab that a student looks at for `window` seconds; and how many
+/// pairs of settings meet in no run, because there are too many.
+pub(crate) fn list(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interaction>, usize) {
+    let press = PRESS.min(0.5 * window);
+    let set = |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
+    let pressed = |control: usize, time: f64| Action { time, control, value: None };
+    let mut changes: Vec<(usize, Vec<Value>, Value)> = Vec::new();
+    let mut buttons = Vec::new();
+    let given = |i: usize, own: Value| {
+        let set = base.actions.iter().find(|a| a.control == i);
+        set.and_then(|a| a.value.clone()).unwrap_or(own)
+    };
+    for (i, control) in lab.controls.iter().enumerate() {
+        match &control.kind {
+            ControlKind::Slider { min, max, value, .. } => {
+                let mut ends = vec![Value::Number(min.value), Value::Number(max.value)];
+                ends.dedup();
+                changes.push((i, ends, given(i, Value::Number(value.value))));
+            }
+            ControlKind::Select { options, value, .. } => {
+                let all = options.iter().map(|o| scalar(&o.value)).collect();
+                changes.push((i, all, given(i, scalar(value))));
+            }
+            ControlKind::Button { .. } => buttons.push(i),
+        }
+    }
+    let mut all = vec![base.clone(), base.and(Kind::Touched, Vec::new())];
+    for (i, values, start) in &changes {
+        let moved = values.iter().filter(|v| *v != start);
+        all.extend(moved.map(|v| base.and(Kind::End, vec![set(*i, v)])));
+    }
+    all.extend(buttons.iter().map(|b| base.and(Kind::Button, vec![pressed(*b, press)])));
+    let spread = |k: usize, of: usize| press + (window - press).max(0.0) * k as f64 / of.max(1) as f64;
+    if buttons.len() > 1 {
+        let actions = buttons.iter().enumerate().map(|(k, b)| pressed(*b, spread(k, buttons.len())));
+        all.push(base.and(Kind::InOrder, actions.collect()));
+    }
+
+    // The last factor is which button is pressed, if any.
+    let mut levels: Vec<usize> = changes.iter().map(|(_, values, _)| values.len()).collect();
+    if !buttons.is_empty() {
+        levels.push(1 + buttons.len());
+    }
+    let every = pairs(&levels);
+    levels.truncate(MOST_FACTORS);
+    levels.iter_mut().for_each(|n| *n = (*n).min(MOST_LEVELS));
+    let many = levels.iter().fold(1usize, |n, k| n.saturating_mul(*k));
+    let (rows, missing) = match (levels.len(), many) {
+        (0 | 1, _) => (Vec::new(), 0),
+        (_, n) if n <= FEW => (pairwise::all(&levels), 0),
+        _ => pairwise::pairwise(&levels, MOST_ROWS),
+    };
+    let missing = missing + every.saturating_sub(pairs(&levels));
+    for row in rows {
+        let chosen =
+            changes.iter().zip(&row).filter_map(|((i, values, _), k)| Some(set(*i, values.get(*k)?)));
+        let mut actions: Vec<Action> = chosen.collect();
+        let button = row.get(changes.len()).and_then(|k| buttons.get(k.checked_sub(1)?));
+        actions.extend(button.map(|b| pressed(*b, press)));
+        all.push(base.and(Kind::Corner, actions));
+    }
+    all.extend(interleaved(&changes, &buttons, spread).map(|more| base.and(Kind::Interleaved, more)));
+    (all, missing)
+}
+
+/// Every control to its far end and to the other, a button after each.
+fn interleaved(
+    changes: &[(usize, Vec<Value>, Value)],
+    buttons: &[usize],
+    spread: impl Fn(usize, usize) -> f64,
+) -> Option<Vec<Action>> {
+    if changes.is_empty() {
+        return None;
+    }
+    let mut list: Vec<(usize, Option<Value>)> = Vec::new();
+    let mut next = buttons.iter().cycle();
+    for far in [true, false] {
+        for (i, values, _) in changes {
+            let value = if far { values.last() } else { values.first() };
+            list.push((*i, value.cloned()));
+            list.extend(next.next().map(|b| (*b, None)));
+        }
+    }
+    // A select without options has no value to take.
+    let is_button = |i: &usize| buttons.contains(i);
+    list.retain(|(i, value)| is_button(i) || value.is_some());
+    let of = list.len();
+    let timed = list.into_iter().enumerate();
+    Some(timed.map(|(k, (control, value))| Action { time: spread(k, of), control, value }).collect())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::lint::{ModelFolder, load_lesson};
+    use crate::source::SourceFile;
+
+    fn lab(controls: &str) -> Lab {
+        let text = format!(r#"{{"model": "ball", "controls": [{controls}]}}"#);
+        load_lesson(SourceFile::new("lab.json", text), &ModelFolder::unknown()).all_labs()[0].clone()
+    }
+
+    fn nothing() -> Interaction {
+        Interaction { kind: Kind::AsItStands, actions: Vec::new() }
+    }
+
+    const SLIDER: &str = r#"{"label": "m", "param": "m", "min": 0, "max": 5, "value": 5}"#;
+    const SELECT: &str = r#"{"type": "select", "label": "i", "param": "i", "options": [["a", 0], ["b", 1], ["c", 2]], "value": 1}"#;
+    const BUTTON: &str = r#"{"type": "button", "label": "Go", "run": "ctx.go = 1"}"#;
+
+    fn counts(lab: &Lab) -> [usize; 7] {
+        let (all, _) = list(lab, 2.0, &nothing());
+        Kind::ALL.map(|kind| all.iter().filter(|h| h.kind == kind).count())
+    }
+
+    #[test]
+    fn ends_options_buttons_and_corners_are_tried() {
+        assert_eq!(counts(&lab("")), [1, 1, 0, 0, 0, 0, 0]);
+        // One slider at its end already; both ends while it runs.
+        assert_eq!(counts(&lab(SLIDER)), [1, 1, 1, 0, 0, 0, 1]);
+        // 2 ends, 3 options, pressed or not.
+        assert_eq!(counts(&lab(&[SLIDER, SELECT, BUTTON].join(","))), [1, 1, 3, 1, 0, 12, 1]);
+        let two = BUTTON.replace("Go", "Stop");
+        assert_eq!(counts(&lab(&[BUTTON, &two].join(","))), [1, 1, 0, 2, 1, 0, 0]);
+    }
+
+    #[test]
+    fn many_controls_meet_in_pairs() {
+        let sliders: Vec<String> = (0..12).map(|k| SLIDER.replace("\"m\"", &format!("\"m{k}\""))).collect();
+        let (all, missing) = list(&lab(&sliders.join(",")), 2.0, &nothing());
+        let corners: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::Corner).collect();
+        assert!(missing == 0 && corners.len() < 20, "{}", corners.len());
+        for i in 0..12 {
+            for j in 0..i {
+                for (a, b) in [(0.0, 0.0), (0.0, 5.0), (5.0, 0.0), (5.0, 5.0)] {
+                    let has =
+                        |h: &&Interaction, k: usize, x: f64| h.actions[k].value == Some(Value::Number(x));
+                    assert!(corners.iter().any(|h| has(h, i, a) && has(h, j, b)), "{i} at {a}, {j} at {b}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn everything_in_turn_lies_in_the_window_and_in_order() {
+        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &nothing());
+        let last = all.last().unwrap();
+        assert_eq!(last.actions.len(), 8);
+        assert!(last.actions.windows(2).all(|two| two[0].time < two[1].time) && last.actions[7].time < 2.0);
+    }
+    #[test]
+    fn a_base_stands_before_everything_else() {
+        let set = |control, x| Action { time: 0.0, control, value: Some(Value::Number(x)) };
+        let press = |control, time| Action { time, control, value: None };
+        let base =
+            Interaction { kind: Kind::AsItStands, actions: vec![set(0, 2.0), press(2, 0.0), press(2, 0.5)] };
+        let (all, _) = list(&lab(&[SLIDER, SELECT, BUTTON].join(",")), 2.0, &base);
+        assert_eq!((&all[0], all[1].kind, &all[1].actions), (&base, Kind::Touched, &base.actions));
+        // Both ends of the slider differ from where the base has it.
+        let ends: Vec<&Interaction> = all.iter().filter(|h| h.kind == Kind::End).collect();
+        assert_eq!(ends.len(), 4);
+        assert_eq!(ends[0].actions, [set(0, 0.0), press(2, 0.0), press(2, 0.5)]);
+        assert_eq!(ends[2].actions, [set(0, 2.0), set(1, 0.0), press(2, 0.0), press(2, 0.5)]);
+        let button = all.iter().find(|h| h.kind == Kind::Button).unwrap();
+        assert_eq!(button.actions, [set(0, 2.0), press(2, 0.0), press(2, 0.1), press(2, 0.5)]);
+    }
+}

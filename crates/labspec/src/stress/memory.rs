@@ -1,0 +1,55 @@
+//! What a run was like before: so many entries at most, evenly over its time, however long it lasts.
+
+/// Every so many looks an entry; every second one is forgotten when there are too many.
+#[derive(Debug)]
+pub(super) struct Memory<T> {
+    looks: usize,
+    every: usize,
+    most: usize,
+    past: Vec<T>,
+}
+
+impl<T> Memory<T> {
+    /// A memory that begins with an entry after each `every` looks, and never has more than `most`.
+    pub(super) fn new(every: usize, most: usize) -> Memory<T> {
+        Memory { looks: 0, every, most, past: Vec::new() }
+    }
+
+    /// Looks once: `now` is asked for an entry when it is time.
+    pub(super) fn observe(&mut self, now: impl FnOnce() -> T) {
+        if self.looks.is_multiple_of(self.every) {
+            self.past.push(now());
+            if self.past.len() >= self.most {
+                let mut odd = false;
+                self.past.retain(|_| {
+                    odd = !odd;
+                    odd
+                });
+                self.every *= 2;
+            }
+        }
+        self.looks += 1;
+    }
+
+    /// What is remembered, the oldest first.
+    pub(super) fn past(&self) -> &[T] {
+        &self.past
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_remembered_is_spread_evenly() {
+        let mut memory = Memory::new(4, 16);
+        for k in 0..1000 {
+            memory.observe(|| k);
+        }
+        let past = memory.past();
+        assert!(past.len() >= 7 && past.len() < 16 && past[0] == 0, "{past:?}");
+        assert!(past.windows(2).all(|two| two[1] - two[0] == past[1]), "{past:?}");
+        assert!(past[past.len() - 1] + past[1] >= 1000, "{past:?}");
+    }
+}

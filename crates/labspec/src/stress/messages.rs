@@ -1,0 +1,160 @@
+//! What goes wrong in a run, in the words in which `run`, `check` and `stability` alike report it, and the shorter timesteps that
+//! were tried against it.
+
+use super::case::{Outcome, StressCase};
+use super::fault::{Fault, FaultKind};
+use super::interaction::{Action, Interaction, Kind};
+use super::margins;
+use crate::bind::Programs;
+use crate::rules::{self, Rule};
+use crate::run::{self, Begun, Breakdown, Play, RunError, RunOptions, Session, Shorter, Table};
+use crate::spec::Lab;
+use labspec_core::Model;
+use std::ops::ControlFlow;
+
+/// Halvings of the timestep that are tried, work for one run with each, and for all of them.
+const HALVINGS: i32 = 8;
+const WORK_OF_RUN: u64 = 300_000_000;
+const WORK: u64 = 1_000_000_000;
+
+/// A fault of which the run itself says nothing, in a teacher's words; `None` for those of which it does.
+pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
+    let (rule, what, why): (&'static Rule, &str, &'static str) = match fault.kind {
+        _ if fault.by_run => return None,
+        FaultKind::Silent => (
+            rules::RUNS_AWAY,
+            "runs away",
+            "no number is above what the engine takes, so nobody warns: a student sees something vanish from the picture",
+        ),
+        FaultKind::Tunnels => (
+            rules::PASSES_THROUGH,
+            "pass",
+            "no step sees them touch in time: a student sees one go through the other",
+        ),
+        FaultKind::Penetrates => (
+            rules::PRESSED_DEEP,
+            "are pressed deep into each other",
+            "a student who finds this setting sees bodies inside each other; the text may speak of it, or it may be an accident",
+        ),
+        FaultKind::Chatters => (
+            rules::CHATTERS,
+            "touch and part again and again, while nothing moves",
+            "forces that jump from step to step are those of the timestep: a plot of them is noise",
+        ),
+        FaultKind::Drifts => (
+            rules::CREEPS,
+            "creeps, though it seems to rest",
+            "a student who waits sees it slide, where the text may say that friction holds it",
+        ),
+        _ => return None,
+    };
+    Some(Breakdown {
+        rule,
+        what: format!("{} {what} at t = {} s", fault.who, run::time(fault.time)),
+        why,
+        cause: Some(fault.cause.clone()),
+        shorter: Shorter::No,
+        instead: "`labspec stability` makes these runs longer, and tries what helps".into(),
+    })
+}
+
+/// The same advice with a timestep that was tried: the longest of some with which the run is sound. Work is taken from `left`.
+pub(crate) fn with_tried_timestep(
+    case: &StressCase<'_>,
+    handling: &Interaction,
+    length: f64,
+    mut breakdown: Breakdown,
+    left: &mut u64,
+) -> Breakdown {
+    let Shorter::Maybe(theory) = breakdown.shorter else { return breakdown };
+    let timestep = case.start(handling, WORK_OF_RUN).world.model.opt.timestep;
+    let halved = (1..=HALVINGS).map(|k| timestep * 0.5f64.powi(k));
+    let mut candidates: Vec<f64> =
+        theory.into_iter().chain(halved).map(rounded_down).filter(|h| *h > 0.0 && *h < timestep).collect();
+    candidates.sort_by(|a, b| b.total_cmp(a));
+    candidates.dedup();
+    let mut budget = WORK.min(*left);
+    for h in candidates {
+        let change = move |session: &mut Session<'_>| *session.world.model.edit().opt.timestep = h;
+        let outcome = case.run(handling, Some(&change), length, WORK_OF_RUN.min(budget));
+        budget = budget.saturating_sub(outcome.spent);
+        *left = left.saturating_sub(outcome.spent);
+        if !is_sound(&outcome, breakdown.rule) {
+            // A run that was not made to its end says nothing of this timestep, nor of shorter ones, which take longer.
+            if outcome.cut {
+                return breakdown;
+            }
+            continue;
+        }
+        if !outcome.cut {
+            breakdown.shorter = Shorter::Tried(h);
+        }
+        return breakdown;
+    }
+    breakdown.shorter = Shorter::Useless;
+    breakdown
+}
+
+/// Whether nothing goes wrong in a run but what creeps, and what was reported is not there.
+fn is_sound(outcome: &Outcome, rule: &Rule) -> bool {
+    let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
+    margins::worst(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
+}
+
+/// Two digits, never more than the number.
+fn rounded_down(x: f64) -> f64 {
+    if !(x.is_finite() && x > 0.0) {
+        return 0.0;
+    }
+    let unit = 10f64.powf(x.log10().floor() - 1.0);
+    let digits = (x / unit + 1e-9).floor();
+    format!("{:.3e}", digits * unit).parse().unwrap_or(x)
+}
+
+/// [`run::run`] under the eyes that `check` and `stability` have on their runs, with advice that was tried.
+///
+/// # Errors
+/// A control that does not exist, a setting that no student can make, or a run that is too long.
+pub fn watched_run(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    options: &RunOptions,
+) -> Result<Table, RunError> {
+    let base = Interaction::base(lab, programs, &options.set, &options.press)?;
+    let case = StressCase::new(lab, model, programs, base.clone());
+    let mut begun = run::begin(lab, model, programs, options, &case.demand)?;
+    let presses: Vec<Action> =
+        begun.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
+    let pressed = Interaction { kind: Kind::AsItStands, actions: presses };
+    let Begun { session, samples, steps, every, .. } = &mut begun;
+    let (steps, every) = (*steps, *every);
+    let mut eyes = case.eyes_of_table(&pressed, session);
+    let played = Play { steps, every: 1, presses: &[], watched: true };
+    let made = run::play(session, &played, |session, made| {
+        if made == 0 {
+            eyes.press_at_start(session);
+        }
+        let taken = if made.is_multiple_of(every) || made == steps {
+            run::take(samples, session)
+        } else {
+            ControlFlow::Continue(())
+        };
+        eyes.observe(session, made, made == steps);
+        taken
+    });
+    let timestep = begun.session.world.model.opt.timestep;
+    let (length, faults) = (made as f64 * timestep, eyes.faults(&begun.session));
+    let mut left = WORK;
+    let (faults, _) = super::genuine(&case, &base, faults, length, left);
+    let mut table = run::finish(begun, made)?;
+    for breakdown in &mut table.breakdowns {
+        *breakdown = with_tried_timestep(&case, &base, length, breakdown.clone(), &mut left);
+    }
+    let described = faults.iter().filter_map(|f| {
+        let breakdown = describe(f)?;
+        Some(Breakdown { what: format!("{} ({})", breakdown.what, f.measured()), ..breakdown })
+    });
+    table.breakdowns.extend(described);
+    Ok(table)
+}

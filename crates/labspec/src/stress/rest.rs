@@ -1,0 +1,198 @@
+//! What rests and creeps all the same: bodies that touch others with friction and move on at the same small speed, although nothing
+//! pushes them along, and joints that move on although their friction loss is more than what pulls at them.
+
+use super::bodies::{body_name, body_of, halves};
+use super::case::joint_of_dof;
+use super::fault::{Evidence, Fault, FaultKind};
+use super::memory::Memory;
+use labspec_core::math::{Vec3, norm, rows, sub};
+use labspec_core::{Fields, Model, disable, joint};
+
+/// Looks between two entries of the memory, and entries before every second one is forgotten.
+const EVERY: usize = 4;
+const MOST: usize = 128;
+/// A body that moves by less than this part of its size in a second rests; one that moved farther than that part in all creeps.
+const RESTS: f64 = 0.1;
+const CREEPS: f64 = 0.02;
+/// How straight the way is, and how even.
+const STRAIGHT: f64 = 0.9;
+const EVEN: f64 = 0.2;
+/// How long it has to rest at least, s.
+const LONG: f64 = 0.5;
+/// How far a joint creeps at least, rad, or as a part of its body's size.
+const ANGLE: f64 = 0.01;
+/// Friction below this part of its limit holds.
+const HOLDS: f64 = 0.99;
+/// The kind of a constraint row that is the friction loss of a degree of freedom.
+const FRICTION_OF_DOF: i32 = 1;
+
+/// What is remembered of a moment.
+#[derive(Debug)]
+struct Moment {
+    time: f64,
+    /// Places of bodies, m, and which of them touch others.
+    places: Vec<Vec3>,
+    rubs: Vec<bool>,
+    /// Positions of joints with friction loss, m or rad, and where it is less than it may be.
+    joints: Vec<(f64, bool)>,
+}
+
+/// The memory of a run.
+#[derive(Debug)]
+pub(super) struct Rest {
+    memory: Memory<Moment>,
+}
+
+impl Default for Rest {
+    fn default() -> Rest {
+        Rest { memory: Memory::new(EVERY, MOST) }
+    }
+}
+
+impl Rest {
+    pub(super) fn restart(&mut self) {
+        *self = Rest::default();
+    }
+
+    pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
+        self.memory.observe(|| {
+            let mut rubs = vec![false; m.nbody];
+            for c in d.contact.iter().filter(|c| c.efc_address.is_some() && c.dim >= 3) {
+                for g in [c.geom1, c.geom2] {
+                    if let Some(rubs) = rubs.get_mut(body_of(m, g)) {
+                        *rubs = true;
+                    }
+                }
+            }
+            let joints = with_friction(m).map(|(_, qpos, dof)| {
+                let q = d.qpos.get(qpos).copied().unwrap_or(0.0);
+                (q, held(d, dof))
+            });
+            Moment { time: d.time, places: rows::<3>(&d.xpos).to_vec(), rubs, joints: joints.collect() }
+        });
+    }
+
+    /// The second half of what is remembered.
+    fn half(&self) -> &[Moment] {
+        let past = self.memory.past();
+        past.get(past.len() / 2..).unwrap_or_default()
+    }
+
+    /// Bodies and joints that creep in the second half of what is remembered.
+    pub(super) fn faults(&self, m: &Model) -> Vec<Fault> {
+        let half = self.half();
+        let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
+        if half.len() < 9 || last.time - first.time < LONG {
+            return Vec::new();
+        }
+        let mut list = bodies(m, half);
+        list.extend(joints(m, half));
+        list
+    }
+
+    /// How fast each body and each joint with friction moved on in the second half of what is remembered, by name, m/s or rad/s.
+    pub(super) fn speeds(&self, m: &Model) -> Vec<(String, f64)> {
+        let half = self.half();
+        let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
+        let time = last.time - first.time;
+        let ways = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);
+        let mut list: Vec<(String, f64)> =
+            ways.enumerate().map(|(b, speed)| (body_name(m, b), speed)).collect();
+        let turns = last.joints.iter().zip(&first.joints).map(|(to, from)| (to.0 - from.0).abs() / time);
+        list.extend(with_friction(m).zip(turns).map(|((_, _, dof), speed)| (joint_of_dof(m, dof), speed)));
+        list
+    }
+}
+
+/// Bodies that creep.
+fn bodies(m: &Model, half: &[Moment]) -> Vec<Fault> {
+    let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
+    let time = last.time - first.time;
+    let mut list = Vec::new();
+    let place = |i: usize, b: usize| half.get(i).and_then(|at| at.places.get(b)).copied().unwrap_or_default();
+    let way = |b: usize, from: usize, to: usize| norm(sub(place(to, b), place(from, b)));
+    let size = |b: usize| sizes(m, b);
+    let end = half.len() - 1;
+    // The scene rests when every body in it does.
+    let moves = |b: usize| m.body_treeid.get(b).is_some_and(|&t| t >= 0);
+    let path = |b: usize| (0..end).map(|i| way(b, i, i + 1)).sum::<f64>();
+    if (1..m.nbody).filter(|b| moves(*b)).any(|b| path(b) > RESTS * size(b) * time) {
+        return Vec::new();
+    }
+    for b in (1..m.nbody).filter(|b| moves(*b)) {
+        let rubs = half.iter().all(|at| at.rubs.get(b).copied().unwrap_or(false));
+        let all = way(b, 0, end);
+        let [one, two] =
+            [way(b, 0, end / 2) / (end / 2) as f64, way(b, end / 2, end) / (end - end / 2) as f64];
+        let even = (one - two).abs() <= EVEN * one.max(two);
+        if rubs && all > CREEPS * size(b) && all >= STRAIGHT * path(b) && even {
+            list.push(creep(body_name(m, b), first.time, all, time, "m"));
+        }
+    }
+    list
+}
+
+/// Joints that move on while their friction is less than it may be.
+fn joints(m: &Model, half: &[Moment]) -> Vec<Fault> {
+    let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
+    let mut list = Vec::new();
+    for (i, (j, _, dof)) in with_friction(m).enumerate() {
+        let at = |moment: &Moment| moment.joints.get(i).copied().unwrap_or((0.0, false));
+        let way = (at(last).0 - at(first).0).abs();
+        let path: f64 =
+            half.windows(2).map(|two| two.iter().map(|x| at(x).0).fold(0.0, |a, b| b - a).abs()).sum();
+        let slide = m.jnt_type.get(j) == Some(&joint::SLIDE);
+        let body = m.jnt_bodyid.get(j).map_or(0, |&b| b as usize);
+        let (least, unit) = if slide { (CREEPS * sizes(m, body), "m") } else { (ANGLE, "rad") };
+        if half.iter().all(|moment| at(moment).1) && way > least && way >= STRAIGHT * path {
+            list.push(creep(joint_of_dof(m, dof), first.time, way, last.time - first.time, unit));
+        }
+    }
+    list
+}
+
+/// Joints of one degree of freedom with friction loss: their number, and where their position and speed stand.
+fn with_friction(m: &Model) -> impl Iterator<Item = (usize, usize, usize)> {
+    let on = !m.opt.disabled(disable::FRICTIONLOSS) && !m.opt.disabled(disable::CONSTRAINT);
+    (0..m.njnt).filter(move |_| on).filter_map(|j| {
+        let single = matches!(m.jnt_type.get(j), Some(&(joint::HINGE | joint::SLIDE)));
+        let [qpos, dof] = [&m.jnt_qposadr, &m.jnt_dofadr].map(|list| list.get(j).map(|&at| at as usize));
+        let (qpos, dof) = (qpos?, dof?);
+        let loss = m.dof_frictionloss.get(dof).copied().unwrap_or(0.0);
+        (single && loss > 0.0).then_some((j, qpos, dof))
+    })
+}
+
+/// Whether the friction of a degree of freedom is less than it may be.
+fn held(d: &Fields, dof: usize) -> bool {
+    let row = (0..d.efc_type.len()).find(|&i| {
+        d.efc_type.get(i) == Some(&FRICTION_OF_DOF) && d.efc_id.get(i).is_some_and(|&id| id as usize == dof)
+    });
+    let value = |list: &[f64]| row.and_then(|i| list.get(i)).copied();
+    let (force, most) = (value(&d.efc_force), value(&d.efc_frictionloss));
+    force.zip(most).is_some_and(|(force, most)| force.abs() < HOLDS * most)
+}
+
+fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fault {
+    let speed = if unit == "m" { "m/s" } else { "rad/s" };
+    Fault {
+        kind: FaultKind::Drifts,
+        time: since,
+        who,
+        cause: "friction is soft: what it holds creeps, slowly and for ever".into(),
+        evidence: vec![
+            Evidence { name: "speed", value: way / time, unit: speed },
+            Evidence { name: "way", value: way, unit },
+            Evidence { name: "for", value: time, unit: "s" },
+        ],
+        size: way / time,
+        by_run: false,
+    }
+}
+
+/// The largest extent of a body, m.
+fn sizes(m: &Model, b: usize) -> f64 {
+    let own = (0..m.ngeom).filter(|&g| body_of(m, g) == b);
+    let largest = own.map(|g| 2.0 * halves(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
+    if largest > 0.0 { largest } else { m.stat.extent }
+}

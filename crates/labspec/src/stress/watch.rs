@@ -1,0 +1,350 @@
+//! What is looked at after every step of a run: whether bodies pass through each other or are deep in each other, contacts that
+//! switch on and off, and motion that leaves every bound. Nothing of the run is touched.
+
+use super::bodies::{self, body_of, body_thickness, geom_name, halves, seen_from, thickness};
+use super::fault::{Evidence, Fault, FaultKind};
+use super::ground::{self, Over};
+use super::rest::Rest;
+use super::wild::Wild;
+use labspec_core::math::{Vec3, rows, sub};
+use labspec_core::{Fields, Model, geom};
+
+/// Pairs of geoms that are watched for tunnelling, at most.
+pub(super) const MOST_PAIRS: usize = 2000;
+/// Pairs that touch, of which more is remembered, at most.
+const MOST_TOUCHING: usize = 500;
+/// The part of the smaller body's size that is deep, and for how long it has to be as deep, s: contacts give way for a moment wherever
+/// things meet fast.
+const DEEP: f64 = 0.3;
+const LASTS: f64 = 0.2;
+/// Steps of a block in which switching is counted, how many of them have to switch, and in how many blocks one after the other.
+const BLOCK: usize = 100;
+const MOST_OF_THEM: usize = 45;
+const BLOCKS: usize = 2;
+/// Bodies that move by less than this part of their size in a block are nearly at rest.
+const NEARLY: f64 = 0.02;
+
+/// What a run has shown so far.
+pub(super) struct RunMonitor {
+    pairs: Vec<Pair>,
+    grounds: Vec<Over>,
+    touching: Vec<TouchingPair>,
+    pub(super) wild: Wild,
+    pub(super) rest: Rest,
+    faults: Vec<Fault>,
+    steps: usize,
+    last: f64,
+    /// Places of bodies are written by a program: they may jump.
+    jumps: bool,
+}
+
+/// A geom and another one that it may not pass.
+struct Pair {
+    geoms: [usize; 2],
+    before: Option<Vec3>,
+    done: bool,
+}
+
+/// Two geoms that touched once.
+struct TouchingPair {
+    geoms: [usize; 2],
+    /// The thickness of the smaller body, m.
+    size: f64,
+    on: bool,
+    now: bool,
+    switches: usize,
+    blocks: usize,
+    /// How deep they are in each other now, since when that is deep, and the largest share.
+    depth_now: f64,
+    deep_since: Option<f64>,
+    deepest: f64,
+    depth: f64,
+    at: f64,
+    lasted: f64,
+    /// Where the first one was at the start of the block, seen from the second, and how far it has been from there.
+    from: Option<Vec3>,
+    moved: f64,
+    chatters: bool,
+}
+
+impl RunMonitor {
+    pub(super) fn new(m: &Model, jumps: bool) -> RunMonitor {
+        let pairs = if jumps { Vec::new() } else { bodies::pairs(m, MOST_PAIRS).0 };
+        RunMonitor {
+            pairs: pairs.into_iter().map(|geoms| Pair { geoms, before: None, done: false }).collect(),
+            grounds: if jumps { Vec::new() } else { ground::over(m, MOST_PAIRS) },
+            touching: Vec::new(),
+            wild: Wild::default(),
+            rest: Rest::default(),
+            faults: Vec::new(),
+            steps: 0,
+            last: f64::NEG_INFINITY,
+            jumps,
+        }
+    }
+
+    /// Something from outside moved bodies to where they are now: what was before says nothing of them.
+    pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
+        for pair in &mut self.pairs {
+            let [g, p] = pair.geoms;
+            pair.before = seen_from(&d.geom_xpos, &d.geom_xmat, g, p).filter(|_| !self.jumps);
+        }
+        self.grounds.iter_mut().for_each(|over| over.disturb(m, d));
+        for t in &mut self.touching {
+            (t.switches, t.blocks, t.from, t.deep_since) = (0, 0, None, None);
+        }
+        self.steps = 0;
+        self.wild.restart(m, d.time);
+        self.rest.restart();
+    }
+
+    /// After a step, or at the start.
+    pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
+        if d.time < self.last || self.jumps {
+            self.disturb(m, d);
+        }
+        self.last = d.time;
+        self.pass(m, d);
+        self.touch(m, d);
+        self.wild.observe(m, d);
+        self.rest.observe(m, d);
+    }
+
+    /// Bodies that are behind what they were before.
+    fn pass(&mut self, m: &Model, d: &Fields) {
+        let mut passed = Vec::new();
+        for pair in self.pairs.iter_mut().filter(|p| !p.done) {
+            let [g, p] = pair.geoms;
+            let Some(now) = seen_from(&d.geom_xpos, &d.geom_xmat, g, p) else { continue };
+            if let Some(before) = pair.before.replace(now)
+                && through(m, p, before, now)
+            {
+                pair.done = true;
+                self.faults.push(tunnelling(m, d, pair.geoms, before, now));
+                passed.push([p, g]);
+            }
+        }
+        self.faults.extend(self.grounds.iter_mut().filter_map(|over| over.observe(m, d)));
+        // Which of the two passed the other is one question.
+        for other in passed {
+            self.pairs.iter_mut().filter(|p| p.geoms == other).for_each(|p| p.done = true);
+        }
+    }
+
+    /// Contacts: how deep, and how often they switch.
+    fn touch(&mut self, m: &Model, d: &Fields) {
+        for contact in &d.contact {
+            let geoms = [contact.geom1, contact.geom2];
+            let i = match self.touching.iter().position(|t| t.geoms == geoms) {
+                Some(i) => i,
+                None if self.touching.len() < MOST_TOUCHING => {
+                    self.touching.push(TouchingPair::new(m, geoms));
+                    self.touching.len() - 1
+                }
+                None => continue,
+            };
+            if let Some(touch) = self.touching.get_mut(i) {
+                touch.now |= contact.efc_address.is_some();
+                touch.depth_now = touch.depth_now.max(-contact.dist);
+            }
+        }
+        self.steps += 1;
+        let ends = self.steps.is_multiple_of(BLOCK);
+        for touch in &mut self.touching {
+            touch.switches += usize::from(touch.now != touch.on);
+            (touch.on, touch.now) = (touch.now, false);
+            touch.deep(d.time);
+            let [g, p] = touch.geoms;
+            let place = seen_from(&d.geom_xpos, &d.geom_xmat, g, p);
+            if let (Some(from), Some(place)) = (touch.from, place) {
+                touch.moved = touch.moved.max(labspec_core::math::norm(sub(place, from)));
+            }
+            if ends {
+                let rests = touch.from.is_some() && touch.moved < NEARLY * touch.size;
+                touch.blocks = if touch.switches >= MOST_OF_THEM && rests { touch.blocks + 1 } else { 0 };
+                if touch.blocks >= BLOCKS && !touch.chatters {
+                    touch.chatters = true;
+                    self.faults.push(chatter(m, d, touch));
+                }
+                (touch.switches, touch.from, touch.moved) = (0, place, 0.0);
+            }
+        }
+    }
+
+    /// Geoms that touched.
+    pub(super) fn touching(&self) -> Vec<[usize; 2]> {
+        self.touching.iter().map(|t| t.geoms).collect()
+    }
+
+    /// Everything that was found, at the end.
+    pub(super) fn faults(mut self, m: &Model) -> Vec<Fault> {
+        let passed: Vec<Vec<usize>> =
+            self.pairs.iter().filter(|p| p.done).map(|p| p.geoms.to_vec()).collect();
+        let tunnels = |t: &&TouchingPair| !passed.iter().any(|p| t.geoms.iter().all(|g| p.contains(g)));
+        // Of several geoms of two bodies, the deepest.
+        let bodies = |t: &TouchingPair| t.geoms.map(|g| body_of(m, g));
+        let deeper = |t: &&TouchingPair| {
+            let others = self.touching.iter().filter(|o| bodies(o) == bodies(t));
+            others.fold(0.0f64, |most, o| most.max(o.deepest)) <= t.deepest
+        };
+        let deep = self.touching.iter().filter(|t| t.is_deep()).filter(tunnels).filter(deeper);
+        self.faults.extend(deep.map(|t| penetration(m, t)));
+        self.faults.extend(self.wild.fault(m));
+        self.faults.extend(self.rest.faults(m));
+        self.faults
+    }
+}
+
+impl TouchingPair {
+    fn new(m: &Model, geoms: [usize; 2]) -> TouchingPair {
+        TouchingPair {
+            geoms,
+            size: geoms.map(|g| body_thickness(m, body_of(m, g))).into_iter().fold(f64::INFINITY, f64::min),
+            on: false,
+            now: false,
+            switches: 0,
+            blocks: 0,
+            depth_now: 0.0,
+            deep_since: None,
+            deepest: 0.0,
+            depth: 0.0,
+            at: 0.0,
+            lasted: 0.0,
+            from: None,
+            moved: 0.0,
+            chatters: false,
+        }
+    }
+
+    /// After all contacts of a step.
+    fn deep(&mut self, time: f64) {
+        let depth = std::mem::take(&mut self.depth_now);
+        let share = depth / self.size;
+        if share > self.deepest {
+            (self.deepest, self.depth, self.at) = (share, depth, time);
+        }
+        if share > DEEP {
+            let since = *self.deep_since.get_or_insert(time);
+            self.lasted = self.lasted.max(time - since);
+        } else {
+            self.deep_since = None;
+        }
+    }
+
+    fn is_deep(&self) -> bool {
+        self.deepest > DEEP && self.lasted >= LASTS
+    }
+}
+
+/// Whether a centre that was at one place, and now is at another, has passed through a geom whose centre is the origin: through the
+/// ellipsoid inside it from without to without, or through the middle of a plate, from one face to the other.
+fn through(m: &Model, p: usize, from: Vec3, to: Vec3) -> bool {
+    let half = halves(m, p);
+    if half.iter().any(|h| *h <= 0.0) {
+        return false;
+    }
+    let [a, b]: [Vec3; 2] = [from, to].map(|x| std::array::from_fn(|k| x[k] / half[k]));
+    let length = |v: Vec3| v.iter().map(|x| x * x).sum::<f64>();
+    let along = sub(b, a);
+    let (square, inward) = (length(along), -(0..3).map(|k| a[k] * along[k]).sum::<f64>());
+    if square > 0.0 && length(a) > 1.0 && length(b) > 1.0 && (0.0..=square).contains(&inward) {
+        let nearest = length(a) - inward * inward / square;
+        // Where no more than its edge is cut, nothing is sure.
+        if nearest < 0.8 {
+            return true;
+        }
+    }
+    let thin = (0..3).min_by(|&i, &j| half[i].total_cmp(&half[j])).unwrap_or(0);
+    let others: Vec<usize> = (0..3).filter(|k| *k != thin).collect();
+    let plate = others.iter().all(|&k| half[k] >= 2.0 * half[thin]);
+    if !plate || a[thin] * b[thin] >= 0.0 {
+        return false;
+    }
+    let s = a[thin] / (a[thin] - b[thin]);
+    let cross = |k: usize| (a[k] + s * along[k]).abs();
+    match m.geom_type.get(p) {
+        Some(&geom::BOX) => others.iter().all(|&k| cross(k) < 0.98),
+        // A disc, or what is inside a hull at least.
+        _ => others.iter().map(|&k| cross(k).powi(2)).sum::<f64>() < 0.5,
+    }
+}
+
+fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -> Fault {
+    let h = m.opt.timestep;
+    let moves = |g: usize| m.body_treeid.get(body_of(m, g)).is_some_and(|&t| t >= 0);
+    let [g, p] = if moves(g) || !moves(p) { [g, p] } else { [p, g] };
+    let way = labspec_core::math::norm(sub(to, from));
+    let [thick, own] = [thickness(m, p), thickness(m, g)];
+    let cause = if way > thick + own {
+        format!(
+            "in one step of {} s it moves farther than both are thick: no step sees them touch",
+            crate::run::two_digits(h)
+        )
+    } else if way > thick {
+        "in one step it moves farther than the other is thick, and is pushed out on the far side".to_string()
+    } else {
+        "the contact is too weak to hold it: it is pressed to the other side".to_string()
+    };
+    Fault {
+        kind: FaultKind::Tunnels,
+        time: (d.time - h).max(0.0),
+        who: format!("{} through {}", geom_name(m, g), geom_name(m, p)),
+        cause,
+        evidence: vec![
+            Evidence { name: "way in one step", value: way, unit: "m" },
+            Evidence { name: "thickness of what it passes", value: thick, unit: "m" },
+            Evidence { name: "own thickness", value: own, unit: "m" },
+        ],
+        size: way / thick,
+        by_run: false,
+    }
+}
+
+fn penetration(m: &Model, t: &TouchingPair) -> Fault {
+    let [g, p] = t.geoms;
+    let solref = rows::<2>(&m.geom_solref);
+    let [time, _] =
+        [g, p].iter().filter_map(|&g| solref.get(g)).fold([0.0; 2], |a, b| if b[0] > a[0] { *b } else { a });
+    let mass = |g: usize| m.body_mass.get(body_of(m, g)).copied().unwrap_or(0.0);
+    let ratio = (mass(g) / mass(p)).max(mass(p) / mass(g));
+    let cause = if t.at <= m.opt.timestep {
+        "they overlap at the start".to_string()
+    } else if ratio.is_finite() && ratio > 100.0 {
+        format!("one is {} times as heavy as the other", crate::run::two_digits(ratio))
+    } else {
+        format!("the contact is soft: its time constant is {} s", crate::run::two_digits(time))
+    };
+    Fault {
+        kind: FaultKind::Penetrates,
+        time: t.at,
+        who: format!("{} and {}", geom_name(m, g), geom_name(m, p)),
+        cause,
+        evidence: vec![
+            Evidence { name: "depth", value: t.depth, unit: "m" },
+            Evidence { name: "size of the smaller one", value: t.size, unit: "m" },
+            Evidence { name: "share", value: t.deepest, unit: "" },
+            Evidence { name: "lasts", value: t.lasted, unit: "s" },
+        ],
+        size: t.deepest,
+        by_run: false,
+    }
+}
+
+fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
+    let [g, p] = t.geoms;
+    let cause = super::case::likely(m).unwrap_or_else(|| {
+        format!("the contact is too hard or too little damped for a step of {} s", m.opt.timestep)
+    });
+    Fault {
+        kind: FaultKind::Chatters,
+        time: d.time - (BLOCK * BLOCKS) as f64 * m.opt.timestep,
+        who: format!("{} on {}", geom_name(m, g), geom_name(m, p)),
+        cause,
+        evidence: vec![
+            Evidence { name: "switches in 100 steps", value: t.switches as f64, unit: "" },
+            Evidence { name: "moves meanwhile", value: t.moved, unit: "m" },
+        ],
+        size: t.switches as f64,
+        by_run: false,
+    }
+}

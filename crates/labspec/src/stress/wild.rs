@@ -1,0 +1,131 @@
+//! Motion that leaves every bound without a warning.
+//!
+//! Where forces are bounded, speed grows no faster than in proportion to time: in twice the time it doubles. What is unstable grows
+//! exponentially. Speed counts as wild when it is a hundred times all that gravity and the start can give in a scene of this size, when
+//! it became ten times larger in the second half of the time since the last change from outside, and when it never stops growing:
+//! from where it was sensible to the end of the run, every eighth of the time is faster than all before. What is bounded, as a
+//! limit cycle however fast, does not run away.
+
+use super::fault::{Evidence, Fault, FaultKind};
+use super::memory::Memory;
+use labspec_core::math::norm;
+use labspec_core::{Fields, Model, joint};
+
+const FAR: f64 = 100.0;
+const FASTER: f64 = 10.0;
+/// Parts of the time, and how much faster each is at least.
+const PARTS: usize = 8;
+const MORE: f64 = 1.02;
+/// Looks between two entries of the memory.
+const EVERY: usize = 8;
+/// Entries that are kept before every second one is forgotten.
+const MOST: usize = 256;
+
+/// The memory of a run.
+#[derive(Debug)]
+pub(super) struct Wild {
+    start: f64,
+    /// Times, and the largest speeds up to then: of slides and of turns.
+    memory: Memory<(f64, [f64; 2])>,
+    largest: [f64; 2],
+    /// The largest speeds at the start.
+    first: Option<[f64; 2]>,
+    /// Since when something is wild, the degree of freedom, its largest speed, and the bound.
+    found: Option<(f64, usize, f64, f64)>,
+    /// The same of what has run away before a change from outside.
+    sure: Option<(f64, usize, f64, f64)>,
+}
+
+impl Default for Wild {
+    fn default() -> Wild {
+        let memory = Memory::new(EVERY, MOST);
+        Wild { start: 0.0, memory, largest: [0.0; 2], first: None, found: None, sure: None }
+    }
+}
+
+impl Wild {
+    pub(super) fn restart(&mut self, m: &Model, time: f64) {
+        *self = Wild { start: time, sure: self.ran_away(m), ..Wild::default() };
+    }
+
+    /// What never stopped growing.
+    fn ran_away(&self, m: &Model) -> Option<(f64, usize, f64, f64)> {
+        let grows = |(_, dof, _, bound): &(f64, usize, f64, f64)| {
+            let kind = usize::from(!slides(m, *dof));
+            let past = self.memory.past().iter().map(|(_, largest)| largest[kind]);
+            let speeds: Vec<f64> = past.chain([self.largest[kind]]).filter(|v| FAR * v > *bound).collect();
+            let last = speeds.len().saturating_sub(1);
+            let at = |part: usize| speeds.get(part * last / PARTS).copied().unwrap_or(f64::INFINITY);
+            last < PARTS || (0..PARTS).all(|part| at(part + 1) > MORE * at(part))
+        };
+        self.sure.or(self.found.filter(grows))
+    }
+
+    pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
+        let mut now = [(0.0f64, 0usize); 2];
+        for (dof, v) in d.qvel.iter().enumerate() {
+            let kind = usize::from(!slides(m, dof));
+            if v.abs() > now[kind].0 {
+                now[kind] = (v.abs(), dof);
+            }
+        }
+        let first = *self.first.get_or_insert([now[0].0, now[1].0]);
+        for k in 0..2 {
+            self.largest[k] = self.largest[k].max(now[k].0);
+        }
+        self.memory.observe(|| (d.time, self.largest));
+        if let Some((_, dof, speed, _)) = &mut self.found {
+            *speed = speed.max(d.qvel.get(*dof).map_or(0.0, |v| v.abs()));
+            return;
+        }
+        for k in 0..2 {
+            let (speed, dof) = now[k];
+            let bound = FAR * (first[k] + sensible(m)[k]);
+            if speed > bound {
+                let half = self.start + 0.5 * (d.time - self.start);
+                let past = self.memory.past();
+                let before = past.partition_point(|(t, _)| *t <= half);
+                let early = before.checked_sub(1).and_then(|i| past.get(i)).map_or(first, |(_, v)| *v);
+                if speed > FASTER * early[k] {
+                    self.found = Some((d.time, dof, speed, bound));
+                    return;
+                }
+            }
+        }
+    }
+
+    pub(super) fn fault(&self, m: &Model) -> Option<Fault> {
+        let (time, dof, speed, bound) = self.ran_away(m)?;
+        let unit = if slides(m, dof) { "m/s" } else { "rad/s" };
+        Some(Fault {
+            kind: FaultKind::Silent,
+            time,
+            who: super::case::joint_of_dof(m, dof),
+            cause: super::case::likely(m)
+                .unwrap_or_else(|| "it grows exponentially, and nobody warned".into()),
+            evidence: vec![
+                Evidence { name: "speed", value: speed, unit },
+                Evidence { name: "sensible bound", value: bound, unit },
+            ],
+            size: speed / bound,
+            by_run: false,
+        })
+    }
+}
+
+/// Speeds that a fall through the whole scene gives, of a slide and of a turn.
+fn sensible(m: &Model) -> [f64; 2] {
+    let (g, extent) = (norm(m.opt.gravity).max(1.0), m.stat.extent.max(1e-3));
+    [(2.0 * g * extent).sqrt(), (2.0 * g / extent).sqrt() + 10.0]
+}
+
+/// Whether a degree of freedom is a length.
+fn slides(m: &Model, dof: usize) -> bool {
+    let Some(&j) = m.dof_jntid.get(dof) else { return true };
+    let first = m.jnt_dofadr.get(j as usize).map_or(0, |&a| a as usize);
+    match m.jnt_type.get(j as usize) {
+        Some(&joint::SLIDE) => true,
+        Some(&joint::FREE) => dof < first + 3,
+        _ => false,
+    }
+}

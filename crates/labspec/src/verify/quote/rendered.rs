@@ -1,0 +1,264 @@
+//! The text of a lesson that a reader sees: prose, headings, cells, captions, printed output, and the shown texts of
+//! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
+
+use super::denial::is_denied;
+use super::places::{MAX_PLACES, Readable, Search};
+use super::table::Table;
+use super::{QuotePlace, fold, html, prose, stated};
+use crate::run::Cell;
+use crate::source::{SourceMap, Text};
+use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind, Verify};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Where the quotes of a lesson stand in what is shown of it. Made once for a lesson.
+#[derive(Debug, Default)]
+pub struct ShownText {
+    places: BTreeMap<String, Vec<QuotePlace>>,
+    /// Where a quote stands that no reader sees: in code, a key, a listing.
+    hidden: BTreeMap<String, Range<usize>>,
+    /// The tables, where something is claimed of one.
+    tables: Vec<Table>,
+}
+
+/// Most quotes of words alone that are looked for: each is a walk through the text.
+const MAX_WORDS: usize = 200;
+
+/// Most quotes that are looked for where nobody sees them: each is a walk through the file.
+const MAX_HIDDEN: usize = 16;
+
+/// A piece of text that is shown apart from others.
+#[derive(Debug)]
+pub(super) struct Piece {
+    pub(super) text: Text,
+    /// It holds tags and entities.
+    pub(super) html: bool,
+}
+
+impl ShownText {
+    /// Looks for all quotes of a lesson.
+    pub fn of(lesson: &Lesson) -> ShownText {
+        let file = lesson.file.text();
+        let mut search = Search::new();
+        let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+        for verify in lesson.verifies() {
+            for said in &verify.says {
+                let quote = said.quote.as_str();
+                numbers.entry(quote).or_insert_with(|| search.add(quote));
+            }
+        }
+        let tabled = lesson.verifies().any(|verify| !verify.table.is_empty());
+        let tables = if tabled { prose::tables(lesson) } else { Vec::new() };
+        let mut shown = ShownText { tables, ..ShownText::default() };
+        if numbers.is_empty() {
+            return shown;
+        }
+        let wordy: Vec<&str> = numbers.keys().copied().filter(|q| !has_number(q)).take(MAX_WORDS).collect();
+        let (text, map) = join(pieces(lesson), !wordy.is_empty());
+        search.walk(&text);
+        let sliders = at_sliders(lesson, &numbers);
+        for (&quote, &number) in &numbers {
+            let words = if wordy.contains(&quote) { words(&text.flat, quote) } else { Vec::new() };
+            let found = search.found(number).iter().map(|f| (f.bytes.clone(), f.unit.clone()));
+            let place = |(bytes, unit)| {
+                let at = lesson.file.snap(&map.span(bytes));
+                // A number in a cell has the unit of its column.
+                let of_column = || stated::unit_of_column(file, at.start);
+                let unit = if has_number(quote) { Option::or_else(unit, of_column) } else { None };
+                QuotePlace { at, unit }
+            };
+            let mut places: Vec<_> = found.chain(words.into_iter().map(|at| (at, None))).map(place).collect();
+            if places.is_empty() {
+                places.extend(sliders.get(quote).map(|at| QuotePlace { at: at.clone(), unit: None }));
+            }
+            places.sort_by_key(|p| (p.at.start, p.at.end));
+            places.dedup();
+            if places.is_empty() && shown.hidden.len() < MAX_HIDDEN {
+                let place = unseen(quote, file, lesson);
+                shown.hidden.extend(place.map(|place| (quote.to_string(), place)));
+            }
+            shown.places.insert(quote.to_string(), places);
+        }
+        shown
+    }
+
+    /// The bytes of the file at which a quote stands as a number of its own.
+    pub fn places(&self, quote: &str) -> Vec<Range<usize>> {
+        self.found(quote).iter().map(|p| p.at.clone()).collect()
+    }
+
+    /// The same with the units that the text has there.
+    pub(in crate::verify) fn found(&self, quote: &str) -> &[QuotePlace] {
+        self.places.get(quote).map_or(&[], Vec::as_slice)
+    }
+
+    /// What of the quotes and tables of one object stands within some bytes of the file.
+    pub fn within(&self, block: &Range<usize>, verify: &Verify) -> ShownText {
+        let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
+        let places = verify.says.iter().map(|said| {
+            let quote = said.quote.as_str();
+            (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.at)).cloned().collect())
+        });
+        let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
+        let tables = self.tables.iter().filter(|_| !verify.table.is_empty()).filter(begins);
+        ShownText { places: places.collect(), hidden: BTreeMap::new(), tables: tables.cloned().collect() }
+    }
+
+    /// The tables that have these columns.
+    pub(super) fn tables<'t>(&'t self, headings: &'t [&str]) -> impl Iterator<Item = &'t Table> {
+        self.tables.iter().filter(move |table| headings.iter().all(|h| table.column(h).is_some()))
+    }
+
+    /// How many cells the tables have together.
+    pub(in crate::verify) fn cells(&self) -> usize {
+        self.tables.iter().map(|table| table.head.len() * (1 + table.rows.len())).sum()
+    }
+
+    /// The headings of all tables.
+    pub(super) fn headings(&self) -> impl Iterator<Item = &str> {
+        self.tables.iter().flat_map(|table| &table.head).map(|cell| cell.text.as_str())
+    }
+
+    /// Where it stands instead, when it stands only where no reader sees it.
+    pub(super) fn hidden(&self, quote: &str) -> Option<Range<usize>> {
+        self.hidden.get(quote).cloned()
+    }
+}
+
+/// Quotes that a slider shows at first, with its unit: `0.010 s`. Only asked where nothing else says them.
+fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMap<&'q str, Range<usize>> {
+    let folded = |text: &str| fold::fold(&html::strip(text).0, true).0;
+    let wanted: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
+    let labs = lesson.addressed().into_iter();
+    let shown = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
+        let ControlKind::Slider { unit, value, .. } = &control.kind else { return None };
+        let number = Cell::Number(value.value).shown(control.digits()?);
+        let text = unit.as_ref().map_or(number.clone(), |unit| format!("{number} {}", unit.as_str()));
+        Some((*wanted.get(&folded(&text))?, value.span.clone()))
+    });
+    shown.collect()
+}
+
+/// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.
+fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
+    if quote.is_empty() {
+        return None;
+    }
+    let own: Vec<Range<usize>> = lesson.verifies().map(|v| v.span.clone()).collect();
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit() || c == '.');
+    let mut found = file.match_indices(quote).take(1000).map(|(i, _)| i..i + quote.len());
+    found.find(|r| {
+        let before = file.get(..r.start).and_then(|t| t.chars().next_back());
+        let after = file.get(r.end..).and_then(|t| t.chars().next());
+        let claimed = own.iter().any(|o| o.start <= r.start && r.end <= o.end);
+        let goes_on = digit(before) && digit(quote.chars().next());
+        !(claimed || goes_on || digit(after) && digit(quote.chars().next_back()))
+    })
+}
+
+/// Whether a text holds a number. `&frac12;` and `&#49;` are numbers, too.
+fn has_number(text: &str) -> bool {
+    text.contains(|c: char| c.is_numeric()) || text.contains("&frac")
+}
+
+/// Where words without a number stand: whole words.
+fn words(text: &str, quote: &str) -> Vec<Range<usize>> {
+    let (shown, _) = html::strip(quote);
+    let wanted = fold::fold(&shown, true).0.trim_matches('\n').to_string();
+    if wanted.trim().is_empty() {
+        return Vec::new();
+    }
+    let goes_on =
+        |a: Option<char>, b: Option<char>| [a, b].iter().all(|c| c.is_some_and(char::is_alphanumeric));
+    let found = text.match_indices(&wanted).map(|(at, found)| at..at + found.len());
+    let own = |r: &Range<usize>| {
+        let [before, after] = [text.get(..r.start).unwrap_or(""), text.get(r.end..).unwrap_or("")];
+        !goes_on(before.chars().next_back(), wanted.chars().next())
+            && !goes_on(wanted.chars().next_back(), after.chars().next())
+            && !is_denied(before)
+    };
+    found.filter(own).take(MAX_PLACES).collect()
+}
+
+/// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
+/// number; `words` takes them, too.
+fn join(pieces: Vec<Piece>, words: bool) -> (Readable, SourceMap) {
+    let (mut all, mut chars, mut map) = (String::new(), Vec::new(), SourceMap::default());
+    for piece in pieces {
+        if !words && !has_number(&piece.text.value) {
+            continue;
+        }
+        let mut back = piece.text.map;
+        let mut text = piece.text.value;
+        if piece.html {
+            let (shown, inner) = html::strip(&text);
+            (text, back) = (shown, inner.then(&back));
+        }
+        let (folded, inner) = fold::fold(&text, true);
+        let at = back.span(0..0).start;
+        all.push_str(&folded);
+        chars.extend(fold::fold(&text, false).0.chars());
+        chars.push('\n');
+        for part in inner.then(&back).pieces() {
+            if part.verbatim {
+                map.push_verbatim(part.origin.clone());
+            } else {
+                map.push_whole(part.derived.len(), part.origin.clone());
+            }
+        }
+        all.push('\n');
+        map.push_whole(1, at..at);
+    }
+    (Readable::new(all, &chars), map)
+}
+
+pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
+    let mut all = prose::pieces(lesson);
+    for (_, lab) in lesson.addressed() {
+        lab_texts(lab, &mut all);
+    }
+    for quiz in &lesson.quizzes {
+        plain(&quiz.title, &mut all);
+        for (_, question) in quiz.numbered() {
+            question_texts(question, &mut all);
+        }
+    }
+    all
+}
+
+fn plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Piece>) {
+    all.extend(texts.into_iter().map(|text| Piece { text: text.clone(), html: false }));
+}
+
+fn question_texts(question: &Question, all: &mut Vec<Piece>) {
+    plain(&question.label, all);
+    if let QuestionKind::Numeric { unit, .. } = &question.kind {
+        plain(unit, all);
+    }
+    all.extend(question.html().into_iter().map(|text| Piece { text: text.clone(), html: true }));
+}
+
+fn lab_texts(lab: &Lab, all: &mut Vec<Piece>) {
+    plain(lab.title.iter().chain(&lab.kind), all);
+    all.extend(lab.note.iter().map(|text| Piece { text: text.clone(), html: true }));
+    lab.controls.iter().for_each(|control| control_texts(control, all));
+    for plot in &lab.plots {
+        plain(plot.ylabel.iter().chain(&plot.xlabel), all);
+        plain(plot.ref_lines.iter().filter_map(|line| line.label.as_ref()), all);
+        plain(plot.traces.iter().map(|trace| &trace.label), all);
+    }
+    plain(lab.readouts.iter().map(|readout| &readout.label), all);
+}
+
+fn control_texts(control: &Control, all: &mut Vec<Piece>) {
+    plain([&control.label], all);
+    match &control.kind {
+        ControlKind::Slider { unit, .. } => plain(unit, all),
+        ControlKind::Select { options, .. } => plain(options.iter().map(|choice| &choice.text), all),
+        ControlKind::Button { .. } => {}
+    }
+}
+
+#[cfg(test)]
+#[path = "shown_tests.rs"]
+mod tests;

@@ -1,0 +1,285 @@
+//! What a run runs: a lab with its model and programs, as the lesson has it, or changed as the run says.
+
+use super::runner::Made;
+use crate::bind::Programs;
+use crate::bind::scene::Models;
+use crate::finding::Finding;
+use crate::json::{Scalar, nearest, read::named};
+use crate::rules;
+use crate::run::Held;
+use crate::source::Text;
+use crate::spec::{Lab, Run, Sweep};
+use labspec_core::xml::Patch;
+use labspec_core::{Model, Obj};
+use std::borrow::Cow;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A lab with its model and programs.
+#[derive(Clone, Debug)]
+pub struct BoundLab<'a> {
+    /// The lab.
+    pub lab: Cow<'a, Lab>,
+    /// Its model.
+    pub model: Arc<Model>,
+    /// Its programs.
+    pub programs: Held<'a>,
+    /// Which model the lab of the lesson has.
+    origin: u64,
+    /// The changes of its model, with their places.
+    pub(super) patches: Vec<(Patch, Range<usize>)>,
+    /// A change of its model left behind what belongs to a parameter.
+    pub(super) left_behind: bool,
+    /// What was changed in the lab of the lesson, told apart from every other change; empty for nothing.
+    changes: String,
+}
+
+impl<'a> BoundLab<'a> {
+    /// A lab as the lesson has it.
+    pub fn of(lab: &'a Lab, model: &Arc<Model>, programs: &'a Programs) -> BoundLab<'a> {
+        BoundLab {
+            lab: Cow::Borrowed(lab),
+            model: model.clone(),
+            programs: Held::Lent(programs),
+            origin: model.identity(),
+            patches: Vec::new(),
+            left_behind: false,
+            changes: String::new(),
+        }
+    }
+
+    /// Whether it is the same lab with the same changes.
+    pub(super) fn is(&self, other: &BoundLab<'_>) -> bool {
+        self.origin == other.origin && self.lab.span == other.lab.span && self.changes == other.changes
+    }
+}
+
+/// The work that the runs of all `verify` objects of a lesson may do together.
+const WORK: u64 = 12_000_000_000;
+
+/// What the `verify` objects of a lesson share: changed labs, each made once, and runs, each made once, within one budget.
+#[derive(Debug)]
+pub struct Stage<'a> {
+    models: &'a Models,
+    changed: RefCell<Vec<BoundLab<'static>>>,
+    runs: RefCell<BTreeMap<String, Made>>,
+    left: Cell<u64>,
+    /// A run since this was asked last left something behind.
+    left_behind: Cell<bool>,
+}
+
+impl<'a> Stage<'a> {
+    /// With the models that labs name.
+    pub fn new(models: &'a Models) -> Stage<'a> {
+        Stage {
+            models,
+            changed: RefCell::default(),
+            runs: RefCell::default(),
+            left: Cell::new(WORK),
+            left_behind: Cell::new(false),
+        }
+    }
+
+    /// The text of the model of a lab, with its changes.
+    pub(super) fn written(&self, scene: &BoundLab<'_>) -> Option<String> {
+        let patches: Vec<Patch> = scene.patches.iter().map(|(p, _)| p.clone()).collect();
+        self.models.written(&scene.lab, &patches)
+    }
+
+    /// What came of a run that was made before.
+    pub(super) fn known(&self, run: &str) -> Option<Made> {
+        self.runs.borrow().get(run).cloned()
+    }
+
+    /// Keeps what came of a run.
+    pub(super) fn keep(&self, run: String, made: &Made) {
+        self.runs.borrow_mut().insert(run, made.clone());
+    }
+
+    /// Notes whether a run left behind what belongs to a parameter.
+    pub(super) fn note(&self, left_behind: bool) {
+        self.left_behind.set(self.left_behind.get() || left_behind);
+    }
+
+    /// Whether a run since this was asked last left behind what belongs to a parameter, as far as programs observe that.
+    pub(crate) fn take_left_behind(&self) -> bool {
+        self.left_behind.take()
+    }
+
+    /// The work that is left.
+    pub(super) fn left(&self) -> u64 {
+        self.left.get()
+    }
+
+    /// Takes work from what is left.
+    pub(super) fn spend(&self, work: u64) {
+        self.left.set(self.left.get().saturating_sub(work));
+    }
+
+    /// The lab of a run, changed as the run says; one for each member of a sweep. What cannot be changed goes to `findings`.
+    pub fn of_run<'s>(
+        &self,
+        base: &BoundLab<'s>,
+        run: &Run,
+        findings: &mut Vec<Finding>,
+    ) -> Option<Vec<BoundLab<'s>>> {
+        let patches: Vec<(Patch, Range<usize>)> = run
+            .model
+            .iter()
+            .map(|c| (Patch { path: c.path.value.clone(), value: c.value.clone() }, c.path.span()))
+            .collect();
+        let key = match &run.key {
+            Some(key) => Some(keyframe(&base.model, key, findings)?),
+            None => None,
+        };
+        let controller = run.controller.as_ref();
+        let Some(Sweep { what, values }) = &run.sweep else {
+            return Some(vec![self.changed(base, &patches, key, controller, findings)?]);
+        };
+        if base.lab.control(&what.value).is_some() {
+            let scene = self.changed(base, &patches, key, controller, findings)?;
+            return Some(vec![scene; values.len()]);
+        }
+        if let Some(unknown) = misspelt(&base.lab, what) {
+            findings.push(unknown);
+            return None;
+        }
+        let with = |x: &f64| {
+            let own = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
+            let patches: Vec<_> = patches.iter().cloned().chain([own]).collect();
+            self.changed(base, &patches, key, controller, findings)
+        };
+        values.iter().map(with).collect()
+    }
+
+    /// A lab with changes of its model, another keyframe, another controller.
+    pub(super) fn changed<'s>(
+        &self,
+        base: &BoundLab<'s>,
+        patches: &[(Patch, Range<usize>)],
+        key: Option<usize>,
+        controller: Option<&Text>,
+        findings: &mut Vec<Finding>,
+    ) -> Option<BoundLab<'s>> {
+        if patches.is_empty() && key.is_none() && controller.is_none() {
+            return Some(base.clone());
+        }
+        let patches: Vec<_> = base.patches.iter().chain(patches).cloned().collect();
+        let list: Vec<&Patch> = patches.iter().map(|(p, _)| p).collect();
+        let text = controller.map(|c| &c.value);
+        let changes = format!("{}{list:?} {key:?} {text:?}", base.changes);
+        let wanted = BoundLab { changes, patches: patches.clone(), ..base.clone() };
+        if let Some(known) = self.changed.borrow().iter().find(|made| made.is(&wanted)) {
+            return Some(known.clone());
+        }
+        let lab = Lab {
+            key: key
+                .map_or(base.lab.key.clone(), |k| Some(crate::json::Number { value: k as f64, span: 0..0 })),
+            controller: match controller {
+                Some(own) => Some(own.clone()).filter(|own| !own.value.trim().is_empty()),
+                None => base.lab.controller.clone(),
+            },
+            ..base.lab.clone().into_owned()
+        };
+        let model =
+            if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
+        let observed = &base.programs.observed;
+        let left = observed.as_ref().is_some_and(|o| o.is_left_by_change(&base.model, &model));
+        let model = match &base.programs.coupled {
+            Some(coupled) => {
+                let mut corrected = (*model).clone();
+                coupled.changed(&base.model, &mut corrected);
+                Arc::new(corrected)
+            }
+            None => model,
+        };
+        let mut told = Vec::new();
+        let mut programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut told);
+        if let Some(coupled) = &base.programs.coupled {
+            coupled.clone().install(&mut programs, &model);
+        }
+        programs.observed.clone_from(observed);
+        // What is wrong with the rest of the lab has been told.
+        let own = |f: &Finding| controller.is_some_and(|c| inside(&f.span, &c.span()));
+        let before = findings.len();
+        findings.extend(told.into_iter().filter(own));
+        let good = controller.is_none() || lab.controller.is_none() || programs.controller.is_some();
+        if !good {
+            if findings.len() == before {
+                findings.extend(controller.map(|c| cannot(c.span(), "its controller has mistakes".into())));
+            }
+            return None;
+        }
+        let programs = Held::Shared(Arc::new(programs));
+        let left_behind = base.left_behind || left;
+        let scene = BoundLab { lab: Cow::Owned(lab), model, programs, left_behind, ..wanted };
+        self.changed.borrow_mut().push(scene.clone());
+        Some(scene)
+    }
+
+    fn model(
+        &self,
+        lab: &Lab,
+        patches: &[(Patch, Range<usize>)],
+        findings: &mut Vec<Finding>,
+    ) -> Option<Arc<Model>> {
+        let list: Vec<Patch> = patches.iter().map(|(p, _)| p.clone()).collect();
+        match self.models.changed(lab, &list) {
+            Ok(model) => Some(model),
+            Err((which, refusal)) => {
+                let (_, place) = which.map_or(patches.last(), |i| patches.get(i))?;
+                let finding = cannot(place.clone(), refusal.message);
+                findings.push(if refusal.help.is_empty() { finding } else { finding.help(refusal.help) });
+                None
+            }
+        }
+    }
+}
+
+/// What is wrong with a name that is no attribute of a model and nearly that of a control.
+pub(super) fn misspelt(lab: &Lab, what: &Text) -> Option<Finding> {
+    let right = nearest(&what.value, lab.controls.iter().map(|c| c.label.as_str()))?;
+    let message = format!("the lab has no control {}", named(&what.value));
+    Some(cannot(what.span(), message).help(format!("did you mean `{right}`?")))
+}
+
+fn inside(span: &Range<usize>, of: &Range<usize>) -> bool {
+    of.start <= span.start && span.end <= of.end
+}
+
+fn cannot(place: Range<usize>, message: String) -> Finding {
+    Finding::error(rules::RUN_IMPOSSIBLE, place, format!("the run cannot be made: {message}"))
+}
+
+/// The index of a keyframe.
+fn keyframe(model: &Model, key: &Scalar, findings: &mut Vec<Finding>) -> Option<usize> {
+    let names = || model.names.of(Obj::Key).iter().map(String::as_str).filter(|n| !n.is_empty());
+    let message = match key {
+        Scalar::Number(n) if n.value >= 0.0 && n.value.fract() == 0.0 && (n.value as usize) < model.nkey => {
+            return Some(n.value as usize);
+        }
+        Scalar::Text(t) => match model.names.id(Obj::Key, &t.value) {
+            Some(i) => return Some(i),
+            None => format!("the model has no keyframe {}", named(&t.value)),
+        },
+        Scalar::Number(n) => format!("the model has no keyframe {}", n.value),
+        Scalar::Bool(..) => "a keyframe is a name or an index".to_string(),
+    };
+    let finding = cannot(key.span(), message);
+    let near = match key {
+        Scalar::Text(t) => nearest(&t.value, names()),
+        _ => None,
+    };
+    let list: Vec<&str> = names().take(12).collect();
+    findings.push(match (near, model.nkey) {
+        (Some(right), _) => finding.help(format!("did you mean `{right}`?")),
+        (None, 0) => finding.help("the model has no keyframes"),
+        (None, n) if list.is_empty() => {
+            finding.help(format!("its keyframes have the indexes 0 to {}", n - 1))
+        }
+        (None, _) => finding.help(format!("its keyframes are {}", list.join(", "))),
+    });
+    None
+}

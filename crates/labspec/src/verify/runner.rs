@@ -1,0 +1,293 @@
+//! One run of a `verify` object: the order of events of its lab, then its own controls and setup, and what is measured in it.
+
+use super::bound::{BoundRun, BoundScene, Named};
+use super::measure::{Measure, Sampled};
+use super::reads;
+use super::run_cache::Stage;
+use crate::bind::{include, scalar};
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::rules;
+use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session, StepVariant};
+use labspec_core::Model;
+use labspec_core::reflect::{FieldId, option};
+use labspec_expr::{Effects, Program, Value, Watch};
+use std::ops::{ControlFlow, Range};
+
+/// Most steps of one run of a `verify` object.
+const MAX_VERIFY_STEPS: usize = 2_000_000;
+
+/// What is asked for: a run under some numerics, and the measures of it.
+pub(super) struct Asked<'r, 'a> {
+    pub(super) scene: &'r BoundScene<'a>,
+    pub(super) run: &'r BoundRun<'a>,
+    pub(super) numerics: StepVariant,
+    pub(super) measures: &'r [&'r Named<'r>],
+    /// Where to tell what is wrong with the run.
+    pub(super) place: Range<usize>,
+}
+
+/// What came of one run.
+#[derive(Clone, Debug)]
+pub(crate) struct Made {
+    pub(super) values: Vec<Sampled>,
+    /// Number of warnings of the engine.
+    pub(super) warnings: usize,
+    /// What broke in it.
+    pub(super) broke: Option<String>,
+    /// A program of it, or a change of its model, left behind what belongs to a parameter.
+    pub(super) left_behind: bool,
+}
+
+/// Makes a run, unless the same was made before: then what came of it is known, and was told.
+pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+    // What the lesson states is not another numerics for it; a run that states its timestep is about the numerics.
+    let (timestep, integrator) = (
+        states(asked.scene, asked.run, option::timestep),
+        states(asked.scene, asked.run, option::integrator),
+    );
+    let StepVariant { timestep: shorter, integrator: other, .. } = asked.numerics;
+    let numerics = StepVariant {
+        timestep: if timestep { 1.0 } else { shorter },
+        integrator: other.filter(|_| !timestep && !integrator),
+        ..asked.numerics
+    };
+    let asked = &Asked { numerics, place: asked.place.clone(), ..*asked };
+    let key = key(asked);
+    if let Some(known) = stage.known(&key) {
+        stage.note(known.left_behind);
+        return Some(known);
+    }
+    let made = make(asked, stage, findings)?;
+    stage.note(made.left_behind);
+    stage.keep(key, &made);
+    Some(made)
+}
+
+/// Everything that the outcome of a run depends on, as a text.
+fn key(asked: &Asked<'_, '_>) -> String {
+    let Asked { scene, run, numerics, measures, .. } = asked;
+    let lab = &scene.scene.lab;
+    let texts: Vec<&str> = measures.iter().map(|m| m.text.as_str()).collect();
+    let own = run.spec.map(|spec| {
+        let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
+        let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
+        let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
+        let control = run.control.map(|(label, x)| (label.as_str(), x));
+        let code = [&spec.setup, &spec.stop].map(|t| t.as_ref().map(|t| t.as_str()));
+        format!("{set:?} {control:?} {press:?} {length:?} {code:?}")
+    });
+    let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
+    format!("{labs} {own:?} {numerics:?} {texts:?}")
+}
+
+/// A run that is set up, and how it is played.
+pub(super) struct Ready<'r> {
+    pub(super) session: Session<'r>,
+    /// Buttons by index, and when they are pressed.
+    pub(super) press: Vec<(usize, f64)>,
+    /// Number of steps.
+    pub(super) count: usize,
+    /// The time (s) at which a NaN decided whether it stops: it ended there, and nobody knows where it should have.
+    pub(super) open: Option<f64>,
+}
+
+/// Sets a run up: its controls, its setup, its length. What cannot be goes to `findings`.
+pub(super) fn ready<'r>(
+    asked: &Asked<'r, '_>,
+    stage: &Stage<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<Ready<'r>> {
+    let Asked { scene: bound, run, numerics, place, .. } = asked;
+    let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
+    let demand = demand(asked);
+    let budget = Budget { left: stage.left() };
+    let mut session = Session::start_within(
+        bound.scene.programs.clone(),
+        &bound.scene.model,
+        lab.keyframe(),
+        &demand,
+        budget,
+    );
+    let mut refuse_at = |place: Range<usize>, e: RunError| {
+        let message = format!("the run {} cannot be made: {e}", named(run.name));
+        findings.push(Finding::error(rules::RUN_IMPOSSIBLE, place, message));
+    };
+    set(&mut session, bound, run).map_err(|(at, e)| refuse_at(at, e)).ok()?;
+    let mut press = Vec::new();
+    let (mut until, mut steps) = (None, None);
+    if let Some(spec) = run.spec {
+        let list: Vec<_> = spec.press.iter().map(|(label, t)| (label.value.clone(), t.value)).collect();
+        press = run::presses(programs, &list).map_err(|e| refuse_at(place.clone(), e)).ok()?;
+        until = spec.until.as_ref().map(|n| n.value);
+        // As many steps as reach as far.
+        steps = spec.steps.as_ref().map(|n| (n.value.max(0.0) / numerics.timestep).round() as usize);
+    }
+    if let Some(setup) = &run.setup {
+        session.run_statements(&setup.program, setup.text);
+    }
+    session.perturb(*numerics, false);
+    let mut refuse = |e: RunError| refuse_at(place.clone(), e);
+    let timestep = session.world.model.opt.timestep;
+    let count = run::count_steps(lab, until, steps, timestep).map_err(&mut refuse).ok()?;
+    run::presses_within(programs, &press, count, timestep).map_err(&mut refuse).ok()?;
+    // A shorter timestep takes more of them; the work is limited besides.
+    if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
+        refuse(RunError(format!(
+            "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
+        )));
+        return None;
+    }
+    Some(Ready { session, press, count, open: None })
+}
+
+/// Plays a run to its end; `sample` sees its start and every step, with the number of steps made.
+pub(super) fn play<'r>(
+    asked: &Asked<'r, '_>,
+    ready: &mut Ready<'r>,
+    mut sample: impl FnMut(&mut Session<'_>, usize),
+) {
+    let Asked { scene: bound, run, .. } = asked;
+    let (lab, programs, shown) = (&*bound.scene.lab, &*bound.scene.programs, bound.shown.asked());
+    let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
+    let mut watch = Some(Box::new(Watch::losses()));
+    let mut open = None;
+    run::play(&mut ready.session, &played, |session, made| {
+        reads::show(&shown, lab, programs, session);
+        sample(session, made);
+        let Some(stop) = run.stop.as_ref() else { return ControlFlow::Continue(()) };
+        session.context.watch(watch.take());
+        let holds = session.evaluate(&stop.program, stop.text);
+        watch = session.context.watch(None);
+        let nan =
+            matches!(holds, Some(Value::Undefined)) || matches!(holds, Some(Value::Number(x)) if x.is_nan());
+        if nan || watch.as_ref().is_some_and(|watch| watch.lost.is_some()) {
+            open = Some(session.world.data.time());
+            return ControlFlow::Break(());
+        }
+        if holds.is_some_and(|holds| holds.truthy()) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    });
+    ready.open = open;
+}
+
+fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+    let Asked { run, measures, .. } = asked;
+    let mut ready = ready(asked, stage, findings)?;
+    let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
+    play(asked, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
+    let open = ready.open;
+    let mut session = ready.session;
+    stage.spend(session.spent());
+    let values = running.into_iter().map(|m| m.finish(&mut session)).collect();
+    for t in &session.troubles {
+        let message = format!("{} (in the run {}, at t = {} s)", t.message, named(run.name), t.time);
+        findings.push(Finding::error(t.rule, t.text.span_of(t.span.clone()), message));
+    }
+    Some(Made {
+        values,
+        warnings: session.warnings.iter().map(|w| w.number).sum(),
+        broke: broke(&session).or_else(|| open.map(undecided_stop)),
+        left_behind: session.left_behind() || asked.scene.scene.left_behind,
+    })
+}
+
+/// Sets the controls of a run. What cannot be set comes back with its place.
+fn set(
+    session: &mut Session<'_>,
+    bound: &BoundScene<'_>,
+    run: &BoundRun<'_>,
+) -> Result<(), (Range<usize>, RunError)> {
+    let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
+    // A control of the lab may have set it while the lab was loaded; what the run says counts.
+    if bound.scene.patches.iter().any(|(patch, _)| is_timestep(&patch.path)) {
+        *session.world.model.edit().opt.timestep = bound.scene.model.opt.timestep;
+    }
+    for (label, v) in run.spec.iter().flat_map(|spec| &spec.set) {
+        let known = lab.control(&label.value).is_some();
+        let at = if known { v.span() } else { label.span() };
+        let one = [(label.value.clone(), scalar(v))];
+        run::set_controls(session, lab, programs, &one).map_err(|e| (at, e))?;
+    }
+    if let Some((label, x)) = run.control {
+        match programs.control(&label.value).filter(|_| run.freely) {
+            Some((i, _)) => session.set_control(i, Value::Number(x)),
+            None => {
+                let one = [(label.value.clone(), Value::Number(x))];
+                run::set_controls(session, lab, programs, &one).map_err(|e| (label.span(), e))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The model of a run as it begins: after its controls and its setup. `None` for one that cannot be made.
+pub(super) fn begun(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
+    let scene = &bound.scene;
+    let (key, demand) = (scene.lab.keyframe(), scene.programs.demand);
+    let mut session =
+        Session::start_within(scene.programs.clone(), &scene.model, key, &demand, Budget::TRIAL);
+    set(&mut session, bound, run).ok()?;
+    if let Some(setup) = &run.setup {
+        session.run_statements(&setup.program, setup.text);
+    }
+    Some(session.world.model)
+}
+
+/// What the programs of the lab and of the run need.
+fn demand(asked: &Asked<'_, '_>) -> labspec_core::Demand {
+    let mut demand = asked.scene.scene.programs.demand;
+    let own = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
+    for program in asked.measures.iter().map(|m| &m.program).chain(own) {
+        include(program.effects(), &mut demand);
+        for arg in program.aggregates().iter().flat_map(|a| &a.args) {
+            include(arg.effects(), &mut demand);
+        }
+    }
+    demand
+}
+
+fn undecided_stop(time: f64) -> String {
+    format!("its `stop` compares NaN at t = {} s", run::time(time))
+}
+
+/// What broke in a run, in one clause.
+fn broke(session: &Session<'_>) -> Option<String> {
+    match (Breakdown::of(session), session.troubles.first()) {
+        (Some(breakdown), _) => Some(breakdown.what),
+        (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
+        (None, None) => session.ended().map(|end| match end {
+            End::Threw => "an error froze it".to_string(),
+            End::Interrupted => "it was interrupted".to_string(),
+            End::Foreign => "its programs belong to another model".to_string(),
+            End::Budget { time } => format!(
+                "the runs of this lesson take more work than a check may do, and this one ends at t = {} s",
+                run::time(*time)
+            ),
+        }),
+    }
+}
+
+/// Whether the lesson itself states an option of a run: in the run, or in the lab's setup.
+pub(super) fn states(scene: &BoundScene<'_>, run: &BoundRun<'_>, field: FieldId) -> bool {
+    let option = field.info().name;
+    let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == field.index());
+    let programs = &scene.scene.programs;
+    let set = run.spec.iter().flat_map(|r| &r.set).map(|(label, _)| label);
+    let mut set = set.chain(run.control.map(|(label, _)| label));
+    let setups = run.setup.iter().map(|s| &s.program).chain(programs.setup.iter().map(|b| &b.program));
+    set.any(|label| programs.effects_of(&label.value).is_some_and(writes))
+        || setups.map(Program::effects).any(writes)
+        || scene.scene.patches.iter().any(|(patch, _)| patch.path.split_whitespace().eq(["option", option]))
+}
+
+/// The timestep among the attributes of a model.
+pub(super) const TIMESTEP: &str = "option timestep";
+
+/// Whether a path of the model is the timestep.
+pub(super) fn is_timestep(path: &str) -> bool {
+    path.split_whitespace().eq(TIMESTEP.split_whitespace())
+}
