@@ -2,13 +2,11 @@
 
 use super::Touch;
 use crate::geometry::Shape;
+use crate::geometry::segments::{Segment, closest_points};
 use crate::math::*;
 
 /// Centres nearer than this part of both radii are one point.
 const COINCIDENT: f64 = MINVAL;
-/// Squared sine of the angle up to which two axes are parallel.
-const PARALLEL: f64 = 1e-12;
-
 /// Two balls: the distance of their centres minus both radii. Coincident centres have no direction: the normal is taken across
 /// two axes, or along x when these are parallel.
 #[cfg_attr(not(feature = "small"), inline(always))]
@@ -84,75 +82,22 @@ pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out
     });
 }
 
-/// The axes of two capsules, a.pos + x half_a and b.pos + y half_b with x and y from -1 to 1. Their squared distance is least
-/// where [aa -ab; -ab bb] [x; y] = [u; v].
-struct Axes<'a> {
-    a: &'a Shape<'a>,
-    b: &'a Shape<'a>,
-    half_a: Vec3,
-    half_b: Vec3,
-    aa: f64,
-    ab: f64,
-    bb: f64,
-    u: f64,
-    v: f64,
+/// The axis of a capsule.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn axis(capsule: &Shape) -> Segment {
+    Segment { centre: capsule.pos, half: scale(capsule.axis(2), capsule.size[1]) }
 }
 
-impl<'a> Axes<'a> {
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn new(a: &'a Shape, b: &'a Shape) -> Axes<'a> {
-        let (half_a, half_b) = (scale(a.axis(2), a.size[1]), scale(b.axis(2), b.size[1]));
-        let between = sub(a.pos, b.pos);
-        let (aa, ab, bb) = (dot(half_a, half_a), -dot(half_a, half_b), dot(half_b, half_b));
-        let (u, v) = (-dot(half_a, between), dot(half_b, between));
-        Axes { a, b, half_a, half_b, aa, ab, bb, u, v }
-    }
-
-    /// The contact of the balls at two points.
-    #[cfg_attr(not(feature = "small"), inline(always))]
-    fn at(&self, x: f64, y: f64, margin: f64) -> Option<Touch> {
-        let (a, b) = (self.a, self.b);
-        let (on_a, on_b) = (add(scale(self.half_a, x), a.pos), add(scale(self.half_b, y), b.pos));
-        balls(a, on_a, a.size[0], b, on_b, b.size[0], margin)
-    }
-
-    /// The place on the first axis that is nearest to y on the second, and the other way round.
-    fn nearest_x(&self, y: f64) -> f64 {
-        ((self.u - y * self.ab) / self.aa).clamp(-1.0, 1.0)
-    }
-
-    fn nearest_y(&self, x: f64) -> f64 {
-        ((self.v - x * self.ab) / self.bb).clamp(-1.0, 1.0)
-    }
-}
-
-/// The nearest points of both axes.
+/// Two balls at the closest points of both axes. Of parallel axes many points are as close: up to two pairs, each an end of one
+/// axis and the point of the other that is closest to it, first the ends of the first.
 pub(super) fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {
-    let axes = Axes::new(a, b);
-    let Axes { aa, ab, bb, u, v, .. } = axes;
-    let det = aa * bb - ab * ab;
-    if det.abs() <= PARALLEL * (aa * bb) || det.is_nan() {
-        return parallel(a, b, margin, out);
+    let (on_a, on_b) = (axis(a), axis(b));
+    let contact = |[x, y]: [f64; 2]| balls(a, on_a.at(x), a.size[0], b, on_b.at(y), b.size[0], margin);
+    if on_a.is_parallel(&on_b) {
+        let ends_of_a = [1.0, -1.0].map(|x| contact([x, on_b.closest_to(on_a.at(x))]));
+        let ends_of_b = [1.0, -1.0].map(|y| contact([on_a.closest_to(on_b.at(y)), y]));
+        out.extend(ends_of_a.into_iter().chain(ends_of_b).flatten().take(2));
+    } else {
+        out.extend(contact(closest_points(&on_a, &on_b)));
     }
-    let (mut x, mut y) = ((bb * u - ab * v) / det, (aa * v - ab * u) / det);
-    if x.abs() > 1.0 {
-        x = x.signum();
-        y = (v - x * ab) / bb;
-    }
-    if y.abs() > 1.0 {
-        y = y.signum();
-        x = axes.nearest_x(y);
-    }
-    if let Some(touch) = axes.at(x, y, margin) {
-        out.push(touch);
-    }
-}
-
-/// Parallel capsules: up to two pairs of nearest points, each from an end.
-#[cfg_attr(not(feature = "small"), inline(never))]
-fn parallel(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {
-    let axes = Axes::new(a, b);
-    let ends_of_a = [1.0, -1.0].map(|x| axes.at(x, axes.nearest_y(x), margin));
-    let ends_of_b = [1.0, -1.0].map(|y| axes.at(axes.nearest_x(y), y, margin));
-    out.extend(ends_of_a.into_iter().chain(ends_of_b).flatten().take(2));
 }
