@@ -8,15 +8,18 @@ use crate::math::*;
 /// with a rounding of 1.1e-16.
 pub(super) const ROUNDING: f64 = 1e-14;
 
-/// The part of a convex polygon where a linear function `height` is not negative. A corner within the rounding of `size` is on
-/// the plane: it stays, and no edge is cut next to it.
-#[inline]
-pub(super) fn clip<const N: usize>(
-    polygon: &List<Vec3, N>,
-    height: impl Fn(Vec3) -> f64,
-    size: f64,
-) -> List<Vec3, N> {
+/// Leaves the part of a convex polygon where a linear function `height` is not negative. A corner within the rounding of `size`
+/// is on the plane: it stays, and no edge is cut next to it.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn clip<const N: usize>(polygon: &mut List<Vec3, N>, height: impl Fn(Vec3) -> f64, size: f64) {
     let slack = ROUNDING * size;
+    if polygon.all().iter().any(|&p| height(p) < -slack) {
+        *polygon = cut(polygon, height, slack);
+    }
+}
+
+/// The corners above the plane, and where edges pass it.
+fn cut<const N: usize>(polygon: &List<Vec3, N>, height: impl Fn(Vec3) -> f64, slack: f64) -> List<Vec3, N> {
     let mut out = List::new();
     let Some(&last) = polygon.all().last() else { return out };
     let mut from = (last, height(last));

@@ -13,7 +13,7 @@ use crate::geometry::Shape;
 use crate::geometry::clip::{ROUNDING, clip};
 use crate::geometry::list::List;
 use crate::geometry::segments::{Segment, closest_points};
-use crate::math::lanes::{lane3, vec3};
+use crate::math::lanes::{Lane3, lane3, vec3};
 use crate::math::*;
 
 /// Where the second of two boxes is, seen from the first.
@@ -25,6 +25,8 @@ struct Placement {
     rotation: [Vec3; 3],
     /// From the centre of the first to that of the second, along the axes of the first and of the second.
     offset: [Vec3; 2],
+    /// Gaps that differ by less are equal, m.
+    rounding: f64,
 }
 
 /// A face of the first box or of the second: of the two across this axis the one that looks at the other box.
@@ -54,7 +56,7 @@ const FACE_PREFERRED: f64 = 0.05;
 /// halfway between the surfaces.
 pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let placement = Placement::new(first, second);
-    let limit = margin + placement.rounding();
+    let limit = margin + placement.rounding;
     let (gap, face) = placement.largest_face_gap();
     if gap > limit {
         return;
@@ -83,10 +85,12 @@ impl Placement {
     fn new(first: &Shape, second: &Shape) -> Placement {
         let between = sub(second.pos, first.pos);
         let columns = [0, 1, 2].map(|j| mat_t_mul_vec(&first.mat, second.axis(j)));
+        let [a, b] = [first.size, second.size];
         Placement {
-            size: [first.size, second.size],
+            size: [a, b],
             rotation: transposed(&columns),
             offset: [mat_t_mul_vec(&first.mat, between), mat_t_mul_vec(&second.mat, between)],
+            rounding: ROUNDING * (a[0] + a[1] + a[2] + b[0] + b[1] + b[2]),
         }
     }
 
@@ -97,25 +101,23 @@ impl Placement {
             size: [b, a],
             rotation: transposed(&self.rotation),
             offset: [scale(q, -1.0), scale(p, -1.0)],
+            ..*self
         }
-    }
-
-    /// Gaps that differ by less are equal.
-    fn rounding(&self) -> f64 {
-        let [a, b] = self.size;
-        ROUNDING * (a[0] + a[1] + a[2] + b[0] + b[1] + b[2])
     }
 
     /// The largest gap along a face normal; of equal ones the first.
     #[inline]
     fn largest_face_gap(&self) -> (f64, Face) {
-        let rounding = self.rounding();
-        let (mut best, mut face) = (f64::NEG_INFINITY, Face::First(0));
         let [along_first, along_second] = self.face_gaps();
-        let faces = [0, 1, 2].map(Face::First).into_iter().chain([0, 1, 2].map(Face::Second));
-        for (gap, next) in along_first.into_iter().chain(along_second).zip(faces) {
-            if gap > best + rounding {
-                (best, face) = (gap, next);
+        let (mut best, mut face) = (f64::NEG_INFINITY, Face::First(0));
+        for i in 0..3 {
+            if along_first[i] > best + self.rounding {
+                (best, face) = (along_first[i], Face::First(i));
+            }
+        }
+        for j in 0..3 {
+            if along_second[j] > best + self.rounding {
+                (best, face) = (along_second[j], Face::Second(j));
             }
         }
         (best, face)
@@ -124,9 +126,14 @@ impl Placement {
     /// The largest gap along a common perpendicular of edges, where that is larger than a gap.
     #[inline]
     fn larger_edge_gap(&self, mut gap: f64) -> Option<EdgeAxis> {
+        let [x, y, z] = [0, 1, 2].map(|i| self.edge_gaps(i));
+        let largest = vec3(x.fast_max(y).fast_max(z));
+        if !largest.iter().any(|&g| g > gap) {
+            return None;
+        }
         let mut best = None;
-        for i in 0..3 {
-            for (j, larger) in self.edge_gaps(i).into_iter().enumerate() {
+        for (i, gaps) in [x, y, z].map(vec3).iter().enumerate() {
+            for (j, &larger) in gaps.iter().enumerate() {
                 if larger > gap {
                     (gap, best) = (larger, Some([i, j]));
                 }
@@ -164,7 +171,7 @@ impl Placement {
     /// The gaps along n = e_i × b_j / |e_i × b_j| for edge direction i of the first box and all three of the second, less by their
     /// rounding: that of the products, which the division by a small |e_i × b_j| magnifies. Of parallel edges -∞.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn edge_gaps(&self, i: usize) -> Vec3 {
+    fn edge_gaps(&self, i: usize) -> Lane3 {
         let ([a, [b0, b1, b2]], [p, _]) = (self.size, self.offset);
         let [k, l] = others(i);
         let (along, row_k, row_l) =
@@ -175,7 +182,7 @@ impl Placement {
         let [r0, r1, r2] = along;
         let second = lane3([b1, b2, b0]) * lane3([r2, r0, r1]) + lane3([b2, b0, b1]) * lane3([r1, r2, r0]);
         let sine = (row_k * row_k + row_l * row_l).sqrt();
-        vec3((between - first - second - self.rounding()) / sine)
+        (between - first - second - self.rounding) / sine
     }
 
     /// The contact of two edges: half way between their closest points.
@@ -224,12 +231,10 @@ fn face_contacts(
     let up = 1f64.copysign(offset[a]);
     let rounding = ROUNDING.sqrt() * (size[x] + size[y]);
     let normal = scale(reference.axis(a), up * outward);
-    let mut kept = List::<Vec3, 8>::new();
-    for &corner in placement.clipped_face(a, up).all() {
-        let [px, py, height] = corner;
+    let polygon = placement.clipped_face(a, up);
+    for (k, &[px, py, height]) in polygon.all().iter().enumerate() {
         let is_same = |q: &Vec3| (q[0] - px).abs() <= rounding && (q[1] - py).abs() <= rounding;
-        if height <= margin && !kept.all().iter().any(is_same) {
-            kept.push(corner);
+        if height <= margin && !polygon.all().iter().take(k).any(is_same) {
             let mut pos = [0.0; 3];
             (pos[x], pos[y], pos[a]) = (px, py, up * (size[a] + 0.5 * height));
             out.push(Touch { dist: height, pos: reference.world(pos), normal, tangent: [0.0; 3] });
@@ -260,7 +265,7 @@ impl Placement {
         let largest = size[x].max(size[y]);
         for (k, half) in [(0, size[x]), (1, size[y])] {
             for side in [1.0, -1.0] {
-                polygon = clip(&polygon, |p| half - side * p[k], largest);
+                clip(&mut polygon, |p| half - side * p[k], largest);
             }
         }
         polygon

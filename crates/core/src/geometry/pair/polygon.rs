@@ -276,7 +276,7 @@ impl Patch {
             let edge = sub(face[(k + 1) % face.len()], p);
             size = size.max(norm(edge));
             let inwards = unit_vector(cross(edge, self.normal)).0;
-            self.lying = clip(&self.lying, |q| dot(inwards, sub(q, p)), size);
+            clip(&mut self.lying, |q| dot(inwards, sub(q, p)), size);
         }
         let depth = |p: Vec3| dot(self.normal, sub(p, origin));
         let mut below = Corners::new();
