@@ -1,4 +1,5 @@
-//! Spheres, capsules and cylinders: each comes down to two balls at the nearest points of their axes.
+//! Spheres, capsules and cylinders: what is nearest to what is a point of an axis, a side, an end or a rim. Spheres and capsules are
+//! two balls at the closest points of their centres or axes.
 
 use super::Touch;
 use crate::geometry::Shape;
@@ -40,52 +41,50 @@ pub(super) fn sphere_sphere(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Tou
     out.extend(balls(a, a.pos, a.size[0], b, b.pos, b.size[0], margin));
 }
 
-pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
-    let axis = capsule.axis(2);
-    let half = capsule.size[1].max(0.0);
-    let along = clamp(dot(axis, sub(sphere.pos, capsule.pos)), -half, half);
-    let nearest = add(scale(axis, along), capsule.pos);
-    out.extend(balls(sphere, sphere.pos, sphere.size[0], capsule, nearest, capsule.size[0], margin));
-}
-
-/// Side, cap or rim, whichever is nearest to the sphere's centre.
-pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
-    let [radius, half, _] = cylinder.size;
-    let axis = cylinder.axis(2);
-    let from_centre = sub(sphere.pos, cylinder.pos);
-    let along = dot(axis, from_centre);
-    let on_axis = scale(axis, along);
-    let across = sub(from_centre, on_axis);
-    let across2 = dot(across, across);
-
-    let (mut beside, mut above) = (along.abs() < half, across2 < radius * radius);
-    if beside && above {
-        // The centre is inside: out by the shorter way.
-        let through_cap = half - along.abs() < radius - across2.sqrt();
-        (beside, above) = (!through_cap, through_cap);
-    }
-    let side = if along > 0.0 { 1.0 } else { -1.0 };
-    let r = sphere.size[0];
-    out.extend(if beside {
-        balls(sphere, sphere.pos, r, cylinder, add(on_axis, cylinder.pos), radius, margin)
-    } else if above {
-        let up = scale(axis, side);
-        let cap = add_scaled(cylinder.pos, axis, side * half);
-        let height = dot(sub(sphere.pos, cap), up);
-        let dist = height - r;
-        let pos = add(sphere.pos, scale(up, -0.5 * dist - r));
-        (height <= margin + r).then(|| Touch { dist, pos, normal: scale(up, -1.0), tangent: [0.0; 3] })
-    } else {
-        let out_to_rim = scale(across, radius / across2.sqrt());
-        let rim = add(add(scale(axis, side * half), out_to_rim), cylinder.pos);
-        balls(sphere, sphere.pos, r, cylinder, rim, 0.0, margin)
-    });
-}
-
 /// The axis of a capsule.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn axis(capsule: &Shape) -> Segment {
     Segment { centre: capsule.pos, half: scale(capsule.axis(2), capsule.size[1]) }
+}
+
+pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let line = axis(capsule);
+    let nearest = line.at(line.closest_to(sphere.pos));
+    out.extend(balls(sphere, sphere.pos, sphere.size[0], capsule, nearest, capsule.size[0], margin));
+}
+
+/// In the half plane that holds the axis of the cylinder and the centre of the sphere the cylinder is a rectangle: beyond its side
+/// and its end the corner is nearest, the rim; else the one of the two beyond which the centre is more or, inside, below which it
+/// is less.
+pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
+    let ([radius, half, _], r) = (cylinder.size, sphere.size[0]);
+    let axis = cylinder.axis(2);
+    let from_centre = sub(sphere.pos, cylinder.pos);
+    let along = dot(axis, from_centre);
+    let (mut outwards, across) = unit_vector(add_scaled(from_centre, axis, -along));
+    if across <= COINCIDENT * (r + radius) {
+        // On the axis any direction across it is as good.
+        let (direction, length) = normalize(cross(axis, sphere.axis(2)));
+        outwards = if length < COINCIDENT { scale(cylinder.axis(0), -1.0) } else { direction };
+    }
+    let upwards = scale(axis, if along > 0.0 { 1.0 } else { -1.0 });
+    let (side, end) = (across - radius, along.abs() - half);
+    let (away, gap) = if side > 0.0 && end > 0.0 {
+        unit_vector(add_scaled(scale(outwards, side), upwards, end))
+    } else if end > side {
+        (upwards, end)
+    } else {
+        (outwards, side)
+    };
+    let (dist, normal) = (gap - r, scale(away, -1.0));
+    if dist <= margin {
+        out.push(Touch {
+            dist,
+            pos: add_scaled(sphere.pos, normal, r + 0.5 * dist),
+            normal,
+            tangent: [0.0; 3],
+        });
+    }
 }
 
 /// Two balls at the closest points of both axes. Of parallel axes many points are as close: up to two pairs, each an end of one
