@@ -27,6 +27,9 @@ pub(super) fn sphere_box(sphere: &Shape, cuboid: &Shape, margin: f64, out: &mut 
 /// Contacts of a capsule and a box: none, one or two.
 pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let [radius, half_length, _] = capsule.size;
+    if half_length <= 0.0 {
+        return sphere_box(capsule, cuboid, margin, out);
+    }
     let half = mat_t_mul_vec(&cuboid.mat, scale(capsule.axis(2), half_length));
     let segment = Segment { centre: cuboid.local(capsule.pos), half };
     let axis = Axis { segment, size: cuboid.size };
@@ -88,13 +91,6 @@ struct Axis {
     size: Vec3,
 }
 
-/// Where the squared distance falls, rises or does neither.
-struct Slope {
-    t: f64,
-    /// Half the derivative.
-    value: f64,
-}
-
 impl Axis {
     /// From the nearest point of the box to a point of the axis.
     #[cfg_attr(not(feature = "small"), inline(always))]
@@ -114,19 +110,16 @@ impl Axis {
     fn nearest(&self) -> [f64; 2] {
         let Segment { centre, half } = self.segment;
         let slack = self.rounding() * norm(half);
-        let (mut falls, mut rises) = (None, None);
+        // A place and half the derivative there: the last one where the distance falls, the first one where it rises.
+        let (mut falls, mut rises) = ([f64::NEG_INFINITY, 0.0], [f64::INFINITY, 0.0]);
         let mut level = [f64::INFINITY, f64::NEG_INFINITY];
         let mut look = |t: f64| {
-            let value = dot(half, self.beyond(t));
-            if value < -slack {
-                if falls.as_ref().is_none_or(|s: &Slope| s.t < t) {
-                    falls = Some(Slope { t, value });
-                }
-            } else if value > slack {
-                if rises.as_ref().is_none_or(|s: &Slope| s.t > t) {
-                    rises = Some(Slope { t, value });
-                }
-            } else {
+            let slope = dot(half, self.beyond(t));
+            if slope < -slack && t > falls[0] {
+                falls = [t, slope];
+            } else if slope > slack && t < rises[0] {
+                rises = [t, slope];
+            } else if slope.abs() <= slack {
                 level = [level[0].min(t), level[1].max(t)];
             }
         };
@@ -144,10 +137,13 @@ impl Axis {
             let square = |t: f64| dot(self.beyond(t), self.beyond(t));
             return if a < b && square(b) < square(a) { [b, a] } else { level };
         }
-        let t = match (falls, rises) {
-            (Some(a), Some(b)) => a.t - a.value * (b.t - a.t) / (b.value - a.value),
-            (None, _) => -1.0,
-            (_, None) => 1.0,
+        let ([a, at_a], [b, at_b]) = (falls, rises);
+        let t = if a == f64::NEG_INFINITY {
+            -1.0
+        } else if b == f64::INFINITY {
+            1.0
+        } else {
+            a - at_a * (b - a) / (at_b - at_a)
         };
         [t, t]
     }
