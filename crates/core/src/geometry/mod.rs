@@ -4,6 +4,7 @@
 //! [`crate::query`].
 
 mod cast;
+mod clip;
 pub(crate) mod convex;
 mod difference;
 mod distance;
@@ -15,6 +16,7 @@ mod list;
 pub(crate) mod pair;
 mod polish;
 mod ray;
+mod segments;
 mod shape;
 mod sides;
 mod simplex;

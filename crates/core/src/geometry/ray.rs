@@ -1,8 +1,13 @@
 //! Rays against primitive shapes: the first point of a half line on a surface, from outside or inside.
 //!
-//! Along the ray p + x v the surface of a round shape is a quadratic a x² + 2 b x + c = 0. Rays that graze a
-//! surface to rounding miss it. What counts as rounding is a part of the lengths at hand, never a length: a scene may be of
-//! any size, and the direction of a ray of any length.
+//! A line p + x v is within a convex body along an interval of x, and within the intersection of two bodies along the intersection
+//! of their intervals. A box is the intersection of three slabs |pᵢ| ≤ sᵢ (Kay, Kajiya, *Ray tracing complex scenes*, SIGGRAPH 1986),
+//! a cylinder that of a tube and a slab, and a capsule is a cylinder and two balls, whose intervals overlap. Balls, tubes and
+//! ellipsoids are |q|² ≤ 1 of coordinates divided by their radii, which is a quadratic of x. The ray hits where the
+//! interval begins or, when it starts inside, where it ends.
+//!
+//! Rays that graze a surface to rounding miss it. What counts as rounding is a part of the lengths at hand, never a length: a scene may
+//! be of any size, and the direction of a ray of any length.
 
 use crate::math::*;
 
@@ -27,6 +32,12 @@ impl Ray {
     pub(super) fn at(&self, x: f64) -> Vec3 {
         add_scaled(self.from, self.along, x)
     }
+
+    /// The same ray with its coordinates divided.
+    fn divided(&self, by: Vec3) -> Ray {
+        let divide = |v: Vec3| std::array::from_fn(|i| v[i] / by[i]);
+        Ray { from: divide(self.from), along: divide(self.along) }
+    }
 }
 
 /// Keeps the nearer of two hits, the first one when they are equal.
@@ -40,46 +51,43 @@ pub(super) fn nearer(best: &mut Option<Hit>, distance: f64, normal: impl FnOnce(
 /// A component of a direction of unit length below this is zero.
 pub(super) const PARALLEL: f64 = MINVAL;
 
-/// The coefficients of a x² + 2 b x + c = 0, and the sum of what c is the difference of.
-#[derive(Clone, Copy)]
-struct Quadratic {
-    a: f64,
-    b: f64,
-    c: f64,
-    size: f64,
+/// Where a line is inside: from the first number to the second.
+type Interval = [f64; 2];
+
+/// Where both are; `None` where that is nowhere, or a number is none.
+fn both([a, b]: Interval, [c, d]: Interval) -> Option<Interval> {
+    let (from, to) = (a.max(c), b.min(d));
+    (from <= to).then_some([from, to])
 }
 
-/// Both solutions, ascending for a > 0; none when they are one to rounding.
-#[inline]
-fn roots(Quadratic { a, b, c, size }: Quadratic) -> Option<[f64; 2]> {
-    let det = b * b - a * c;
-    let rounding = f64::EPSILON * (b * b + a * size);
-    if det.is_nan() || det <= rounding {
-        return None;
+/// The first end of an interval that is not behind the start of the ray.
+fn first([from, to]: Interval) -> Option<f64> {
+    [from, to].into_iter().find(|x| (0.0..f64::INFINITY).contains(x))
+}
+
+/// Where |p + x v| ≤ `half`, of one coordinate: of a coordinate that does not change everywhere or nowhere.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn slab(p: f64, v: f64, half: f64) -> Interval {
+    if v == 0.0 {
+        let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
+        return if p.abs() <= half { everywhere } else { [f64::INFINITY, f64::NEG_INFINITY] };
     }
-    let det = det.sqrt();
-    Some([(-b - det) / a, (-b + det) / a])
+    let reach = half.copysign(v);
+    [(-reach - p) / v, (reach - p) / v]
 }
 
-/// The first solution that is not negative.
+/// Where |p + x v| ≤ 1 over the first N coordinates: a x² + 2 b x + c ≤ 0. Nowhere when both ends are one to rounding.
 #[inline]
-fn first_root(equation: Quadratic) -> Option<f64> {
-    let [near, far] = roots(equation)?;
-    [near, far].into_iter().find(|&x| x >= 0.0)
-}
-
-/// |p + x v|² = r²
-#[inline]
-fn ball(radius2: f64, ray: &Ray) -> Quadratic {
+fn unit_ball<const N: usize>(ray: &Ray) -> Option<Interval> {
+    let product = |u: Vec3, w: Vec3| (0..N).map(|i| u[i] * w[i]).sum::<f64>();
     let Ray { from: p, along: v } = *ray;
-    let far2 = dot(p, p);
-    Quadratic { a: dot(v, v), b: dot(v, p), c: far2 - radius2, size: far2 + radius2 }
-}
-
-/// Whether the ray meets a sphere about the origin.
-#[inline]
-pub(super) fn meets_sphere(radius2: f64, ray: &Ray) -> bool {
-    first_root(ball(radius2, ray)).is_some()
+    let (a, b, far2) = (product(v, v), product(v, p), product(p, p));
+    let det = b * b - a * (far2 - 1.0);
+    let rounding = f64::EPSILON * (b * b + a * (far2 + 1.0));
+    if a == 0.0 && far2 <= 1.0 {
+        return Some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    (det > rounding).then(|| [(-b - det.sqrt()) / a, (-b + det.sqrt()) / a])
 }
 
 pub(super) fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
@@ -94,104 +102,76 @@ pub(super) fn plane(size: Vec3, ray: &Ray) -> Option<Hit> {
 }
 
 pub(super) fn sphere(radius: f64, ray: &Ray) -> Option<Hit> {
-    let distance = first_root(ball(radius * radius, ray))?;
+    let distance = first(unit_ball::<3>(&ray.divided([radius; 3]))?)?;
     Some(Hit { distance, normal: unit_vector(ray.at(distance)).0 })
 }
 
-/// (p + x v)ᵀ S⁻² (p + x v) = 1
 pub(super) fn ellipsoid(size: Vec3, ray: &Ray) -> Option<Hit> {
-    let Ray { from: p, along: v } = *ray;
-    let s = size.map(|s| 1.0 / (s * s));
-    let form = |u: Vec3, w: Vec3| s[0] * u[0] * w[0] + s[1] * u[1] * w[1] + s[2] * u[2] * w[2];
-    let far2 = form(p, p);
-    let distance = first_root(Quadratic { a: form(v, v), b: form(v, p), c: far2 - 1.0, size: far2 + 1.0 })?;
-    let on = ray.at(distance);
-    let normal = unit_vector(std::array::from_fn(|i| s[i] * on[i])).0;
-    Some(Hit { distance, normal })
-}
-
-/// The first point on the round side x² + y² = r², |z| ≤ half.
-fn tube(radius: f64, half: f64, ray: &Ray) -> Option<Hit> {
-    let Ray { from: p, along: v } = *ray;
-    let a = v[0] * v[0] + v[1] * v[1];
-    let b = v[0] * p[0] + v[1] * p[1];
-    let (far2, radius2) = (p[0] * p[0] + p[1] * p[1], radius * radius);
-    let distance = first_root(Quadratic { a, b, c: far2 - radius2, size: far2 + radius2 })?;
-    let [x, y, z] = ray.at(distance);
-    (z.abs() <= half).then(|| Hit { distance, normal: unit_vector([x, y, 0.0]).0 })
-}
-
-pub(super) fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
-    if !meets_sphere((radius + half) * (radius + half), ray) {
-        return None;
-    }
-    let mut best = tube(radius, half, ray);
-    for side in [1.0, -1.0] {
-        // The half of the end sphere that is beyond the tube.
-        let centre = [0.0, 0.0, side * half];
-        let equation = ball(radius * radius, &Ray { from: sub(ray.from, centre), ..*ray });
-        for x in roots(equation).into_iter().flatten() {
-            let on = ray.at(x);
-            if side * on[2] >= half {
-                nearer(&mut best, x, || unit_vector(sub(on, centre)).0);
-            }
-        }
-    }
-    best
+    let scaled = ray.divided(size);
+    let distance = first(unit_ball::<3>(&scaled)?)?;
+    // The gradient of Σ (qᵢ / sᵢ)².
+    let on = scaled.at(distance);
+    Some(Hit { distance, normal: unit_vector(std::array::from_fn(|i| on[i] / size[i])).0 })
 }
 
 pub(super) fn cylinder([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
-    if !meets_sphere(radius * radius + half * half, ray) {
-        return None;
-    }
-    let Ray { from: p, along: v } = *ray;
-    let mut best = None;
-    if v[2].abs() > PARALLEL * norm(v) {
-        for side in [-1.0, 1.0] {
-            let x = (side * half - p[2]) / v[2];
-            let on = ray.at(x);
-            if on[0] * on[0] + on[1] * on[1] <= radius * radius {
-                nearer(&mut best, x, || [0.0, 0.0, side]);
-            }
-        }
-    }
-    if let Some(side) = tube(radius, half, ray) {
-        nearer(&mut best, side.distance, || side.normal);
-    }
-    best
+    let round = unit_ball::<2>(&ray.divided([radius; 3]))?;
+    let flat = slab(ray.from[2], ray.along[2], half);
+    let distance = first(both(round, flat)?)?;
+    let [x, y, z] = ray.at(distance);
+    let through_end = flat.contains(&distance);
+    let normal = if through_end { [0.0, 0.0, 1f64.copysign(z)] } else { unit_vector([x, y, 0.0]).0 };
+    Some(Hit { distance, normal })
+}
+
+pub(super) fn capsule([radius, half, _]: Vec3, ray: &Ray) -> Option<Hit> {
+    let end =
+        |z: f64| unit_ball::<3>(&Ray { from: sub(ray.from, [0.0, 0.0, z]), ..*ray }.divided([radius; 3]));
+    let round = unit_ball::<2>(&ray.divided([radius; 3]));
+    let middle = round.and_then(|round| both(round, slab(ray.from[2], ray.along[2], half)));
+    let parts = [middle, end(half), end(-half)].into_iter().flatten();
+    let whole = parts.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])?;
+    let distance = first(whole)?;
+    let [x, y, z] = ray.at(distance);
+    Some(Hit { distance, normal: unit_vector([x, y, z - clamp(z, -half, half)]).0 })
 }
 
 pub(super) fn cuboid(size: Vec3, ray: &Ray) -> Option<Hit> {
-    let mut best = None;
-    for (i, hits) in box_faces(size, ray).into_iter().enumerate() {
-        for (hit, side) in hits.into_iter().zip([-1.0, 1.0]) {
-            let normal = std::array::from_fn(|k| if k == i { side } else { 0.0 });
-            nearer(&mut best, hit, || normal);
-        }
-    }
-    best
+    let crossing = crossings(size, ray)?.into_iter().find(|c| c.distance >= 0.0)?;
+    Some(Hit { distance: crossing.distance, normal: crossing.normal() })
 }
 
-/// Where the ray meets each face of a box about the origin: by axis, lower and upper face; -1 where it does not.
-pub(super) fn box_faces(size: Vec3, ray: &Ray) -> [[f64; 2]; 3] {
-    let mut all = [[-1.0; 2]; 3];
-    if !meets_sphere(dot(size, size), ray) {
-        return all;
+/// Where a line crosses the surface of a box.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Crossing {
+    pub(super) distance: f64,
+    /// The axis across the face, and -1 or 1 for its lower or upper side.
+    pub(super) axis: usize,
+    pub(super) side: f64,
+}
+
+impl Crossing {
+    pub(super) fn normal(&self) -> Vec3 {
+        let mut normal = [0.0; 3];
+        normal[self.axis] = self.side;
+        normal
     }
-    let Ray { from: p, along: v } = *ray;
-    let parallel = PARALLEL * norm(v);
-    for i in 0..3 {
-        if v[i].abs() <= parallel {
-            continue;
+}
+
+/// Where a line goes into a box about the origin, and where it comes out.
+pub(super) fn crossings(size: Vec3, ray: &Ray) -> Option<[Crossing; 2]> {
+    let nowhere = Crossing { distance: f64::NEG_INFINITY, axis: 0, side: 0.0 };
+    let (mut enters, mut leaves) = (nowhere, Crossing { distance: f64::INFINITY, ..nowhere });
+    for axis in 0..3 {
+        let (p, v) = (ray.from[axis], ray.along[axis]);
+        let [from, to] = slab(p, v, size[axis]);
+        let side = 1f64.copysign(v);
+        if from > enters.distance {
+            enters = Crossing { distance: from, axis, side: -side };
         }
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        for (hit, side) in all[i].iter_mut().zip([-1.0, 1.0]) {
-            let x = (side * size[i] - p[i]) / v[i];
-            let on = ray.at(x);
-            if x >= 0.0 && on[j].abs() <= size[j] && on[k].abs() <= size[k] {
-                *hit = x;
-            }
+        if to < leaves.distance {
+            leaves = Crossing { distance: to, axis, side };
         }
     }
-    all
+    (enters.distance <= leaves.distance && leaves.distance < f64::INFINITY).then_some([enters, leaves])
 }

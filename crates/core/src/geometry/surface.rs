@@ -1,6 +1,6 @@
 //! Rays against triangles: meshes and height fields.
 
-use super::ray::{Hit, PARALLEL, Ray, box_faces, nearer};
+use super::ray::{Crossing, Hit, PARALLEL, Ray, crossings, nearer};
 use super::{Field, Mesh};
 use crate::math::*;
 
@@ -68,9 +68,7 @@ fn dot2(a: [f64; 2], b: [f64; 2]) -> f64 {
 
 /// The nearest triangle of a mesh; `size` is the box about the origin that holds it.
 pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option<Hit> {
-    if box_faces(size, ray).as_flattened().iter().all(|&x| x < 0.0) {
-        return None;
-    }
+    crossings(size, ray).filter(|[_, leaves]| leaves.distance >= 0.0)?;
     let sight = Sight::new(ray);
     *work += TRIANGLE * mesh.face.len() as u64;
     let mut best = None;
@@ -87,23 +85,14 @@ pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option
 pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
     let [sx, sy, top, base] = field.size;
     let shifted = |z: f64| Ray { from: sub(ray.from, [0.0, 0.0, z]), ..*ray };
-    let axis = |i: usize, side: usize| {
-        let mut normal = [0.0; 3];
-        normal[i] = if side == 0 { -1.0 } else { 1.0 };
-        normal
-    };
     let mut best = None;
-    for (i, hits) in box_faces([sx, sy, 0.5 * base], &shifted(-0.5 * base)).iter().enumerate() {
-        for (side, &x) in hits.iter().enumerate() {
-            nearer(&mut best, x, || axis(i, side));
-        }
+    for c in crossings([sx, sy, 0.5 * base], &shifted(-0.5 * base)).into_iter().flatten() {
+        nearer(&mut best, c.distance, || c.normal());
     }
-    let all = box_faces([sx, sy, 0.5 * top], &shifted(0.5 * top));
-    let hits = || all.as_flattened().iter().copied().filter(|&x| x >= 0.0);
-    let Some(enter) = hits().reduce(f64::min) else { return best };
+    let top = crossings([sx, sy, 0.5 * top], &shifted(0.5 * top));
+    let Some(walls) = top.filter(|[_, leaves]| leaves.distance >= 0.0) else { return best };
     // The part of the ray in the box of the top; from its start when that is inside.
-    let leave = hits().fold(enter, f64::max);
-    let ends = [if leave > enter { enter } else { 0.0 }, leave].map(|x| ray.at(x));
+    let ends = walls.map(|c| ray.at(c.distance.max(0.0)));
     let sight = Sight::new(ray);
     let (cols, rows) = (cells(ends, sx, 0, field.ncol), cells(ends, sy, 1, field.nrow));
     *work += 2 * TRIANGLE * (rows.len() as u64 * cols.len() as u64);
@@ -118,12 +107,9 @@ pub(super) fn field(field: &Field, ray: &Ray, work: &mut u64) -> Option<Hit> {
             }
         }
     }
-    for i in 0..2 {
-        for side in 0..2 {
-            let x = all[i][side];
-            if x >= 0.0 && best.is_none_or(|b| x < b.distance) && below_rim(field, ray.at(x), i, side) {
-                best = Some(Hit { distance: x, normal: axis(i, side) });
-            }
+    for c in walls.into_iter().filter(|c| c.axis < 2 && c.distance >= 0.0) {
+        if best.is_none_or(|b| c.distance < b.distance) && below_rim(field, ray.at(c.distance), &c) {
+            best = Some(Hit { distance: c.distance, normal: c.normal() });
         }
     }
     best
@@ -140,17 +126,17 @@ fn cells(ends: [Vec3; 2], half: f64, i: usize, samples: usize) -> std::ops::Rang
 }
 
 /// Whether a point of a side wall is below the edge of the top.
-fn below_rim(field: &Field, on: Vec3, i: usize, side: usize) -> bool {
-    let along = 1 - i;
+fn below_rim(field: &Field, on: Vec3, wall: &Crossing) -> bool {
+    let along = 1 - wall.axis;
     let samples = if along == 1 { field.nrow } else { field.ncol };
     let y = (on[along] + field.size[along]) / field.step()[along];
     let cell = clamp(y.floor(), 0.0, (samples as f64 - 2.0).max(0.0));
     let height = |k: usize| {
-        let (row, col) = match (i, side) {
-            (0, 0) => (k, 0),
-            (0, _) => (k, field.ncol - 1),
-            (_, 0) => (0, k),
-            (_, _) => (field.nrow - 1, k),
+        let (row, col) = match (wall.axis, wall.side < 0.0) {
+            (0, true) => (k, 0),
+            (0, false) => (k, field.ncol - 1),
+            (_, true) => (0, k),
+            (_, false) => (field.nrow - 1, k),
         };
         field.data[row * field.ncol + col]
     };

@@ -189,6 +189,23 @@ fn in_order_of(want: &[f64], got: &[f64]) -> Vec<f64> {
     out
 }
 
+/// Without contacts that repeat an earlier one: of a capsule and a box, or of two capsules end to end, the library lists some twice.
+fn distinct(contacts: Vec<f64>) -> Vec<f64> {
+    let list = rows::<10>(&contacts);
+    let repeats = |k: usize| list[..k].iter().any(|c| difference(c, &list[k]) == 0.0);
+    (0..list.len()).filter(|&k| !repeats(k)).flat_map(|k| list[k]).collect()
+}
+
+/// Whether the axis of a capsule goes into a box. The library then takes the nearest face of one of its points, and not the least
+/// translation that parts the two (`pair/cuboid/tests.rs` holds ours to that).
+fn pierced(a: &Shape, b: &Shape) -> bool {
+    let core = Shape { size: [0.0, a.size[1], 0.0], ..*a };
+    let near = |core| {
+        nearest(&mut Convex::new(core), &mut Convex::new(b), 0.0, patient().effort, &mut Default::default())
+    };
+    a.kind == geom::CAPSULE && b.kind == geom::BOX && near(&core).is_some()
+}
+
 #[test]
 fn rays_hit_where_they_do_in_mujoco() {
     let (text, print) = cases("rays.txt", include_str!("golden/rays.txt"));
@@ -259,7 +276,7 @@ fn distances_are_those_of_mujoco() {
         let (least, other) = if a.kind <= b.kind { (&a, &b) } else { (&b, &a) };
         let method = pair::method(least.kind, other.kind);
         let searched = matches!(method, Some(Method::Convex)) || least.kind == geom::BOX;
-        if matches!(method, Some(Method::Field)) || searched && concentric(&a, &b) {
+        if matches!(method, Some(Method::Field)) || searched && concentric(&a, &b) || pierced(least, other) {
             continue;
         }
         let found = super::distance::shape_distance(&a, &b, most, &patient(), &mut work).unwrap();
@@ -326,10 +343,16 @@ fn contacts_are_those_of_mujoco() {
             got.extend(t.pos);
             got.extend(&frame_along(t.normal, t.tangent)[..6]);
         }
-        let want = floats(want);
+        let mut want = floats(want);
+        if !searched {
+            (want, got) = (distinct(want), distinct(got));
+        }
         let kinds = format!("{}-{}", KINDS[a.kind as usize], KINDS[b.kind as usize]);
-        if searched {
-            got = in_order_of(&want, &got);
+        // Contacts are a set: their order is that in which a method finds them.
+        got = in_order_of(&want, &got);
+        if pierced(&a, &b) {
+            figures.contacts(&format!("{kinds}, axis in the box"), &want, &got);
+            continue;
         }
         figures.contacts(&kinds, &want, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));

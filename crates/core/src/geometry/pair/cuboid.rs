@@ -1,21 +1,23 @@
 //! Contacts of a sphere and of a capsule with a box.
 //!
-//! A capsule touches a box like one or two balls of its radius on its axis, and everything is worked out in
-//! the frame of the box. The first ball sits at the point of the axis nearest to the box. The squared
-//! distance along the axis, Σ max(0, |cᵢ + t hᵢ| - sᵢ)², is a convex piecewise quadratic of one variable,
-//! and its minimum is found exactly: piece by piece between at most six sorted breakpoints, without
-//! iteration.
+//! A capsule touches a box like balls of its radius on its axis, which is a segment c + t h, |t| ≤ 1, in the frame of the box.
 //!
-//! Where that minimum is not unique, where the second ball sits, and beyond which distance nothing is found,
-//! geometry does not say: these are conventions, taken from the recorded behaviour of MuJoCo 3.14.0.
+//! *Outside the box* the squared distance Σ eᵢ², with eᵢ = pᵢ - clamp(pᵢ, ±sᵢ) of the point p = c + t h and the half sizes s, is
+//! a convex function of t. Half its derivative, Σ hᵢ eᵢ, never decreases and is linear between the planes of the faces, so that its
+//! zero is found without iteration. There the first ball sits. Where it is zero along an interval, as the axis is parallel to a
+//! face or an edge, balls sit at both ends of that. Else the second one sits where the capsule, followed over the box from the first,
+//! leaves it.
+//!
+//! *In the box* the least translation that parts segment and box has the direction of a face normal or of the common
+//! perpendicular of the segment and an edge (the separating axes of the two): contacts at the ends of the part of the segment that is
+//! below the face, or between the closest points of segment and edge.
 
 use super::Touch;
 use crate::geometry::Shape;
-use crate::math::sort::sort_by;
+use crate::geometry::clip::ROUNDING;
+use crate::geometry::ray::slab;
+use crate::geometry::segments::{Segment, closest_points};
 use crate::math::*;
-
-/// Squared sine of the angle up to which an axis is parallel to an edge.
-const PARALLEL: f64 = 1e-12;
 
 /// Contact of a sphere and a box.
 pub(super) fn sphere_box(sphere: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
@@ -25,404 +27,230 @@ pub(super) fn sphere_box(sphere: &Shape, cuboid: &Shape, margin: f64, out: &mut 
 /// Contacts of a capsule and a box: none, one or two.
 pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let [radius, half_length, _] = capsule.size;
-    let axis = Axis {
-        centre: cuboid.local(capsule.pos),
-        half: mat_t_mul_vec(&cuboid.mat, scale(capsule.axis(2), half_length)),
-        size: cuboid.size,
-    };
-    let first = nearest(&axis);
-    // Of what is farther neither ball touches. (The library compares the square with the length: there, large shapes that
-    // overlap by little are lost.)
-    let [a, b, c] = cuboid.size;
-    let reach = margin + 2.0 * (radius + half_length + a + b + c);
-    if first.square < reach * reach {
-        let second = second_ball(&axis, &first);
-        for t in [Some(first.t), second].into_iter().flatten() {
-            out.extend(ball(axis.at(t), radius, cuboid, margin));
-        }
+    if half_length <= 0.0 {
+        return sphere_box(capsule, cuboid, margin, out);
     }
+    let half = mat_t_mul_vec(&cuboid.mat, scale(capsule.axis(2), half_length));
+    let segment = Segment { centre: cuboid.local(capsule.pos), half };
+    let axis = Axis { segment, size: cuboid.size };
+    let [from, to] = axis.nearest();
+    let distance = norm(axis.beyond(from));
+    if distance <= axis.rounding() {
+        let contacts = axis.pierced(radius).into_iter().flatten();
+        out.extend(contacts.filter(|c| c.dist <= margin).map(|c| to_world(cuboid, c)));
+    } else if distance - radius <= margin {
+        let second = if from == to { axis.far_end(from) } else { Some(to) };
+        let balls = [Some(from), second].into_iter().flatten();
+        out.extend(balls.filter_map(|t| ball(segment.at(t), radius, cuboid, margin)));
+    }
+}
+
+/// A contact that is given in the frame of the box.
+fn to_world(cuboid: &Shape, contact: Touch) -> Touch {
+    Touch { pos: cuboid.world(contact.pos), normal: mat_mul_vec(&cuboid.mat, contact.normal), ..contact }
 }
 
 /// Contact of the box and a ball, whose centre is given in the frame of the box.
 fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Touch> {
-    let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-cuboid.size[i], cuboid.size[i]]));
+    let size = cuboid.size;
+    let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-size[i], size[i]]));
     let apart = sub(nearest, centre);
     let gap = norm(apart);
-    let touching = MINVAL * (radius + cuboid.size.iter().sum::<f64>());
-    let (normal, dist, pos) = if gap > touching {
-        let normal = scale(apart, 1.0 / gap);
-        (normal, gap - radius, scale(add(nearest, add_scaled(centre, normal, radius)), 0.5))
+    let (normal, gap) = if gap > MINVAL * (radius + size[0] + size[1] + size[2]) {
+        (scale(apart, 1.0 / gap), gap)
     } else {
-        let (depth, normal) = way_in(centre, cuboid.size);
-        (normal, -depth - radius, add_scaled(centre, normal, 0.5 * (radius - depth)))
+        way_out(centre, size)
     };
-    // A NaN fails either comparison.
-    (gap - radius <= margin && dist <= margin).then(|| Touch {
-        dist,
-        pos: cuboid.world(pos),
-        normal: mat_mul_vec(&cuboid.mat, normal),
-        tangent: [0.0; 3],
+    let dist = gap - radius;
+    // A NaN fails the comparison.
+    (dist <= margin).then(|| {
+        let pos = add_scaled(centre, normal, radius + 0.5 * dist);
+        to_world(cuboid, Touch { dist, pos, normal, tangent: [0.0; 3] })
     })
 }
 
-/// Of a point in the box: how deep it lies under the nearest face, and that face's inward normal. Among
-/// equally near faces the lowest axis counts, and its negative side.
-fn way_in(p: Vec3, size: Vec3) -> (f64, Vec3) {
-    let (mut least, mut normal) = (f64::INFINITY, [0.0; 3]);
+/// Of a point in the box: the inward normal of the nearest face, and minus the depth below it. Of equally near faces the one across
+/// the lowest axis, and its negative side.
+fn way_out(p: Vec3, size: Vec3) -> (Vec3, f64) {
+    let mut best = ([0.0; 3], f64::NEG_INFINITY);
     for i in 0..3 {
         for side in [-1.0, 1.0] {
-            let depth = size[i] - side * p[i];
-            if depth < least {
-                (least, normal) = (depth, [0.0; 3]);
-                normal[i] = -side;
-            }
-        }
-    }
-    (least, normal)
-}
-
-/// A capsule's axis in the frame of a box: centre + t half, t in [-1, 1]; and the half lengths of the box.
-struct Axis {
-    centre: Vec3,
-    half: Vec3,
-    size: Vec3,
-}
-
-/// Per box axis the side of the box beyond which something lies: -1, 1, or 0 for between the two faces. As a
-/// feature of the box: a face has one side, an edge two, a corner three.
-type Sides = Vec3;
-
-/// Where the first ball sits.
-struct First {
-    /// Parameter of the axis.
-    t: f64,
-    /// The feature of the box that is nearest there.
-    sides: Sides,
-    /// Its squared distance.
-    square: f64,
-}
-
-impl Axis {
-    fn at(&self, t: f64) -> Vec3 {
-        add_scaled(self.centre, self.half, t)
-    }
-
-    /// The feature of the box that is nearest to a point of the axis; no sides: the point is in the box.
-    fn sides(&self, t: f64) -> Sides {
-        let p = self.at(t);
-        std::array::from_fn(|i| if p[i].abs() > self.size[i] { 1f64.copysign(p[i]) } else { 0.0 })
-    }
-
-    /// Squared distance of a point of the axis from the box.
-    fn square(&self, t: f64) -> f64 {
-        let p = self.at(t);
-        let beyond: Vec3 = std::array::from_fn(|i| (p[i].abs() - self.size[i]).max(0.0));
-        dot(beyond, beyond)
-    }
-
-    /// Where the axis crosses the plane of a face; infinite or NaN if it is parallel.
-    fn crossing(&self, i: usize, side: f64) -> f64 {
-        (side * self.size[i] - self.centre[i]) / self.half[i]
-    }
-
-    /// Where the line of the axis is nearest to the planes of some sides, by the sum of squared distances.
-    /// None if it is parallel to all of them.
-    fn turn(&self, sides: Sides) -> Option<f64> {
-        let (mut up, mut down) = (0.0, 0.0);
-        for (i, side) in sides.into_iter().enumerate().filter(|(_, side)| *side != 0.0) {
-            up += self.half[i] * (side * self.size[i] - self.centre[i]);
-            down += self.half[i] * self.half[i];
-        }
-        (down > 0.0).then(|| up / down)
-    }
-
-    /// The ends of the axis and the places between where it crosses the planes of the faces, in order.
-    fn knots(&self) -> [f64; 8] {
-        let mut knots = [1.0; 8];
-        knots[0] = -1.0;
-        for i in 0..3 {
-            for (k, side) in [-1.0, 1.0].into_iter().enumerate() {
-                let t = self.crossing(i, side);
-                if t.abs() < 1.0 {
-                    knots[1 + 2 * i + k] = t;
-                }
-            }
-        }
-        sort_by(&mut knots, f64::total_cmp);
-        knots
-    }
-
-    /// Rounding errors of a distance are below this.
-    fn rounding(&self) -> f64 {
-        let sum = |a: Vec3| a[0].abs() + a[1].abs() + a[2].abs();
-        1e-15 * (sum(self.centre) + sum(self.half) + sum(self.size))
-    }
-}
-
-fn count(sides: Sides) -> usize {
-    sides.iter().filter(|side| **side != 0.0).count()
-}
-
-/// The point of the axis nearest to the box.
-fn nearest(axis: &Axis) -> First {
-    let knots = axis.knots();
-    let pieces = || knots.iter().zip(&knots[1..]).map(|(&a, &b)| (a, b)).filter(|(a, b)| a < b);
-    if pieces().any(|(a, b)| count(axis.sides(0.5 * (a + b))) == 0) {
-        return pierced(axis);
-    }
-    let (t, sides) = lowest(axis, pieces());
-    let square = axis.square(t);
-
-    // What is as near as the nearest to rounding: an end over a face, else what an interval of the axis
-    // shares.
-    let enough = (square.sqrt() + axis.rounding()).powi(2);
-    for end in [-1.0, 1.0] {
-        let sides = axis.sides(end);
-        if count(sides) == 1 && axis.square(end) <= enough {
-            return First { t: end, sides, square };
-        }
-    }
-    let mut level = knots.into_iter().filter(|&t| axis.square(t) <= enough);
-    if let (Some(from), Some(to)) = (level.next(), level.next_back())
-        && from < to
-    {
-        let sides = axis.sides(0.5 * (from + to));
-        match count(sides) {
-            1 => return to_corner(axis, along_face(axis, sides, [from, to], square)),
-            2 => return along_edge(axis, sides, [from, to]),
-            _ => {}
-        }
-    }
-    to_corner(axis, First { t, sides, square })
-}
-
-/// The minimum of the squared distance over the pieces of the axis between its knots, and the feature there.
-/// The derivative does not decrease, so that the first piece where it reaches zero has it.
-fn lowest(axis: &Axis, pieces: impl Iterator<Item = (f64, f64)>) -> (f64, Sides) {
-    let mut before = axis.sides(-1.0);
-    for (from, to) in pieces {
-        let sides = axis.sides(0.5 * (from + to));
-        let turn = axis.turn(sides).unwrap_or(from);
-        if turn <= from {
-            // At a knot both pieces' features are near.
-            let either = |i| if before[i] == 0.0 { sides[i] } else { before[i] };
-            return (from, if from > -1.0 { std::array::from_fn(either) } else { before });
-        }
-        if turn < to {
-            return (turn, sides);
-        }
-        before = sides;
-    }
-    (1.0, axis.sides(1.0))
-}
-
-/// Of a first ball near an edge: whether the edge or its corner counts as the nearest feature. As recorded
-/// the whole line of the axis decides: the corner, if that is where the limited edge is nearest to the line,
-/// even where the ball, at an end of the axis, is nearer to the edge's middle. The distance stays the ball's
-/// own.
-fn to_corner(axis: &Axis, first: First) -> First {
-    let First { t, sides, .. } = first;
-    let (Some(along), 2) = (sides.iter().position(|side| *side == 0.0), count(sides)) else {
-        return first;
-    };
-    let place = axis.at(axis.turn(sides).unwrap_or(t))[along];
-    // At the very end the edges along the lower box axes come first.
-    let slack = if along == 0 { axis.rounding() } else { -axis.rounding() };
-    if place.abs() <= axis.size[along] + slack {
-        return first;
-    }
-    First { square: first.square, ..corner_at(axis, t, sides, along, place) }
-}
-
-/// The first ball at an end of an edge.
-fn corner_at(axis: &Axis, t: f64, edge: Sides, along: usize, side: f64) -> First {
-    let mut sides = edge;
-    sides[along] = 1f64.copysign(side);
-    let p = axis.at(t);
-    let apart: Vec3 = std::array::from_fn(|i| sides[i] * axis.size[i] - p[i]);
-    First { t, sides, square: dot(apart, apart) }
-}
-
-/// The first ball of an axis parallel to a face and over it between its ends only: where it passes over an
-/// edge of the face. As recorded, of the two such places the one whose edge lies along the lower box axis,
-/// and then the one on the negative side.
-fn along_face(axis: &Axis, face: Sides, level: [f64; 2], square: f64) -> First {
-    let free = |i: &usize| face[*i] == 0.0;
-    for along in (0..3).filter(free) {
-        for across in (0..3).filter(free).filter(|&i| i != along) {
-            for side in [-1.0, 1.0] {
-                let t = axis.crossing(across, side);
-                if level.contains(&t) {
-                    let mut sides = face;
-                    sides[across] = side;
-                    return First { t, sides, square };
-                }
-            }
-        }
-    }
-    First { t: level[0], sides: face, square }
-}
-
-/// The first ball of an axis parallel to an edge and next to it: as recorded, at a corner, the negative one
-/// first, or else at the end of the axis that is nearest to a corner. Either counts as near that corner.
-fn along_edge(axis: &Axis, edge: Sides, level: [f64; 2]) -> First {
-    let along = edge.iter().position(|side| *side == 0.0).unwrap_or(0);
-    for side in [-1.0, 1.0] {
-        let crossing = axis.crossing(along, side);
-        let t = clip(crossing, level);
-        if ((t - crossing) * axis.half[along]).abs() <= axis.rounding() {
-            return corner_at(axis, t, edge, along, side);
-        }
-    }
-    let [p, q] = level.map(|t| axis.at(t)[along]);
-    let side = if p + q > 0.0 { 1.0 } else { -1.0 };
-    let t = if (p < q) == (side > 0.0) { level[1] } else { level[0] };
-    corner_at(axis, t, edge, along, side)
-}
-
-/// The first ball of an axis that has points in the box. As recorded: at an end in the box; else where the
-/// axis is nearest to something at its surface, that is, an end over a face, or the place nearest to an
-/// edge.
-fn pierced(axis: &Axis) -> First {
-    for t in [-1.0, 1.0] {
-        let sides = axis.sides(t);
-        if count(sides) == 0 {
-            return First { t, sides, square: 0.0 };
-        }
-    }
-    let mut best = First { t: -1.0, sides: [0.0; 3], square: f64::INFINITY };
-    let slack = MINVAL * (dot(axis.half, axis.half) + dot(axis.size, axis.size));
-    let mut consider = |t, sides, square| {
-        if square < best.square - slack {
-            best = First { t, sides, square };
-        }
-    };
-    for t in [-1.0, 1.0] {
-        let sides = axis.sides(t);
-        if count(sides) == 1 {
-            consider(t, sides, axis.square(t));
-        }
-    }
-    for along in 0..3 {
-        for second in [-1.0, 1.0] {
-            for first in [-1.0, 1.0] {
-                let mut sides = [0.0; 3];
-                let others = [0, 1, 2].into_iter().filter(|&i| i != along);
-                others.zip([first, second]).for_each(|(i, side)| sides[i] = side);
-                if let Some((t, place, square)) = nearest_to_edge(axis, along, sides) {
-                    sides[along] = if place.abs() < 1.0 { 0.0 } else { place };
-                    consider(t, sides, square);
-                }
+            let gap = side * p[i] - size[i];
+            if gap > best.1 {
+                best = ([0.0; 3], gap);
+                best.0[i] = -side;
             }
         }
     }
     best
 }
 
-/// Where the axis is nearest to an edge of the box: its parameter, the place on the edge in [-1, 1], and the
-/// squared distance. None if they are parallel.
-fn nearest_to_edge(axis: &Axis, along: usize, edge: Sides) -> Option<(f64, f64, f64)> {
-    let length = axis.size[along];
-    let across: Vec3 = std::array::from_fn(|i| if i == along { 0.0 } else { axis.half[i] });
-    if dot(across, across) <= PARALLEL * dot(axis.half, axis.half) {
-        return None;
-    }
-    // Seen along the edge the distance depends on t alone; then the limits of both segments.
-    let place = |t: f64| axis.at(t)[along] / length;
-    let free = axis.turn(edge)?;
-    let t = clip(free, [-1.0, 1.0]);
-    let beyond = place(t);
-    if beyond.abs() < 1.0 {
-        return Some((t, beyond, square_to(axis, t, along, edge, beyond)));
-    }
-    // The squared distance is convex, so that its minimum lies at the end of the edge beyond which the
-    // unlimited edge would have it.
-    let end = 1f64.copysign(beyond);
-    let mut corner = edge;
-    corner[along] = end;
-    let t = clip(axis.turn(corner)?, [-1.0, 1.0]);
-    Some((t, end, square_to(axis, t, along, edge, end)))
+/// The axis of a capsule in the frame of a box with these half sizes.
+struct Axis {
+    segment: Segment,
+    size: Vec3,
 }
 
-/// Squared distance of a point of the axis from a point of an edge.
-fn square_to(axis: &Axis, t: f64, along: usize, edge: Sides, place: f64) -> f64 {
-    let mut foot = edge;
-    foot[along] = place;
-    let apart: Vec3 = std::array::from_fn(|i| axis.at(t)[i] - foot[i] * axis.size[i]);
-    dot(apart, apart)
-}
-
-/// Where the second ball sits, if there is one: from the first one along the axis, as far as both shapes go.
-/// The rules are recorded behaviour.
-fn second_ball(axis: &Axis, first: &First) -> Option<f64> {
-    let &First { t, sides, .. } = first;
-    // Forward along the axis is inwards over the box: towards the opposite face.
-    let inwards: [bool; 3] =
-        std::array::from_fn(|i| sides[i] != 0.0 && (axis.half[i] > 0.0) != (sides[i] > 0.0));
-    let (sense, limit) = match count(sides) {
-        1 => from_face(axis, t, sides)?,
-        2 => from_edge(axis, t, sides, inwards)?,
-        3 => from_corner(axis, inwards)?,
-        _ => return None,
-    };
-    // What is left of the axis. A limit that is NaN does not limit.
-    let left = 1.0 - sense * t;
-    Some(t + sense * left.min(limit))
-}
-
-/// From an end of the axis over a face, inwards along the axis until it leaves the rectangle of the face.
-fn from_face(axis: &Axis, t: f64, face: Sides) -> Option<(f64, f64)> {
-    if t.abs() != 1.0 {
-        return None;
+impl Axis {
+    /// From the nearest point of the box to a point of the axis.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn beyond(&self, t: f64) -> Vec3 {
+        let p = self.segment.at(t);
+        std::array::from_fn(|i| p[i] - clamp(p[i], -self.size[i], self.size[i]))
     }
-    let mut limit = f64::INFINITY;
-    for i in (0..3).filter(|&i| face[i] == 0.0) {
-        for side in [-1.0, 1.0] {
-            let way = (axis.crossing(i, side) - t) * -t;
-            if way > 0.0 {
-                limit = limit.min(way);
+
+    /// Rounding of a length.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    fn rounding(&self) -> f64 {
+        let sum = |v: Vec3| v[0].abs() + v[1].abs() + v[2].abs();
+        ROUNDING * (sum(self.segment.centre) + sum(self.segment.half) + sum(self.size))
+    }
+
+    /// The interval of the axis that is nearest to the box, a point in general; first the end that is nearer.
+    fn nearest(&self) -> [f64; 2] {
+        let Segment { centre, half } = self.segment;
+        let slack = self.rounding() * norm(half);
+        // A place and half the derivative there: the last one where the distance falls, the first one where it rises.
+        let (mut falls, mut rises) = ([f64::NEG_INFINITY, 0.0], [f64::INFINITY, 0.0]);
+        let mut level = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut look = |t: f64| {
+            let slope = dot(half, self.beyond(t));
+            if slope < -slack && t > falls[0] {
+                falls = [t, slope];
+            } else if slope > slack && t < rises[0] {
+                rises = [t, slope];
+            } else if slope.abs() <= slack {
+                level = [level[0].min(t), level[1].max(t)];
+            }
+        };
+        look(-1.0);
+        look(1.0);
+        for i in 0..3 {
+            for t in slab(centre[i], half[i], self.size[i]) {
+                if t.abs() < 1.0 {
+                    look(t);
+                }
             }
         }
+        if level[0] <= level[1] {
+            let [a, b] = level;
+            let square = |t: f64| dot(self.beyond(t), self.beyond(t));
+            return if a < b && square(b) < square(a) { [b, a] } else { level };
+        }
+        let ([a, at_a], [b, at_b]) = (falls, rises);
+        let t = if a == f64::NEG_INFINITY {
+            -1.0
+        } else if b == f64::INFINITY {
+            1.0
+        } else {
+            a - at_a * (b - a) / (at_b - at_a)
+        };
+        [t, t]
     }
-    Some((-t, limit))
-}
 
-/// From an edge, in the sense that is inwards along the normal of one of its faces: the one along which the
-/// axis runs more.
-fn from_edge(axis: &Axis, t: f64, edge: Sides, inwards: [bool; 3]) -> Option<(f64, f64)> {
-    let along = edge.iter().position(|side| *side == 0.0)?;
-    let (j, k) = ((along + 1) % 3, (along + 2) % 3);
-    // Inwards along both or neither, axis and edge cross like a T.
-    if inwards[j] == inwards[k] {
-        return None;
+    /// Where the capsule leaves the box, followed from the point of the axis that is nearest to a face, an edge or a corner. From an
+    /// end of the axis that is over a face along the axis; from an edge or a corner in the sense in which the box lies along most of
+    /// the direction. It is over the box up to the end of the axis, for the width of the box along the axes on which it comes
+    /// in over an edge, and up to the end of the face on the others.
+    fn far_end(&self, t: f64) -> Option<f64> {
+        let (p, half, size) = (self.segment.at(t), self.segment.half, self.size);
+        let slack = self.rounding();
+        let side: Vec3 =
+            std::array::from_fn(|i| if p[i].abs() >= size[i] - slack { 1f64.copysign(p[i]) } else { 0.0 });
+        // Squared length that leads inwards, forwards and backwards along the axis.
+        let (mut forwards, mut backwards) = (0.0, 0.0);
+        for i in 0..3 {
+            let inwards = -side[i] * half[i];
+            forwards += if inwards > 0.0 { half[i] * half[i] } else { 0.0 };
+            backwards += if inwards < 0.0 { half[i] * half[i] } else { 0.0 };
+        }
+        let sense = match side.iter().filter(|s| **s != 0.0).count() {
+            0 => return None,
+            1 if t.abs() == 1.0 => -t,
+            1 => return None,
+            _ if forwards > backwards => 1.0,
+            _ => -1.0,
+        };
+        let mut length = 1.0 - sense * t;
+        for i in 0..3 {
+            let ahead = sense * half[i];
+            if side[i] == 0.0 {
+                length = length.min((size[i] - p[i] * 1f64.copysign(ahead)) / ahead.abs());
+            } else if side[i] * ahead < 0.0 {
+                length = length.min(2.0 * size[i] / ahead.abs());
+            }
+        }
+        (length > 0.0).then_some(t + sense * length)
     }
-    let lean = if axis.half[j].abs() > axis.half[k].abs() { j } else { k };
-    let sense = if inwards[lean] { 1.0 } else { -1.0 };
-    let (place, speed) = (axis.at(t)[along], sense * axis.half[along]);
-    let left = if speed > 0.0 { axis.size[along] - place } else { axis.size[along] + place };
-    Some((sense, width(axis, lean).min(left / speed.abs())))
-}
 
-/// From a corner, in the sense that is inwards along one box axis if the capsule lies along that one, else
-/// in the opposite sense, which is inwards along the other two.
-fn from_corner(axis: &Axis, inwards: [bool; 3]) -> Option<(f64, f64)> {
-    let sense = match inwards.iter().filter(|inwards| **inwards).count() {
-        1 => 1.0,
-        2 => -1.0,
-        _ => return None,
-    };
-    let single = inwards.iter().position(|inwards| *inwards == (sense > 0.0))?;
-    let (j, k) = ((single + 1) % 3, (single + 2) % 3);
-    if axis.half[single].powi(2) > 0.5 * dot(axis.half, axis.half) {
-        Some((sense, width(axis, single)))
-    } else {
-        Some((-sense, width(axis, j).min(width(axis, k))))
+    /// Contacts of a capsule whose axis goes into the box, in the frame of the box.
+    fn pierced(&self, radius: f64) -> [Option<Touch>; 2] {
+        let Segment { centre, half } = self.segment;
+        let [x, y, z] = self.size;
+        let slack = self.rounding();
+        let (mut best, mut face) = (f64::NEG_INFINITY, 0);
+        for i in 0..3 {
+            let gap = centre[i].abs() - half[i].abs() - self.size[i];
+            if gap > best + slack {
+                (best, face) = (gap, i);
+            }
+        }
+        let mut edge = None;
+        for i in 0..3 {
+            let mut along = [0.0; 3];
+            along[i] = 1.0;
+            let across = cross(along, half);
+            let length = norm(across);
+            let reach = x * across[0].abs() + y * across[1].abs() + z * across[2].abs();
+            // The rounding of the products, which the division by a small length magnifies.
+            let gap = (dot(across, centre).abs() - reach - slack * norm(half)) / length;
+            if gap > best {
+                (best, edge) = (gap, Some((i, scale(across, -1f64.copysign(dot(across, centre)) / length))));
+            }
+        }
+        match edge {
+            Some((i, normal)) => [Some(self.edge_contact(i, normal, radius)), None],
+            None => self.face_contacts(face, radius),
+        }
     }
-}
 
-/// How far along the axis the box is wide.
-fn width(axis: &Axis, i: usize) -> f64 {
-    2.0 * axis.size[i] / axis.half[i].abs()
+    /// The contacts at the ends of the part of the axis that is below face `i`, or above it.
+    fn face_contacts(&self, i: usize, radius: f64) -> [Option<Touch>; 2] {
+        let Segment { centre, half } = self.segment;
+        let side = 1f64.copysign(centre[i]);
+        let mut normal = [0.0; 3];
+        normal[i] = -side;
+        let contact = |t: f64| {
+            let p = self.segment.at(t);
+            let dist = side * p[i] - self.size[i] - radius;
+            Touch { dist, pos: add_scaled(p, normal, radius + 0.5 * dist), normal, tangent: [0.0; 3] }
+        };
+        let (mut from, mut to) = (-1f64, 1f64);
+        for k in [(i + 1) % 3, (i + 2) % 3] {
+            let [a, b] = slab(centre[k], half[k], self.size[k]);
+            (from, to) = (from.max(a), to.min(b));
+        }
+        if from < to {
+            [from, to].map(|t| Some(contact(t)))
+        } else {
+            // A box without thickness.
+            [Some(contact(clamp(0.5 * (from + to), -1.0, 1.0))), None]
+        }
+    }
+
+    /// The contact with the edge along axis `i` that is farthest against the normal, which points from the capsule to the box.
+    fn edge_contact(&self, i: usize, normal: Vec3, radius: f64) -> Touch {
+        let mut edge = Segment { centre: [0.0; 3], half: [0.0; 3] };
+        for k in 0..3 {
+            let place = if k == i { &mut edge.half[k] } else { &mut edge.centre[k] };
+            *place = if k == i { self.size[k] } else { self.size[k].copysign(-normal[k]) };
+        }
+        let [t, y] = closest_points(&self.segment, &edge);
+        let (on_axis, on_edge) = (self.segment.at(t), edge.at(y));
+        let dist = dot(sub(on_edge, on_axis), normal) - radius;
+        let on_capsule = add_scaled(on_axis, normal, radius);
+        Touch { dist, pos: scale(add(on_capsule, on_edge), 0.5), normal, tangent: [0.0; 3] }
+    }
 }
 
 #[cfg(test)]

@@ -42,61 +42,53 @@ pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec
     }
 }
 
-/// The deepest point of the rim, the point above it on the other rim, and two that make an equilateral triangle
-/// with the first.
+/// A cylinder lies on the line through the lowest point of its rim: both ends of that. It stands on the circle of its lower end:
+/// three points of it as far from each other as can be, the lowest among them.
 pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let [radius, half, _] = cylinder.size;
-    let normal = plane.axis(2);
-    let mut axis = cylinder.axis(2);
-    let mut slope = dot(normal, axis);
-    if slope > 0.0 {
-        (axis, slope) = (scale(axis, -1.0), -slope);
+    let (normal, axis) = (plane.axis(2), cylinder.axis(2));
+    // Half the axis, downwards, and the direction across it that leads down most: -normal without its part along the axis.
+    let slope = dot(normal, axis);
+    let end = scale(axis, if slope > 0.0 { -half } else { half });
+    let (mut down, steepness) = unit_vector(add_scaled(scale(normal, -1.0), axis, slope));
+    if steepness < MINVAL {
+        // Upright all directions are level.
+        down = cylinder.axis(0);
     }
-    let height = dot(sub(cylinder.pos, plane.pos), normal);
-
-    // Down the slope of the end: -normal without its part along the axis.
-    let down = sub(scale(axis, slope), normal);
-    let length2 = dot(down, down);
-    let down = if length2 >= MINVAL * MINVAL {
-        scale(down, radius / length2.sqrt())
-    } else {
-        scale(cylinder.axis(0), radius)
+    let down = scale(down, radius);
+    let lowest = add(cylinder.pos, down);
+    let mut add_contact = |point: Vec3| {
+        let dist = dot(sub(point, plane.pos), normal);
+        if dist <= margin {
+            out.push(touch(normal, dist, point));
+        }
+        dist <= margin
     };
-    let fall = dot(down, normal);
-    let (end, rise) = (scale(axis, half), slope * half);
-
-    let lowest = height + rise + fall;
-    if lowest > margin {
+    if !add_contact(add(lowest, end)) {
         return;
     }
-    out.push(touch(normal, lowest, add(add(cylinder.pos, down), end)));
-    let opposite = height - rise + fall;
-    if opposite <= margin {
-        out.push(touch(normal, opposite, sub(add(cylinder.pos, down), end)));
-    }
-    let behind = height + rise - 0.5 * fall;
-    if behind <= margin {
-        let side = scale(unit_vector(cross(down, end)).0, radius * 3f64.sqrt() / 2.0);
-        for point in [add(cylinder.pos, side), sub(cylinder.pos, side)] {
-            out.push(touch(normal, behind, add_scaled(add(point, end), down, -0.5)));
-        }
+    add_contact(sub(lowest, end));
+    // A third of a turn to either side: cos 120° = -1/2, sin 120° = √3/2.
+    let aside = scale(cross(axis, down), 0.75f64.sqrt());
+    let behind = add_scaled(add(cylinder.pos, end), down, -0.5);
+    for point in [sub(behind, aside), add(behind, aside)] {
+        add_contact(point);
     }
 }
 
-/// Up to four of the corners that are below the centre.
+/// The lower corner of each of the four diagonals.
 pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
     let height = dot(sub(cuboid.pos, plane.pos), normal);
-    let corner = |i: usize| {
-        let side = |k: usize| if i >> k & 1 == 1 { cuboid.size[k] } else { -cuboid.size[k] };
-        mat_mul_vec(&cuboid.mat, [side(0), side(1), side(2)])
-    };
-    let low = (0..8).map(corner).filter_map(|corner| {
-        let below = dot(normal, corner);
-        (height + below <= margin && below <= 0.0)
-            .then(|| touch(normal, height + below, add(corner, cuboid.pos)))
-    });
-    out.extend(low.take(4));
+    let [x, y, z] = [0, 1, 2].map(|i| scale(cuboid.axis(i), cuboid.size[i]));
+    let face = [add(x, y), sub(x, y)];
+    for half in [scale(face[0], -1.0), face[1], scale(face[1], -1.0), face[0]].map(|corner| sub(corner, z)) {
+        let rise = dot(normal, half);
+        let (corner, below) = if rise > 0.0 { (scale(half, -1.0), -rise) } else { (half, rise) };
+        if height + below <= margin {
+            out.push(touch(normal, height + below, add(corner, cuboid.pos)));
+        }
+    }
 }
 
 /// The lowest point of an ellipsoid.

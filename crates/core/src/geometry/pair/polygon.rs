@@ -7,6 +7,7 @@
 //! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
 
 use super::{Settings, Touch};
+use crate::geometry::clip::{ROUNDING, clip};
 use crate::geometry::convex::{Convex, Room, nearest};
 use crate::geometry::list::List;
 use crate::geometry::{Shape, Sides};
@@ -14,14 +15,12 @@ use crate::kinds::geom;
 use crate::math::*;
 
 /// Cosine of the angle of two faces up to which they look at each other (measured on MuJoCo 3.14.0).
-const FACING: f64 = 0.996;
+pub(super) const FACING: f64 = 0.996;
 /// Sine of the angle of an edge and a face up to which it lies on it.
 const ALONG: f64 = 0.089_352_67;
 /// Angle between a direction and a face's normal, or across an edge, up to which the face or edge is what it meets:
 /// directions between round bodies are known to about the root of the tolerance.
 const MEETS: f64 = 2e-3;
-/// Points are the same when they are nearer than this part of the size of what clips.
-const SAME: f64 = 1e-12;
 /// Most contacts of a polygon.
 const MOST: usize = 4;
 /// Most corners of a face; of a mesh with larger ones the rest is left out.
@@ -190,7 +189,7 @@ impl Feature {
         let (mut faces, mut edges) = (List::new(), List::new());
         edges.push(edge);
         // The faces at an edge are those that it lies in.
-        for &f in self.faces.all().iter().filter(|f| dot(f.normal, unit(&edge)).abs() < SAME.sqrt()) {
+        for &f in self.faces.all().iter().filter(|f| dot(f.normal, unit(&edge)).abs() < ROUNDING.sqrt()) {
             faces.push(f);
         }
         Feature { dim: 2, faces, edges }
@@ -277,12 +276,12 @@ impl Patch {
             let edge = sub(face[(k + 1) % face.len()], p);
             size = size.max(norm(edge));
             let inwards = unit_vector(cross(edge, self.normal)).0;
-            self.lying = clip(&self.lying, |q| dot(inwards, sub(q, p)), SAME * size);
+            clip(&mut self.lying, |q| dot(inwards, sub(q, p)), size);
         }
         let depth = |p: Vec3| dot(self.normal, sub(p, origin));
         let mut below = Corners::new();
         for &p in self.lying.all() {
-            if depth(p) < 0.0 && below.all().iter().all(|&q| norm(sub(q, p)) > SAME * size) {
+            if depth(p) < 0.0 && below.all().iter().all(|&q| norm(sub(q, p)) > ROUNDING * size) {
                 below.push(p);
             }
         }
@@ -302,24 +301,6 @@ impl Patch {
             many => out.extend(widest(many).map(touch)),
         }
     }
-}
-
-/// The part of a polygon where a linear function is not negative. `slack` is what counts as zero.
-fn clip(polygon: &Corners, height: impl Fn(Vec3) -> f64, slack: f64) -> Corners {
-    let mut out = Corners::new();
-    let Some(&last) = polygon.all().last() else { return out };
-    let mut from = (last, height(last));
-    for &p in polygon.all() {
-        let to = (p, height(p));
-        if from.1.min(to.1) < -slack && from.1.max(to.1) > slack {
-            out.push(add_scaled(from.0, sub(to.0, from.0), from.1 / (from.1 - to.1)));
-        }
-        if to.1 >= -slack {
-            out.push(p);
-        }
-        from = to;
-    }
-    out
 }
 
 /// The four corners of a convex polygon that span the largest area: for each diagonal the farthest corner on either side,
@@ -347,7 +328,7 @@ pub(super) fn widest(polygon: &[Vec3]) -> [Vec3; MOST] {
                 }
             }
             // Of equally large ones the first.
-            if here > largest * (1.0 + SAME) {
+            if here > largest * (1.0 + ROUNDING) {
                 (best, largest) = ([i, j, k, l], here);
             }
         }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::geometry::convex::{Convex, Effort, Room, nearest};
 use crate::geometry::tests::Random;
 use crate::kinds::geom;
 
@@ -101,6 +102,41 @@ fn the_first_ball_is_nearest() {
         assert!(out.len() <= 2 && out.iter().all(|touch| touch.dist >= out[0].dist - 1e-9 * scale));
     }
     assert!(outside > 50_000 && pierced > 5_000, "{outside} {pierced}");
+}
+
+/// The general algorithm for convex shapes is the reference: it shares nothing with this one.
+#[test]
+fn a_pierced_box_is_parted_by_the_least_translation() {
+    let (mut random, mut room) = (Random(3), Room::default());
+    let effort = Effort { tolerance: 1e-12, iterations: 300 };
+    let mut pierced = [0; 2];
+    for n in 0..100_000 {
+        let (capsule, cuboid) = random.capsule_and_box();
+        let scale = norm(capsule.pos) + norm(capsule.size) + norm(cuboid.size);
+        let core = Shape { size: [0.0, capsule.size[1], 0.0], ..capsule };
+        let found = nearest(&mut Convex::new(&core), &mut Convex::new(&cuboid), 0.0, effort, &mut room);
+        let Some(depth) = found.map(|n| -n.dist).filter(|depth| *depth > 1e-9 * scale) else { continue };
+        let mut out = vec![];
+        capsule_box(&capsule, &cuboid, 0.0, &mut out);
+        let deepest = out.iter().map(|c| -c.dist - capsule.size[0]).fold(f64::NEG_INFINITY, f64::max);
+        assert!((deepest - depth).abs() < 1e-9 * scale, "{n}: {deepest} {depth} {capsule:?} {cuboid:?}");
+        for c in &out {
+            let [on_capsule, on_box] = [-0.5, 0.5].map(|s| add_scaled(c.pos, c.normal, s * c.dist));
+            let line = axis_of(&capsule);
+            let round = norm(sub(on_capsule, line.at(line.closest_to(on_capsule))));
+            assert!(round < capsule.size[0] + 1e-9 * scale, "{n}: {c:?} {capsule:?} {cuboid:?}");
+            let local = cuboid.local(on_box);
+            let beyond = (0..3).map(|i| local[i].abs() - cuboid.size[i]).fold(f64::NEG_INFINITY, f64::max);
+            assert!(beyond.abs() < 1e-9 * scale, "{n}: {c:?} {capsule:?} {cuboid:?}");
+        }
+        pierced[usize::from(out.len() > 1)] += 1;
+    }
+    println!("{pierced:?} with one and with two contacts");
+    assert!(pierced.iter().all(|&n| n > 2_000), "{pierced:?}");
+}
+
+fn axis_of(capsule: &Shape) -> Segment {
+    Segment { centre: capsule.pos, half: scale(capsule.axis(2), capsule.size[1]) }
 }
 
 #[test]

@@ -1,0 +1,37 @@
+//! Clipping of convex polygons by planes: Sutherland and Hodgman, *Reentrant polygon clipping*, Communications of the ACM 17
+//! (1974).
+
+use super::list::List;
+use crate::math::*;
+
+/// Rounding of a coordinate as a part of the size of the shapes: a corner goes through two rotations, a shift and some cuts, each
+/// with a rounding of 1.1e-16.
+pub(super) const ROUNDING: f64 = 1e-14;
+
+/// Leaves the part of a convex polygon where a linear function `height` is not negative. A corner within the rounding of `size`
+/// is on the plane: it stays, and no edge is cut next to it.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn clip<const N: usize>(polygon: &mut List<Vec3, N>, height: impl Fn(Vec3) -> f64, size: f64) {
+    let slack = ROUNDING * size;
+    if polygon.all().iter().any(|&p| height(p) < -slack) {
+        *polygon = cut(polygon, height, slack);
+    }
+}
+
+/// The corners above the plane, and where edges pass it.
+fn cut<const N: usize>(polygon: &List<Vec3, N>, height: impl Fn(Vec3) -> f64, slack: f64) -> List<Vec3, N> {
+    let mut out = List::new();
+    let Some(&last) = polygon.all().last() else { return out };
+    let mut from = (last, height(last));
+    for &p in polygon.all() {
+        let to = (p, height(p));
+        if from.1.min(to.1) < -slack && from.1.max(to.1) > slack {
+            out.push(add_scaled(from.0, sub(to.0, from.0), from.1 / (from.1 - to.1)));
+        }
+        if to.1 >= -slack {
+            out.push(p);
+        }
+        from = to;
+    }
+    out
+}
