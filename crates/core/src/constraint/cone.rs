@@ -16,7 +16,7 @@
 //!
 //! where (G_t + λ) p = c and (G_t + λ) q = y_t. Its root is found by Newton's method too.
 
-use crate::math::{Cholesky, add_scaled, dot};
+use crate::math::{Ldl, add_scaled, dot};
 
 /// Part of the trace of G_t that is added to it: rounding, and a direction without friction, or without mass, has a diagonal.
 const RIDGE: f64 = 1e-15;
@@ -48,7 +48,7 @@ pub(super) fn cone_force<const N: usize>(
     if g[0] >= length_of_tangents(&g) {
         return [0.0; N];
     }
-    if let Some(factor) = Cholesky::<N, 0>::new(a, 0.0) {
+    if let Some(factor) = Ldl::<N, 0>::positive(a, 0.0) {
         let free = factor.solve(b.map(|b| -b));
         if length_of_tangents::<N>(&std::array::from_fn(|i| free[i] / scale[i])) <= free[0] {
             return free;
@@ -131,7 +131,7 @@ struct Tangents<const N: usize> {
     y: [f64; N],
     lambda: f64,
     /// Of G_t + λ.
-    factor: Cholesky<N, 1>,
+    factor: Ldl<N, 1>,
 }
 
 impl<const N: usize> Disc<N> {
@@ -150,7 +150,7 @@ impl<const N: usize> Disc<N> {
         let mut lambda = guess.max(low).min(high);
         let mut found = None;
         for _ in 0..MOST_STEPS {
-            let Some(factor) = Cholesky::<N, 1>::new(&self.matrix, lambda) else {
+            let Some(factor) = Ldl::<N, 1>::positive(&self.matrix, lambda) else {
                 // Too near to singular: further inside.
                 low = lambda;
                 lambda = 0.5 * (low + high);

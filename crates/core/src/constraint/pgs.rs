@@ -15,7 +15,7 @@ use super::cost::Cost;
 use super::gram::RowGroup;
 use super::jacobian::{Block, by_cone_rows, by_rows};
 use super::primal::Problem;
-use crate::math::{Cholesky, dot};
+use crate::math::{Ldl, dot};
 
 impl Problem<'_> {
     /// Sweeps from the present forces on, until one improves the scaled dual objective by no more than `opt.tolerance` (the
@@ -132,7 +132,7 @@ impl Problem<'_> {
         let contact = self.d.contact.get(self.d.efc_id[row] as usize).filter(|_| b.cost == Cost::Cone);
         let solved = match contact {
             Some(contact) => cone_force(&a, &rest, &contact.friction, force[0]),
-            None => match Cholesky::<N, 0>::new(&a, 0.0) {
+            None => match Ldl::<N, 0>::positive(&a, 0.0) {
                 Some(factor) => factor.solve(rest.map(|x| -x)),
                 None => return 0.0,
             },

@@ -3,11 +3,11 @@
 //! Conventions: quaternions are `w x y z`, matrices row-major, spatial vectors angular part first
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
-mod cholesky;
 pub(crate) mod lanes;
+mod ldl;
 pub(crate) mod sort;
 
-pub(crate) use cholesky::Cholesky;
+pub(crate) use ldl::Ldl;
 
 use std::ops::{Add, Mul, Sub};
 
