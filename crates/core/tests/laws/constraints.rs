@@ -198,11 +198,36 @@ proptest! {
     #[test]
     fn removal_of_slip_keeps_the_cones(scene in scene()) {
         let mut m = scene.model();
-        (*m.edit().opt.noslip_iterations, *m.edit().opt.noslip_tolerance) = (200, 0.0);
+        (*m.edit().opt.noslip_iterations, *m.edit().opt.noslip_tolerance) = (20_000, 0.0);
         let mut d = scene.data(&m);
         core::forward(&m, &mut d).unwrap();
-        for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
+        let jac = core::full_j(&m, &d).unwrap();
+        let slip = |row: usize| {
+            (0..m.nv).map(|k| jac[row * m.nv + k] * d.qacc[k]).sum::<f64>() - d.efc_aref[row]
+        };
+        let small = 1e-5 * largest(&d.qacc).max(largest(&d.efc_aref));
+        for c in d.contact.iter() {
+            let Some(first) = c.efc_address else { continue };
             prop_assert!(outside(&m, &d, c) < 1e-9, "{c:?} {:?}", core::contact_force(&m, &d, c).unwrap());
+            if !scene.elliptic || c.dim == 1 || d.efc_force[first] == 0.0 {
+                continue;
+            }
+            // In the coordinates in which the limit of friction is a ball: no slip inside; at its edge slip against the force.
+            let rows = || (1..c.dim).map(|j| (d.efc_force[first + j] / c.friction[j - 1], slip(first + j) * c.friction[j - 1]));
+            let length = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+            let (force, pull) = (length(&mut rows().map(|(y, _)| y)), length(&mut rows().map(|(_, g)| g)));
+            if force < d.efc_force[first] * (1.0 - 1e-9) {
+                prop_assert!(pull < small, "{pull}");
+            } else {
+                let against = rows().map(|(y, g)| -y * g).sum::<f64>() / force;
+                prop_assert!(pull - against < small, "{pull} {against}");
+            }
+        }
+        for row in (0..d.nefc).filter(|&r| FRICTION.contains(&d.efc_type[r])) {
+            let (f, g, loss) = (d.efc_force[row], slip(row), d.efc_frictionloss[row]);
+            prop_assert!(f.abs() <= loss);
+            let bound = if f.abs() < loss { g.abs() } else { (g * f.signum()).max(0.0) };
+            prop_assert!(bound < small, "row {row}: {g} at {f}");
         }
     }
 }
