@@ -63,6 +63,11 @@ const BESIDE_AN_END: &str = "a capsule on a cylinder, 2e-6 rad from parallel: th
 const CUT_SHORT: &str =
     "the model allows one iteration with four evaluations along the line: each side stops on its own way";
 
+/// Cases of our own models whose solution is not the library's, (model, case): of a contact whose matrix of tangents is singular
+/// `noslip` leaves the friction of the main solver there (docs/measured/parity.md). Ours is held to its optimality conditions by
+/// `crates/core/tests/laws/constraints.rs`.
+const LEFT_TO_SLIP: [(&str, &str); 2] = [("contacts", "ellipse noslip"), ("contacts", "ellipse dual noslip")];
+
 /// So many models may be chaotic: the library parts from itself as far as ours does, when its start moves by 1e-14.
 const MOST_CHAOTIC: usize = 3;
 
@@ -151,7 +156,7 @@ fn examine(path: &Path, recording: &Value) -> Outcome {
 #[test]
 fn rows_and_forces_are_those_of_mujoco() {
     let folder = workspace().join("tests/golden/constrained");
-    let mut wrong = String::new();
+    let (mut wrong, mut exceptions) = (String::new(), 0);
     for name in models(&folder) {
         let recording = read_json(&folder.join(format!("{name}.json")));
         match examine(&folder.join(format!("{name}.xml")), &recording) {
@@ -159,9 +164,21 @@ fn rows_and_forces_are_those_of_mujoco() {
                 println!("{name}: rows {rows:.1e} apart at most, solution {solution:.1e}")
             }
             Outcome::Contacts(what) | Outcome::Refused(what) => drop(writeln!(wrong, "{name}: {what}")),
-            Outcome::Differs(list) => drop(writeln!(wrong, "{name}:\n    {}", list.join("\n    "))),
+            Outcome::Differs(list) => {
+                let listed = |line: &&String| {
+                    let solution = SOLUTION.iter().any(|field| line.contains(&format!(", {field}[")));
+                    let of = |(model, case): &(&str, &str)| {
+                        *model == name && line.starts_with(&format!("{case} state"))
+                    };
+                    solution && LEFT_TO_SLIP.iter().any(of)
+                };
+                let (expected, others): (Vec<_>, Vec<_>) = list.iter().partition(listed);
+                exceptions += expected.len();
+                others.iter().for_each(|line| drop(writeln!(wrong, "{name}: {line}")));
+            }
         }
     }
+    assert!(exceptions > 0, "the cases that are listed as left to slip do not differ");
     assert!(wrong.is_empty(), "differences from MuJoCo 3.14.0:\n{wrong}");
 }
 

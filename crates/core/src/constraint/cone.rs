@@ -1,99 +1,219 @@
-//! The force of friction of one contact when its normal force is known: the nearest that an elliptic cone allows.
+//! The force of one contact with an elliptic cone: the minimum of ½ xᵀ A x + bᵀ x over |x_t / μ| ≤ x₀, or over the friction x_t
+//! alone where the normal force x₀ is given.
 //!
-//! min ½ xᵀ A x + bᵀ x over Σ (xⱼ/μⱼ)² ≤ r². With y = x/μ the ellipsoid is a ball, and a force is the answer when and only
-//! when (G + λ) y = -g with G = μ A μ, g = μ b, and λ ≥ 0 is zero unless |y| = r. The length of y falls as λ grows, and
-//! 1/|y| is almost linear in it: Newton's method on that (Hebden 1973; Moré and Sorensen, *Computing a trust region step*,
-//! SIAM Journal on Scientific and Statistical Computing 4, 1983) meets r in a few steps, between bounds that hold it where
-//! G is singular.
+//! With y = x/μ, G = μ A μ and g = μ b the cone is a circular one, which is its own dual, and y is optimal if and only if G y + g
+//! is in the cone too and across y (Boyd and Vandenberghe, *Convex Optimization*, 5.9). There are three cases: g is in the cone
+//! and y = 0; the free minimum -G⁻¹ g is in the cone; y is on its boundary.
+//!
+//! Friction under a normal force n is optimal if and only if (G_t + λ) y_t = -(g_t + c n), where c couples G's first row, and λ ≥ 0
+//! is zero unless |y_t| = n. The length of y_t falls as λ grows, and 1/|y_t| is almost linear in λ: Newton's method on that
+//! (Hebden 1973; Moré and Sorensen, *Computing a trust region step*, SIAM Journal on Scientific and Statistical Computing 4,
+//! 1983) meets n in a few steps, between bounds that hold it where G_t is singular.
+//!
+//! On the boundary what is left is convex in n, with the slope
+//!
+//! > φ'(n) = (G₀₀ - λ) n + c·y_t + g₀,  φ''(n) = G₀₀ - λ - c·p + (n + y_t·p)² / (y_t·q),
+//!
+//! where (G_t + λ) p = c and (G_t + λ) q = y_t. Its root is found by Newton's method too.
 
-use crate::math::dot;
+use crate::math::{Ldl, add_scaled, dot};
 
-/// Part of the trace of G that is added to it: rounding, and a direction without friction, or without mass, has a diagonal.
+/// Part of the trace of G_t that is added to it: rounding, and a direction without friction, or without mass, has a diagonal.
 const RIDGE: f64 = 1e-15;
-/// Part of r that |y| may miss it by.
+/// Part of n that |y_t| may miss it by.
 const CLOSE: f64 = 1e-14;
+/// Part of n below which Newton's step for it leaves an error of rounding: its square.
+const LAST_STEP: f64 = 1e-7;
 /// Newton's method needs about five.
 const MOST_STEPS: usize = 60;
 
-/// The friction with a given normal force `r`, in the rows 1 to N - 1 of A, `b` and the result; row 0 is left out.
-pub(super) fn friction<const N: usize>(a: &[[f64; N]; N], b: &[f64; N], mu: &[f64; 5], r: f64) -> [f64; N] {
-    let scale: [f64; N] = std::array::from_fn(|i| if i == 0 { 0.0 } else { mu[i - 1] });
-    let g: [f64; N] = std::array::from_fn(|i| -b[i] * scale[i]);
-    let mut matrix: [[f64; N]; N] =
-        std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] * scale[i] * scale[j]));
-    let trace: f64 = (1..N).map(|i| matrix[i][i]).sum();
-    // Where |y| = r, λ lies between these: |g| / (λ + trace) ≤ |y| ≤ |g| / λ.
-    let most = dot(g, g).sqrt() / r;
-    let [mut low, mut high] = [(most - trace).max(0.0), most];
-    (1..N).for_each(|i| matrix[i][i] += RIDGE * trace);
-    let mut lambda = low;
+/// The friction under the normal force `n`, in the rows 1 to N - 1 of A, `b` and the result; row 0 is left out.
+pub(super) fn friction<const N: usize>(a: &[[f64; N]; N], b: &[f64; N], mu: &[f64; 5], n: f64) -> [f64; N] {
+    let scale = scales(mu, 0.0);
+    let disc = Disc::new(&scaled(a, &scale));
+    let load = std::array::from_fn(|i| -b[i] * scale[i]);
+    let y = disc.minimum(&load, n, 0.0).map_or([0.0; N], |found| shortened(found.y, n));
+    std::array::from_fn(|i| y[i] * scale[i])
+}
+
+/// The force of a whole cone. `guess` is a normal force near the answer, or zero.
+pub(super) fn cone_force<const N: usize>(
+    a: &[[f64; N]; N],
+    b: &[f64; N],
+    mu: &[f64; 5],
+    guess: f64,
+) -> [f64; N] {
+    let scale = scales(mu, 1.0);
+    let g: [f64; N] = std::array::from_fn(|i| b[i] * scale[i]);
+    if g[0] >= length_of_tangents(&g) {
+        return [0.0; N];
+    }
+    if let Some(factor) = Ldl::<N, 0>::positive(a, 0.0) {
+        let free = factor.solve(b.map(|b| -b));
+        if length_of_tangents::<N>(&std::array::from_fn(|i| free[i] / scale[i])) <= free[0] {
+            return free;
+        }
+    }
+    let y = on_boundary(&scaled(a, &scale), &g, guess);
+    std::array::from_fn(|i| y[i] * scale[i])
+}
+
+/// The minimum of ½ yᵀ G y + gᵀ y over |y_t| ≤ y₀ where the constraint is active.
+fn on_boundary<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N], guess: f64) -> [f64; N] {
+    let disc = Disc::new(matrix);
+    let mut couple = matrix[0];
+    couple[0] = 0.0;
+    let [mut low, mut high] = [0.0, f64::INFINITY];
+    let mut n = if guess > 0.0 { guess } else { along_steepest_ray(matrix, g) };
+    let mut lambda = 0.0;
     let mut y = [0.0; N];
     for _ in 0..MOST_STEPS {
-        let Some(factor) = factor(&matrix, lambda) else {
-            // Too near to singular: further inside.
-            low = lambda;
-            lambda = 0.5 * (low + high);
-            continue;
+        let load = std::array::from_fn(|i| -(g[i] + couple[i] * n));
+        let Some(Tangents { y: at, lambda: multiplier, factor }) = disc.minimum(&load, n, lambda) else {
+            break;
         };
-        y = solve(&factor, g);
-        let size = dot(y, y).sqrt();
-        if size <= r && lambda == 0.0 || (size - r).abs() <= CLOSE * r || size.is_nan() {
-            break;
-        }
-        if size > r {
-            low = lambda
+        (y, lambda) = (at, multiplier);
+        let slope = (matrix[0][0] - lambda) * n + dot(couple, y) + g[0];
+        if slope < 0.0 {
+            low = n;
         } else {
-            high = lambda
+            high = n;
         }
-        // d|y|²/dλ = -2 yᵀ (G + λ)⁻¹ y.
-        let newton = lambda + size * size / dot(y, solve(&factor, y)) * (size - r) / r;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-        if next == lambda {
+        let p = factor.solve(couple);
+        let mut curvature = matrix[0][0] - lambda - dot(couple, p);
+        let mut by_n = p.map(|p| -p);
+        if lambda > 0.0 {
+            // |y_t| = n as n changes gives the derivative of λ.
+            let q = factor.solve(y);
+            let growth = (n + dot(y, p)) / dot(y, q);
+            curvature += growth * (n + dot(y, p));
+            by_n = add_scaled(by_n, q, growth);
+        }
+        let newton = -slope / curvature;
+        if newton.abs() <= LAST_STEP * n {
+            (y, n) = (add_scaled(y, by_n, newton), n + newton);
             break;
         }
-        lambda = next;
+        n = match n + newton {
+            next if next > low && next < high => next,
+            _ if high == f64::INFINITY => 2.0 * n,
+            _ => 0.5 * (low + high),
+        };
     }
-    let size = dot(y, y).sqrt();
-    let onto = if size > r { r / size } else { 1.0 };
-    std::array::from_fn(|i| y[i] * scale[i] * onto)
+    y = shortened(y, n);
+    y[0] = n;
+    y
 }
 
-/// Cholesky factor of G + λ without its first row; `None` when a pivot is not positive.
-fn factor<const N: usize>(g: &[[f64; N]; N], lambda: f64) -> Option<[[f64; N]; N]> {
-    let mut l = [[0.0; N]; N];
-    for i in 1..N {
-        for j in 1..=i {
-            let sum: f64 = (1..j).map(|k| l[i][k] * l[j][k]).sum();
-            let rest = g[i][j] - sum + if i == j { lambda } else { 0.0 };
-            l[i][j] = if i != j {
-                rest / l[j][j]
-            } else if rest > 0.0 {
-                rest.sqrt()
-            } else {
-                return None;
-            };
+/// The normal force of the minimum along the steepest ray of the boundary from the apex.
+fn along_steepest_ray<const N: usize>(matrix: &[[f64; N]; N], g: &[f64; N]) -> f64 {
+    let pull = length_of_tangents(g);
+    let ray: [f64; N] = std::array::from_fn(|i| {
+        if i == 0 {
+            1.0
+        } else if pull > 0.0 {
+            -g[i] / pull
+        } else {
+            0.0
         }
-    }
-    Some(l)
+    });
+    -dot(ray, *g) / dot(ray, matrix.map(|row| dot(row, ray)))
 }
 
-/// (L Lᵀ)⁻¹ x without the first row.
-fn solve<const N: usize>(l: &[[f64; N]; N], mut x: [f64; N]) -> [f64; N] {
-    for i in 1..N {
-        let sum: f64 = (1..i).map(|k| l[i][k] * x[k]).sum();
-        x[i] = (x[i] - sum) / l[i][i];
+/// Friction in the coordinates in which what a normal force allows is a ball: G_t, and how large its eigenvalues are at most.
+struct Disc<const N: usize> {
+    matrix: [[f64; N]; N],
+    trace: f64,
+}
+
+/// A minimum over the ball.
+struct Tangents<const N: usize> {
+    y: [f64; N],
+    lambda: f64,
+    /// Of G_t + λ.
+    factor: Ldl<N, 1>,
+}
+
+impl<const N: usize> Disc<N> {
+    fn new(matrix: &[[f64; N]; N]) -> Disc<N> {
+        let trace: f64 = (1..N).map(|i| matrix[i][i]).sum();
+        let mut matrix = *matrix;
+        (1..N).for_each(|i| matrix[i][i] += RIDGE * trace);
+        Disc { matrix, trace }
     }
-    for i in (1..N).rev() {
-        let sum: f64 = (i + 1..N).map(|k| l[k][i] * x[k]).sum();
-        x[i] = (x[i] - sum) / l[i][i];
+
+    /// (G_t + λ) y = load with |y| ≤ n; the search begins at the multiplier `guess`, or at the bounds.
+    fn minimum(&self, load: &[f64; N], n: f64, guess: f64) -> Option<Tangents<N>> {
+        // Where |y| = n, λ lies between these: |load| / (λ + trace) ≤ |y| ≤ |load| / λ.
+        let most = length_of_tangents(load) / n;
+        let [mut low, mut high] = [(most - self.trace).max(0.0), most];
+        let mut lambda = guess.max(low).min(high);
+        let mut found = None;
+        for _ in 0..MOST_STEPS {
+            let Some(factor) = Ldl::<N, 1>::positive(&self.matrix, lambda) else {
+                // Too near to singular: further inside.
+                low = lambda;
+                lambda = 0.5 * (low + high);
+                continue;
+            };
+            let y = factor.solve(*load);
+            let size = length_of_tangents(&y);
+            let Tangents { factor, .. } = found.insert(Tangents { y, lambda, factor });
+            if size <= n && lambda == 0.0 || (size - n).abs() <= CLOSE * n || size.is_nan() {
+                break;
+            }
+            if size > n {
+                low = lambda;
+            } else {
+                high = lambda;
+            }
+            // d|y|²/dλ = -2 yᵀ (G_t + λ)⁻¹ y.
+            let newton = lambda + size * size / dot(y, factor.solve(y)) * (size - n) / n;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if next == lambda {
+                break;
+            }
+            lambda = next;
+        }
+        found
     }
-    x[0] = 0.0;
-    x
+}
+
+/// Moves a force to the nearest one of its cone, in the coordinates in which that is circular (Boyd and Vandenberghe, exercise
+/// 8.3).
+pub(super) fn nearest_in_cone(force: &mut [f64], mu: &[f64; 5]) {
+    let Some((normal, tangents)) = force.split_first_mut() else { return };
+    let size = tangents.iter().zip(mu).map(|(f, mu)| (f / mu) * (f / mu)).sum::<f64>().sqrt();
+    if size > *normal {
+        let onto = (0.5 * (*normal + size)).max(0.0);
+        tangents.iter_mut().for_each(|f| *f *= onto / size);
+        *normal = onto;
+    }
+}
+
+/// y_t, whose length is at most n but for rounding, brought to this length.
+fn shortened<const N: usize>(y: [f64; N], n: f64) -> [f64; N] {
+    let size = length_of_tangents(&y);
+    if size > n { y.map(|y| y * (n / size)) } else { y }
+}
+
+/// What takes y to x = μ y: `normal`, then the coefficients of friction.
+fn scales<const N: usize>(mu: &[f64; 5], normal: f64) -> [f64; N] {
+    std::array::from_fn(|i| if i == 0 { normal } else { mu[i - 1] })
+}
+
+/// μ A μ.
+fn scaled<const N: usize>(a: &[[f64; N]; N], scale: &[f64; N]) -> [[f64; N]; N] {
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][j] * scale[i] * scale[j]))
+}
+
+fn length_of_tangents<const N: usize>(x: &[f64; N]) -> f64 {
+    x[1..].iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::friction;
+    use super::{cone_force, friction, nearest_in_cone};
     use crate::geometry::tests::Random;
 
     /// A convex problem: a force is the answer when and only when a step downhill, brought back into the ellipsoid, leaves
@@ -143,6 +263,75 @@ mod tests {
             println!("{regular:e} {singular:e}");
             // Along what has no mass a force is known to the root of rounding.
             assert!(regular < 1e-10 && singular < 1e-7, "{regular:e} {singular:e}");
+        }
+    }
+
+    /// In the coordinates in which the cone is circular: y and G y + g are in it, and across each other. How far a random
+    /// problem misses that, as a part of its own numbers.
+    fn misses_optimality<const N: usize>(cases: usize, zones: &mut [usize; 3]) -> f64 {
+        let mut random = Random(N as u64);
+        let mut worst = 0.0_f64;
+        for case in 0..cases {
+            let rows: [[f64; N]; N] =
+                std::array::from_fn(|_| std::array::from_fn(|_| random.within(-1.0, 1.0)));
+            let unit = 10f64.powf(random.within(-3.0, 3.0));
+            let soft = 10f64.powf(random.within(-4.0, 0.0));
+            let a: [[f64; N]; N] = std::array::from_fn(|i| {
+                std::array::from_fn(|j| {
+                    unit * ((0..N).map(|k| rows[k][i] * rows[k][j]).sum::<f64>()
+                        + if i == j { soft } else { 0.0 })
+                })
+            });
+            let push = 10f64.powf(random.within(-4.0, 4.0));
+            let b: [f64; N] =
+                std::array::from_fn(|i| push * random.within(-1.0, if i == 0 { 0.3 } else { 1.0 }));
+            let mu: [f64; 5] = std::array::from_fn(|_| 10f64.powf(random.within(-3.0, 0.5)));
+            let guess = if case % 2 == 0 { 0.0 } else { 10f64.powf(random.within(-6.0, 6.0)) };
+            let x = cone_force(&a, &b, &mu, guess);
+            let scale = |i: usize| if i == 0 { 1.0 } else { mu[i - 1] };
+            let length = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let y: Vec<f64> = (0..N).map(|i| x[i] / scale(i)).collect();
+            let slope: Vec<f64> =
+                (0..N).map(|i| scale(i) * (b[i] + (0..N).map(|j| a[i][j] * x[j]).sum::<f64>())).collect();
+            // What the slope is rounded by.
+            let sizes =
+                (0..N).map(|i| scale(i) * (b[i].abs() + (0..N).map(|j| (a[i][j] * x[j]).abs()).sum::<f64>()));
+            let size = sizes.fold(0.0, f64::max);
+            let out = (length(&y[1..]) - y[0]).max(0.0) / y[0].max(f64::MIN_POSITIVE);
+            let pull = (length(&slope[1..]) - slope[0]).max(0.0) / size;
+            let product: f64 = (0..N).map(|i| y[i] * slope[i]).sum::<f64>().abs();
+            let across = product / (size * y[0]).max(f64::MIN_POSITIVE);
+            let miss = out.max(pull).max(across);
+            assert!(miss < 1e-9, "{miss:e} {out:e} {pull:e} {across:e}: {a:?} {b:?} {mu:?} {guess} {x:?}");
+            worst = worst.max(miss);
+            zones[if x[0] == 0.0 { 0 } else { 1 + usize::from(length(&y[1..]) < y[0] * (1.0 - 1e-9)) }] += 1;
+        }
+        worst
+    }
+
+    #[test]
+    fn forces_of_cones_are_optimal() {
+        let mut zones = [0; 3];
+        let worst = [
+            misses_optimality::<3>(50_000, &mut zones),
+            misses_optimality::<4>(50_000, &mut zones),
+            misses_optimality::<6>(50_000, &mut zones),
+        ];
+        println!("{worst:?}, {zones:?} at the apex, on the boundary, inside");
+        assert!(zones.iter().all(|&n| n > 1_000), "{zones:?}");
+    }
+
+    #[test]
+    fn the_nearest_force_of_a_cone() {
+        for (force, expected) in [
+            ([1.0, 0.1, 0.1], [1.0, 0.1, 0.1]),
+            ([1.0, 1.5, 0.0], [2.0, 1.0, 0.0]),
+            ([-1.0, 0.0, -0.75], [1.0, 0.0, -0.25]),
+            ([-1.0, 0.3, 0.1], [0.0, 0.0, 0.0]),
+        ] {
+            let mut x = force;
+            nearest_in_cone(&mut x, &[0.5, 0.25, 1.0, 1.0, 1.0]);
+            assert_eq!(x, expected);
         }
     }
 }

@@ -5,7 +5,7 @@ use super::cost::Cost;
 use super::impedance::{Acts, Kbi, kbi, kbi_friction};
 use super::jacobian::Jacobian;
 use super::kind;
-use super::rows::{Rows, push, regularization};
+use super::rows::{Rows, inverse_weight, push, regularization};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::math::*;
 use crate::model::{Contact, Fields, Model};
@@ -51,12 +51,6 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
     }
     d.contact = list;
-}
-
-/// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn inverse_weight(m: &Model, [b1, b2]: [usize; 2], part: usize) -> f64 {
-    m.body_invweight0[2 * b1 + part] + m.body_invweight0[2 * b2 + part]
 }
 
 /// What all rows of a contact share.

@@ -5,8 +5,7 @@
 //! every change of a force, as in Mirtich and Canny's and Erleben's solvers by impulses; only the blocks of A on its
 //! diagonal are kept.
 
-use super::cost::Cost;
-use super::gram::Item;
+use super::gram::RowGroup;
 use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
 use crate::dynamics::mass;
@@ -37,36 +36,34 @@ impl Problem<'_> {
 
     /// b + A f of N rows: how far the acceleration misses the reference.
     #[inline]
-    pub(super) fn missed<const N: usize>(&self, b: &Block, item: Item) -> [f64; N] {
-        let mut out = [0.0; N];
-        self.add_missed(b, item, &mut out);
-        out
-    }
-
-    /// The same as a sum.
-    fn add_missed(&self, b: &Block, item: Item, out: &mut [f64]) {
-        let first = item.first as usize;
+    pub(super) fn residual<const N: usize>(&self, b: &Block, group: RowGroup) -> [f64; N] {
+        let first = group.first as usize;
+        let mut sums = [0.0; N];
         for (&k, v) in self.jac.terms(b) {
             let a = self.s.dual.acceleration[k as usize];
-            for (sum, v) in out.iter_mut().zip(&v[first..]) {
-                *sum += v * a;
+            if let Some(v) = v[first..].first_chunk::<N>() {
+                (0..N).for_each(|r| sums[r] += v[r] * a);
             }
         }
-        for (sum, b) in out.iter_mut().zip(&self.d.efc_b[b.row as usize + first..]) {
+        for (sum, b) in sums.iter_mut().zip(&self.d.efc_b[b.row as usize + first..]) {
             *sum += b;
         }
+        sums
     }
 
-    /// Replaces the forces of N rows.
+    /// Sets the forces of N rows.
     #[inline]
-    pub(super) fn replace<const N: usize>(&mut self, b: &Block, item: Item, force: [f64; N]) {
-        let first = item.first as usize;
+    pub(super) fn set_forces<const N: usize>(&mut self, b: &Block, group: RowGroup, force: [f64; N]) {
+        let first = group.first as usize;
         let row = b.row as usize + first;
         let Some(old) = self.d.efc_force[row..].first_chunk_mut::<N>() else { return };
         let change: [f64; N] = std::array::from_fn(|r| force[r] - old[r]);
+        if change == [0.0; N] {
+            return;
+        }
         *old = force;
         let w = &mut self.s.dual;
-        let wide = &w.inverse.blocks[item.block as usize];
+        let wide = &w.inverse.blocks[group.block as usize];
         w.inverse.add_rows_transposed(wide, first, &change, &mut w.acceleration);
     }
 
@@ -78,11 +75,11 @@ impl Problem<'_> {
             let b = self.jac.blocks[i];
             for first in 0..b.nrow {
                 let row = (b.row + first) as usize;
-                let item = Item { block: i as u32, first };
-                let [missed] = self.missed::<1>(&b, item);
+                let group = RowGroup { block: i as u32, first };
+                let [residual] = self.residual::<1>(&b, group);
                 let (f, d) = (self.d.efc_force[row], &*self.d);
                 // Half of b + A f, and half of b.
-                cost += 0.5 * f * (missed + d.efc_b[row] + d.efc_R[row] * f);
+                cost += 0.5 * f * (residual + d.efc_b[row] + d.efc_R[row] * f);
             }
         }
         cost
@@ -117,19 +114,6 @@ impl Problem<'_> {
             for (x, aref) in self.s.jar[b.rows()].iter_mut().zip(&d.efc_aref[b.rows()]) {
                 *x -= aref;
             }
-        }
-    }
-
-    /// The constraints of a sweep in the order of their rows.
-    pub(super) fn list_items(&mut self) {
-        let blocks = self.blocks();
-        let order = &mut self.s.dual.order;
-        order.clear();
-        for i in blocks {
-            let b = &self.jac.blocks[i];
-            let each = if b.cost == Cost::Cone { b.nrow } else { 1 };
-            let firsts = (0..b.nrow).step_by(each.max(1) as usize);
-            order.extend(firsts.map(|first| Item { block: i as u32, first }));
         }
     }
 }

@@ -10,7 +10,7 @@ use super::ends::{self, End};
 use super::impedance::{Acts, kbi};
 use super::jacobian::Jacobian;
 use super::kind;
-use super::rows::{Rows, push, regularization};
+use super::rows::{Rows, inverse_weight, push, regularization};
 use crate::dynamics::jacobian::{self, Columns};
 use crate::forces::tendon;
 use crate::kinds::eqtype;
@@ -49,11 +49,6 @@ fn scalars<const R: usize>(m: &Model, d: &mut Fields, e: usize, pos: [f64; R], o
     );
 }
 
-/// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
-fn inverse_weight(m: &Model, ends: &[End; 2], part: usize) -> f64 {
-    m.body_invweight0[2 * ends[0].body + part] + m.body_invweight0[2 * ends[1].body + part]
-}
-
 fn difference(m: &Model, d: &Fields, ends: &[End; 2], out: &mut Columns) {
     jacobian::pair_difference(m, d, [ends[0].body, ends[1].body], [ends[0].point, ends[1].point], out);
 }
@@ -63,7 +58,7 @@ fn connect(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End;
     jac.push::<3>(Cost::Quadratic, d.nefc, columns.dofs(), columns.values().iter().copied());
     if jac.keep_moving(m) {
         let pos = sub(ends[0].point, ends[1].point);
-        scalars(m, d, e, pos, norm(pos), [inverse_weight(m, ends, 0); 3]);
+        scalars(m, d, e, pos, norm(pos), [inverse_weight(m, [ends[0].body, ends[1].body], 0); 3]);
     }
 }
 
@@ -80,7 +75,10 @@ fn weld(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize, ends: &[End; 2]
         let [_, a, b, c] = quat_mul(quat_conj(ends[1].quat), ends[0].quat);
         let [a, b, c] = scale([a, b, c], torquescale);
         let off = dot_slice(&[x, y, z, a, b, c], &[x, y, z, a, b, c]).sqrt();
-        let [t, r] = [inverse_weight(m, ends, 0), inverse_weight(m, ends, 1)];
+        let [t, r] = [
+            inverse_weight(m, [ends[0].body, ends[1].body], 0),
+            inverse_weight(m, [ends[0].body, ends[1].body], 1),
+        ];
         scalars(m, d, e, [x, y, z, a, b, c], off, [t, t, t, r, r, r]);
     }
 }

@@ -16,17 +16,16 @@ pub(super) struct Dual {
     pub(super) acceleration: Vec<f64>,
     /// A column of M⁻¹ Jᵀ.
     pub(super) x: Vec<f64>,
-    /// Forces after the last sweep, after the one before, and where the present sweep began.
-    pub(super) last: Vec<f64>,
-    pub(super) before: Vec<f64>,
-    pub(super) begun: Vec<f64>,
-    /// What a sweep visits, in its order.
-    pub(super) order: Vec<Item>,
+    /// The forces that the present sweep starts from, and those after the sweep before.
+    pub(super) iterate: Vec<f64>,
+    pub(super) previous: Vec<f64>,
+    /// What a sweep solves, in its order.
+    pub(super) groups: Vec<RowGroup>,
 }
 
-/// Rows that are solved together: one, or all of an elliptic cone.
+/// Rows that are solved together: one, or all of an equality or an elliptic cone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Item {
+pub(super) struct RowGroup {
     pub(super) block: u32,
     /// First row, counted from the block's first.
     pub(super) first: u32,
@@ -40,7 +39,7 @@ impl Dual {
         self.start.clear();
         self.acceleration.resize(m.nv, 0.0);
         self.x.resize(m.nv, 0.0);
-        for v in [&mut self.last, &mut self.before, &mut self.begun] {
+        for v in [&mut self.iterate, &mut self.previous] {
             v.resize(d.nefc, 0.0);
         }
         for b in &jac.blocks {
@@ -78,10 +77,10 @@ impl Dual {
         }
     }
 
-    /// The part of A that belongs to N rows of a block.
-    pub(super) fn part<const N: usize>(&self, b: &Block, item: Item) -> [[f64; N]; N] {
-        let (at, n) = (self.start[item.block as usize] as usize, b.nrow as usize);
-        let first = item.first as usize;
+    /// The diagonal block of A that belongs to N rows.
+    pub(super) fn delassus<const N: usize>(&self, b: &Block, group: RowGroup) -> [[f64; N]; N] {
+        let (at, n) = (self.start[group.block as usize] as usize, b.nrow as usize);
+        let first = group.first as usize;
         std::array::from_fn(|i| std::array::from_fn(|j| self.gram[at + (first + i) * n + first + j]))
     }
 }

@@ -439,6 +439,7 @@ impl Jacobian {
     }
 
     /// The columns of a block, with a value for each row.
+    #[inline]
     pub(super) fn terms(&self, b: &Block) -> impl Iterator<Item = (&u32, &[f64])> {
         self.columns(b).iter().zip(self.values(b).chunks_exact(b.nrow as usize))
     }

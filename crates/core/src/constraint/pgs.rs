@@ -1,112 +1,162 @@
-//! Projected Gauss–Seidel on the dual problem.
+//! Projected Gauss–Seidel with momentum on the dual problem.
 //!
-//! A sweep minimizes over one force after the other, in a random order with a fixed seed, so that rows which work
-//! against each other do not always come in the same one. Between sweeps the forces are extrapolated (Nesterov 1983),
-//! and the extrapolation begins anew where a sweep turns against it (O'Donoghue and Candès 2015).
+//! The forces f minimize ½ fᵀ (A + R) f + bᵀ f over a product of sets: all of space for an equality, intervals for dry friction,
+//! half lines for limits, frictionless contacts and edges of pyramids, cones for elliptic contacts. They are the minimum if and
+//! only if every group of rows that shares a set is optimal while the others stay. A sweep solves the groups one by one, in
+//! an order drawn anew for each sweep (Nesterov, *Efficiency of coordinate descent methods on huge-scale optimization
+//! problems*, 2012), so that no stack is always swept against its loads.
+//!
+//! Between sweeps the forces are extrapolated with the momentum of Beck and Teboulle (*A fast iterative shrinkage-thresholding
+//! algorithm for linear inverse problems*, 2009), and brought back into their sets. Momentum restarts where a sweep turns
+//! against the last change (O'Donoghue and Candès, *Adaptive restart for accelerated gradient schemes*, 2015).
 
-use super::cone::friction;
+use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
-use super::gram::Item;
-use super::jacobian::{Block, by_cone_rows};
+use super::gram::RowGroup;
+use super::jacobian::{Block, by_cone_rows, by_rows};
 use super::primal::Problem;
-use crate::math::{MINVAL, dot};
-
-/// Increases of the cost by more than this are taken back.
-pub(super) const WORSE: f64 = 1e-10;
-
-/// O'Neill's generator PCG32 (*PCG: A family of simple fast space-efficient statistically good algorithms for random
-/// number generation*, 2014), stream 0 and seed 0.
-struct Random(u64);
-
-impl Random {
-    fn new() -> Random {
-        let mut random = Random(0);
-        random.next();
-        random
-    }
-
-    fn next(&mut self) -> u32 {
-        let state = self.0;
-        self.0 = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        ((((state >> 18) ^ state) >> 27) as u32).rotate_right((state >> 59) as u32)
-    }
-}
+use crate::math::{Ldl, dot};
 
 impl Problem<'_> {
-    /// Goes on from the forces that are there.
+    /// Sweeps from the present forces on, until one improves the scaled dual objective by no more than `opt.tolerance` (the
+    /// documented meaning of that tolerance) or `opt.iterations` of them are done.
     pub(super) fn gauss_seidel(&mut self) {
-        let (tol, scale) = (self.m.opt.tolerance, self.scale_of_all());
-        self.list_items();
-        self.copy_forces(|w| &mut w.last);
-        self.copy_forces(|w| &mut w.before);
-        let (mut random, mut since) = (Random::new(), 0u32);
+        let (tolerance, scale) = (self.m.opt.tolerance, self.scale_of_all());
         let price = self.price_of_sweep();
+        let mut order = Order(0);
+        let mut momentum = 1.0_f64;
+        self.start_sweeps();
         for _ in 0..self.m.opt.iterations.max(0) {
             self.d.meter.add(price);
             if self.d.meter.over() {
                 break;
             }
-            for i in (1..self.s.dual.order.len()).rev() {
-                let j = random.next() as usize % (i + 1);
-                self.s.dual.order.swap(i, j);
-            }
-            let momentum = (f64::from(since) - 1.0) / (f64::from(since) + 2.0);
-            let moves = momentum > 0.0;
-            if moves {
-                self.extrapolate(momentum);
-            }
-            self.copy_forces(|w| &mut w.begun);
-            self.accelerate();
-            let mut improvement = 0.0;
-            for i in 0..self.s.dual.order.len() {
-                let item = self.s.dual.order[i];
-                let b = self.jac.blocks[item.block as usize];
-                improvement -= match b.cost {
-                    Cost::Cone => by_cone_rows!(b.nrow, R => self.cone::<R>(&b, item)),
-                    _ => self.single(&b, item),
-                };
-            }
+            let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());
+            self.extrapolate((momentum - 1.0) / next);
+            order.shuffle(&mut self.s.dual.groups);
+            let improvement = self.sweep();
             self.d.solver_niter += 1;
-            since = if moves && self.turned() { 0 } else { since + 1 };
-            let w = &mut self.s.dual;
-            std::mem::swap(&mut w.last, &mut w.before);
-            self.copy_forces(|w| &mut w.last);
-            if scale * improvement < tol || improvement == 0.0 {
+            if improvement.is_nan() || scale * improvement <= tolerance {
                 break;
             }
+            momentum = if self.turns_back() { 1.0 } else { next };
         }
     }
 
-    /// Copies the forces of the island to one of the lists that are kept.
-    fn copy_forces(&mut self, to: impl Fn(&mut super::gram::Dual) -> &mut Vec<f64>) {
+    /// Lists the groups of rows, and stores the forces at hand and the acceleration that they cause.
+    fn start_sweeps(&mut self) {
+        self.accelerate();
+        let blocks = self.blocks();
+        let w = &mut self.s.dual;
+        w.groups.clear();
+        for i in blocks {
+            let b = &self.jac.blocks[i];
+            w.previous[b.rows()].copy_from_slice(&self.d.efc_force[b.rows()]);
+            let rows = if matches!(b.cost, Cost::Quadratic | Cost::Cone) { b.nrow } else { 1 };
+            let firsts = (0..b.nrow).step_by(rows.max(1) as usize);
+            w.groups.extend(firsts.map(|first| RowGroup { block: i as u32, first }));
+        }
+    }
+
+    /// y = f + β (f - previous f), brought into the sets: where the next sweep begins.
+    fn extrapolate(&mut self, beta: f64) {
         for i in self.blocks() {
-            let rows = self.jac.blocks[i].rows();
-            to(&mut self.s.dual)[rows.clone()].copy_from_slice(&self.d.efc_force[rows]);
+            let b = self.jac.blocks[i];
+            for row in b.rows() {
+                let force = self.d.efc_force[row];
+                self.d.efc_force[row] = force + beta * (force - self.s.dual.previous[row]);
+                self.s.dual.previous[row] = force;
+            }
+            if beta > 0.0 {
+                self.move_into_sets(&b);
+            }
+            self.s.dual.iterate[b.rows()].copy_from_slice(&self.d.efc_force[b.rows()]);
+        }
+        if beta > 0.0 {
+            self.accelerate();
         }
     }
 
-    /// Forces go on as between the last two sweeps, as far as they may.
-    fn extrapolate(&mut self, momentum: f64) {
-        for i in 0..self.s.dual.order.len() {
-            let item = self.s.dual.order[i];
-            let b = self.jac.blocks[item.block as usize];
-            let first = (b.row + item.first) as usize;
-            let rows = if b.cost == Cost::Cone { first..first + b.nrow as usize } else { first..first + 1 };
-            let w = &self.s.dual;
-            for r in rows.clone() {
-                self.d.efc_force[r] = w.last[r] + momentum * (w.last[r] - w.before[r]);
+    /// (y - f) · (f - previous f) > 0, in the metric of R: y - f stands for the gradient where the sweep began.
+    fn turns_back(&self) -> bool {
+        let (d, w) = (&*self.d, &self.s.dual);
+        let rows = self.blocks().flat_map(|i| self.jac.blocks[i].rows());
+        let product =
+            |r: usize| d.efc_R[r] * (w.iterate[r] - d.efc_force[r]) * (d.efc_force[r] - w.previous[r]);
+        rows.map(product).sum::<f64>() > 0.0
+    }
+
+    /// Solves one group after the other; returns the decrease of the dual objective.
+    fn sweep(&mut self) -> f64 {
+        let mut improvement = 0.0;
+        for k in 0..self.s.dual.groups.len() {
+            let group = self.s.dual.groups[k];
+            let b = self.jac.blocks[group.block as usize];
+            improvement += match (b.cost, b.nrow) {
+                (Cost::Cone, n) => by_cone_rows!(n, N => self.solve_group::<N>(&b, group)),
+                (Cost::Quadratic, n) if n > 1 => by_rows!(n, N => self.solve_group::<N>(&b, group)),
+                _ => self.solve_row(&b, group),
+            };
+        }
+        improvement
+    }
+
+    /// f ← the nearest of its set to f - (b + A f + R f) / (A + R).
+    fn solve_row(&mut self, b: &Block, group: RowGroup) -> f64 {
+        let row = (b.row + group.first) as usize;
+        let (force, r) = (self.d.efc_force[row], self.d.efc_R[row]);
+        let [[a]] = self.s.dual.delassus::<1>(b, group);
+        let [residual] = self.residual::<1>(b, group);
+        let (a, gradient) = (a + r, residual + r * force);
+        let solved = self.nearest_in_set(b, row, force - gradient / a);
+        self.set_forces(b, group, [solved]);
+        let change = solved - force;
+        -change * (gradient + 0.5 * a * change)
+    }
+
+    /// f ← the minimum of ½ fᵀ (A + R) f + (b + what the other forces cause)ᵀ f over all of space or an elliptic cone.
+    fn solve_group<const N: usize>(&mut self, b: &Block, group: RowGroup) -> f64 {
+        let row = b.row as usize;
+        let (Some(&force), Some(&r)) =
+            (self.d.efc_force[row..].first_chunk::<N>(), self.d.efc_R[row..].first_chunk::<N>())
+        else {
+            return 0.0;
+        };
+        let mut a = self.s.dual.delassus::<N>(b, group);
+        let mut gradient = self.residual::<N>(b, group);
+        for i in 0..N {
+            a[i][i] += r[i];
+            gradient[i] += r[i] * force[i];
+        }
+        let rest: [f64; N] = std::array::from_fn(|i| gradient[i] - dot(a[i], force));
+        let contact = self.d.contact.get(self.d.efc_id[row] as usize).filter(|_| b.cost == Cost::Cone);
+        let solved = match contact {
+            Some(contact) => cone_force(&a, &rest, &contact.friction, force[0]),
+            None => match Ldl::<N, 0>::positive(&a, 0.0) {
+                Some(factor) => factor.solve(rest.map(|x| -x)),
+                None => return 0.0,
+            },
+        };
+        self.set_forces(b, group, solved);
+        let change: [f64; N] = std::array::from_fn(|i| solved[i] - force[i]);
+        -dot(change, gradient) - 0.5 * dot(change, a.map(|row| dot(row, change)))
+    }
+
+    /// Moves the forces of a block to the nearest of their sets.
+    fn move_into_sets(&mut self, b: &Block) {
+        if b.cost == Cost::Cone {
+            if let Some(contact) = self.d.contact.get(self.d.efc_id[b.row as usize] as usize) {
+                nearest_in_cone(&mut self.d.efc_force[b.rows()], &contact.friction);
             }
-            if b.cost == Cost::Cone {
-                let Some(c) = self.d.contact.get(self.d.efc_id[first] as usize) else { continue };
-                into_cone(&mut self.d.efc_force[rows], &c.friction);
-            } else {
-                self.d.efc_force[first] = self.allowed(&b, first, self.d.efc_force[first]);
+        } else {
+            for row in b.rows() {
+                self.d.efc_force[row] = self.nearest_in_set(b, row, self.d.efc_force[row]);
             }
         }
     }
 
     /// The nearest force that a row may have.
-    fn allowed(&self, b: &Block, row: usize, force: f64) -> f64 {
+    fn nearest_in_set(&self, b: &Block, row: usize, force: f64) -> f64 {
         let loss = self.d.efc_frictionloss[row];
         match b.cost {
             Cost::Quadratic => force,
@@ -114,147 +164,41 @@ impl Problem<'_> {
             _ => force.max(0.0),
         }
     }
-
-    /// Whether the sweep went against the extrapolation.
-    fn turned(&self) -> bool {
-        let (d, w) = (&*self.d, &self.s.dual);
-        let rows = self.blocks().flat_map(|i| self.jac.blocks[i].rows());
-        rows.map(|r| (w.begun[r] - d.efc_force[r]) * (w.begun[r] - w.last[r])).sum::<f64>() > 0.0
-    }
-
-    /// The best force of one row; returns the change of the cost.
-    fn single(&mut self, b: &Block, item: Item) -> f64 {
-        let row = (b.row + item.first) as usize;
-        let (old, r) = (self.d.efc_force[row], self.d.efc_R[row]);
-        let [[a]] = self.s.dual.part::<1>(b, item);
-        let [missed] = self.missed::<1>(b, item);
-        let (a, missed) = (a + r, missed + r * old);
-        let new = self.allowed(b, row, old - missed / a);
-        let change = new - old;
-        let cost = change * (0.5 * change * a + missed);
-        if cost > WORSE {
-            return 0.0;
-        }
-        self.replace(b, item, [new]);
-        cost
-    }
-
-    /// The forces of an elliptic cone: along the ray that they are on, then friction for the normal force that this gives.
-    fn cone<const R: usize>(&mut self, b: &Block, item: Item) -> f64 {
-        let row = b.row as usize;
-        let (Some(&old), Some(&r)) =
-            (self.d.efc_force[row..].first_chunk::<R>(), self.d.efc_R[row..].first_chunk::<R>())
-        else {
-            return 0.0;
-        };
-        let Some(mu) = self.d.contact.get(self.d.efc_id[row] as usize).map(|c| c.friction) else {
-            return 0.0;
-        };
-        let mut a = self.s.dual.part::<R>(b, item);
-        let mut missed = self.missed::<R>(b, item);
-        for i in 0..R {
-            a[i][i] += r[i];
-            missed[i] += r[i] * old[i];
-        }
-        let product = |v: &[f64; R]| -> [f64; R] { std::array::from_fn(|i| dot(a[i], *v)) };
-        let mut new = old;
-        if old[0] < MINVAL {
-            new = [0.0; R];
-            new[0] = (old[0] - missed[0] / a[0][0]).max(0.0);
-            if new[0] < MINVAL {
-                new = from_apex(&missed, &mu, product);
-            }
-        } else {
-            let curvature = dot(old, product(&old));
-            if curvature >= MINVAL {
-                // As far as the apex at most.
-                let along = (-dot(old, missed) / curvature).max(-1.0);
-                new = old.map(|f| f + along * f);
-            }
-        }
-        if new[0] < MINVAL {
-            new.fill(0.0);
-        } else {
-            // What the tangents would miss with no friction, but the new normal force.
-            let mut rest = old.map(|f| -f);
-            rest[0] = new[0] - old[0];
-            let missed: [f64; R] = std::array::from_fn(|i| missed[i] + dot(a[i], rest));
-            let normal = new[0];
-            new = friction(&a, &missed, &mu, normal);
-            new[0] = normal;
-        }
-        let change: [f64; R] = std::array::from_fn(|i| new[i] - old[i]);
-        let cost = 0.5 * dot(change, product(&change)) + dot(change, missed);
-        if cost > WORSE {
-            return 0.0;
-        }
-        self.replace(b, item, new);
-        cost
-    }
 }
 
-/// The best force along the steepest ray of the cone, from its apex: a push that alone would not pay may pay with the
-/// friction that it allows.
-fn from_apex<const R: usize>(
-    missed: &[f64; R],
-    mu: &[f64; 5],
-    product: impl Fn(&[f64; R]) -> [f64; R],
-) -> [f64; R] {
-    let pull = missed[1..].iter().zip(mu).map(|(x, mu)| (x * mu) * (x * mu)).sum::<f64>().sqrt();
-    let slope = missed[0] - pull;
-    if slope >= 0.0 || pull < MINVAL {
-        return [0.0; R];
-    }
-    let mut ray = [1.0; R];
-    for ((t, x), mu) in ray[1..].iter_mut().zip(&missed[1..]).zip(mu) {
-        *t = -x * mu * mu / pull;
-    }
-    let along = -slope / dot(ray, product(&ray)).max(MINVAL);
-    ray.map(|x| x * along)
-}
+/// Random orders, the same in every run: the state of Knuth's linear congruential generator for MMIX (*The Art of Computer
+/// Programming* 2, 3.3.4).
+struct Order(u64);
 
-/// The force moved into its cone: none where it would pull, else with friction scaled down.
-fn into_cone(force: &mut [f64], mu: &[f64; 5]) {
-    let Some((normal, tangents)) = force.split_first_mut() else { return };
-    *normal = normal.max(0.0);
-    let size = tangents.iter().zip(mu).map(|(f, mu)| (f / mu) * (f / mu)).sum::<f64>().sqrt();
-    if size > *normal {
-        let onto = *normal / size;
-        tangents.iter_mut().for_each(|f| *f *= onto);
+impl Order {
+    /// All orders are as likely (Knuth, 3.4.2, algorithm P).
+    fn shuffle(&mut self, groups: &mut [RowGroup]) {
+        for last in (1..groups.len()).rev() {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            // High bits, which are the random ones, as a part of `last + 1`.
+            let part = u128::from(self.0) * (last as u128 + 1);
+            groups.swap(last, (part >> 64) as usize);
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Random, into_cone};
+    use super::{Order, RowGroup};
 
     #[test]
-    fn random_numbers_are_those_of_pcg32() {
-        // The generator's own demonstration, seeded with 42 on stream 54, begins with these numbers.
-        let demo = |state: u64| ((((state >> 18) ^ state) >> 27) as u32).rotate_right((state >> 59) as u32);
-        let step = |s: u64| s.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(109);
-        let mut state = step(step(0).wrapping_add(42));
-        for expected in [0xa15c_02b7_u32, 0x7b47_f409, 0xba1d_3330] {
-            assert_eq!(demo(state), expected);
-            state = step(state);
+    fn orders_are_permutations_and_differ() {
+        let mut groups: Vec<RowGroup> = (0..20).map(|block| RowGroup { block, first: 0 }).collect();
+        let start = groups.clone();
+        let mut order = Order(0);
+        let mut seen = std::collections::BTreeSet::new();
+        for _ in 0..50 {
+            order.shuffle(&mut groups);
+            seen.insert(groups.iter().map(|g| g.block).collect::<Vec<_>>());
+            let mut sorted = groups.clone();
+            sorted.sort_by_key(|g| g.block);
+            assert_eq!(sorted, start);
         }
-        let mut random = Random::new();
-        let first = random.next();
-        assert_eq!((first, random.next()), (demo(1), demo(6_364_136_223_846_793_006)));
-    }
-
-    #[test]
-    fn forces_come_into_their_cone() {
-        let mu = [0.5, 0.25, 1.0, 1.0, 1.0];
-        for (force, expected) in [
-            ([1.0, 0.1, 0.1], [1.0, 0.1, 0.1]),
-            ([1.0, 5.0, 0.0], [1.0, 0.5, 0.0]),
-            ([1.0, 0.0, -5.0], [1.0, 0.0, -0.25]),
-            ([-1.0, 5.0, 1.0], [0.0, 0.0, 0.0]),
-        ] {
-            let mut f = force;
-            into_cone(&mut f, &mu);
-            assert_eq!(f, expected);
-        }
+        assert_eq!(seen.len(), 50);
     }
 }

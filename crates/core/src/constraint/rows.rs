@@ -4,7 +4,7 @@
 
 use super::impedance::Kbi;
 use crate::math::*;
-use crate::model::Fields;
+use crate::model::{Fields, Model};
 
 /// Gives the arrays a length.
 pub(super) fn resize(d: &mut Fields, rows: usize) {
@@ -20,6 +20,12 @@ pub(super) fn resize(d: &mut Fields, rows: usize) {
     for v in floats.into_iter().chain(more) {
         v.resize(rows, 0.0);
     }
+}
+
+/// Sum over both bodies of the inverse inertia, for translation (0) or rotation (1).
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(super) fn inverse_weight(m: &Model, [b1, b2]: [usize; 2], part: usize) -> f64 {
+    m.body_invweight0[2 * b1 + part] + m.body_invweight0[2 * b2 + part]
 }
 
 /// The R rows of one constraint.

@@ -3,7 +3,7 @@
 
 use super::jacobian::Gram;
 use crate::dynamics::mass;
-use crate::math::{FREE_DOFS as N, MINVAL, dot};
+use crate::math::{FREE_DOFS as N, Ldl, MINVAL, dot};
 use crate::model::Model;
 
 /// H = M + Jᵀ C J, of which the lower triangle is looked at.
@@ -20,32 +20,10 @@ impl Six {
         Six { start, values: mass::free_block(m, inertia, start) }
     }
 
-    /// H⁻¹ g by H = L D Lᵀ, which waits for no square roots.
+    /// H⁻¹ g.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn solve(&self, g: [f64; N]) -> [f64; N] {
-        let (mut l, mut inverse, mut x) = ([[0.0; N]; N], [0.0; N], g);
-        for i in 0..N {
-            // L D below the diagonal, then D
-            let mut ld = self.values[i];
-            for j in 0..i {
-                for k in 0..j {
-                    ld[j] -= ld[k] * l[j][k];
-                }
-                l[i][j] = ld[j] * inverse[j];
-            }
-            for k in 0..i {
-                ld[i] -= ld[k] * l[i][k];
-                x[i] -= l[i][k] * x[k];
-            }
-            inverse[i] = 1.0 / ld[i].max(MINVAL);
-        }
-        for i in (0..N).rev() {
-            x[i] *= inverse[i];
-            for k in i + 1..N {
-                x[i] -= l[k][i] * x[k];
-            }
-        }
-        x
+        Ldl::<N, 0>::raised(&self.values, MINVAL).map_or(g, |factor| factor.solve(g))
     }
 }
 

@@ -4,7 +4,10 @@
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
 pub(crate) mod lanes;
+mod ldl;
 pub(crate) mod sort;
+
+pub(crate) use ldl::Ldl;
 
 use std::ops::{Add, Mul, Sub};
 

@@ -150,16 +150,84 @@ proptest! {
         }
     }
 
+    /// The dual problem has the minimum f if and only if f is in the set of its rows, and its gradient g = J a - aref + R f lets no
+    /// force of the set go lower: g = 0 inside, outward at a bound, and for a cone in the dual one and across f.
+    #[test]
+    fn dual_forces_are_optimal(scene in scene()) {
+        let mut m = scene.model();
+        (*m.edit().opt.solver, *m.edit().opt.iterations) = (solver::PGS, 20_000);
+        let mut d = scene.data(&m);
+        core::forward(&m, &mut d).unwrap();
+        let jac = core::full_j(&m, &d).unwrap();
+        let gradient: Vec<f64> = (0..d.nefc)
+            .map(|r| (0..m.nv).map(|k| jac[r * m.nv + k] * d.qacc[k]).sum::<f64>() - d.efc_aref[r] + d.efc_R[r] * d.efc_force[r])
+            .collect();
+        let small = 1e-6 * largest(&d.qacc).max(largest(&d.efc_aref));
+        for row in 0..d.nefc {
+            let (f, g, loss) = (d.efc_force[row], gradient[row], d.efc_frictionloss[row]);
+            match d.efc_type[row] {
+                EQUALITY => prop_assert!(g.abs() < small, "row {row}: {g}"),
+                t if FRICTION.contains(&t) => {
+                    prop_assert!(f.abs() <= loss);
+                    let bound = if f.abs() < loss { g.abs() } else { (g * f.signum()).max(0.0) };
+                    prop_assert!(bound < small, "row {row}: {g} at {f}");
+                }
+                ELLIPTIC => {}
+                _ => {
+                    prop_assert!(f >= 0.0 && g > -small, "row {row}: {g} at {f}");
+                    prop_assert!(f == 0.0 || g < small, "row {row}: {g} at {f}");
+                }
+            }
+        }
+        for c in d.contact.iter().filter(|c| scene.elliptic && c.dim > 1) {
+            let Some(first) = c.efc_address else { continue };
+            let tangents = || (1..c.dim).map(|j| (first + j, c.friction[j - 1]));
+            let length = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+            let friction = length(&mut tangents().map(|(r, mu)| d.efc_force[r] / mu));
+            let pull = length(&mut tangents().map(|(r, mu)| gradient[r] * mu));
+            let (normal, slope) = (d.efc_force[first], gradient[first]);
+            prop_assert!(friction <= normal * (1.0 + 1e-12), "{friction} {normal}");
+            prop_assert!(pull - slope < small, "{pull} {slope}");
+            let across: f64 = (0..c.dim).map(|j| d.efc_force[first + j] * gradient[first + j]).sum();
+            prop_assert!(across.abs() < small * (1.0 + normal), "{across}");
+        }
+    }
+
     /// Without slip: what sticks has no acceleration along the floor that its reference does not ask for, and forces stay
     /// inside their cones.
     #[test]
     fn removal_of_slip_keeps_the_cones(scene in scene()) {
         let mut m = scene.model();
-        (*m.edit().opt.noslip_iterations, *m.edit().opt.noslip_tolerance) = (200, 0.0);
+        (*m.edit().opt.noslip_iterations, *m.edit().opt.noslip_tolerance) = (20_000, 0.0);
         let mut d = scene.data(&m);
         core::forward(&m, &mut d).unwrap();
-        for c in d.contact.iter().filter(|c| c.efc_address.is_some()) {
+        let jac = core::full_j(&m, &d).unwrap();
+        let slip = |row: usize| {
+            (0..m.nv).map(|k| jac[row * m.nv + k] * d.qacc[k]).sum::<f64>() - d.efc_aref[row]
+        };
+        let small = 1e-5 * largest(&d.qacc).max(largest(&d.efc_aref));
+        for c in d.contact.iter() {
+            let Some(first) = c.efc_address else { continue };
             prop_assert!(outside(&m, &d, c) < 1e-9, "{c:?} {:?}", core::contact_force(&m, &d, c).unwrap());
+            if !scene.elliptic || c.dim == 1 || d.efc_force[first] == 0.0 {
+                continue;
+            }
+            // In the coordinates in which the limit of friction is a ball: no slip inside; at its edge slip against the force.
+            let rows = || (1..c.dim).map(|j| (d.efc_force[first + j] / c.friction[j - 1], slip(first + j) * c.friction[j - 1]));
+            let length = |parts: &mut dyn Iterator<Item = f64>| parts.map(|x| x * x).sum::<f64>().sqrt();
+            let (force, pull) = (length(&mut rows().map(|(y, _)| y)), length(&mut rows().map(|(_, g)| g)));
+            if force < d.efc_force[first] * (1.0 - 1e-9) {
+                prop_assert!(pull < small, "{pull}");
+            } else {
+                let against = rows().map(|(y, g)| -y * g).sum::<f64>() / force;
+                prop_assert!(pull - against < small, "{pull} {against}");
+            }
+        }
+        for row in (0..d.nefc).filter(|&r| FRICTION.contains(&d.efc_type[r])) {
+            let (f, g, loss) = (d.efc_force[row], slip(row), d.efc_frictionloss[row]);
+            prop_assert!(f.abs() <= loss);
+            let bound = if f.abs() < loss { g.abs() } else { (g * f.signum()).max(0.0) };
+            prop_assert!(bound < small, "row {row}: {g} at {f}");
         }
     }
 }

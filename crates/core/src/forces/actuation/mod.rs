@@ -104,8 +104,8 @@ fn by_their_laws(m: &Model, d: &mut Fields) {
         match m.actuator_gaintype[i] {
             gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR => of_its_own(m, d, i, &ctrl),
             _ => {
-                d.actuator_force[m.actuator_outadr[i] as usize] =
-                    gain(m, d, i) * servo::wrapped(m, d, i, input(m, d, i, &ctrl)) + bias(m, d, i)
+                let input = servo::wrapped(m, d, i, input(m, d, i, &ctrl));
+                d.actuator_force[m.actuator_outadr[i] as usize] = law(gain(m, d, i), input, bias(m, d, i))
             }
         }
     }
@@ -125,9 +125,7 @@ fn motors(m: &Model, d: &mut Fields) -> bool {
     let moments = d.moment_colind.iter().zip(&d.actuator_moment);
     let motors = rows::<10>(&m.actuator_gainprm).iter().zip(moments).zip(&mut d.actuator_force);
     for (((u, range), &limited), ((gain, (&k, moment)), force)) in controls.zip(motors) {
-        let u = if limited { clip(*u, *range) } else { *u };
-        // The bias is +0: so the force is, where the product is -0.
-        *force = gain[0] * u + 0.0;
+        *force = law(gain[0], within(*u, limited, range), 0.0);
         d.qfrc_actuator[k as usize] += moment * *force;
     }
     gravity_compensation(m, d);
@@ -148,9 +146,8 @@ fn servos(m: &Model, d: &mut Fields) -> bool {
     for ((((u, range), &limited), ((b, &kind), (length, velocity))), (gain, force)) in
         controls.zip(biases).zip(gains)
     {
-        let u = if limited { clip(*u, *range) } else { *u };
-        let bias = if kind == biastype::NONE { 0.0 } else { b[0] + b[1] * length + b[2] * velocity };
-        *force = gain[0] * u + bias;
+        let bias = if kind == biastype::NONE { 0.0 } else { affine(b, *length, *velocity) };
+        *force = law(gain[0], within(*u, limited, range), bias);
     }
     true
 }
@@ -179,9 +176,22 @@ pub(crate) fn input(m: &Model, d: &Fields, i: usize, ctrl: &[f64]) -> f64 {
     }
 }
 
+/// The law of an actuator: its force.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn law(gain: f64, input: f64, bias: f64) -> f64 {
+    gain * input + bias
+}
+
 /// p₀ + p₁ length + p₂ velocity.
-fn affine(p: &[f64; 10], d: &Fields, o: usize) -> f64 {
-    p[0] + p[1] * d.actuator_length[o] + p[2] * d.actuator_velocity[o]
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn affine(p: &[f64; 10], length: f64, velocity: f64) -> f64 {
+    p[0] + p[1] * length + p[2] * velocity
+}
+
+/// A control, within its range where it has one.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn within(control: f64, limited: bool, range: &[f64; 2]) -> f64 {
+    if limited { clip(control, *range) } else { control }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
@@ -196,7 +206,7 @@ fn gain(m: &Model, d: &Fields, i: usize) -> f64 {
 fn changing_gain(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_gainprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_gaintype[i] {
-        gaintype::AFFINE => affine(p, d, o),
+        gaintype::AFFINE => affine(p, d.actuator_length[o], d.actuator_velocity[o]),
         gaintype::MUSCLE => muscle::gain(p, &muscle::State::new(m, d, o, p)),
         _ => p[0],
     }
@@ -214,7 +224,7 @@ fn bias(m: &Model, d: &Fields, i: usize) -> f64 {
 fn some_bias(m: &Model, d: &Fields, i: usize) -> f64 {
     let (p, o) = (prm(&m.actuator_biasprm, i), m.actuator_outadr[i] as usize);
     match m.actuator_biastype[i] {
-        biastype::AFFINE => affine(p, d, o),
+        biastype::AFFINE => affine(p, d.actuator_length[o], d.actuator_velocity[o]),
         biastype::MUSCLE => muscle::bias(p, &muscle::State::new(m, d, o, p)),
         biastype::DCMOTOR => motor::back_emf(m, d, i),
         _ => 0.0,
@@ -250,20 +260,22 @@ pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> 
         trntype::TENDON => true,
         _ => false,
     };
-    let [constant, length, velocity] = match m.actuator_biastype[i] {
-        biastype::NONE => [0.0; 3],
-        biastype::AFFINE => [0, 1, 2].map(|k| prm(&m.actuator_biasprm, i)[k]),
+    let o = m.actuator_outadr[i] as usize;
+    let p = match m.actuator_biastype[i] {
+        biastype::NONE => &[0.0; 10],
+        biastype::AFFINE => prm(&m.actuator_biasprm, i),
         _ => return None,
     };
+    let [_, length, velocity, ..] = *p;
     if !simple || velocity > 0.0 || !states(m, i).is_empty() {
         return None;
     }
-    let x = d.actuator_length[m.actuator_outadr[i] as usize];
     let force = match m.actuator_gaintype[i] {
-        gaintype::FIXED => m.actuator_gainprm[10 * i] * input(m, d, i, &d.acting) + constant + length * x,
-        gaintype::PID => {
-            servo::pid(m, d, i, &d.acting) - velocity * d.actuator_velocity[m.actuator_outadr[i] as usize]
+        gaintype::FIXED => {
+            let bias = affine(p, d.actuator_length[o], 0.0);
+            law(m.actuator_gainprm[10 * i], input(m, d, i, &d.acting), bias)
         }
+        gaintype::PID => servo::pid(m, d, i, &d.acting) - velocity * d.actuator_velocity[o],
         _ => return None,
     };
     Some([force, -length])

@@ -1,21 +1,28 @@
-//! Muscles: force over length and velocity, a passive spring, and activation dynamics.
+//! Muscles: active force over length and velocity, passive force over length, activation dynamics.
 //!
-//! The model is in MuJoCo's documentation, "Modeling: Muscles", after Zajac (1989) with the activation dynamics of
-//! Millard et al. (2013). Parameters, by place: operating range in optimal lengths (2), peak force, scale of it, lmin,
-//! lmax, vmax, fpmax, fvmax.
+//! The curves are those of MuJoCo's documentation, "Modeling: Muscles", after Zajac (*Muscle and tendon: properties, models,
+//! scaling, and application to biomechanics and motor control*, 1989): parabolas that meet with equal slopes. With the length L in
+//! optimal lengths L₀ and the velocity V in L₀ · vmax per second,
+//!
+//! > force = -F₀ (FL(L) FV(V) activation + FP(L))
+//!
+//! where FL rises from 0 at lmin to 1 at L = 1 and falls to 0 at lmax, FV rises from 0 at V = -1 through 1 at rest to fvmax, and FP
+//! grows from 0 at L = 1, by a line from half way to lmax. Activation follows Millard et al. (*Flexing computational muscle*, 2013).
+//!
+//! Parameters, by place: operating range in optimal lengths (2), peak force, its scale, lmin, lmax, vmax, fpmax, fvmax.
 
 use crate::math::*;
 use crate::model::{Fields, Model};
 
 /// A muscle in normalized units.
 pub(crate) struct State {
-    /// Peak isometric force, N.
+    /// F₀: peak isometric force, N.
     peak: f64,
-    /// Length in optimal lengths.
+    /// L: length in optimal lengths.
     length: f64,
-    /// Velocity in largest shortening velocities.
+    /// V: velocity in largest shortening velocities.
     velocity: f64,
-    /// The optimal length, m.
+    /// L₀: the optimal length, m.
     optimal: f64,
     /// The largest shortening velocity, m/s.
     fastest: f64,
@@ -24,139 +31,149 @@ pub(crate) struct State {
 impl State {
     /// The muscle with output `o` and parameters `p`: its operating range is reached over `actuator_lengthrange`.
     pub(crate) fn new(m: &Model, d: &Fields, o: usize, p: &[f64; 10]) -> State {
+        let [from, to, force, scale, _, _, vmax, ..] = *p;
         let [shortest, longest] = rows::<2>(&m.actuator_lengthrange)[o];
-        let optimal = (longest - shortest) / (p[1] - p[0]).max(MINVAL);
-        let peak = if p[2] >= 0.0 { p[2] } else { p[3] / m.actuator_acc0[o].max(MINVAL) };
-        let fastest = (optimal * p[6]).max(MINVAL);
+        let optimal = ((longest - shortest) / (to - from).max(MINVAL)).max(MINVAL);
+        let fastest = (optimal * vmax).max(MINVAL);
         State {
-            peak,
-            optimal: optimal.max(MINVAL),
-            length: p[0] + (d.actuator_length[o] - shortest) / optimal.max(MINVAL),
+            peak: if force >= 0.0 { force } else { scale / m.actuator_acc0[o].max(MINVAL) },
+            length: from + (d.actuator_length[o] - shortest) / optimal,
             velocity: d.actuator_velocity[o] / fastest,
+            optimal,
             fastest,
         }
     }
 }
 
-/// -F₀ FL(length) FV(velocity): the force of a fully active muscle.
+/// A curve at one point.
+#[derive(Clone, Copy)]
+struct Curve {
+    value: f64,
+    slope: f64,
+}
+
+/// FL: [`rise`] from lmin to 1, and its mirror image from lmax back to 1.
+fn active_by_length(p: &[f64; 10], length: f64) -> Curve {
+    let end = if length <= 1.0 { p[4] } else { p[5] };
+    let width = 1.0 - end;
+    let width = if width.abs() < MINVAL { MINVAL.copysign(1.0 - length) } else { width };
+    let Curve { value, slope } = rise((length - end) / width);
+    Curve { value, slope: slope / width }
+}
+
+/// From 0 at x = 0 to 1 at x = 1, level at both, by two halves of parabolas that meet at (½, ½).
+fn rise(x: f64) -> Curve {
+    let x = x.clamp(0.0, 1.0);
+    let rest = 1.0 - x;
+    Curve { value: if x <= 0.5 { 2.0 * x * x } else { 1.0 - 2.0 * rest * rest }, slope: 4.0 * x.min(rest) }
+}
+
+/// FV: a parabola from (-1, 0), where it is level, to (0, 1), where its slope is 2; another one from there to the height fvmax,
+/// which it reaches level at V = fvmax - 1.
+fn active_by_velocity(p: &[f64; 10], velocity: f64) -> Curve {
+    let excess = p[8] - 1.0;
+    if velocity <= 0.0 {
+        let x = (velocity + 1.0).max(0.0);
+        Curve { value: x * x, slope: 2.0 * x }
+    } else {
+        let rest = (excess - velocity).max(0.0);
+        let slope = rest / excess.max(MINVAL);
+        Curve { value: p[8] - rest * slope, slope: 2.0 * slope }
+    }
+}
+
+/// FP: with x = 2 (L - 1) / (lmax - 1) the parabola fpmax x²/2 up to x = 1, its tangent from there.
+fn passive_by_length(p: &[f64; 10], length: f64) -> Curve {
+    let (lmax, fpmax) = (p[5], p[7]);
+    let width = (0.5 * (lmax - 1.0)).max(MINVAL);
+    let x = (length - 1.0) / width;
+    let slope = x.clamp(0.0, 1.0);
+    Curve { value: fpmax * slope * (x - 0.5 * slope), slope: fpmax * slope / width }
+}
+
+/// -F₀ FL FV: the force of a fully active muscle.
 pub(super) fn gain(p: &[f64; 10], s: &State) -> f64 {
-    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
-    -s.peak * over_length(s.length, lmin, lmax) * over_velocity(s.velocity, fvmax)
-}
-
-/// Two halves of parabolas up from `lmin` to 1, where it peaks, and two down to `lmax`.
-fn over_length(length: f64, lmin: f64, lmax: f64) -> f64 {
-    if length < lmin || length > lmax {
-        return 0.0;
-    }
-    let (rise, fall) = (0.5 * (lmin + 1.0), 0.5 * (1.0 + lmax));
-    let part = |distance: f64, width: f64| distance / width.max(MINVAL);
-    if length <= rise {
-        let x = part(length - lmin, rise - lmin);
-        0.5 * x * x
-    } else if length <= 1.0 {
-        let x = part(1.0 - length, 1.0 - rise);
-        1.0 - 0.5 * x * x
-    } else if length <= fall {
-        let x = part(length - 1.0, fall - 1.0);
-        1.0 - 0.5 * x * x
-    } else {
-        let x = part(lmax - length, lmax - fall);
-        0.5 * x * x
-    }
-}
-
-/// From 0 at the largest shortening velocity through 1 at rest to `fvmax`.
-fn over_velocity(velocity: f64, fvmax: f64) -> f64 {
-    let y = fvmax - 1.0;
-    if velocity <= -1.0 {
-        0.0
-    } else if velocity <= 0.0 {
-        (velocity + 1.0) * (velocity + 1.0)
-    } else if velocity <= y {
-        fvmax - (y - velocity) * (y - velocity) / y.max(MINVAL)
-    } else {
-        fvmax
-    }
+    -s.peak * active_by_length(p, s.length).value * active_by_velocity(p, s.velocity).value
 }
 
 /// The derivative of the gain with respect to velocity.
 pub(crate) fn gain_by_velocity(p: &[f64; 10], s: &State) -> f64 {
-    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
-    let y = fvmax - 1.0;
-    let slope = if s.velocity <= -1.0 || s.velocity > y {
-        0.0
-    } else if s.velocity <= 0.0 {
-        2.0 * (s.velocity + 1.0)
-    } else {
-        2.0 * (y - s.velocity) / y.max(MINVAL)
-    };
-    -s.peak * over_length(s.length, lmin, lmax) * slope / s.fastest
+    -s.peak * active_by_length(p, s.length).value * active_by_velocity(p, s.velocity).slope / s.fastest
 }
 
 /// The derivative of the gain with respect to length.
 pub(crate) fn gain_by_length(p: &[f64; 10], s: &State) -> f64 {
-    let [_, _, _, _, lmin, lmax, _, _, fvmax, _] = *p;
-    -s.peak * slope_over_length(s.length, lmin, lmax) * over_velocity(s.velocity, fvmax) / s.optimal
+    -s.peak * active_by_length(p, s.length).slope * active_by_velocity(p, s.velocity).value / s.optimal
 }
 
-/// The derivative of [`over_length`].
-fn slope_over_length(length: f64, lmin: f64, lmax: f64) -> f64 {
-    if length < lmin || length > lmax {
-        return 0.0;
-    }
-    let (rise, fall) = (0.5 * (lmin + 1.0), 0.5 * (1.0 + lmax));
-    let part = |distance: f64, width: f64| distance / (width * width).max(MINVAL);
-    if length <= rise {
-        part(length - lmin, rise - lmin)
-    } else if length <= 1.0 {
-        part(1.0 - length, 1.0 - rise)
-    } else if length <= fall {
-        -part(length - 1.0, fall - 1.0)
-    } else {
-        -part(lmax - length, lmax - fall)
-    }
+/// -F₀ FP: the passive force.
+pub(super) fn bias(p: &[f64; 10], s: &State) -> f64 {
+    -s.peak * passive_by_length(p, s.length).value
 }
 
 /// The derivative of the passive force with respect to length.
 pub(crate) fn bias_by_length(p: &[f64; 10], s: &State) -> f64 {
-    let (lmax, fpmax) = (p[5], p[7]);
-    let width = (0.5 * (1.0 + lmax) - 1.0).max(MINVAL);
-    -s.peak * fpmax * ((s.length - 1.0) / width).clamp(0.0, 1.0) / (width * s.optimal)
+    -s.peak * passive_by_length(p, s.length).slope / s.optimal
 }
 
-/// The passive force: a parabola from the optimal length to half way to `lmax`, and a line from there.
-pub(super) fn bias(p: &[f64; 10], s: &State) -> f64 {
-    let (lmax, fpmax) = (p[5], p[7]);
-    let half = 0.5 * (1.0 + lmax);
-    if s.length <= 1.0 {
-        0.0
-    } else if s.length <= half {
-        let x = (s.length - 1.0) / (half - 1.0).max(MINVAL);
-        -s.peak * fpmax * 0.5 * x * x
-    } else {
-        let x = (s.length - half) / (half - 1.0).max(MINVAL);
-        -s.peak * fpmax * (0.5 + x)
-    }
-}
-
-/// The rate of an activation under a control: a filter whose time constant is longer for activating an active muscle
-/// and for deactivating a passive one. Parameters: both time constants, and the width over which one becomes the other.
+/// The rate of an activation under a control: (u - a) / τ. With c = ½ + 3a/2 the time constant is c times the first parameter where
+/// the muscle activates, and the second one over c where it deactivates. Over the width in the third parameter one becomes the
+/// other.
 pub(super) fn rate(p: &[f64; 10], control: f64, act: f64) -> f64 {
     let [activate, deactivate, width, ..] = *p;
-    let slow = 0.5 + 1.5 * act.clamp(0.0, 1.0);
-    let (activate, deactivate) = (activate * slow, deactivate / slow);
+    let c = 0.5 + 1.5 * act.clamp(0.0, 1.0);
+    let (activate, deactivate) = (activate * c, deactivate / c);
     let error = control.clamp(0.0, 1.0) - act;
-    let tau = if width < MINVAL {
-        if error > 0.0 { activate } else { deactivate }
-    } else {
-        deactivate + (activate - deactivate) * sigmoid(error / width + 0.5)
-    };
-    error / tau.max(MINVAL)
+    let activates = if width >= MINVAL { quintic(error / width + 0.5) } else { f64::from(error > 0.0) };
+    error / (deactivate + (activate - deactivate) * activates).max(MINVAL)
 }
 
-/// From 0 to 1 between 0 and 1, twice differentiable: 6x⁵ - 15x⁴ + 10x³.
-fn sigmoid(x: f64) -> f64 {
+/// From 0 to 1 between 0 and 1, with two derivatives that are zero at both ends: 6x⁵ - 15x⁴ + 10x³.
+fn quintic(x: f64) -> f64 {
     let x = x.clamp(0.0, 1.0);
-    x * x * x * (3.0 * x * (2.0 * x - 5.0) + 10.0)
+    x * x * x * (10.0 + x * (6.0 * x - 15.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DEFAULT: [f64; 10] = [0.75, 1.05, -1.0, 200.0, 0.5, 1.6, 1.5, 1.3, 1.2, 0.0];
+
+    /// Every curve and its slope are continuous, and the slope is the derivative: a break in either would show in a difference.
+    #[test]
+    fn curves_are_smooth() {
+        let curves: [fn(&[f64; 10], f64) -> Curve; 3] =
+            [active_by_length, active_by_velocity, passive_by_length];
+        for curve in curves {
+            for i in -1500..2500 {
+                let (x, h) = (f64::from(i) * 1e-3, 5e-4);
+                let (a, b) = (curve(&DEFAULT, x), curve(&DEFAULT, x + h));
+                assert!((b.value - a.value - 0.5 * h * (a.slope + b.slope)).abs() < 3.0 * h * h, "{x}");
+                assert!((b.slope - a.slope).abs() < 50.0 * h, "{x}: {} {}", a.slope, b.slope);
+            }
+        }
+    }
+
+    #[test]
+    fn curves_pass_through_their_points() {
+        let [lmin, lmax, fpmax, fvmax] = [4, 5, 7, 8].map(|i| DEFAULT[i]);
+        let length = |l| active_by_length(&DEFAULT, l).value;
+        assert_eq!([0.2, lmin, 1.0, lmax, 2.0].map(length), [0.0, 0.0, 1.0, 0.0, 0.0]);
+        assert!((length(0.75) - 0.5).abs() < 1e-15 && (length(1.3) - 0.5).abs() < 1e-15);
+        let velocity = |v| active_by_velocity(&DEFAULT, v).value;
+        assert_eq!([-2.0, -1.0, -0.5, 3.0].map(velocity), [0.0, 0.0, 0.25, fvmax]);
+        assert!((velocity(f64::MIN_POSITIVE) - 1.0).abs() < 1e-15);
+        let passive = |l| passive_by_length(&DEFAULT, l).value / fpmax;
+        assert_eq!([0.5, 1.0].map(passive), [0.0, 0.0]);
+        assert!((passive(1.3) - 0.5).abs() < 1e-15 && (passive(lmax) - 1.5).abs() < 1e-14);
+    }
+
+    #[test]
+    fn activation_is_faster_than_deactivation() {
+        let p = [0.01, 0.04, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert!((rate(&p, 1.0, 0.0) - 1.0 / (0.01 * 0.5)).abs() < 1e-12);
+        assert!((rate(&p, 0.0, 1.0) + 1.0 / (0.04 / 2.0)).abs() < 1e-12);
+        assert_eq!([-1.0, 0.0, 0.5, 1.0, 2.0].map(quintic), [0.0, 0.0, 0.5, 1.0, 1.0]);
+    }
 }

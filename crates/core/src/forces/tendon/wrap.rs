@@ -37,49 +37,59 @@ type Vec2 = [f64; 2];
 type Touch = ([Vec2; 2], f64);
 
 /// The path around a shape, `None` when the straight line is free.
+///
+/// Seen along the third axis of [`frame`] it is a string around a circle. Unrolled, it is a straight line: it climbs along that
+/// axis with the same slope everywhere.
 pub(super) fn around(ends: [Vec3; 2], shape: &Round, side: Option<Vec3>) -> Option<Arc> {
-    let local = |x: Vec3| mat_t_mul_vec(&shape.mat, sub(x, shape.pos));
-    let p = ends.map(local);
-    if p.iter().any(|&p| norm(p) < MINVAL) {
-        return None;
-    }
-    let axes = if shape.cylinder { [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]] } else { plane(p) };
-    let flat = |x: Vec3| [dot(x, axes[0]), dot(x, axes[1])];
-    let q = p.map(flat);
+    let radius = shape.radius;
+    let ends = ends.map(|x| sub(x, shape.pos));
+    let side = side.map(|x| sub(x, shape.pos));
+    let [x, y, z] = frame(ends, shape);
+    let flat = |v: Vec3| [dot(v, x), dot(v, y)];
 
-    let side = side.map(local);
-    let ([from, to], mut length) = match side {
-        Some(s) if norm(s) < shape.radius => inside(q, shape.radius)?,
-        _ => outside(q, shape.radius, side.map(|s| scale(unit(flat(s)), shape.radius)))?,
+    let [first, last] = ends.map(flat);
+    let ([from, to], arc) = match side {
+        // The documented condition for a path inside.
+        Some(s) if norm(s) < radius => inside([first, last], radius)?,
+        _ => outside([first, last], radius, side.map(|s| scale(unit(flat(s)), radius)))?,
     };
-    let lift = |q: Vec2| add_scaled(scale(axes[0], q[0]), axes[1], q[1]);
-    let mut touch = [lift(from), lift(to)];
-    if shape.cylinder {
-        // On the unrolled surface the path is straight: its height grows evenly along it.
-        let (before, after) = (norm2(sub(q[0], from)), norm2(sub(q[1], to)));
-        let slope = (p[1][2] - p[0][2]) / (before + length + after);
-        touch[0][2] = p[0][2] + slope * before;
-        touch[1][2] = p[0][2] + slope * (before + length);
-        let rise = touch[1][2] - touch[0][2];
-        length = (length * length + rise * rise).sqrt();
-    }
-    let [from, to] = touch.map(|x| add(mat_mul_vec(&shape.mat, x), shape.pos));
-    Some(Arc { from, to, length })
+
+    let [before, after] = [norm2(sub(first, from)), norm2(sub(last, to))];
+    let [bottom, top] = ends.map(|v| dot(v, z));
+    let slope = (top - bottom) / (before + arc + after);
+    let point = |[a, b]: Vec2, way: f64| {
+        let height = bottom + slope * way;
+        add_scaled(add_scaled(add_scaled(shape.pos, x, a), y, b), z, height)
+    };
+    Some(Arc {
+        from: point(from, before),
+        to: point(to, before + arc),
+        length: arc * (1.0 + slope * slope).sqrt(),
+    })
 }
 
-/// Axes of the plane through the origin and two points, the first towards the first point.
-fn plane(p: [Vec3; 2]) -> [Vec3; 2] {
-    let (x, _) = normalize(p[0]);
-    let (across, size) = normalize(sub(p[1], scale(x, dot(x, p[1]))));
-    if size > MINVAL * norm(p[1]) {
-        return [x, across];
+/// Axes, world: of a cylinder its own; of a sphere the first two span the plane through its centre and both ends, the first
+/// towards the first end.
+fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
+    if shape.cylinder {
+        return [0, 1, 2].map(|k| [shape.mat[k], shape.mat[3 + k], shape.mat[6 + k]]);
     }
-    // Both points are in line with the origin: any plane through the line is as good. This one is MuJoCo's, as measured:
-    // its normal is across the line and (1, 1, 1) without the line's largest component.
-    let largest = (1..3).fold(0, |most, i| if x[i].abs() > x[most].abs() { i } else { most });
+    let (x, _) = normalize(a);
+    let (mut y, size) = normalize(sub(b, scale(x, dot(x, b))));
+    if size <= MINVAL * norm(b) {
+        y = across(x, &shape.mat);
+    }
+    [x, y, cross(x, y)]
+}
+
+/// A direction across a line through the centre of a sphere: any plane through the line is as good. This one is MuJoCo's, as
+/// measured: its normal is across the line and, in the axes of the sphere, (1, 1, 1) without the line's largest component.
+fn across(line: Vec3, mat: &Mat3) -> Vec3 {
+    let own = mat_t_mul_vec(mat, line).map(f64::abs);
+    let largest = (1..3).fold(0, |most, i| if own[i] > own[most] { i } else { most });
     let mut other = [1.0; 3];
     other[largest] = 0.0;
-    [x, normalize(cross(cross(x, other), x)).0]
+    normalize(cross(cross(line, mat_mul_vec(mat, other)), line)).0
 }
 
 /// A taut string around a circle from outside; `side` is a point on it, `None` for the shorter way.

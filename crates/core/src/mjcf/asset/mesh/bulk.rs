@@ -1,9 +1,15 @@
-//! Volume, centre of mass and inertia of what a surface of triangles encloses, or of the surface itself: sums over
-//! tetrahedra with a common corner, or over triangles (Tonon 2004, *Explicit exact formulas for the 3-D tetrahedron
-//! inertia tensor*; for triangles the same with another denominator).
+//! Volume, centre of mass and inertia of what a surface of triangles encloses, or of the surface itself.
+//!
+//! By the divergence theorem an integral over the inside is a sum over the cones between the triangles and a common apex, each
+//! with the sign of its volume. A simplex of the volume or area V with the n corners vᵢ, n = 4 or 3, and their sum s has
+//!
+//! > ∫ x = V s / n,  ∫ x xᵀ = V / (n (n + 1)) (Σ vᵢ vᵢᵀ + s sᵀ)
+//!
+//! (Hammer, Marlowe and Stroud, *Numerical integration over simplexes and cones*, 1956). An apex at the origin adds nothing to the
+//! sums of corners.
 
 use super::triangle;
-use crate::math::{Vec3, add_scaled, dot, sub};
+use crate::math::{Vec3, add, add_scaled, cross, dot, sub};
 
 /// What is taken for the body of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,65 +41,58 @@ pub(super) fn triangles<'m>(vert: &'m [Vec3], face: &'m [[i32; 3]]) -> impl Iter
     face.iter().map(|f| f.map(|v| vert.get(v as usize).copied().unwrap_or_default()))
 }
 
+impl Body {
+    /// V of the simplex of a triangle, with the apex at the origin where it is a tetrahedron.
+    fn measure(self, t: Triangle) -> f64 {
+        let [a, b, c] = t;
+        let volume = dot(a, cross(b, c)) / 6.0;
+        match self {
+            Body::Shell => triangle(t).0,
+            Body::Legacy => volume.abs(),
+            Body::Exact | Body::Convex => volume,
+        }
+    }
+
+    /// n: the corners of a simplex.
+    fn corners(self) -> f64 {
+        if self == Body::Shell { 3.0 } else { 4.0 }
+    }
+}
+
 /// Area and centre of area.
 pub(super) fn surface(triangles: impl Iterator<Item = Triangle>) -> (f64, Vec3) {
-    let (mut total, mut moment) = (0.0, [0.0; 3]);
-    for t in triangles {
-        let (area, centre, _) = triangle(t);
-        moment = add_scaled(moment, centre, area);
-        total += area;
-    }
-    (total, moment.map(|x| x / total))
+    bulk(triangles, Body::Shell, [0.0; 3])
 }
 
-/// Volume and centre of volume, by tetrahedra from `apex`; of a shell, area and centre of area.
+/// Amount and centre of mass, by simplexes from `apex`.
 pub(super) fn bulk(triangles: impl Iterator<Item = Triangle>, body: Body, apex: Vec3) -> (f64, Vec3) {
-    let (mut total, mut moment) = (0.0, [0.0; 3]);
+    let (mut total, mut first) = (0.0, [0.0; 3]);
     for t in triangles {
-        let (area, centre, normal) = triangle(t);
-        let amount = portion(body, area, sub(centre, apex), normal);
-        total += amount;
-        for i in 0..3 {
-            moment[i] += amount * (centre[i] * 3.0 / 4.0 + apex[i] / 4.0);
-        }
+        let [a, b, c] = t.map(|p| sub(p, apex));
+        let measure = body.measure([a, b, c]);
+        total += measure;
+        first = add_scaled(first, add(add(a, b), c), measure / body.corners());
     }
-    (total, moment.map(|x| x / total))
+    (total, add_scaled(apex, first, 1.0 / total))
 }
 
-/// The part of a triangle with its normal and its centre seen from the common corner.
-fn portion(body: Body, area: f64, centre: Vec3, normal: Vec3) -> f64 {
-    let volume = || dot(centre, normal) * area / 3.0;
-    match body {
-        Body::Shell => area,
-        Body::Legacy => volume().abs(),
-        Body::Exact | Body::Convex => volume(),
-    }
-}
-
-/// Amount and inertia about `centre`, by tetrahedra from there.
+/// Amount and inertia about `centre`, by simplexes from there.
 pub(super) fn about(triangles: impl Iterator<Item = Triangle>, body: Body, centre: Vec3) -> Mass {
-    const AXES: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-    let denominator = if body == Body::Shell { 12.0 } else { 20.0 };
-    let (mut total, mut products) = (0.0, [0.0; 6]);
+    let corners = body.corners();
+    let (mut amount, mut second) = (0.0, [[0.0; 3]; 3]);
     for t in triangles {
-        let t = t.map(|p| sub(p, centre));
-        let (area, middle, normal) = triangle(t);
-        let amount = portion(body, area, middle, normal);
-        total += amount;
-        let [d, e, f] = t;
-        for (sum, (i, j)) in products.iter_mut().zip(AXES) {
-            *sum += amount / denominator
-                * (2.0 * (d[i] * d[j] + e[i] * e[j] + f[i] * f[j])
-                    + d[i] * e[j]
-                    + d[j] * e[i]
-                    + d[i] * f[j]
-                    + d[j] * f[i]
-                    + e[i] * f[j]
-                    + e[j] * f[i]);
+        let [a, b, c] = t.map(|p| sub(p, centre));
+        let measure = body.measure([a, b, c]);
+        amount += measure;
+        for v in [a, b, c, add(add(a, b), c)] {
+            for (row, x) in second.iter_mut().zip(v) {
+                *row = add_scaled(*row, v, measure * x / (corners * (corners + 1.0)));
+            }
         }
     }
-    let [xx, yy, zz, xy, xz, yz] = products;
-    Mass { amount: total, centre, inertia: [yy + zz, xx + zz, xx + yy, -xy, -xz, -yz] }
+    // ∫ (x·x 1 - x xᵀ)
+    let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = second;
+    Mass { amount, centre, inertia: [yy + zz, zz + xx, xx + yy, -xy, -xz, -yz] }
 }
 
 #[cfg(test)]
