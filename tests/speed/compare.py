@@ -261,8 +261,8 @@ instructions. A cell is empty if the scene does not use the algorithm. `dynamics
 
 ## Profiles
 
-The table shows scenes that missed a target of the project (every field: half of MuJoCo's instructions; planned: humanoid on the floor a half,
-two balls 1/6, free fall 500), and the functions that execute their instructions (callgrind, own instructions of a step by function,
+The table shows scenes that missed a target of the project (every field: half of MuJoCo's instructions; planned: humanoid on the floor a
+half, two balls 1/6, free fall 500), and the functions that execute their instructions (callgrind, own instructions of a step by function,
 the largest seven; inlined code counts for its caller):
 
 {profile}
