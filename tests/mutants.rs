@@ -219,21 +219,20 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> Stri
     write!(
         page,
         "# Planted mistakes\n\n\
-         Every kind of mistake below was planted into each of {labs} labs and {} quizzes that people wrote (`tests/mutants.rs`), at \
-         {PLACES} places at most. It counts when it changes what a student sees: what is written, or what the lab shows in short runs as it \
-         stands, with every control moved and after a reset. It is found when `labspec check` gives a warning or an error that the \
-         original does not have.\n\n\
-         A mistake can be known of the lab or the quiz itself when nothing that an author could sensibly have meant is the lab as it is \
-         then. Others make a sound lab that somebody could have written on purpose (another sign, another start, no gravity): only a \
-         claim of the author tells. Which is which is written down for each kind, and where a kind has both, computed from the lesson, \
-         never from what was found (`tests/mutants/claims.rs`).\n\n\
-         | what it takes | planted | seen | found | share |\n|---|---:|---:|---:|---:|\n",
+         This page lists how many planted mistakes `labspec check` finds. Every kind of mistake was planted into each of {labs} labs and {} quizzes \
+         written by people (`tests/mutants.rs`), at {PLACES} places at most. A mistake is *seen* if it changes what a student sees: the text, or \
+         what the lab shows in short runs as it stands, with every control moved and after a reset. It is *found* if `labspec check` gives a warning \
+         or an error that the original does not have.\n\nSome mistakes are recognizable in the lab or the quiz itself, because no author could have \
+         intended the result. Others produce a valid lab that somebody could have written on purpose (another sign, another start, no gravity); only \
+         a claim of the author reveals them. `tests/mutants/claims.rs` declares this for each kind. For a kind that has both, it is computed from \
+         the lesson, never from the result of the check.\n\n\
+         | requirement | planted | seen | found | share |\n|---|---:|---:|---:|---:|\n",
         pieces.len() - labs
     )
     .unwrap();
     for (words, ground) in [
-        ("known without a claim", Ground::Itself),
-        ("needs a claim, and the lesson has a `verify` on it", Ground::Claimed),
+        ("recognizable without a claim", Ground::Itself),
+        ("needs a claim, and the lesson has a `verify` object for it", Ground::Claimed),
         ("needs a claim, and the lesson has none", Ground::Unclaimed),
     ] {
         let [all, seen, found] = count(mutants, fates, |_, g| g == ground);
@@ -248,8 +247,8 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> Stri
     )
     .unwrap();
     page.push_str(
-        "\nIn the table, *itself* are those that can be known without a claim, *claimed* and *unclaimed* the others, as found / seen.\n\n\
-         | kind | what is wrong | planted | seen | found | share | itself | claimed | unclaimed |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
+        "\nIn the table, *itself* are the mistakes that are recognizable without a claim, *claimed* and *unclaimed* the others, as found / seen.\n\n\
+         | kind | mistake | planted | seen | found | share | itself | claimed | unclaimed |\n|---|---|---:|---:|---:|---:|---:|---:|---:|\n",
     );
     for (i, (_, kind)) in kinds.iter().enumerate() {
         let [all, seen, found] = count(mutants, fates, |m, _| m.kind == i);
@@ -262,16 +261,16 @@ fn table(pieces: &[Piece], mutants: &[Mutant], fates: &[(Fate, Ground)]) -> Stri
         writeln!(page, "| {} | {} | {all} | {seen} | {found} | {share} | {parts} |", kind.name, kind.words)
             .unwrap();
     }
-    page.push_str("\n## What needs a claim, and why\n\n");
+    page.push_str("\n## Mistakes that need a claim\n\n");
     for (_, kind) in &kinds {
         if let Needs::Claim(why) | Needs::Some(_, why) = claims::needs(kind.name) {
             let how = if matches!(claims::needs(kind.name), Needs::Claim(_)) { "all" } else { "some" };
             writeln!(page, "* **{}** ({how}): {why}.", kind.name).unwrap();
         }
     }
-    page.push_str("\n## What is not found\n\nWhat could be known without a claim, and is not:\n\n");
+    page.push_str("\n## Mistakes that are not found\n\nRecognizable without a claim, but not found:\n\n");
     missed(&mut page, pieces, mutants, fates, Ground::Itself);
-    page.push_str("\nWhat a claim could tell, where none is made:\n\n");
+    page.push_str("\nRecognizable only through a claim, in lessons without one:\n\n");
     missed(&mut page, pieces, mutants, fates, Ground::Unclaimed);
     page
 }

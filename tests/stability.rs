@@ -220,7 +220,7 @@ impl Classes {
     /// The table of classes.
     fn table(&self) -> String {
         let mut text = String::from(
-            "| class | runs | well: MuJoCo | here | wrong, with a warning: MuJoCo | here | wrong, silently: MuJoCo | here | told by us | called without cause |\n\
+            "| class | runs | well: MuJoCo | labspec | wrong, with a warning: MuJoCo | labspec | silently wrong: MuJoCo | labspec | reported | false alarms |\n\
              |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
         );
         for c in self.list.iter().chain([&self.sum()]) {
@@ -269,7 +269,7 @@ fn table(
             section = name;
             let _ = writeln!(
                 text,
-                "\n### {section}\n\n| case | MuJoCo | here | apart | told by us |\n|---|---|---|---:|---|"
+                "\n### {section}\n\n| case | MuJoCo | labspec | apart | reported |\n|---|---|---|---:|---|"
             );
         }
         let (bound, theirs, ours) = (case["bound"].as_f64().unwrap(), &case["theirs"], ours(case));
@@ -390,25 +390,24 @@ fn stiff_and_extreme_scenes() {
     let sum = classes.sum();
     let runs = read_json(&kept);
     let mut text = format!(
-        "# Stiff and extreme scenes\n\nWritten by `tests/stability.rs` from the cases of `tests/golden/stability.py`: \
-         our engine beside MuJoCo 3.14.0.\n\nOf {} runs here {} go well and {} end with a warning. {} go wrong silently, and {} of these are told by us, with {} \
-         alarms among those that go well. The numbers are the library's numbers: ours go wrong where its do. What differs is that \
-         somebody says so.\n\n## By class\n\n*Well* is a run that stays where its case says that it has to: within bounds, on the floor, before the \
-         wall, as fast as its energy allows. *Silently* is one that does not, without a warning of the engine. Of the searches for the \
-         longest timestep only ours are run step by step.\n\n{}\n## What is told\n\n\
-         | words | what it is | where |\n|---|---|---|\n\
-         | energy grows | three times what can be there (up to ten times near the limit of a spring) in one step, or once that for 32 steps; where a step makes half a turn, seen a few times | `advice/growth` |\n\
-         | a damper pushes | the same, given by a damping below zero | `advice/growth` |\n\
-         | past a limit | half the joint's range beyond its limit, or a fifth of it for good or by one step that is longer | `advice/limits` |\n\
-         | went through | the middle of a body through a middle plane of another one | `advice/through` |\n\
-         | sunk in | three tenths of the thickness deep for good, or wholly below a plane | `advice/sunk` |\n\
-         | solver stopped | a quarter of what the constraints have to do is missing, again and again | `advice/unsolved` |\n\n\
-         ## The log\n\n*Apart* is the largest difference of the first coordinates at the end (m, rad). Stacks of very unequal \
-         boxes jitter by what the solver leaves at its tolerance, on both sides, not in the same steps. \
-         A run is looked at in every step.\n{sections}\n\
-         ## Longest stable timestep\n\nOf {}: the longest at which 2,000 steps stay within bounds, all shorter ones \
-         included; **MuJoCo's / ours** where they differ ({} of {}).\n{largest}\n## Long runs\n\nTen million steps. Energy: change relative to the start.\n\n\
-         | case | MuJoCo | here | energy | here | norm of the quaternion less 1 | here |\n|---|---|---|---:|---:|---:|---:|\n",
+        "# Stiff and extreme scenes\n\n`tests/stability.rs` writes this page from the cases of `tests/golden/stability.py`. It compares labspec with MuJoCo 3.14.0.\n\nOf {} runs \
+         of labspec, {} go well and {} end with a warning. {} fail without a warning of the engine. labspec reports {} of these, with {} false \
+         alarms among the runs that go well. The numbers agree with the library's: labspec fails where the library does. The difference is that \
+         labspec reports the failure.\n\n## By class\n\n*Well* is a run that stays within the limits of its case: within bounds, on the floor, \
+         before the wall, as fast as its energy allows. *Silently wrong* is a run that does not, without a warning of the engine. Of the searches \
+         for the longest timestep, only those of labspec are evaluated step by step.\n\n{}\n## Reported problems\n\n\
+         | report | criterion | monitor |\n|---|---|---|\n\
+         | energy grows | three times the possible energy (up to ten times near the limit of a spring) in one step, or once that energy for 32 steps; if a step makes half a turn, observed a few times | `advice/growth` |\n\
+         | a damper pushes | the same, caused by a negative damping | `advice/growth` |\n\
+         | past a limit | half the joint's range beyond its limit, or a fifth of it permanently or by one step that is longer | `advice/limits` |\n\
+         | went through | the centre of a body passes through a middle plane of another one | `advice/through` |\n\
+         | sunk in | permanently three tenths of the thickness deep, or completely below a plane | `advice/sunk` |\n\
+         | solver stopped | a quarter of the constraint forces is missing, repeatedly | `advice/unsolved` |\n\n\
+         ## Results by case\n\n*Apart* is the largest difference of the first coordinates at the end (m, rad). Stacks of very unequal boxes jitter by the residual of the \
+         solver at its tolerance, in both programs, but not in the same steps. Every step of a run is monitored.\n{sections}\n\
+         ## Longest stable timestep\n\nThe longest of the timesteps {} at which 2,000 steps stay within bounds, with all shorter ones as well; **MuJoCo / labspec** where they \
+         differ ({} of {}).\n{largest}\n## Long runs\n\nRuns of ten million steps. Energy is the change relative to the start.\n\n\
+         | case | MuJoCo | labspec | energy | labspec | norm of the quaternion minus 1 | labspec |\n|---|---|---|---:|---:|---:|---:|\n",
         sum.runs,
         sum.well[1],
         sum.loud[1],

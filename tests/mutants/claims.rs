@@ -40,77 +40,77 @@ const KINDS: [(&str, Needs); 23] = [
         "next-index",
         Needs::Some(
             measures_another,
-            "the neighbour is a quantity of the same unit: only the author knows which is meant. It is known where its unit is another one, or where it then stands twice",
+            "the neighbour has the same unit, and only the author knows which one is intended. It is recognizable if the unit differs, or if the element then appears twice",
         ),
     ),
     (
         "written-index",
         Needs::Some(
             written_twice,
-            "the neighbour acts, too. It is known where one element is then stored twice in a row, or where the label quotes the element",
+            "writing the neighbour has an effect too. It is recognizable if one element is then stored twice in a row, or if the label quotes the element",
         ),
     ),
     (
         "wrong-sign",
         Needs::Some(
             never_negative,
-            "which way is positive is the author's choice. It is known where the label names what is never negative: a time, a count, a kinetic energy, a normal force, a speed",
+            "the author chooses the positive direction. It is recognizable if the label names a quantity that is never negative: a time, a count, a kinetic energy, a normal force, a speed",
         ),
     ),
     (
         "frozen-trace",
         Needs::Some(
             called_by_name,
-            "beside curves that move, a number may be a line that is meant. It is known where it is all of its plot, or has the name of something in the model",
+            "a constant beside curves may be an intended reference line. It is recognizable if it is the only curve of its plot, or has the name of an object in the model",
         ),
     ),
     (
         "early-stop",
         Needs::Some(
             shows_no_run,
-            "without a plot, a lab of one step may be meant. It is known where there is a plot, or the step is longer than the run",
+            "without a plot, a lab of one step may be intended. It is recognizable if there is a plot, or if the step is longer than the run",
         ),
     ),
     (
         "no-digits",
         Needs::Some(
             prints_the_same,
-            "whole numbers of a large value may be meant. It is known where what moved then prints two texts at most, or what is not 0 prints 0",
+            "printing a large value as an integer may be intended. It is recognizable if a changing value then prints at most two texts, or if a non-zero value prints 0",
         ),
     ),
-    ("one-value-forgotten", Needs::Claim("a constant beside `value` may be meant")),
+    ("one-value-forgotten", Needs::Claim("a constant beside `value` may be intended")),
     ("dropped-statement", Needs::Claim("a control may set one thing and not the other")),
     (
         "reset-forgotten",
         Needs::Some(
             says_again,
-            "a control may act in the middle of a run. It is known where the note says that it starts again, or where it acts only then",
+            "a control may act in the middle of a run. It is recognizable if the note says that the run restarts, or if the control has an effect only after a restart",
         ),
     ),
-    ("no-controller", Needs::Claim("a scene without its controller is a sound scene")),
-    ("no-setup", Needs::Claim("a scene that begins as its model says is a sound scene")),
-    ("no-key", Needs::Claim("a scene that begins as its model says is a sound scene")),
+    ("no-controller", Needs::Claim("a lab without its controller is a valid lab")),
+    ("no-setup", Needs::Claim("a lab that starts from the initial state of its model is a valid lab")),
+    ("no-key", Needs::Claim("a lab that starts from the initial state of its model is a valid lab")),
     (
         "long-step",
         Needs::Some(
             shown_otherwise,
-            "a timestep that is written in the setup is what the author wrote, and there are labs about long ones. It is known where a control shows another one",
+            "the setup states the timestep, and there are labs about long timesteps. It is recognizable if a control shows another one",
         ),
     ),
     (
         "no-gravity",
         Needs::Some(
             shown_otherwise,
-            "weightlessness is a lesson, too. It is known where a control shows a gravity",
+            "a lesson may be about weightlessness. It is recognizable if a control shows a gravity",
         ),
     ),
-    ("key-shifted", Needs::Claim("which option is right is what the author says")),
-    ("no-tolerance", Needs::Some(not_whole, "a whole number may be asked for exactly")),
+    ("key-shifted", Needs::Claim("the author states which option is right")),
+    ("no-tolerance", Needs::Some(not_whole, "a question may ask for an exact integer")),
     (
         "ten-times",
         Needs::Some(
             explained,
-            "the answer is what the author says. It is known where the explanation says another number",
+            "the author states the answer. It is recognizable if the explanation states another number",
         ),
     ),
     ("answer-sign", Needs::Some(explained, "as above")),
@@ -118,21 +118,21 @@ const KINDS: [(&str, Needs); 23] = [
         "answer-digit",
         Needs::Some(
             explained,
-            "as above; within its tolerance of what the explanation says, an answer is right",
+            "as above; an answer within its tolerance of the number in the explanation is right",
         ),
     ),
     (
         "labels-exchanged",
         Needs::Some(
             labels_tell,
-            "both measure the same, and neither label is a name of the model. It is known where units or such names part them",
+            "both have the same dimension, and neither label is a name in the model. It is recognizable if units or such names distinguish them",
         ),
     ),
     (
         "label-in-degrees",
         Needs::Some(
             known_measure,
-            "a number in the text may have a unit of its own. It is known where nothing else is in it",
+            "a number in the text may have its own unit. It is recognizable if the text contains no such number",
         ),
     ),
     ("wrong-unit", Needs::Some(known_measure, "as above")),

@@ -43,25 +43,27 @@ pub(super) const TEXTS: [Kind; 18] = [
     }),
     kind("next-index", "an index is one too high", |l| shown(l, |t| move_index(t, 1))),
     kind("far-index", "an index is beyond the end", |l| code(l, |t| move_index(t, 500))),
-    kind("written-index", "statements write the element after the one that is meant", |l| {
+    kind("written-index", "statements write the element after the intended one", |l| {
         statements(l, |t| move_index(t, 1))
     }),
-    kind("wrong-sign", "what is shown has the wrong sign", |l| shown(l, |t| Some(format!("-({t})")))),
+    kind("wrong-sign", "the displayed value has the wrong sign", |l| shown(l, |t| Some(format!("-({t})")))),
     kind("wrong-unit", "a factor of a thousand is missing", |l| shown(l, |t| swap(t, "1000 * ", ""))),
-    kind("degrees", "degrees go where radians belong", |l| code(l, |t| swap(t, " * Math.PI / 180", ""))),
+    kind("degrees", "degrees are used where radians are required", |l| {
+        code(l, |t| swap(t, " * Math.PI / 180", ""))
+    }),
     kind("xor", "`^` stands for a power", |l| code(l, |t| swap(t, " ** 2", " ^ 2"))),
     kind("compared", "`==` stands for `=`", |l| statements(l, |t| swap(t, "] = ", "] == "))),
     kind("nan-trace", "a trace is the root of a negative number", |l| {
         text(l, &TRACE, |t| Some(format!("Math.sqrt(-1 - ({t}) ** 2)")))
     }),
-    kind("only-nan", "a trace is a gap and nothing else", |l| text(l, &TRACE, |_| Some("NaN".into()))),
-    kind("nan-later", "a trace is the root of what becomes negative", |l| {
+    kind("only-nan", "a trace has no values", |l| text(l, &TRACE, |_| Some("NaN".into()))),
+    kind("nan-later", "a trace is the root of a value that becomes negative", |l| {
         text(l, &TRACE, |t| Some(format!("({t}) * Math.sqrt(0.2 - data.time)")))
     }),
-    kind("nan-at-start", "what is shown is divided by time, which is 0 at first", |l| {
+    kind("nan-at-start", "the displayed value is divided by time, which is 0 at the start", |l| {
         shown(l, |t| Some(format!("({t}) * data.time / data.time")))
     }),
-    kind("infinite", "what is shown is divided by 0", |l| {
+    kind("infinite", "the displayed value is divided by 0", |l| {
         text(l, &READOUT, |t| Some(format!("1 / (({t}) - ({t}))")))
     }),
     kind("text-in-plot", "a trace is a text", |l| {
@@ -71,17 +73,17 @@ pub(super) const TEXTS: [Kind; 18] = [
 
 /// What is wrong with plots and readouts, and how long is looked at them.
 pub(super) const VIEWS: [Kind; 13] = [
-    kind("constant-trace", "a trace shows where its coordinate begins", |l| {
+    kind("constant-trace", "a trace shows the initial value of its coordinate", |l| {
         text(l, &TRACE, |t| swap(t, "data.qpos", "model.qpos0"))
     }),
-    kind("constant-readout", "a readout shows where its coordinate begins", |l| {
+    kind("constant-readout", "a readout shows the initial value of its coordinate", |l| {
         text(l, &READOUT, |t| swap(t, "data.qpos", "model.qpos0"))
     }),
-    kind("frozen-trace", "a trace is a number", |l| text(l, &TRACE, |_| Some("0.25".into()))),
+    kind("frozen-trace", "a trace is a constant", |l| text(l, &TRACE, |_| Some("0.25".into()))),
     kind("above-plot", "the curves lie outside of the plot", |l| {
         each(l, &["plots", "*"], |p| limits(p, 1e4, 2e4))
     }),
-    kind("narrow-plot", "the plot shows a tenth of what the curves do", |l| {
+    kind("narrow-plot", "the plot shows a tenth of the range of its curves", |l| {
         each(l, &["plots", "*"], |p| {
             let [low, high] = [p["ymin"].as_f64()?, p["ymax"].as_f64()?];
             limits(p, high, high + 0.1 * (high - low))
@@ -90,7 +92,7 @@ pub(super) const VIEWS: [Kind; 13] = [
     kind("upside-down-plot", "the ends of a plot are exchanged", |l| {
         each(l, &["plots", "*"], |p| limits(p, p["ymax"].as_f64()?, p["ymin"].as_f64()?))
     }),
-    kind("copied-trace", "two traces have one text", |l| {
+    kind("copied-trace", "two traces have the same expression", |l| {
         each(l, &["plots", "*", "traces"], |list| {
             let mut list = list.clone();
             let first = list.get(0)?["expr"].clone();
@@ -98,7 +100,7 @@ pub(super) const VIEWS: [Kind; 13] = [
             Some(list)
         })
     }),
-    kind("copied-readout", "two readouts have one text", |l| {
+    kind("copied-readout", "two readouts have the same expression", |l| {
         each(l, &["readouts"], |list| {
             let mut list = list.clone();
             let first = list.get(0)?["expr"].clone();
@@ -116,7 +118,7 @@ pub(super) const VIEWS: [Kind; 13] = [
             Some(p)
         })
     }),
-    kind("no-digits", "a readout shows no decimals, and so always the same", |l| {
+    kind("no-digits", "a readout shows no decimals, and therefore never changes", |l| {
         each(l, &["readouts", "*"], |r| {
             let mut r = r.clone();
             (r["digits"].as_f64().unwrap_or(3.0) > 2.0).then(|| r["digits"] = json!(0))?;
@@ -189,7 +191,7 @@ pub(super) const CONTROLS: [Kind; 24] = [
             (value <= number(c, "max")?).then_some(value)
         })
     }),
-    kind("coarse-step", "a step does not meet the value that a slider begins with", |l| {
+    kind("coarse-step", "the steps of a slider do not include its start value", |l| {
         slider(l, "step", |c| {
             let [min, max, value] = ["min", "max", "value"].map(|k| c[k].as_f64().unwrap_or(0.0));
             (value > min).then_some(0.4 * (value - min)).filter(|s| *s < max - min)
@@ -249,7 +251,7 @@ pub(super) const CONTROLS: [Kind; 24] = [
     kind("param-unread", "the name of a `param` is misspelt", |l| {
         text(l, &["controls", "*", "param"], |p| Some(format!("{p}_x")))
     }),
-    kind("unused-element", "a control sets a parameter that is used for nothing", |l| {
+    kind("unused-element", "a control sets a parameter that has no effect", |l| {
         controls(l, |c| {
             number(c, "value")?;
             let object = c.as_object_mut()?;
@@ -295,7 +297,7 @@ pub(super) const CONTROLS: [Kind; 24] = [
     kind("no-setconst", "`mj_setConst` is forgotten", |l| {
         statements(l, |t| swap(t, "; mj.mj_setConst(model, data)", ""))
     }),
-    kind("same-label", "two controls have one label", |l| {
+    kind("same-label", "two controls have the same label", |l| {
         each(l, &["controls"], |list| {
             let mut list = list.clone();
             let label = list.get(0)?["label"].clone();
@@ -303,14 +305,14 @@ pub(super) const CONTROLS: [Kind; 24] = [
             Some(list)
         })
     }),
-    kind("no-such-option", "a select begins with what it does not offer", |l| {
+    kind("no-such-option", "a select starts with a value that it does not offer", |l| {
         controls(l, |c| {
             c["options"].as_array()?;
             c["value"] = json!(77);
             Some(())
         })
     }),
-    kind("one-option-twice", "two options of a select have one value", |l| {
+    kind("one-option-twice", "two options of a select have the same value", |l| {
         controls(l, |c| {
             let first = c["options"].get(0)?[1].clone();
             c["options"][1][1] = first;
@@ -323,7 +325,7 @@ pub(super) const CONTROLS: [Kind; 24] = [
     kind("button-idle", "a button changes nothing", |l| {
         text(l, &["controls", "*", "run"], |_| Some("ctx.pressed = 1".into()))
     }),
-    kind("button-overwritten", "a button resets what it has done", |l| {
+    kind("button-overwritten", "a button resets its own changes", |l| {
         text(l, &["controls", "*", "run"], |t| Some(format!("{t}; mj.mj_resetData(model, data)")))
     }),
 ];
@@ -333,7 +335,7 @@ pub(super) const SCENES: [Kind; 18] = [
     kind("no-controller", "the controller is missing", |l| without(l, "controller")),
     kind("no-setup", "the setup is missing", |l| without(l, "setup")),
     kind("no-key", "the keyframe is missing", |l| without(l, "key")),
-    kind("far-key", "there is no such keyframe", |l| with(l, "key", json!(9))),
+    kind("far-key", "the keyframe does not exist", |l| with(l, "key", json!(9))),
     kind("unknown-model", "the model is misspelt", |l| text(l, &["model"], |m| Some(format!("{m}s")))),
     kind("broken-xml", "the model in the lab is broken", |l| text(l, &["xml"], |x| swap(x, "</body>", ""))),
     kind("unknown-trail", "the site of the trail is misspelt", |l| {
@@ -356,10 +358,10 @@ pub(super) const SCENES: [Kind; 18] = [
         with(l, "controller", json!(format!("{old}if (data.time > 0.3) ctx.nothing.x = 1")))
     }),
     kind("long-step", "the timestep is fifty times too long", |l| setup(l, "model.opt.timestep = 0.1")),
-    kind("negative-damping", "a damper is below zero", |l| setup(l, "model.dof_damping.fill(-3)")),
+    kind("negative-damping", "a damping is negative", |l| setup(l, "model.dof_damping.fill(-3)")),
     kind("no-gravity", "gravity is forgotten", |l| setup(l, "model.opt.gravity.fill(0)")),
     kind("solver-stops", "the solver may not iterate", |l| setup(l, "model.opt.iterations = 0")),
-    kind("into-the-floor", "a body begins inside of the floor", |l| {
+    kind("into-the-floor", "a body starts inside the floor", |l| {
         let free = ["ball_drop", "drop", "bounce", "cube_table", "incline"];
         let it = l["model"].as_str().is_some_and(|m| free.contains(&m)) || l["xml"].is_string();
         if it {
@@ -370,7 +372,7 @@ pub(super) const SCENES: [Kind; 18] = [
     }),
     without_forward(
         "stale-read",
-        "statements read what follows from the state that they have just written",
+        "statements read derived values of the state that they have just written",
         |l| {
             let mut all = setup(l, "data.qpos[0] += 0.3; ctx.begins = data.xpos[3] + data.xpos[5]");
             all.iter_mut().for_each(|l| {

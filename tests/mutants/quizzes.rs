@@ -35,7 +35,7 @@ pub(super) const QUIZZES: [Kind; 26] = [
             Some(())
         })
     }),
-    kind("key-outside", "the key is no option", |q| {
+    kind("key-outside", "the key is not an option", |q| {
         questions(q, |q| {
             q["answer"] = json!(q["options"].as_array()?.len());
             Some(())
@@ -50,27 +50,27 @@ pub(super) const QUIZZES: [Kind; 26] = [
     kind("no-answer", "the answer is missing", |q| {
         questions(q, |q| q.as_object_mut()?.shift_remove("answer").map(drop))
     }),
-    kind("same-options", "two options are one", |q| {
+    kind("same-options", "two options are identical", |q| {
         questions(q, |q| {
             let first = q["options"].get(0)?.clone();
             *q["options"].get_mut(1)? = first;
             Some(())
         })
     }),
-    kind("one-option", "there is one option", |q| {
+    kind("one-option", "there is only one option", |q| {
         questions(q, |q| {
             q["options"].as_array_mut()?.truncate(1);
             q["answer"] = json!(0);
             Some(())
         })
     }),
-    kind("takes-everything", "the tolerance takes every answer", |q| {
+    kind("takes-everything", "the tolerance accepts every answer", |q| {
         numeric(q, "tol", |a| 3.0 * a.abs() + 1.0)
     }),
-    kind("takes-zero", "the tolerance takes 0 as well", |q| numeric(q, "tol", |a| 1.05 * a.abs())),
+    kind("takes-zero", "the tolerance accepts 0 as well", |q| numeric(q, "tol", |a| 1.05 * a.abs())),
     kind("no-tolerance", "the tolerance is 0", |q| numeric(q, "tol", |_| 0.0)),
     kind("negative-tolerance", "the tolerance is negative", |q| numeric(q, "tol", |a| -0.1 * a.abs())),
-    kind("tiny-tolerance", "the tolerance is smaller than what can be typed", |q| {
+    kind("tiny-tolerance", "the tolerance is smaller than a student can type", |q| {
         numeric(q, "tol", |a| 1e-13 * a.abs())
     }),
     kind("ten-times", "the answer is ten times too large", |q| numeric(q, "answer", |a| 10.0 * a)),
@@ -82,8 +82,8 @@ pub(super) const QUIZZES: [Kind; 26] = [
         text(q, &["questions", "*", "kind"], |k| Some(format!("{k}s")))
     }),
     kind("no-id", "a quiz has no id", |q| super::edit::without(q, "id")),
-    kind("no-questions", "a quiz asks nothing", |q| super::edit::with(q, "questions", json!([]))),
-    kind("latex", "the backslash of a formula is no backslash of JSON", |q| {
+    kind("no-questions", "a quiz has no questions", |q| super::edit::with(q, "questions", json!([]))),
+    kind("latex", "the backslash of a formula is not escaped in JSON", |q| {
         text(q, &["questions", "*", "explain"], |t| t.contains("\\t").then(|| t.replacen("\\t", "\t", 1)))
     }),
     kind("unclosed-tag", "an element is not closed", |q| {
@@ -97,15 +97,15 @@ pub(super) const QUIZZES: [Kind; 26] = [
             Some(())
         })
     }),
-    kind("answer-digit", "the last digit of the answer is another one", |q| {
+    kind("answer-digit", "the last digit of the answer is wrong", |q| {
         numeric(q, "answer", |a| {
             let text = a.to_string();
             let decimals = text.split_once('.').map_or(0, |(_, d)| d.len());
             format!("{:.decimals$}", a + 0.1_f64.powi(decimals as i32)).parse().unwrap()
         })
     }),
-    kind("takes-half", "the tolerance takes half of the answer", |q| numeric(q, "tol", |a| 0.6 * a.abs())),
-    kind("reworded-option", "an option is another one in other capitals", |q| {
+    kind("takes-half", "the tolerance accepts half of the answer", |q| numeric(q, "tol", |a| 0.6 * a.abs())),
+    kind("reworded-option", "an option repeats another one in different capitalization", |q| {
         questions(q, |q| {
             let first = q["options"].get(0)?.as_str()?.to_string();
             *q["options"].get_mut(1)? = json!(format!("The {first}."));

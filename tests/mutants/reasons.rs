@@ -2,16 +2,16 @@
 
 /// Kinds with survivors, and the reason.
 pub(super) const REASONS: [(&str, &str); 7] = [
-    ("nan-at-start", "the text reads a variable that is null at first: there may be a gap"),
-    ("constant-trace", "the text has a formula of time, which moves"),
-    ("constant-readout", "the text has a formula of time, which moves"),
-    ("above-plot", "the curve is a gap in the short run"),
+    ("nan-at-start", "the text reads a variable that is initially null, so a gap may be intended"),
+    ("constant-trace", "the text contains a formula of time, which changes"),
+    ("constant-readout", "the text contains a formula of time, which changes"),
+    ("above-plot", "the curve has no values in the short run"),
     (
         "no-digits",
-        "the value hardly changes beside its size, or goes over several units where a control is moved",
+        "the value hardly changes relative to its size, or changes by several units when a control is moved",
     ),
-    ("button-overwritten", "what the button sets is what a reset sets"),
-    ("answer-digit", "the explanation has another number, of fewer digits, that is as near"),
+    ("button-overwritten", "the button sets the same values as a reset"),
+    ("answer-digit", "the explanation contains another number with fewer digits that is equally near"),
 ];
 
 /// The reason for a kind.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cost of a step beside MuJoCo's: time, measured in the same run, and instructions, which repeat.
+"""Cost of a step compared with MuJoCo: time, measured in the same run, and instructions, which are repeatable.
 
     cargo build --release -p labspec
     tests/speed/compare.py BENCH_MUJOCO [--out docs/measured/speed.md] [NAME=MODEL.xml[,warm[,steps[,off]]] ...]
@@ -189,7 +189,7 @@ def main():
     p.add_argument("bench")
     p.add_argument("scenes", nargs="*")
     p.add_argument("--out", type=pathlib.Path)
-    p.add_argument("--ways", action="store_true", help="only the tables of ways and profiles: the first stays as it is in --out")
+    p.add_argument("--ways", action="store_true", help="write only the tables of tree algorithms and profiles; the first table in --out is kept")
     a = p.parse_intermixed_args()
     heads = ["scene", "every field, ns", "planned, ns", "MuJoCo, ns", "ratio", "planned"]
     if shutil.which("valgrind"):
@@ -214,12 +214,12 @@ def main():
         # What is written by hand stays: the reasons after the profiles. What other programs measure stays, too: the labs before
         # the ways, the checks at the end.
         old = a.out.read_text() if a.out.exists() else ""
-        reasons = re.search(r"\n## What is left\n.*?\n\|[^\n]*\n\n(.*?)\n*(?=\n## |\Z)", old, re.S)
+        reasons = re.search(r"\n## Profiles\n.*?\n\|[^\n]*\n\n(.*?)\n*(?=\n## |\Z)", old, re.S)
         page = PAGE.format(processor=where, table="\n".join(lines), ways=ways, profile=profile,
                            reasons=reasons.group(1) if reasons else "")
-        labs = re.search(r"\n## Labs\n.*?(?=\n## Ways)", old, re.S)
+        labs = re.search(r"\n## Labs\n.*?(?=\n## Tree algorithms)", old, re.S)
         if labs:
-            page = page.replace("\n## Ways", labs.group(0) + "\n## Ways", 1)
+            page = page.replace("\n## Tree algorithms", labs.group(0) + "\n## Tree algorithms", 1)
         _, mark, rest = old.partition("\n## Checks\n")
         a.out.write_text(page.rstrip("\n") + "\n" + mark + rest)
     return 0
@@ -227,44 +227,43 @@ def main():
 
 PAGE = """# Speed
 
-The cost of one step beside MuJoCo 3.14.0, measured on {processor} by
+This page compares the cost of one step with MuJoCo 3.14.0, measured on {processor} by
 
     cargo build --release -p labspec
     tests/speed/compare.py BENCH_MUJOCO --out docs/measured/speed.md
 
 {table}
 
-*Every field*: everything that can be read is computed in every step (`labspec bench --full`), as MuJoCo does; its ratio counts
-first. *Planned*: a lab that reads the state alone. Times are of the processor, medians of pairs of runs, one after the
-other; instructions are counted by callgrind and repeat to a few.
+*Every field* computes all readable fields in every step (`labspec bench --full`), as MuJoCo does; its ratio is the primary one.
+*Planned* is a lab that reads the state alone. Times are processor times, medians of pairs of runs in alternation. Instructions
+are counted by callgrind and repeat to within a few.
 
-What makes the difference:
+Causes of the difference:
 
-* Forces and inertias of four bodies are computed in the lanes of a vector (`math/lanes.rs`), frames as columns of vectors.
-* M and its factorization are left to steps in which constraints act, where nothing else looks at them.
+* Forces and inertias of four bodies are computed in the SIMD lanes of a vector (`math/lanes.rs`), frames as columns of vectors.
+* M and its factorization are computed only in steps in which constraints act, if nothing else reads them.
 * Trees of at most six slides and hinges have their equations of motion in closed form (`dynamics/ways/chain/`), without spatial bodies.
-* Larger trees are factorized as articulated bodies (`dynamics/ways/articulated.rs`): in a time that grows with the number of bodies, not
-  with the square of the depth, and the implicit damping of Euler's method costs one more pass instead of one more
-  factorization of M.
+* Larger trees are factorized as articulated bodies (`dynamics/ways/articulated.rs`): the time grows with the number of bodies, not with
+  the square of the depth, and the implicit damping of Euler's method costs one more pass instead of one more factorization of M.
 * Rows of M and of its factorization are products along the path to the root, eight columns at a time (`dynamics/path.rs`).
-* The Hessian of the constraints is kept and factorized in blocks of four by four (`constraint/hessian.rs`), to which constraints add by
-  the fours that their columns are among; that of a free body alone is a matrix of six by six on the stack (`constraint/six.rs`).
-* Pairs of geoms whose bounding spheres are apart cost one comparison with a number known when the plan is made.
-* What a scene does not have costs nothing (`labspec plan`).
+* The Hessian of the constraints is stored and factorized in blocks of four by four (`constraint/hessian.rs`); constraints add to the blocks
+  of their columns. The Hessian of a single free body is a matrix of six by six on the stack (`constraint/six.rs`).
+* A pair of geoms whose bounding spheres are apart costs one comparison with a number that is known when the plan is made.
+* Features that a scene does not use cost nothing (`labspec plan`).
 
-## Ways of computing trees
+## Tree algorithms
 
-What a planned step costs without a short way, in times of what it costs with all of them (instructions; nothing stands where
-the scene does not take the way). `dynamics/ways/` says what each is; `labspec bench --without WAY` measures a scene, and
-`tests/ways.rs` holds each against the general way.
+The table shows the cost of a planned step without one specialized tree algorithm (*way*), relative to its cost with all of them, in
+instructions. A cell is empty if the scene does not use the algorithm. `dynamics/ways/` documents the algorithms,
+`labspec bench --without WAY` measures a scene, and `tests/ways.rs` compares each with the general algorithm.
 
 {ways}
 
-## What is left
+## Profiles
 
-Scenes that were far from a target of the project (every field: half of MuJoCo's instructions; planned: humanoid on the floor a half,
-two balls 1/6, free fall 500), and where their instructions are (callgrind, own instructions of a step by function,
-the largest seven; what is inlined counts where it is inlined):
+The table shows scenes that missed a target of the project (every field: half of MuJoCo's instructions; planned: humanoid on the floor a
+half, two balls 1/6, free fall 500), and the functions that execute their instructions (callgrind, own instructions of a step by function,
+the largest seven; inlined code counts for its caller):
 
 {profile}
 

@@ -169,13 +169,13 @@ fn measure(range: &Range, list: &[[f64; 2]], theirs: &[f64]) -> Measured {
 
 fn table(rows: &str) -> String {
     format!(
-        "# Functions of `Math` beside node's\n\n\
-         Arithmetic (`+ - * / %`), comparisons, conversions and texts are JavaScript's to the last bit; a test runs random\n\
-         programs in both. `Math.sin` and its like are not fixed by the standard of JavaScript: engines differ in the last\n\
-         digits, and so do we, who give the same bits on every machine (`libm`). Measured beside node 20 by\n\
+        "# Functions of `Math` compared with node\n\n\
+         Arithmetic (`+ - * / %`), comparisons, conversions and texts agree with JavaScript to the last bit; a test runs random\n\
+         programs in both. The JavaScript standard does not specify the last digits of `Math.sin` and similar functions, and engines\n\
+         differ. labspec gives the same bits on every machine (`libm`). The table is measured against node 20 by\n\
          `crates/expr/src/tests/math.rs`: half of the arguments are evenly spread, half have evenly spread exponents. One *ulp*\n\
          is the distance to the next number, about 1.1e-16 to 2.2e-16 of the value.\n\n\
-         | function | arguments | the same bits | largest difference, ulp |\n|---|---:|---:|---:|\n{rows}"
+         | function | arguments | identical bits | largest difference, ulp |\n|---|---:|---:|---:|\n{rows}"
     )
 }
 

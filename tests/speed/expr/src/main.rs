@@ -207,15 +207,15 @@ fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
 
 fn main() {
     let mut page = String::from(
-        "# Speed of the language\n\nMeasured by `cargo run --release -- ../../../docs/measured/speed-language.md` in `tests/speed/expr`: the best of 25 rounds.\n\n## The error of a free fall\n\n",
+        "# Speed of the language\n\nMeasured by `cargo run --release -- ../../../docs/measured/speed-language.md` in `tests/speed/expr`: the minimum of 25 rounds.\n\n## The error of a free fall\n\n",
     );
-    let _ = write!(page, "    {ERROR}\n\n| evaluator | ns | beside native |\n|---|---:|---:|\n");
+    let _ = write!(page, "    {ERROR}\n\n| evaluator | ns | relative to native |\n|---|---:|---:|\n");
     let rows = error_expression();
     let native = rows[0].1;
     for (name, ns) in &rows {
         let _ = writeln!(page, "| {name} | {ns:.1} | {:.1} |", ns / native);
     }
-    page.push_str("\n*Columnar*: over recorded samples, as traces of a run are computed. *By row*: one run of the program, which is what a\ncontroller pays. The others are compiled once and get their variables for every evaluation, as ours do.\n");
+    page.push_str("\n*Columnar* evaluates over recorded samples, as for the traces of a run. *By row* is one run of the program, the cost of a\ncontroller. The other evaluators are compiled once and receive their variables for every evaluation, as labspec does.\n");
 
     let labs = corpus();
     let longest = labs
@@ -233,12 +233,12 @@ fn main() {
         });
         let _ = write!(
             page,
-            "\n## The longest controller of real labs\n\n{title}: {ns:.0} ns per call.\n\n    {text}\n"
+            "\n## The longest controller in the corpus\n\n{title}: {ns:.0} ns per call.\n\n    {text}\n"
         );
     }
 
     if !labs.is_empty() {
-        page.push_str("\n## Compiling\n\nAll texts of a lab, from text to program, with every check:\n\n| lab | texts | µs |\n|---|---:|---:|\n");
+        page.push_str("\n## Compiling\n\nTime to compile all programs of a lab, from text to program, including every check:\n\n| lab | texts | µs |\n|---|---:|---:|\n");
         for (title, lab, model) in &labs {
             let texts = Programs::compile(lab, model, &mut Vec::new()).bound().count();
             if texts == 0 {
