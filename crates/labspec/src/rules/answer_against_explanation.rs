@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The explanation of a numeric question ends with another number than the key.
+/// The explanation of a numeric question gives a different number than its answer.
 pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
     code: "answer-against-explanation",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the explanation of a numeric question gives another number than its answer",
-    why: "who has understood the explanation, and computes again, does not come to the number that counts as right",
+    summary: "the explanation of a numeric question gives a different number than its answer",
+    why: "a student who follows the explanation gets a number that is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": ⟦12.65⟧, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The index of the answer is not that of an option.
+/// `answer` is not the index of an option.
 pub const ANSWER_RANGE: &Rule = &Rule {
     code: "answer-range",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the answer is not the index of an option",
-    why: "no choice is right, and every student is told to be wrong",
+    summary: "`answer` is not the index of an option",
+    why: "no option is graded as correct, so every student is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": ⟦2⟧}]}"#,
     ),

@@ -4,7 +4,7 @@ use crate::json::Number;
 use crate::spec::{ControlKind, Lab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// `min` is not below `max`.
+/// The lower end of a range is not below its upper end.
 pub const EMPTY_RANGE: &Rule = &Rule {
     code: "empty-range",
     severity: Severity::Error,

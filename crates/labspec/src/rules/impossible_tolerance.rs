@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tolerance that no typed number can meet.
+/// The tolerance of a numeric question is negative, too small to type, or 0 for an answer that is not an integer.
 pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     code: "impossible-tolerance",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the tolerance of a numeric question is negative, too small for anybody to type, or 0 for an answer that is no whole number",
-    why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
+    summary: "the tolerance of a numeric question is negative, too small to type, or 0 for an answer that is not an integer",
+    why: "an answer is right if it differs by at most `tol`; a count may be asked exactly, a measured number may not",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦0⟧}]}"#,
     ),

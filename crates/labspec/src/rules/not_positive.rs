@@ -6,13 +6,13 @@ use crate::spec::Lesson;
 use crate::spec::format::{FIND, LAB, Object, PLOT, RUN};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A number that must be greater than zero.
+/// A time, size or speed is zero or negative.
 pub const NOT_POSITIVE: &Rule = &Rule {
     code: "not-positive",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a time, size or speed is zero or negative",
-    why: "with nothing left to run or to draw, the lab shows nothing",
+    why: "there is nothing to run or to draw, so the lab shows nothing",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": ⟦0⟧}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 1.5}"#),
 };

@@ -5,13 +5,13 @@ use crate::json::read::named;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two options of a select with one value.
+/// Two options of a select have the same value.
 pub const OPTION_VALUE_TWICE: &Rule = &Rule {
     code: "option-value-twice",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "two options of a select have one value",
-    why: "a student chooses the other one, and the lab is the same",
+    summary: "two options of a select have the same value",
+    why: "a student chooses the other option, and the lab stays the same",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", ⟦0⟧]], "value": 0}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{ChoiceStyle, Lesson, Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Predictions that nothing checks.
+/// Predictions have no `verify`, so nothing checks their answers.
 pub const PREDICTION_UNCHECKED: &Rule = &Rule {
     code: "prediction-unchecked",
     severity: Severity::Note,
     layer: Layer::Structure,
-    summary: "predictions have no `verify`, so nothing says whether their answers are true",
-    why: "the lab that decides them is at hand: a `verify` is run with every check, and tells when a change of the model makes an answer false",
+    summary: "predictions have no `verify`, so nothing checks their answers",
+    why: "the lab that decides them is available: every check runs a `verify`, and reports when a change of the model makes an answer false",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [⟦{"kind": "predict", "q": "Does mass matter?", "options": ["yes", "no"], "answer": 1, "sim": {"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}}⟧, {"kind": "predict", "q": "Does height matter?", "options": ["yes", "no"], "answer": 0, "sim": {"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A window shorter than a few pictures.
+/// The window of a plot is so short that its curve has only a few points.
 pub const SHORT_WINDOW: &Rule = &Rule {
     code: "short-window",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "a plot shows so little time that its curve is a few points",
-    why: "a page samples once for every picture that it draws",
+    summary: "the window of a plot is so short that its curve has only a few points",
+    why: "a page samples once per drawn frame",
     bad: Example::Lab(
         r#"{"model": "ball", "plots": [{"window": ⟦0.005⟧, "traces": [{"label": "height", "expr": "data.qpos[2]"}]}]}"#,
     ),

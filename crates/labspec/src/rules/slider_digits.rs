@@ -3,7 +3,7 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Fewer digits than the step has.
+/// A slider shows fewer decimals than its step has.
 pub const SLIDER_DIGITS: &Rule = &Rule {
     code: "slider-digits",
     severity: Severity::Warning,

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A start value between two steps.
+/// The start value of a slider is between two of its steps.
 pub const SLIDER_GRID: &Rule = &Rule {
     code: "slider-grid",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the start value of a slider lies between two of its steps",
-    why: "the slider stands beside the value that the lab starts with, and a student who moves it cannot come back",
+    summary: "the start value of a slider is between two of its steps",
+    why: "the slider shows another value than the lab starts with, and a student who moves it cannot return",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 1, "value": ⟦-9.81⟧}]}"#,
     ),

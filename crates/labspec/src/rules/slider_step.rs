@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A step that the range has no room for.
+/// The step of a slider is not positive, or larger than its range.
 pub const SLIDER_STEP: &Rule = &Rule {
     code: "slider-step",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "the step of a slider is not positive, or larger than its range",
-    why: "the slider cannot be moved",
+    why: "the slider cannot move",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "step": ⟦10⟧, "value": 1}]}"#,
     ),

@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tolerance that takes a common slip.
+/// The tolerance of a numeric question accepts the most common slip, a factor of 2.
 pub const SLIP_ACCEPTED: &Rule = &Rule {
     code: "slip-accepted",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the tolerance of a numeric question takes the commonest slip, a factor of 2",
-    why: "who forgets the one half of an energy, or takes a diameter for a radius, has answered right",
+    summary: "the tolerance of a numeric question accepts the most common slip, a factor of 2",
+    why: "a student who forgets the half in an energy, or takes a diameter for a radius, is graded as correct",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦2.5⟧}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Fewer than two options.
+/// A question has fewer than two options.
 pub const TOO_FEW_OPTIONS: &Rule = &Rule {
     code: "too-few-options",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a question has fewer than two options",
-    why: "there is nothing to choose",
+    why: "a student has nothing to choose",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "⟦Does mass matter?⟧", "options": ["no"], "answer": 0}]}"#,
     ),

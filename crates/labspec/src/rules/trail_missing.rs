@@ -11,7 +11,7 @@ pub const TRAIL_MISSING: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "`trail` names a site that the model does not have",
-    why: "The page silently draws no path",
+    why: "the page silently draws no path",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/><site name='tip' pos='0 0 -1'/></body></worldbody></mujoco>", "trail": "⟦tipp⟧"}"#,
     ),

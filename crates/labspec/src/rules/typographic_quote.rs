@@ -5,13 +5,13 @@ use crate::markdown::is_typographic;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A typographic quote in code.
+/// Code contains a typographic quote.
 pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     code: "typographic-quote",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "a typographic quote stands where a program needs a straight one",
-    why: "word processors replace straight quotes; programs read “ ” ‘ ’ as letters",
+    summary: "code contains a typographic quote",
+    why: "word processors replace straight quotes; a program reads “ ” ‘ ’ as letters",
     bad: Example::Lesson("```lab simlab\n{⟦“⟧model”: “ball”}\n```\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
 };

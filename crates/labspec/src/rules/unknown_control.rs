@@ -6,13 +6,13 @@ use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A run that sets or presses a control that the lab does not have.
+/// A run sets or presses a control that the lab does not have.
 pub const UNKNOWN_CONTROL: &Rule = &Rule {
     code: "unknown-control",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a run sets or presses a control that the lab does not have",
-    why: "the run would not be the one that the text talks about",
+    why: "the run is not the one that the text describes",
     bad: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": 1}], "verify": {"runs": {"heavy": {"set": {"⟦fricton⟧": 2}}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),

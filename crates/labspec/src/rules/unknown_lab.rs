@@ -5,7 +5,7 @@ use crate::json::read;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A lab that the lesson does not have.
+/// A `verify` object refers to a lab that the lesson does not have.
 pub const UNKNOWN_LAB: &Rule = &Rule {
     code: "unknown-lab",
     severity: Severity::Error,

@@ -5,13 +5,13 @@ use crate::spec::Lab;
 use crate::spec::format::{OVERLAYS, texts};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An overlay that does not exist.
+/// `overlays` or `toggles` names something that the page cannot draw.
 pub const UNKNOWN_OVERLAY: &Rule = &Rule {
     code: "unknown-overlay",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "`overlays` or `toggles` name something that cannot be drawn",
-    why: "nothing is drawn, or the checkbox does nothing",
+    summary: "`overlays` or `toggles` names something that the page cannot draw",
+    why: "the page draws nothing, or the checkbox does nothing",
     bad: Example::Lab(r#"{"model": "ball", "toggles": ["⟦contact⟧"]}"#),
     good: Example::Lab(r#"{"model": "ball", "toggles": ["contacts"]}"#),
 };

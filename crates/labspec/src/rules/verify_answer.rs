@@ -5,13 +5,13 @@ use crate::source::Text;
 use crate::spec::{Lesson, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Conditions that do not match the options, or a value where there is no number.
+/// `verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit.
 pub const VERIFY_ANSWER: &Rule = &Rule {
     code: "verify-answer",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "`verify` has no condition for each option, or a value where no number is asked, or none in a unit that is known",
-    why: "exactly the condition of the right option must hold, so every option needs one",
+    summary: "`verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit",
+    why: "exactly one condition must be true, that of the correct option, so every option needs one",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["⟦z < 0.9⟧", "z > 1.1"]}}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tolerance as large as the answer.
+/// The tolerance of a numeric question is as large as its answer.
 pub const WIDE_TOLERANCE: &Rule = &Rule {
     code: "wide-tolerance",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "the tolerance of a numeric question is as large as its answer",
-    why: "even 0 counts as right, so the question asks nothing",
+    why: "even 0 counts as right, so the question tests nothing",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦10⟧}]}"#,
     ),

@@ -3,7 +3,7 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An answer of 0 with the default tolerance.
+/// A numeric question with the answer 0 states no tolerance.
 pub const ZERO_TOLERANCE: &Rule = &Rule {
     code: "zero-tolerance",
     severity: Severity::Error,
