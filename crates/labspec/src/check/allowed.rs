@@ -45,9 +45,9 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
         Finding::new(
             rules::ERROR_ALLOWED,
             span,
-            format!("`{code}` is an error here: it is told all the same"),
+            format!("`{code}` is an error and cannot be suppressed"),
         )
-        .help("mend what it is about, then leave this out")
+        .help("fix the error, then delete this code")
     }));
     let mut wrong = Vec::new();
     for allowance in &allowances {
@@ -55,27 +55,27 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
             break;
         }
         if allowance.why.is_empty() {
-            let message = "something is allowed without a reason";
+            let message = "this suppression gives no reason";
             wrong.push(
                 Finding::new(rules::ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), message)
-                    .help("write the reason behind the codes, as \"why\" or after a colon"),
+                    .help("write the reason after the codes, as \"why\" or after a colon"),
             );
             continue;
         }
         wrong.extend(allowance.codes.iter().filter(|code| !used.contains(code)).filter_map(
             |(code, span)| {
                 let Some(rule) = rules::find(code) else {
-                    let message = format!("no rule is called `{code}`");
+                    let message = format!("`allow` names the unknown rule `{code}`");
                     let near = nearest(code, rules::all().map(|r| r.code));
                     let found = Finding::new(rules::UNKNOWN_RULE, span.clone(), message);
                     return Some(match near {
                         Some(near) => found.help(format!("did you mean `{near}`?")),
-                        None => found.help("`labspec explain` lists all rules"),
+                        None => found.help("run `labspec explain` for a list of all rules"),
                     });
                 };
                 looked_at(rule.layer, depth).then(|| {
-                    Finding::new(rules::UNUSED_ALLOWANCE, span.clone(), format!("`{code}` is not found here"))
-                        .help("leave it out")
+                    Finding::new(rules::UNUSED_ALLOWANCE, span.clone(), format!("`{code}` matches no finding here"))
+                        .help("delete it")
                 })
             },
         ));
@@ -83,7 +83,7 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
     if wrong.len() > MAX_FINDINGS {
         wrong.truncate(MAX_FINDINGS);
         let end = lesson.file.text().len();
-        let message = "more mistakes in what is allowed are not shown";
+        let message = "more mistakes in suppressions are not listed";
         wrong.push(
             Finding::new(rules::LESSON_LIMIT, end..end, message).help("fix the first ones, then check again"),
         );

@@ -25,10 +25,10 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     if question.right_option().is_none() && options.len() >= 2 {
         let last = options.len() - 1;
         let message =
-            format!("answer {} is not the index of an option; they run from 0 to {last}", answer.value);
+            format!("`answer` is {}, which is not the index of an option (0 to {last})", answer.value);
         findings.push(Finding::new(ANSWER_RANGE, answer.span.clone(), message).help(
             if answer.value == options.len() as f64 {
-                format!("options are counted from 0: the last one is {last}")
+                format!("count options from 0: the index of the last one is {last}")
             } else {
                 format!("write a number from 0 to {last}")
             },

@@ -26,10 +26,10 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     if let (Some(set), Some(apply)) = (&action.set, &action.apply) {
         let label = named(control.label.as_str());
         findings.push(
-            Finding::new(APPLY_UNUSED, apply.span(), format!("{label} never does this: it also has `set`"))
-                .related(set.span(), "what it does instead")
+            Finding::new(APPLY_UNUSED, apply.span(), format!("{label} never runs `apply`, because it also has `set`"))
+                .related(set.span(), "the page runs this instead")
                 .help(format!(
-                    "leave `set` out, and begin these statements with `{} = value;`",
+                    "delete `set`, and begin these statements with `{} = value;`",
                     shorten(set.as_str())
                 )),
         );

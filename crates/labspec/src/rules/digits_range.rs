@@ -35,7 +35,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 n.span.clone(),
                 format!("`digits` is {}, not between 0 and {MAX_DIGITS}", n.value),
             )
-            .help("it is the number of decimals; leave it out for 3"),
+            .help("write the number of decimals, or delete it for 3"),
         );
     }
 }

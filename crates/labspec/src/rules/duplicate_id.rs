@@ -63,8 +63,8 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
 }
 
 fn duplicate(id: &Text) -> Finding {
-    Finding::new(DUPLICATE_ID, id.span(), format!("another quiz has the id {} too", named(id.as_str())))
-        .help("give every quiz its own id, such as the number of the lesson and a word")
+    Finding::new(DUPLICATE_ID, id.span(), format!("another quiz also has the id {}", named(id.as_str())))
+        .help("give every quiz its own id, such as the lesson number and a word")
 }
 
 #[cfg(test)]

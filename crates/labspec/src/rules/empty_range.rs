@@ -38,7 +38,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             findings.extend(ends(min, max, ["ymin", "ymax"]).map(|found| {
                 found
                     .why("the plot has no height")
-                    .help("swap the two, or leave both out: the axis then follows the data")
+                    .help("swap the two, or delete both: the axis then follows the data")
             }));
         }
     }

@@ -43,14 +43,14 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
                 EXPLAINS_ANOTHER_OPTION,
                 answer.span.clone(),
                 format!(
-                    "the key is option {}, and the explanation calls option {} right",
+                    "the answer is option {}, but the explanation calls option {} correct",
                     letter(key),
                     letter(*other)
                 ),
             )
             .related(explain.span(), "the explanation")
-            .related(option.span(), "what it calls right")
-            .help("one of the two is wrong: the key, which counts from 0, or the explanation"),
+            .related(option.span(), "the option that it calls correct")
+            .help("correct the answer, which counts from 0, or the explanation"),
         );
     }
 }

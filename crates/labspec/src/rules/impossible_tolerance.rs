@@ -28,17 +28,17 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let whole = answer.value.fract() == 0.0;
     let too_small = tol.value > 0.0 && tol.value < TYPED * answer.value.abs();
     if too_small {
-        let message = format!("a tolerance of {} takes {} alone", tol.value, answer.value);
+        let message = format!("a tolerance of {} accepts only {}", tol.value, answer.value);
         findings.push(
             Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
-                .why("it is less than a billionth of the answer, and nobody types so many digits")
-                .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %, or write 0 for a count"),
+                .why("the tolerance is less than a billionth of the answer, and nobody types so many digits")
+                .help("write how far an answer may be off, in its unit; delete `tol` for 2 %, or write 0 for a count"),
         );
     } else if tol.value < 0.0 || (tol.value == 0.0 && !whole) {
-        let message = format!("no answer can be within {} of {}", tol.value, answer.value);
+        let message = format!("no answer is within {} of {}", tol.value, answer.value);
         findings.push(
             Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
-                .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %"),
+                .help("write how far an answer may be off, in its unit; delete `tol` for 2 %"),
         );
     }
 }

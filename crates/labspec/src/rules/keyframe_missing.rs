@@ -29,10 +29,10 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
             .why("the page then silently starts from the default configuration")
             .help(match model.nkey {
                 0 => {
-                    "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it"
+                    "delete `key`, or add <keyframe><key …/></keyframe> to the model, which has no keyframes"
                         .to_string()
                 }
-                n => format!("its keyframes are 0 to {}", n - 1),
+                n => format!("use one of its keyframes, 0 to {}", n - 1),
             }),
     );
 }

@@ -22,7 +22,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let message = format!("`key` is {}, but keyframes are counted from 0", key.value);
         findings.push(
             Finding::new(KEYFRAME_RANGE, key.span.clone(), message)
-                .help("write 0 for the first keyframe, or leave `key` out"),
+                .help("write 0 for the first keyframe, or delete `key`"),
         );
     }
 }

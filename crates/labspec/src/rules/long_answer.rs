@@ -36,9 +36,9 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 LONG_ANSWER,
                 right.span(),
-                format!("the right option has {own} characters, the longest of the others {next}"),
+                format!("the correct option has {own} characters, the longest other option has {next}"),
             )
-            .help("move the reason into `explain`, or give the others theirs"),
+            .help("move the reason into `explain`, or give reasons in the other options too"),
         );
     }
 }

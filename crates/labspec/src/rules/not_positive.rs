@@ -24,7 +24,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         if let Some(number) = number.filter(|n| !object.allows(name, n.value)) {
             let message = format!("`{name}` is {}, but it must be positive", number.value);
             findings.push(
-                Finding::new(NOT_POSITIVE, number.span.clone(), message).help(format!("it means: {means}")),
+                Finding::new(NOT_POSITIVE, number.span.clone(), message).help(format!("write a positive value: {means}")),
             );
         }
     };
@@ -33,7 +33,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         positive(&LAB, "height", lab.height.as_ref(), "pixels");
         positive(&LAB, "forceScale", lab.force_scale.as_ref(), "metres per newton");
         for speed in &lab.speeds {
-            positive(&LAB, "speeds", Some(speed), "how many times as fast as reality");
+            positive(&LAB, "speeds", Some(speed), "the playback speed relative to real time");
         }
         for plot in &lab.plots {
             positive(&PLOT, "window", plot.window.as_ref(), "seconds");
@@ -41,7 +41,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         }
     }
     for find in claims::all(lesson).flat_map(|claim| &claim.verify.find) {
-        positive(&FIND, "tol", Some(&find.tol), "how near the value is found");
+        positive(&FIND, "tol", Some(&find.tol), "the accuracy of the search");
     }
     for run in claims::all(lesson).flat_map(|claim| &claim.verify.runs) {
         positive(&RUN, "until", run.until.as_ref(), "the length of the run in seconds");

@@ -26,8 +26,8 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 .help("delete one of the two"),
         ),
         (None, None) => findings.push(
-            Finding::new(ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has no model").help(
-                "add \"model\": \"NAME\" for a model of the folder, or \"xml\": \"<mujoco>…</mujoco>\"",
+            Finding::new(ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has neither `model` nor `xml`").help(
+                "add \"model\": \"NAME\" for a model in the model folder, or \"xml\": \"<mujoco>…</mujoco>\"",
             ),
         ),
         _ => {}

@@ -30,8 +30,8 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     // One alone is counted among the answers without a check, and not told.
     let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
     let (count, of) = (open.len(), predictions.len());
-    let message = format!("{count} of {of} predictions have no `verify`, this one first");
+    let message = format!("{count} of {of} predictions have no `verify`; this is the first one");
     findings.push(Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
-        "say under `verify` what is measured in the lab of the question, and one condition for each option",
+        "add a `verify` with what to measure in the lab of the question and one condition per option",
     ));
 }

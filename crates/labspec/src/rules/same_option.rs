@@ -35,7 +35,7 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
                 Finding::new(
                     SAME_OPTION,
                     option.span(),
-                    format!("another option says what {} says", named(option.as_str())),
+                    format!("another option says the same as {}", named(option.as_str())),
                 )
                 .related(before.span(), "the other one")
                 .help("change or delete one of them"),

@@ -41,9 +41,9 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let [a, b] = [&first.label, &readout.label].map(|l| named(l.as_str()));
         findings.push(
             Finding::new(SAME_READOUT, readout.expr.span(), format!("{b} is the same number as {a}"))
-                .why("their texts are the same, so both print the same at any time")
+                .why("both use the same expression, so they always print the same number")
                 .related(first.expr.span(), "the first one")
-                .help("let it show what its label says, or leave it out"),
+                .help("change the expression to what the label says, or delete the readout"),
         );
     }
 }

@@ -25,8 +25,8 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     if !options.is_empty() && !options.iter().any(|o| o.value.same(value)) {
         let all: Vec<String> = options.iter().take(8).map(|o| o.value.show()).collect();
         findings.push(
-            Finding::new(SELECT_VALUE, value.span(), format!("{} is none of the options", value.show()))
-                .help(format!("write one of their values: {}", all.join(", "))),
+            Finding::new(SELECT_VALUE, value.span(), format!("{} is not one of the options", value.show()))
+                .help(format!("use one of their values: {}", all.join(", "))),
         );
     }
 }

@@ -31,13 +31,13 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let points = window.value * FRAMES / slowest;
         if window.value > 0.0 && points < POINTS {
             let message = format!(
-                "this plot shows {} s, of which a page draws {points:.0} points at most",
+                "this plot shows {} s, so a page draws at most {points:.0} points",
                 window.value
             );
             findings.push(
                 Finding::new(SHORT_WINDOW, window.span.clone(), message)
-                    .why(format!("a page samples once for every picture, {FRAMES} times in a second; at the slowest speed, {slowest}, that is once in {:.4} s", slowest / FRAMES))
-                    .help(format!("let it show more, or offer a slower speed: \"speeds\": [{}, 1]", window.value / 2.0)),
+                    .why(format!("a page samples {FRAMES} times per second; at the slowest speed, {slowest}, that is once every {:.4} s", slowest / FRAMES))
+                    .help(format!("make the window longer, or offer a slower speed: \"speeds\": [{}, 1]", window.value / 2.0)),
             );
         }
     }

@@ -34,12 +34,12 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     }
     let near = [steps.floor(), steps.ceil()].map(|n| tidy(min.value + n * step.value));
     let [below, above] = near;
-    let message = format!("{} lies between two steps of the slider, {below} and {above}", value.value);
+    let message = format!("{} is between two steps of the slider, {below} and {above}", value.value);
     findings.push(
         Finding::new(SLIDER_GRID, value.span.clone(), message)
-            .why("the page shows one of the two while the lab starts with this value, and nobody can come back to it")
+            .why("the page shows one of the two while the lab starts with this value, and a student cannot return to it")
             .related(step.span.clone(), format!("steps count from {}", min.value))
-            .help(format!("write {below} or {above}, or a step that meets {}", value.value)),
+            .help(format!("write {below} or {above}, or choose a step that reaches {}", value.value)),
     );
 }
 

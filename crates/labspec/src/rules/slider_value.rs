@@ -30,7 +30,7 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
         findings.push(
             Finding::new(SLIDER_VALUE, value.span.clone(), message)
                 .related(end.span.clone(), "the nearest end")
-                .help("change the value, or widen the range so that it holds the value"),
+                .help("change the value, or widen the range to include it"),
         );
     }
 }

@@ -36,9 +36,9 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let half = answer / 2.0;
     if tolerance >= size / 2.0 {
         findings.push(
-            Finding::new(SLIP_ACCEPTED, span, format!("{half} counts as right, and the answer is {answer}"))
+            Finding::new(SLIP_ACCEPTED, span, format!("the tolerance accepts {half}, but the answer is {answer}"))
                 .related(key.span.clone(), "the answer")
-                .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+                .help("write in `tol` how far an answer may be off, in its unit; delete it for 2 %"),
         );
     } else if (ROUND - 1.0) * size <= tolerance && plain(question.q.as_str()).contains("9.81") {
         let other = (answer * ROUND * 1e4).round() / 1e4;
@@ -46,11 +46,11 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 SLIP_ACCEPTED,
                 span,
-                format!("the question says 9.81, and {other}, which 10 gives, counts as right"),
+                format!("the question says 9.81, but the tolerance accepts {other}, the answer for g = 10"),
             )
             .severity(Severity::Note)
-            .why("an answer that goes with g may be off by 1.9 % when g is rounded")
-            .help("make `tol` smaller where that is not meant"),
+            .why("rounding g to 10 changes an answer that is proportional to g by 1.9 %")
+            .help("make `tol` smaller, unless g = 10 is allowed"),
         );
     }
 }

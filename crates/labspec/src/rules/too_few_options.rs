@@ -27,7 +27,7 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
         let message = format!("this question has {} option{plural}", options.len());
         findings.push(
             Finding::new(TOO_FEW_OPTIONS, question.q.span(), message)
-                .help("give at least two, or make it a question of kind numeric or open"),
+                .help("add options until there are at least two, or use the kind numeric or open"),
         );
     }
 }

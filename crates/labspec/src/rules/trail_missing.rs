@@ -45,8 +45,8 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     findings.push(match nearest(name, sites()) {
         Some(right) => found.help(format!("did you mean `{right}`?")).guess(trail.span(), encode(right)),
         None if listed.is_empty() => found
-            .help("the model has no site with a name: add <site name=\"…\"/> where the path is to be drawn"),
-        None => found.help(format!("its sites are {}{more}", listed.join(", "))),
+            .help("name a site in the model, which has none: add <site name=\"…\"/> where the path should be drawn"),
+        None => found.help(format!("use one of its sites: {}{more}", listed.join(", "))),
     });
 }
 

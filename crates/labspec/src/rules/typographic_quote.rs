@@ -33,8 +33,8 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
         let shown = code.value.get(first.clone()).unwrap_or("");
         let message = match found.len() {
-            1 => format!("the typographic quote {shown} in an expression"),
-            n => format!("{n} typographic quotes in an expression, {shown} the first"),
+            1 => format!("an expression contains the typographic quote {shown}"),
+            n => format!("an expression contains {n} typographic quotes, {shown} is the first"),
         };
         let part = first.start..last.end;
         let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");

@@ -57,17 +57,17 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
             UNEVEN_ANSWERS,
             span.clone(),
             format!(
-                "of {} right options of the course, {} stand at index {place}",
+                "of {} correct options in the course, {} have index {place}",
                 keys.len(),
                 stands(place)
             ),
         )
         .why(format!(
-            "by lot it would be {expected:.1}, and so many come once in {:.0} courses; all: {}",
+            "chance gives {expected:.1} on average, and this many in one of {:.0} courses; all: {}",
             1.0 / chance,
             counts.join(", ")
         ))
-        .help("put the right options of some questions elsewhere")
+        .help("move the correct options of some questions")
         .at(file),
     ]
 }

@@ -52,7 +52,7 @@ fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
     let found = Finding::new(UNKNOWN_CONTROL, label.span(), message);
     Some(match nearest(label.as_str(), labels.iter().copied()) {
         Some(right) => found.help(format!("did you mean `{right}`?")).guess(label.span(), encode(right)),
-        None if labels.is_empty() => found.help(format!("the lab has no {what} at all")),
-        None => found.help(format!("it has {}", labels.join(", "))),
+        None if labels.is_empty() => found.help(format!("remove it: the lab has no {what}")),
+        None => found.help(format!("use one of: {}", labels.join(", "))),
     })
 }

@@ -31,8 +31,8 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson).filter(without) {
         let start = claim.verify.span.start;
         findings.push(
-            Finding::new(VERIFY_WITHOUT_LAB, start..start + 1, "there is no lab that could run")
-                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object; formulas that read no `data` and no `model` need none"),
+            Finding::new(VERIFY_WITHOUT_LAB, start..start + 1, "this `verify` object has no lab to run")
+                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object; formulas without `data` and `model` need no lab"),
         );
     }
 }

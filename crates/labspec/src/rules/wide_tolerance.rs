@@ -28,11 +28,11 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 WIDE_TOLERANCE,
                 tol.span.clone(),
-                format!("every answer from {low} to {high} counts as right"),
+                format!("the tolerance accepts every answer from {low} to {high}"),
             )
-            .why("0 is among them: who types it without a thought has answered")
+            .why("the range includes 0, so a student who types 0 without thinking is graded as correct")
             .related(answer.span.clone(), "the answer")
-            .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+            .help("write in `tol` how far an answer may be off, in its unit; delete it for 2 %"),
         );
     }
 }

@@ -25,7 +25,7 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
         && answer.value == 0.0
     {
         findings.push(
-            Finding::new(ZERO_TOLERANCE, answer.span.clone(), "the answer is 0 and there is no `tol`")
+            Finding::new(ZERO_TOLERANCE, answer.span.clone(), "the answer is 0 and has no `tol`")
                 .help("add \"tol\": how far an answer may be off, in its unit"),
         );
     }
