@@ -252,27 +252,27 @@ impl Ledger {
         let is_wrong = any(State::False) || any(State::Unchecked);
         match (is_wrong, findings) {
             // What is wrong with a file that claims nothing.
-            (true, "") if parts.is_empty() => parts.push("a file has faults".into()),
+            (true, "") if parts.is_empty() => parts.push("a file has problems".into()),
             (true, findings) if !findings.is_empty() => parts.push(findings.into()),
             _ => {}
         }
         if any(State::LeftOut) {
             let all_is_well = parts.is_empty();
             parts.push(match all_is_well {
-                true => "nothing wrong in what was checked, but not everything was".into(),
+                true => "no problems found in what was checked, but not everything was checked".into(),
                 false => "not everything was checked".into(),
             });
         }
         if any(State::Known) {
             parts.push(match parts.is_empty() {
-                true => "nothing that is not in the baseline".into(),
+                true => "no problems outside the baseline".into(),
                 false => format!("{} already in the baseline", self.known()),
             });
         }
         match (parts.is_empty(), self.outcome()) {
             (false, _) => {}
             (true, Outcome::Nothing) => parts.push("nothing to check".into()),
-            (true, _) => parts.push("nothing to complain about".into()),
+            (true, _) => parts.push("no problems found".into()),
         }
         // Notes alone are no fault.
         if !is_wrong && !findings.is_empty() {
@@ -346,7 +346,7 @@ impl Ledger {
     pub fn break_off(&mut self, is_broken_off: impl Fn(&Arc<str>) -> bool) {
         for entry in self.entries.iter_mut().filter(|e| e.state == State::LeftOut && is_broken_off(&e.path)) {
             (entry.state, entry.word) = (State::Unchecked, "unchecked");
-            entry.remark = "the check of this lesson was broken off".into();
+            entry.remark = "the check of this lesson was interrupted".into();
         }
     }
 

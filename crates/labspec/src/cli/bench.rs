@@ -41,7 +41,7 @@ pub(super) struct Arguments {
 /// A short way of computing trees, by its name.
 fn short_way() -> impl TypedValueParser<Value = Way> {
     PossibleValuesParser::new(Way::short().map(Way::name))
-        .try_map(|name| Way::short().find(|way| way.name() == name).ok_or("no such way"))
+        .try_map(|name| Way::short().find(|way| way.name() == name).ok_or("this algorithm does not exist"))
 }
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {

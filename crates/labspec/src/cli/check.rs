@@ -152,7 +152,7 @@ fn work(
     let piped = a.paths.iter().any(|p| p.as_os_str() == STDIN);
     let stdin = piped.then(|| read_stdin().map(|text| (a.stdin_name.clone(), text))).transpose()?;
     if piped && (a.watch || mode.is_some()) {
-        return Err("standard input can be checked, and neither watched nor repaired; name a file".into());
+        return Err("--watch and --fix do not work on standard input; name a file".into());
     }
     let baseline = match &a.baseline {
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
@@ -196,7 +196,7 @@ fn work(
         }
         if repaired.fixes > 0 {
             complain(&format!(
-                "repaired {} in {}\n",
+                "fixed {} in {}\n",
                 many(repaired.fixes, "finding"),
                 many(repaired.files, "file")
             ));
@@ -298,11 +298,11 @@ fn report(
     match outcome {
         ledger::Outcome::Findings => Ok(Outcome::Findings),
         ledger::Outcome::Nothing if found == ledger::Outcome::Clean => Err(format!(
-            "there is nothing to verify in {}: no question and no lab carries a `verify` object",
+            "{} has nothing to verify: no question and no lab has a `verify` object",
             named()
         )),
         ledger::Outcome::Nothing => {
-            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
+            Err(format!("{} has nothing to check: no lab, no question and no model", named()))
         }
         ledger::Outcome::Partial => Ok(Outcome::Partial),
         ledger::Outcome::Clean | ledger::Outcome::Known
@@ -407,7 +407,7 @@ fn put_aside(course: &Course) -> String {
     let ignored = Summary::of(&aside.ignored);
     let parts = [
         (aside.ignored.len(), format!("{ignored} ignored")),
-        (aside.allowed.len(), format!("{} allowed by the lessons", many(aside.allowed.len(), "finding"))),
+        (aside.allowed.len(), format!("{} suppressed by the lessons", many(aside.allowed.len(), "finding"))),
         (aside.known.len(), format!("{} in the baseline", many(aside.known.len(), "finding"))),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
@@ -419,7 +419,7 @@ fn allowed(course: &Course, sources: &[&SourceFile]) -> String {
     let mut text = String::new();
     for aside in &course.aside.allowed {
         let line = drawn::concise(std::slice::from_ref(&aside.finding), sources);
-        let _ = writeln!(text, "{}\n  allowed: {}", line.trim_end(), printable(&aside.why));
+        let _ = writeln!(text, "{}\n  suppressed: {}", line.trim_end(), printable(&aside.why));
     }
     if !text.is_empty() {
         text.push('\n');

@@ -70,7 +70,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     let again = reload_lesson(&lesson, &done.text, &folder);
     if !format::says_the_same(&lesson, &again) {
         return Err(format!(
-            "{} is left alone: laid out anew it would not be read as before; please report this lesson",
+            "{} is unchanged: formatting would change its meaning; please report this lesson",
             printable_path(path)
         ));
     }

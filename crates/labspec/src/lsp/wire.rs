@@ -51,7 +51,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     let Some(length) = length else { return Ok(Incoming::Bad("a message has no Content-Length".into())) };
     if length > MOST {
         io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
-        return Ok(Incoming::Bad(format!("a message of {length} bytes is too long; {MOST} are read")));
+        return Ok(Incoming::Bad(format!("a message of {length} bytes is too long; the limit is {MOST}")));
     }
     let mut body = Vec::new();
     input.by_ref().take(length).read_to_end(&mut body)?;
@@ -60,7 +60,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     }
     Ok(match serde_json::from_slice::<Message>(&body) {
         Ok(message) => Incoming::Message(message),
-        Err(e) => Incoming::Bad(format!("this is no message: {e}")),
+        Err(e) => Incoming::Bad(format!("the message is invalid: {e}")),
     })
 }
 

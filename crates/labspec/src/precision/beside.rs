@@ -59,7 +59,7 @@ impl Recording {
         let list = |value: &Value, key: &str| {
             value.get(key).and_then(Value::as_array).cloned().ok_or_else(|| format!("it has no list `{key}`"))
         };
-        let words = |v: &Value| v.as_str().map(str::to_string).ok_or("a name is no text".to_string());
+        let words = |v: &Value| v.as_str().map(str::to_string).ok_or("a name is not a text".to_string());
         let number = |v: Option<&Value>| v.and_then(Value::as_f64).unwrap_or(f64::NAN);
         let traces = list(&value, "traces")?.iter().map(words).collect::<Result<Vec<_>, _>>()?;
         let times: Vec<f64> = list(&value, "times")?.iter().map(|v| number(Some(v))).collect();
@@ -72,7 +72,7 @@ impl Recording {
             let met = times.len().saturating_sub(1) / apart as usize + 1;
             if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
                 return Err(
-                    "a run does not have a value of each trace at each time that it meets".to_string()
+                    "a run lacks a value of a trace at one of its times".to_string()
                 );
             }
             let integrator =
@@ -97,7 +97,7 @@ impl Recording {
         let same = |k: usize, t: f64| (t - k as f64 * case.interval).abs() <= 1e-9 * (1.0 + t);
         if self.times.len() != case.count + 1 || !self.times.iter().enumerate().all(|(k, &t)| same(k, t)) {
             return Err(RunError(format!(
-                "the recording to stand beside was made at other times; record it at {} times, {} s apart from 0 on",
+                "the recording has other times; record it at {} times, {} s apart, starting at 0",
                 case.count + 1,
                 crate::verify::significant(case.interval)
             )));
@@ -106,7 +106,7 @@ impl Recording {
         for target in targets {
             let place = self.traces.iter().position(|t| *t == target.label);
             places.push(place.ok_or_else(|| {
-                RunError(format!("the recording to stand beside has no \"{}\"", target.label))
+                RunError(format!("the recording has no \"{}\"", target.label))
             })?);
         }
         let rows = self.runs.iter().map(|run| {

@@ -65,7 +65,7 @@ pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
                 grid.holds(label, *x, value.value).map(|()| given.clone())
             }
             other => Err(RunError(format!(
-                "\"{label}\" is a slider: it takes a number from {} to {}, not {}",
+                "\"{label}\" is a slider: it needs a number from {} to {}, not {}",
                 number(min.value),
                 number(max.value),
                 shown(other)
@@ -105,7 +105,7 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
         }
         if !(time.is_finite() && *time >= 0.0) {
             return Err(RunError(format!(
-                "\"{label}\" cannot be pressed at {time} s: a run begins at 0 s; write a time from there on"
+                "\"{label}\" cannot be pressed at {time} s, because a run begins at 0 s; use a later time"
             )));
         }
     }
@@ -156,7 +156,7 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
         list.push(format!("and {} more", options.len() - MOST_LISTED));
     }
     Err(RunError(format!(
-        "{} is no option of \"{label}\"; its options are {}",
+        "{} is not an option of \"{label}\"; its options are {}",
         shown(given),
         list.join(", ")
     )))
@@ -197,7 +197,7 @@ impl Grid {
         }
         let [below, above] = [steps.floor(), steps.ceil()].map(|k| (min + k * step).min(max));
         Err(RunError(format!(
-            "\"{label}\" cannot stand at {}: it moves in steps of {} from {}; the nearest values are {} and {}",
+            "\"{label}\" cannot be set to {}: it moves in steps of {} from {}; the nearest values are {} and {}",
             number(x),
             number(step),
             number(min),
@@ -240,7 +240,7 @@ pub(crate) fn unknown(label: &str, programs: &Programs) -> RunError {
     };
     let hint = crate::json::nearest(label, labels)
         .map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
-    RunError(format!("there is no control \"{}\"{hint} ({known})", printable(label)))
+    RunError(format!("the lab has no control \"{}\"{hint} ({known})", printable(label)))
 }
 
 #[cfg(test)]

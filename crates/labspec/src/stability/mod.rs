@@ -169,7 +169,7 @@ pub fn probe(
     };
     if !case.jumps && bodies::pairs(model, watch::MOST_PAIRS).1 {
         report.left_out.push(format!(
-            "tunnelling is watched between the first {} pairs of geoms only",
+            "only the first {} pairs of geoms are watched for tunnelling",
             watch::MOST_PAIRS
         ));
     }

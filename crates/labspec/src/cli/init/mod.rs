@@ -26,7 +26,7 @@ pub(super) fn init(a: &Arguments) -> Result<Outcome, Failure> {
     // Nothing is written where something is there already.
     if let Some((path, _)) = places.iter().find(|(path, _)| path.symlink_metadata().is_ok()) {
         return Err(format!(
-            "{} is there already; name an empty folder: labspec init FOLDER. Nothing was written",
+            "{} already exists, so nothing was written; name an empty folder: labspec init FOLDER",
             printable_path(path)
         ));
     }

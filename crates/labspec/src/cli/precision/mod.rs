@@ -88,7 +88,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     drop(progress);
     if let Some(f) = findings.first() {
         return Err(format!(
-            "a closed form has a mistake: {}; `labspec check` shows where",
+            "a closed form has an error: {}; `labspec check` shows where",
             printable(&f.message)
         ));
     }
@@ -141,7 +141,7 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     let known = || INTEGRATORS.map(|i| i.name).join(", ");
     let one = |name: &String| {
         Integrator::named(name).ok_or_else(|| {
-            format!("--integrator {name}: there is none of this name; there are {}, and all", known())
+            format!("--integrator {name}: unknown name; use one of {}, or all", known())
         })
     };
     names.iter().map(one).collect()
@@ -152,8 +152,8 @@ fn human(report: &Report) -> String {
     match &report.reference {
         None => {
             let why = match report.rows.iter().any(|r| r.fate == Fate::Good) {
-                true => "the methods of high order take more work than a run may do; shorten it with --until",
-                false => "no method comes through this lab",
+                true => "the methods of high order need more work than a run allows; shorten it with --until",
+                false => "no method completes this lab",
             };
             let _ = writeln!(text, "Nothing can be compared: {why}.");
             fates(report, &mut text);
@@ -161,7 +161,7 @@ fn human(report: &Report) -> String {
         Some(how) => {
             let _ = writeln!(
                 text,
-                "Over {} s, {}. Where there is no closed form the reference is {how}.",
+                "Over {} s, {}. Without a closed form, the reference is {how}.",
                 significant(report.length),
                 compared_at(report)
             );
@@ -172,20 +172,19 @@ fn human(report: &Report) -> String {
         others(report, beside, &mut text);
     }
     for out in &report.left_out {
-        let _ = writeln!(text, "Not compared: {}, as {}.", printable(&out.label), out.reason);
+        let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
     }
     if let Some(nearby) = &report.nearby {
         let _ = match nearby.until {
             Some(t) => writeln!(
                 text,
-                "Two starts that are {:e} apart show the same until {} s: what comes later cannot be predicted, by any method.",
+                "Two starts that are {:e} apart agree until {} s: no method can predict what comes later.",
                 nearby.apart,
                 significant(t)
             ),
             None => writeln!(
                 text,
-                "Two starts that are {:e} apart show the same to the end, yet the methods do not come closer with the step: \
-                 this is not chaos; forces that jump, as at an impact, are likely.",
+                "Two starts that are {:e} apart agree to the end, but the methods do not converge with the step: this is not chaos; forces that jump, as at an impact, are likely.",
                 nearby.apart
             ),
         };
@@ -194,7 +193,7 @@ fn human(report: &Report) -> String {
         let _ = writeln!(text, "{}", printable(&advice.text));
     }
     if interrupted() {
-        text.push_str("stopped by Ctrl-C: the runs above are those that were finished\n");
+        text.push_str("stopped by Ctrl-C: the runs above are the finished ones\n");
     }
     text
 }
