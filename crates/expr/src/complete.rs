@@ -223,12 +223,7 @@ impl List<'_> {
             Some(Meaning::Globals) => {
                 for slot in 0..globals.len() {
                     let name = globals.name(slot as u32).to_string();
-                    self.add(
-                        &name,
-                        Suggested::Variable,
-                        format!("ctx.{name}"),
-                        "a global variable",
-                    );
+                    self.add(&name, Suggested::Variable, format!("ctx.{name}"), "a global variable");
                 }
             }
             Some(Meaning::Field(field)) if !field.is_scalar() => self.methods(Type::View),

@@ -139,10 +139,7 @@ impl Env<'_> {
         match value {
             Value::String(text) => out.push_str(text),
             Value::Function(_) => {
-                return Err(Trouble::new(
-                    rules::NOT_A_VALUE,
-                    "a function is used as a text but not called",
-                ));
+                return Err(Trouble::new(rules::NOT_A_VALUE, "a function is used as a text but not called"));
             }
             Value::List(_) | Value::View(_) => {
                 if lists.iter().any(|list| list.strictly_equals(value)) {

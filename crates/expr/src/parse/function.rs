@@ -249,12 +249,9 @@ impl Parser<'_> {
             }
         };
         if refuse::is_reserved(&text) {
-            let report = Finding::error(
-                rules::NAME_TAKEN,
-                span,
-                format!("`{text}` is a keyword, not a name"),
-            )
-            .help("choose another name");
+            let report =
+                Finding::error(rules::NAME_TAKEN, span, format!("`{text}` is a keyword, not a name"))
+                    .help("choose another name");
             return self.refuse(report);
         }
         self.bump();

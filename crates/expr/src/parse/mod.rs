@@ -103,8 +103,7 @@ impl<'s> Parser<'s> {
     fn new(source: &'s str, words: &'static Words, tells: bool) -> Parser<'s> {
         let mut diagnostics = Vec::new();
         let tokens = if source.len() > MAX_SOURCE {
-            let message =
-                format!("the text has {} bytes, but the limit is {MAX_SOURCE}", source.len());
+            let message = format!("the text has {} bytes, but the limit is {MAX_SOURCE}", source.len());
             diagnostics.push(Finding::error(rules::TOO_LONG, Span::default(), message).help(words.split));
             vec![Token { kind: Tok::Bad, span: Span::default(), newline: false, doubt: None }]
         } else {

@@ -11,16 +11,16 @@ fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {
         .help(help)
 }
 
-const NO_OBJECTS: &str =
-    "the language has numbers, texts, lists and records, but no classes";
+const NO_OBJECTS: &str = "the language has numbers, texts, lists and records, but no classes";
 const NO_TIME: &str = "every text runs to its end at once and never waits";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
 const STORE_HELP: &str = "store values in variables, as `ctx.peak`";
 
 /// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
 pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
-    let misplaced =
-        |help: &str| Finding::error(rules::MISPLACED, span, format!("`{word}` is not allowed here")).help(help);
+    let misplaced = |help: &str| {
+        Finding::error(rules::MISPLACED, span, format!("`{word}` is not allowed here")).help(help)
+    };
     Some(match word {
         "this" | "super" => {
             never(span, &format!("`{word}` references"), NO_OBJECTS, "name the object itself, as `ctx`")
@@ -52,9 +52,12 @@ pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
             "an unset variable is `undefined`, and a comparison can test for that",
             "to test for a value, write `ctx.start != null`",
         ),
-        "with" => {
-            never(span, "`with` statements", "names must have the same meaning everywhere", "write the full names")
-        }
+        "with" => never(
+            span,
+            "`with` statements",
+            "names must have the same meaning everywhere",
+            "write the full names",
+        ),
         "debugger" => never(
             span,
             "`debugger` statements",

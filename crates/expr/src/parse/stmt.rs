@@ -109,12 +109,9 @@ impl Parser<'_> {
                 self.bump();
                 let body = Box::new(self.body("do")?);
                 if !self.is_word("while") {
-                    let report = Finding::error(
-                        rules::DO_WITHOUT_WHILE,
-                        self.span(),
-                        "a `do` loop has no `while`",
-                    )
-                    .help("write `do { … } while (test)`");
+                    let report =
+                        Finding::error(rules::DO_WITHOUT_WHILE, self.span(), "a `do` loop has no `while`")
+                            .help("write `do { … } while (test)`");
                     return self.refuse(report);
                 }
                 self.bump();
@@ -196,11 +193,14 @@ impl Parser<'_> {
     fn body(&mut self, word: &str) -> Attempt<Stmt> {
         let span = self.span();
         if self.eat(";").is_some() {
-            let report =
-                Finding::warning(rules::EMPTY_BODY, span, format!("this `;` is the whole body of the `{word}`"))
-                    .why("the statement after it always runs, and only once")
-                    .help("remove the `;`")
-                    .guess(span, "");
+            let report = Finding::warning(
+                rules::EMPTY_BODY,
+                span,
+                format!("this `;` is the whole body of the `{word}`"),
+            )
+            .why("the statement after it always runs, and only once")
+            .help("remove the `;`")
+            .guess(span, "");
             self.diagnostics.push(report);
             return Ok(Stmt { kind: StmtKind::Empty, span });
         }
@@ -215,10 +215,13 @@ impl Parser<'_> {
         }
         let declares = ["const", "let", "function"].iter().any(|w| self.is_word(w));
         if declares {
-            let report =
-                Finding::error(rules::LONE_DECLARATION, span, format!("a declaration is the only statement after `{word}`"))
-                    .why("the name would disappear at once; JavaScript rejects it")
-                    .help("put the statements in braces");
+            let report = Finding::error(
+                rules::LONE_DECLARATION,
+                span,
+                format!("a declaration is the only statement after `{word}`"),
+            )
+            .why("the name would disappear at once; JavaScript rejects it")
+            .help("put the statements in braces");
             self.diagnostics.push(report);
         }
         let kind = self.statement()?;

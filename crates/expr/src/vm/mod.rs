@@ -301,8 +301,7 @@ impl Machine<'_> {
     /// Counts a call.
     fn enter(&mut self, callee: &CodeUnit) -> Result<(), Trouble> {
         if self.depth >= MAX_CALLS {
-            let message =
-                format!("function calls are nested more than {MAX_CALLS} levels deep");
+            let message = format!("function calls are nested more than {MAX_CALLS} levels deep");
             return Err(Trouble::new(rules::CALL_DEPTH, message));
         }
         self.charge(callee.cost)?;

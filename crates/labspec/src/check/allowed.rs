@@ -42,12 +42,8 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
     });
     errors.dedup();
     findings.extend(errors.into_iter().map(|(code, span)| {
-        Finding::new(
-            rules::ERROR_ALLOWED,
-            span,
-            format!("`{code}` is an error and cannot be suppressed"),
-        )
-        .help("fix the error, then delete this code")
+        Finding::new(rules::ERROR_ALLOWED, span, format!("`{code}` is an error and cannot be suppressed"))
+            .help("fix the error, then delete this code")
     }));
     let mut wrong = Vec::new();
     for allowance in &allowances {
@@ -74,8 +70,12 @@ pub(super) fn put_aside(lesson: &Lesson, findings: &mut Vec<Finding>, depth: Dep
                     });
                 };
                 looked_at(rule.layer, depth).then(|| {
-                    Finding::new(rules::UNUSED_ALLOWANCE, span.clone(), format!("`{code}` matches no finding here"))
-                        .help("delete it")
+                    Finding::new(
+                        rules::UNUSED_ALLOWANCE,
+                        span.clone(),
+                        format!("`{code}` matches no finding here"),
+                    )
+                    .help("delete it")
                 })
             },
         ));

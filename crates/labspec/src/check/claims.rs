@@ -181,9 +181,7 @@ fn named_scene<'r>(
     findings.push(
         Finding::error(rules::UNKNOWN_LAB, text.span(), message)
             .why("claims about it cannot be checked")
-            .help(
-                "check that lesson; name a lab of another lesson by its path from this one: other.md#2",
-            ),
+            .help("check that lesson; name a lab of another lesson by its path from this one: other.md#2"),
     );
     None
 }

@@ -29,8 +29,10 @@ pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     if claimed.len() >= LEAST && left.len() * SHARE <= all {
         for s in left {
             let others = all - 1;
-            let message =
-                format!("no `verify` quotes {}, although nearly all of the other {others} numbers are quoted", s.quote);
+            let message = format!(
+                "no `verify` quotes {}, although nearly all of the other {others} numbers are quoted",
+                s.quote
+            );
             findings.push(
                 Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message)
                     .help("quote it under `says`, or restore the earlier claim"),

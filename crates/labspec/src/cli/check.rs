@@ -297,10 +297,9 @@ fn report(
     }
     match outcome {
         ledger::Outcome::Findings => Ok(Outcome::Findings),
-        ledger::Outcome::Nothing if found == ledger::Outcome::Clean => Err(format!(
-            "{} has nothing to verify: no question and no lab has a `verify` object",
-            named()
-        )),
+        ledger::Outcome::Nothing if found == ledger::Outcome::Clean => {
+            Err(format!("{} has nothing to verify: no question and no lab has a `verify` object", named()))
+        }
         ledger::Outcome::Nothing => {
             Err(format!("{} has nothing to check: no lab, no question and no model", named()))
         }

@@ -91,7 +91,9 @@ fn taken(run: &Value) -> Result<Taken, String> {
     let values = run["values"].as_object().ok_or("it has no \"values\"")?;
     for (name, value) in values {
         let x = value.as_f64().or_else(|| no_finite(value.as_str()?));
-        taken.values.insert(name.clone(), x.ok_or_else(|| format!("the value of \"{name}\" is not a number"))?);
+        taken
+            .values
+            .insert(name.clone(), x.ok_or_else(|| format!("the value of \"{name}\" is not a number"))?);
     }
     for (name, why) in run["refused"].as_object().into_iter().flatten() {
         let why = why.as_str().ok_or_else(|| format!("the reason for refusing \"{name}\" is not a text"))?;
@@ -99,9 +101,7 @@ fn taken(run: &Value) -> Result<Taken, String> {
     }
     taken.warnings = match &run["warnings"] {
         Value::Null => 0,
-        n => {
-            n.as_u64().and_then(|n| usize::try_from(n).ok()).ok_or("its \"warnings\" is not a count")?
-        }
+        n => n.as_u64().and_then(|n| usize::try_from(n).ok()).ok_or("its \"warnings\" is not a count")?,
     };
     taken.broke = match &run["broke"] {
         Value::Null => None,

@@ -85,13 +85,7 @@ fn human(report: &Report) -> String {
     }
     if let Some(step) = &report.step {
         let (share, time) = costs(Some(step.integrator));
-        row(
-            "",
-            "integrator",
-            share,
-            time,
-            "the next state, the test for NaN, and what a run looks after",
-        );
+        row("", "integrator", share, time, "the next state, the test for NaN, and what a run looks after");
         if let Some(when) = report.controller {
             let (share, time) = costs(step.controller);
             row("", "controller", share, time, when);

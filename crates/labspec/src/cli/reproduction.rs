@@ -55,7 +55,10 @@ pub(super) fn write(file: &Path, record: &Value) -> Result<(), Failure> {
 /// It cannot be read, or is none.
 pub(super) fn read(file: &Path) -> Result<Value, Failure> {
     let no = |why: &str| {
-        format!("{} is not a record of a check: {why}; labspec check --record writes one", printable_path(file))
+        format!(
+            "{} is not a record of a check: {why}; labspec check --record writes one",
+            printable_path(file)
+        )
     };
     let text = read_text(file, MOST, "a record of a check")?;
     let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;

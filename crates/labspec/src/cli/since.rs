@@ -41,7 +41,8 @@ pub(super) fn changes(before: &Value, now: &Value) -> Vec<Change> {
     for file in files(before).union(&files(now)) {
         let [old, new] = [before, now].map(|v| one(&v["lessons"], "file", file));
         if old.is_null() || new.is_null() {
-            let what = if old.is_null() { "new lesson" } else { "lesson that was not checked, or no longer exists" };
+            let what =
+                if old.is_null() { "new lesson" } else { "lesson that was not checked, or no longer exists" };
             let step = Step { what: what.into(), before: Value::Null, now: Value::Null };
             all.push(Change {
                 file: file.clone(),

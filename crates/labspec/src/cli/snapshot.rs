@@ -289,9 +289,7 @@ fn told(all: &[Looked], asked: bool) -> String {
         let _ = writeln!(text, "as stored  {}", many(same, "lesson"));
     }
     if open > 0 {
-        text.push_str(
-            "labspec snapshot --review shows each change and asks; --accept accepts all of them\n",
-        );
+        text.push_str("labspec snapshot --review shows each change and asks; --accept accepts all of them\n");
     }
     text
 }

@@ -110,9 +110,9 @@ fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
     match argument.split_once('#') {
         Some((path, address)) => match LabAddress::parse(&format!("#{address}")) {
             Some(parsed) => Ok((PathBuf::from(path), Some(parsed))),
-            None => {
-                Err(format!("`#{address}` is not the address of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1"))
-            }
+            None => Err(format!(
+                "`#{address}` is not the address of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1"
+            )),
         },
         None => Ok((PathBuf::from(argument), None)),
     }

@@ -81,15 +81,19 @@ fn missing(text: &str, object: &Range<usize>, kind: &BlockKind) -> Finding {
         BlockKind::Quiz => ("a quiz", "```quiz"),
         _ => ("a lab", "```lab simlab"),
     };
-    Finding::new(rules::FENCE_MISSING, object.start..object.start + 1, format!("{what} is not inside a fence"))
-        .related(object.end..object.end, "it ends here")
-        .help(format!("put a line {fence} above it and a line ``` below it"))
-        .fix(object.clone(), {
-            let line = text.get(..object.start).map_or(0, |t| t.rfind('\n').map_or(0, |i| i + 1));
-            let indent = text.get(line..object.start).unwrap_or("");
-            let json = text.get(object.clone()).unwrap_or("");
-            format!("{fence}\n{indent}{json}{}", line_below(text, object.end, indent, "```"))
-        })
+    Finding::new(
+        rules::FENCE_MISSING,
+        object.start..object.start + 1,
+        format!("{what} is not inside a fence"),
+    )
+    .related(object.end..object.end, "it ends here")
+    .help(format!("put a line {fence} above it and a line ``` below it"))
+    .fix(object.clone(), {
+        let line = text.get(..object.start).map_or(0, |t| t.rfind('\n').map_or(0, |i| i + 1));
+        let indent = text.get(line..object.start).unwrap_or("");
+        let json = text.get(object.clone()).unwrap_or("");
+        format!("{fence}\n{indent}{json}{}", line_below(text, object.end, indent, "```"))
+    })
 }
 
 /// A line to put in behind what ends at `end`; what follows there goes to the line after it.

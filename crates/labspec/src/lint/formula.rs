@@ -172,8 +172,7 @@ fn code(html: &str) -> Vec<Range<usize>> {
 }
 
 fn finding(span: Range<usize>, said: String) -> Finding {
-    Finding::new(rules::FORMULA_UNBALANCED, span, said)
-        .help("close it, or write `\\$` for a dollar sign")
+    Finding::new(rules::FORMULA_UNBALANCED, span, said).help("close it, or write `\\$` for a dollar sign")
 }
 
 /// Looks into a text of a lab or a quiz.

@@ -46,8 +46,11 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
     if names.iter().any(|n| n == text) {
         return None;
     }
-    let finding =
-        Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("the model `{}` does not exist", shorten(text)));
+    let finding = Finding::new(
+        rules::UNKNOWN_MODEL,
+        name.span(),
+        format!("the model `{}` does not exist", shorten(text)),
+    );
     Some(match nearest(text, names.iter().map(String::as_str)) {
         Some(right) => finding.help(format!("did you mean `{right}`?")).guess(name.span(), encode(right)),
         None if names.is_empty() => finding.help("add the model: the model folder is empty"),

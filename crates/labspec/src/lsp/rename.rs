@@ -44,9 +44,7 @@ fn good(new: &str) -> Result<(), String> {
         return Err("a name needs at least one character, and no spaces around it".into());
     }
     match new.chars().find(|c| c.is_control() || "\"'`\\<>&/".contains(*c)) {
-        Some(c) => {
-            Err(format!("a name cannot contain `{}`, which would need an escape", c.escape_default()))
-        }
+        Some(c) => Err(format!("a name cannot contain `{}`, which would need an escape", c.escape_default())),
         None => Ok(()),
     }
 }

@@ -523,8 +523,10 @@ impl Server<'_> {
 
     fn rename(&mut self, params: &Value) -> Answer {
         let (uri, byte) = self.place(params)?;
-        let new =
-            params.get("newName").and_then(Value::as_str).ok_or_else(|| invalid("the new name is missing"))?;
+        let new = params
+            .get("newName")
+            .and_then(Value::as_str)
+            .ok_or_else(|| invalid("the new name is missing"))?;
         let Some((name, _)) = self.name(&uri, byte) else {
             return Err(Refused(ErrorCode::RequestFailed, "there is no name of the model here".into()));
         };

@@ -267,7 +267,9 @@ impl Player {
             run::time(*time)
         );
         let finding = Finding::error(rules::RUN_IMPOSSIBLE, self.lab.place(), what);
-        Some(finding.why("without this limit, the page would hang").help("simplify the scene or its programs"))
+        Some(
+            finding.why("without this limit, the page would hang").help("simplify the scene or its programs"),
+        )
     }
 
     /// What was done to the lab, for findings.

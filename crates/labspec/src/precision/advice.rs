@@ -103,7 +103,10 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
             own => {
                 let time =
                     own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
-                format!("The cheapest tested setting that shows {every} correctly is {}{time}.", name(&rows[i]))
+                format!(
+                    "The cheapest tested setting that shows {every} correctly is {}{time}.",
+                    name(&rows[i])
+                )
             }
         };
         list.push(Advice { kind: Kind::Right, row: i, text });
@@ -167,7 +170,10 @@ fn about_own(report: &Report, own: usize) -> String {
     let name = name(row);
     if !matches!(row.fate, super::Fate::Good | super::Fate::Warned) {
         let why = row.told.first().map_or(String::new(), |t| format!(": {t}"));
-        return format!("With the settings of the lab, {name}, the run is not usable ({}{why}).", row.fate.word());
+        return format!(
+            "With the settings of the lab, {name}, the run is not usable ({}{why}).",
+            row.fate.word()
+        );
     }
     let known = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
     if known.clone().next().is_none() {
@@ -178,7 +184,10 @@ fn about_own(report: &Report, own: usize) -> String {
     }
     let above = known.filter(|(_, e)| !e.below);
     let Some((target, e)) = above.max_by(|(_, a), (_, b)| a.seen[0].total_cmp(&b.seen[0])) else {
-        return format!("With the settings of the lab, {name}, {} is as exact as the reference.", every(report));
+        return format!(
+            "With the settings of the lab, {name}, {} is as exact as the reference.",
+            every(report)
+        );
     };
     let [most, least] = e.seen;
     let samples = || format!("at {} of {} samples", e.wrong, e.samples);

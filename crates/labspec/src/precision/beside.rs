@@ -71,9 +71,7 @@ impl Recording {
             let apart = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
             let met = times.len().saturating_sub(1) / apart as usize + 1;
             if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
-                return Err(
-                    "a run lacks a value of a trace at one of its times".to_string()
-                );
+                return Err("a run lacks a value of a trace at one of its times".to_string());
             }
             let integrator =
                 row.get("integrator").map_or(Err("a run has no integrator".to_string()), words)?;
@@ -105,9 +103,7 @@ impl Recording {
         let mut places = Vec::new();
         for target in targets {
             let place = self.traces.iter().position(|t| *t == target.label);
-            places.push(place.ok_or_else(|| {
-                RunError(format!("the recording has no \"{}\"", target.label))
-            })?);
+            places.push(place.ok_or_else(|| RunError(format!("the recording has no \"{}\"", target.label)))?);
         }
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();

@@ -208,7 +208,11 @@ fn prepare(case: &mut Case<'_>, options: &Options) -> Result<Ladder, RunError> {
     if case.targets.is_empty() {
         let why = match case.left_out.first() {
             Some(out) => {
-                format!(": \"{}\" is skipped, because {}", crate::printable::printable(&out.label), out.reason)
+                format!(
+                    ": \"{}\" is skipped, because {}",
+                    crate::printable::printable(&out.label),
+                    out.reason
+                )
             }
             None => "; add a plot with a trace, or a readout".to_string(),
         };

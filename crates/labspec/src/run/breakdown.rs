@@ -45,10 +45,7 @@ impl Breakdown {
             Shorter::No => instead.clone(),
             Shorter::Maybe(_) => format!("try a shorter timestep, or {instead}"),
             Shorter::Tried(h) => {
-                format!(
-                    "set the timestep to {} s (this run is fine with it), or {instead}",
-                    two_digits(h)
-                )
+                format!("set the timestep to {} s (this run is fine with it), or {instead}", two_digits(h))
             }
             Shorter::Useless => format!("use {instead}; none of the tested shorter timesteps helps"),
         };
@@ -56,8 +53,7 @@ impl Breakdown {
     }
 }
 
-const RESET: &str =
-    "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
+const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
 /// Warnings that may follow from each other, the cause first: only the first of them is told.
 const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
@@ -127,7 +123,10 @@ impl Breakdown {
             ),
             Warning::Inertia => (
                 rules::ENGINE_WARNING,
-                format!("the parts that {} moves have no positive inertia {at}", joint(&model.jnt_dofadr, joint::nv)),
+                format!(
+                    "the parts that {} moves have no positive inertia {at}",
+                    joint(&model.jnt_dofadr, joint::nv)
+                ),
                 "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
                 Advice::only(
                     "give every moving body a mass and an inertia above 0: check the model, and what writes `body_mass`, `body_inertia` or `dof_armature`",

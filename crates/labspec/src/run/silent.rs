@@ -89,8 +89,7 @@ fn past(model: &Model, p: Past) -> Breakdown {
             ),
         ),
     };
-    let why =
-        "the limit does not hold it: a student sees the joint where it cannot be, and MuJoCo gives no warning";
+    let why = "the limit does not hold it: a student sees the joint where it cannot be, and MuJoCo gives no warning";
     advice.breakdown(rules::PAST_LIMIT, what, why)
 }
 

@@ -121,7 +121,9 @@ pub(super) fn choose<'t, 'l>(
         0 | 1 => {
             "the words of its options state nothing that can be compared: write the conditions by hand".into()
         }
-        _ => "no measure of the lab distinguishes the options in the runs that the question names".to_string(),
+        _ => {
+            "no measure of the lab distinguishes the options in the runs that the question names".to_string()
+        }
     })
 }
 

@@ -75,7 +75,9 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
             Some(verify) => {
                 Found::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }
             }
-            None => Found::Open("no number of the text comes from this lab, so there is nothing to quote".into()),
+            None => {
+                Found::Open("no number of the text comes from this lab, so there is nothing to quote".into())
+            }
         };
         all.push(Scaffold { name: format!("lab {address}"), span: lab.span.clone(), found });
     }
@@ -110,9 +112,7 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Sta
             };
             let labs = labs(question, found);
             if labs.is_empty() {
-                return Found::Open(
-                    "there is no lab to run it in: write one under `verify`".into(),
-                );
+                return Found::Open("there is no lab to run it in: write one under `verify`".into());
             }
             let numbers: Vec<_> = found.numbers.iter().map(|n| n.stated.clone()).collect();
             match choose::choose(question, options, &labs, &numbers, stage) {
@@ -203,7 +203,9 @@ fn numeric(question: &Question, found: &Traces<'_>) -> Found {
             verdict: None,
         };
     }
-    Found::Open("no run of the labs of the lesson, and no formula of the explanation, gives this value".into())
+    Found::Open(
+        "no run of the labs of the lesson, and no formula of the explanation, gives this value".into(),
+    )
 }
 
 /// The lesson with everything that is proposed.

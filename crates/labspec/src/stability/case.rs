@@ -298,7 +298,9 @@ fn reported(session: &Session<'_>) -> Vec<Fault> {
         let Some(stat) = warned(session, warning) else { continue };
         let (who, cause) = match warning {
             Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "the moving part has no positive inertia"),
-            Warning::BadCtrl => (format!("control {}", stat.lastinfo), "a program writes a value that is not a number"),
+            Warning::BadCtrl => {
+                (format!("control {}", stat.lastinfo), "a program writes a value that is not a number")
+            }
             _ => ("the whole scene".into(), "more bodies touch than the engine keeps contacts"),
         };
         list.push(Fault {

@@ -101,9 +101,7 @@ fn values(case: &Case<'_>, label: &str) -> Result<(usize, Vec<Value>), RunError>
         }
         ControlKind::Select { options, .. } => options.iter().take(MOST).map(|o| scalar(&o.value)).collect(),
         ControlKind::Button { .. } => {
-            return Err(RunError(format!(
-                "\"{label}\" is a button: a map needs sliders and selects"
-            )));
+            return Err(RunError(format!("\"{label}\" is a button: a map needs sliders and selects")));
         }
     };
     Ok((i, list))

@@ -235,7 +235,9 @@ fn options(
                 .help(format!("correct the answer or the conditions: the true option is {}", name(*one)))
                 .related(condition(*one), format!("this condition {}", words(*one)))
                 .guess(keyed.span.clone(), one.to_string()),
-            all => f.help(format!("correct the answer or the conditions: the true options are {}", names(all))),
+            all => {
+                f.help(format!("correct the answer or the conditions: the true options are {}", names(all)))
+            }
         };
         findings.push(f);
         return done(Verdict::Refuted, message);
@@ -434,8 +436,7 @@ fn value(
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
     if let quote::AnswerUnit::Unread(asked_in, gives) = &unit {
-        let message =
-            format!("\"{asked_in}\" is not a known unit, but the expression gives {gives}");
+        let message = format!("\"{asked_in}\" is not a known unit, but the expression gives {gives}");
         findings.push(
             Finding::error(rules::VERIFY_ANSWER, keyed.span.clone(), message.clone())
                 .why("the unit of the answer could not be compared")
@@ -488,10 +489,7 @@ fn value(
         };
         let taken = unit.factor() * taken;
         if right(taken) {
-            let message = format!(
-                "the tolerance accepts {}, which a mistake gives",
-                significant(taken)
-            );
+            let message = format!("the tolerance accepts {}, which a mistake gives", significant(taken));
             findings.push(
                 Finding::error(rules::ANSWER_AMBIGUOUS, mistake.span(), message.clone())
                     .why("a student who makes this mistake is graded as correct")
@@ -596,9 +594,7 @@ fn shown(x: f64) -> &'static str {
 
 /// The work of a check was spent before an answer was put to all numerics.
 pub(super) fn too_much(span: Range<usize>, how: &str) -> Finding {
-    let what = format!(
-        "the work budget ran out before testing whether the answer holds {how}"
-    );
+    let what = format!("the work budget ran out before testing whether the answer holds {how}");
     Finding::error(rules::RUN_BREAKS, span, what)
         .why("an answer that holds only under one choice of numerics is not an answer")
         .help("make the runs shorter, or use fewer of them in one lesson")

@@ -454,12 +454,8 @@ impl<'a> BoundVerify<'a> {
         let (Some(run), None) = (runs.next(), runs.next()) else {
             let place = find.run.as_ref().unwrap_or(&find.name).span();
             findings.push(
-                Finding::error(
-                    rules::RUN_IMPOSSIBLE,
-                    place,
-                    "a search needs a single run, not a sweep",
-                )
-                .help("name the run: \"run\": \"coarse\""),
+                Finding::error(rules::RUN_IMPOSSIBLE, place, "a search needs a single run, not a sweep")
+                    .help("name the run: \"run\": \"coarse\""),
             );
             return None;
         };

@@ -112,7 +112,8 @@ fn cell(
         return refused(text, told, findings);
     };
     if words.len() > MOST_WORDS {
-        let message = format!("a column has {} different words, but at most {MOST_WORDS} are allowed", words.len());
+        let message =
+            format!("a column has {} different words, but at most {MOST_WORDS} are allowed", words.len());
         let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("nothing was compared")
             .help("claim its cells one by one, with `row`");

@@ -395,10 +395,7 @@ impl Case<'_> {
             return Err(format!("at t = {time} s the trace or the formula is not a number"));
         }
         if let Some(End::Budget { time }) = session.ended() {
-            return Err(format!(
-                "the work budget ran out at t = {} s",
-                run::time(*time)
-            ));
+            return Err(format!("the work budget ran out at t = {} s", run::time(*time)));
         }
         if let Some(trouble) = session.troubles.first() {
             return Err(trouble.message.clone());

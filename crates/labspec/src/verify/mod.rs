@@ -296,7 +296,10 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
                 Finding::error(
                     rules::DOES_NOT_BREAK,
                     span.clone(),
-                    format!("the run {} is expected to break, but it does not", crate::json::read::named(name)),
+                    format!(
+                        "the run {} is expected to break, but it does not",
+                        crate::json::read::named(name)
+                    ),
                 )
                 .why("the lesson does not show what it says")
                 .help("delete \"expect\": \"breaks\", or change the run so that it breaks"),
@@ -361,8 +364,10 @@ fn decided(
 
 /// An expression whose value is the same whatever was measured.
 fn empty(text: &Text, findings: &mut Vec<Finding>) -> String {
-    let message =
-        format!("`{}` gives the same result whatever the runs give, so it proves nothing", shorten(text.value.trim()));
+    let message = format!(
+        "`{}` gives the same result whatever the runs give, so it proves nothing",
+        shorten(text.value.trim())
+    );
     findings.push(
         Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
             .why("other values in place of the measured ones did not change it")

@@ -99,9 +99,7 @@ fn contradiction(
     }
     let x = bound.find(outcome, &text, &mut Vec::new())?.value.to_number() * factor;
     let off = x.is_finite() && (x < said.low - slack || x > said.high + slack);
-    off.then(|| {
-        format!("the option says {}, but its condition compares {}", said.text, significant(x))
-    })
+    off.then(|| format!("the option says {}, but its condition compares {}", said.text, significant(x)))
 }
 
 /// Of an option that states a ratio, and a condition that asks for another one.

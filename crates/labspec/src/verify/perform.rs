@@ -263,10 +263,9 @@ fn broke(session: &Session<'_>) -> Option<String> {
             End::Threw => "an error froze it".to_string(),
             End::Interrupted => "it was interrupted".to_string(),
             End::Foreign => "its programs belong to another model".to_string(),
-            End::Budget { time } => format!(
-                "the work budget ran out, so this run ends at t = {} s",
-                run::time(*time)
-            ),
+            End::Budget { time } => {
+                format!("the work budget ran out, so this run ends at t = {} s", run::time(*time))
+            }
         }),
     }
 }

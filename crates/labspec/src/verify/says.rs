@@ -104,7 +104,9 @@ fn line(
         findings.push(
             Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), message.clone())
                 .why("nothing was compared, because it is unclear which expression belongs to which number")
-                .help("give one expression for each number, in order; conditions for words can be between them"),
+                .help(
+                    "give one expression for each number, in order; conditions for words can be between them",
+                ),
         );
         return vec![Quote::unclear(&said.quote, &message)];
     }

@@ -276,9 +276,7 @@ fn keyframe(model: &Model, key: &Scalar, findings: &mut Vec<Finding>) -> Option<
     findings.push(match (near, model.nkey) {
         (Some(right), _) => finding.help(format!("did you mean `{right}`?")),
         (None, 0) => finding.help("add a keyframe: the model has none"),
-        (None, n) if list.is_empty() => {
-            finding.help(format!("use one of its keyframes, 0 to {}", n - 1))
-        }
+        (None, n) if list.is_empty() => finding.help(format!("use one of its keyframes, 0 to {}", n - 1)),
         (None, _) => finding.help(format!("use one of its keyframes: {}", list.join(", "))),
     });
     None

@@ -50,9 +50,10 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
         _ if PRINT.contains(&name) => {
             ("there is no console".into(), format!("show the value in {}", words.shown))
         }
-        _ if OUTSIDE.contains(&name) => {
-            (format!("a {lesson} cannot access anything outside itself"), format!("put the data into the {lab}"))
-        }
+        _ if OUTSIDE.contains(&name) => (
+            format!("a {lesson} cannot access anything outside itself"),
+            format!("put the data into the {lab}"),
+        ),
         _ if CODE.contains(&name) => (
             "code that is generated at run time cannot be checked before the run".into(),
             "write the expression itself".into(),
@@ -101,9 +102,7 @@ impl Walk<'_, '_> {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
                 let own = match used {
-                    Use::Callee => {
-                        "to define your own function, write `const f = (x) => …` first".to_owned()
-                    }
+                    Use::Callee => "to define your own function, write `const f = (x) => …` first".to_owned(),
                     _ => {
                         format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
                     }
@@ -178,9 +177,7 @@ pub(super) fn constant(name: &str, span: Span) -> Finding {
 pub(super) fn not_assignable(name: &str, span: Span) -> Finding {
     let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
     match name {
-        "ctx" => {
-            report.why("it holds the global variables").help("assign a variable, as `ctx.peak = 0`")
-        }
+        "ctx" => report.why("it holds the global variables").help("assign a variable, as `ctx.peak = 0`"),
         "value" => report.why("it is set from outside").help("use another name, as `const x = value / 2`"),
         _ => report.why("it has the same meaning everywhere").help("use another name"),
     }

@@ -281,8 +281,11 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn whole_array(&self, field: &Field, span: Span) -> Finding {
         let text = self.text(span);
-        let report =
-            Finding::error(rules::WHOLE_ARRAY, span, format!("`{}` is an array, not a single number", field.path));
+        let report = Finding::error(
+            rules::WHOLE_ARRAY,
+            span,
+            format!("`{}` is an array, not a single number", field.path),
+        );
         match field.len() {
             Some(1) => report
                 .why("an array with one element is still an array")

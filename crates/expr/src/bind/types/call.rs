@@ -191,8 +191,8 @@ impl<'a> Binder<'a> {
             let first = args.get(most).map_or(span, |a| a.span);
             let last = args.last().map_or(span, |a| a.span);
             let message = format!("`{path}` takes {}, so this argument is ignored", count(most, "argument"));
-            let report = Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message)
-                .why("JavaScript ignores it");
+            let report =
+                Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message).why("JavaScript ignores it");
             self.report(if path == "Math.round" {
                 let rounding = self.words().rounding;
                 report.help(format!("to round to decimals, write `Math.round(100 * x) / 100`{rounding}"))

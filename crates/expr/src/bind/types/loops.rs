@@ -271,8 +271,10 @@ impl<'a> Binder<'a> {
         if most >= n as f64 {
             let shown = number::to_text(most);
             let text = self.text(index.span);
-            let message =
-                format!("in the last iteration of the loop, `{text}` is {shown}: past the end of `{}`", field.path);
+            let message = format!(
+                "in the last iteration of the loop, `{text}` is {shown}: past the end of `{}`",
+                field.path
+            );
             return self.refuse(past_the_end(field, index.span, message, self.words()));
         }
         if least < 0.0 {

@@ -233,9 +233,7 @@ impl<'a> Binder<'a> {
         let report =
             Finding::error(rules::ASSIGN_INSIDE, op_span, format!("`{symbol}` assigns; it does not compare"));
         let report = match self.mode {
-            Mode::Statements => {
-                report.why("it would change the value, although a test was probably meant")
-            }
+            Mode::Statements => report.why("it would change the value, although a test was probably meant"),
             _ => report
                 .why(format!("this text can only read a value, but `{}` would change one", self.text(span))),
         };

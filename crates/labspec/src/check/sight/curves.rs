@@ -59,8 +59,14 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
                 let twin = twin.and_then(|other| plot.traces.get(other - columns.start));
                 twin.map(|other| {
                     Told {
-                        message: format!("\"{}\" and \"{}\" are the same curve", other.label.value, trace.label.value),
-                        why: format!("they agree to the last bit in {}, and also from other states of the scene", looked.runs()),
+                        message: format!(
+                            "\"{}\" and \"{}\" are the same curve",
+                            other.label.value, trace.label.value
+                        ),
+                        why: format!(
+                            "they agree to the last bit in {}, and also from other states of the scene",
+                            looked.runs()
+                        ),
                         help: "change the expression to what the label says, or delete the trace".into(),
                     }
                     .at_trace(&trace.expr, rules::SAME_CURVE)
@@ -107,9 +113,12 @@ fn frozen(looked: &mut Looked<'_>, c: usize, others: bool) -> Option<Told> {
         return None;
     }
     let help = match place.filter(|_| !data) {
-        Some((name, live)) => format!("read `{live}` for the current value: `model.{name}` holds the initial one"),
-        None => "check the name and the index that it reads; use `refLines` for an intended constant line"
-            .into(),
+        Some((name, live)) => {
+            format!("read `{live}` for the current value: `model.{name}` holds the initial one")
+        }
+        None => {
+            "check the name and the index that it reads; use `refLines` for an intended constant line".into()
+        }
     };
     Some(Told {
         message: format!("this trace is always {}", digits(shown.number(), 6)),

@@ -206,7 +206,9 @@ impl Shown<'_> {
                 rules::SHOWS_NAN,
                 format!("{name} shows nan ({at})"),
                 sees,
-                format!("guard it with a condition, or write `NaN` for an intended gap, as `data.ncon > 0 ? … : NaN` in this {what}: 0 / 0, the root of a negative number or a missing element gives nan"),
+                format!(
+                    "guard it with a condition, or write `NaN` for an intended gap, as `data.ncon > 0 ? … : NaN` in this {what}: 0 / 0, the root of a negative number or a missing element gives nan"
+                ),
             ),
             Kind::Infinite => (
                 rules::SHOWS_INFINITE,

@@ -140,9 +140,8 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     }
     let known = || INTEGRATORS.map(|i| i.name).join(", ");
     let one = |name: &String| {
-        Integrator::named(name).ok_or_else(|| {
-            format!("--integrator {name}: unknown name; use one of {}, or all", known())
-        })
+        Integrator::named(name)
+            .ok_or_else(|| format!("--integrator {name}: unknown name; use one of {}, or all", known()))
     };
     names.iter().map(one).collect()
 }

@@ -22,9 +22,13 @@ pub static CONTROL: Family = Family {
 
 const TYPE: Key = key("type", Type::Words(&TYPES), "which control it is", r#""select""#);
 
-const LABEL: Key =
-    key("label", Type::Text, "the name that a student reads; runs refer to the control by it", r#""gravity""#)
-        .must("the student reads the label, and runs refer to the control by it");
+const LABEL: Key = key(
+    "label",
+    Type::Text,
+    "the name that a student reads; runs refer to the control by it",
+    r#""gravity""#,
+)
+.must("the student reads the label, and runs refer to the control by it");
 
 const SET: Key =
     key("set", Type::Code(Form::Target), "the field that gets the value", r#""model.opt.gravity[2]""#);

@@ -56,8 +56,12 @@ const KIND: Key = key("kind", Type::Words(&KINDS), "how the question is answered
 const Q: Key = key("q", Type::Html, "the question", r#""How fast is the ball after 1 s?""#)
     .must("it is the text of the question");
 
-const EXPLAIN: Key =
-    key("explain", Type::Html, "displayed after the answer", r#""<p>It gains 9.81 m/s in every second.</p>""#);
+const EXPLAIN: Key = key(
+    "explain",
+    Type::Html,
+    "displayed after the answer",
+    r#""<p>It gains 9.81 m/s in every second.</p>""#,
+);
 
 const NAME: Key = key("label", Type::Text, "a short name above the question", r#""Fall""#);
 
@@ -156,7 +160,8 @@ pub static NUMERIC: Object = Object {
         Key { example: r#""How fast is the ball after 1 s, in m/s?""#, ..Q },
         EXPLAIN,
         NAME,
-        key("answer", Type::Number, "the correct number", "9.81").must("without it no answer is graded as correct"),
+        key("answer", Type::Number, "the correct number", "9.81")
+            .must("without it no answer is graded as correct"),
         key(
             "tol",
             Type::Number,

@@ -322,8 +322,13 @@ pub static CLOSED_FORM: Object = Object {
             r#""2 - 0.5 * 9.81 * data.time ** 2""#,
         )
         .must("without it there is nothing to compare the trace with"),
-        key("tol", Type::Number, "the largest allowed difference between the trace and the formula, in the unit of the trace", "0.01")
-            .or(Absent::Said("decided by the convergence of the lab")),
+        key(
+            "tol",
+            Type::Number,
+            "the largest allowed difference between the trace and the formula, in the unit of the trace",
+            "0.01",
+        )
+        .or(Absent::Said("decided by the convergence of the lab")),
     ],
     together: &[],
 };

@@ -282,7 +282,8 @@ pub(super) fn check(
         return unclear(outcome, "the text and the expression differ by a power of ten", finding, findings);
     }
     findings.push(told::wrong(said, &outcome, &read));
-    outcome.reason = format!("the text says {read}, but the simulation gives {}", told::printed(&read, computed));
+    outcome.reason =
+        format!("the text says {read}, but the simulation gives {}", told::printed(&read, computed));
     outcome.state = QuoteState::Wrong;
     outcome
 }

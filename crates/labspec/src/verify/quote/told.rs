@@ -140,8 +140,11 @@ pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> 
         Form::PlusMinus(..) | Form::Range(..) => ", which is outside it",
         _ => "",
     };
-    let message =
-        format!("the text says {}{}, but the simulation gives {right}{within}", shown(said), as_read(said, read));
+    let message = format!(
+        "the text says {}{}, but the simulation gives {right}{within}",
+        shown(said),
+        as_read(said, read)
+    );
     let found = at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
         .why("a reader who measures it finds another number");
     if !outcome.moved.is_empty() {
@@ -166,7 +169,9 @@ pub(super) fn of_timestep(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quote
         list(outcome)
     );
     at_places(rules::QUOTE_OF_TIMESTEP, Severity::Note, said, outcome, message)
-        .why("the number is right for this timestep only; a reader with another timestep finds another number")
+        .why(
+            "the number is right for this timestep only; a reader with another timestep finds another number",
+        )
         .help("state it with its timestep, and `set` the timestep in the run; the number itself is right")
 }
 
@@ -190,8 +195,10 @@ fn fewer(read: &Quoted, values: &[f64]) -> String {
         Some(text) => {
             format!("print fewer digits, {text}, which all of these runs give, or quote a shorter run")
         }
-        None => "quote a shorter run, before such starts diverge, or say in words what all of these runs share"
-            .into(),
+        None => {
+            "quote a shorter run, before such starts diverge, or say in words what all of these runs share"
+                .into()
+        }
     }
 }
 

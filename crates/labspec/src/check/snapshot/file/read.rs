@@ -17,9 +17,7 @@ pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLa
     let mut known = BTreeSet::new();
     loop {
         let Some(line) = reader.next() else {
-            return Err(
-                reader.fault(0, "the file is incomplete: the line `end of … labs` is missing")
-            );
+            return Err(reader.fault(0, "the file is incomplete: the line `end of … labs` is missing"));
         };
         if let Some(rest) = line.strip_prefix("lab ") {
             let start = reader.at - 1;
@@ -33,9 +31,8 @@ pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLa
             labs.push(StoredLab { address, runs, text });
         } else if let Some(rest) = line.strip_prefix("end of ") {
             if rest != format!("{} labs", labs.len()) {
-                return Err(
-                    reader.fault(7, &format!("the file has {} labs, but this line says `{rest}`", labs.len()))
-                );
+                return Err(reader
+                    .fault(7, &format!("the file has {} labs, but this line says `{rest}`", labs.len())));
             }
             return match reader.next() {
                 None => Ok(labs),
@@ -67,9 +64,10 @@ impl<'t> Reader<'t> {
         self.at = 1;
         match self.lines.first() {
             Some(line) if *line == HEAD => Ok(()),
-            Some(line) if line.starts_with("labspec snapshot ") => {
-                Err(self.fault(17, "the snapshot has another version; run `labspec snapshot --accept` to write it again"))
-            }
+            Some(line) if line.starts_with("labspec snapshot ") => Err(self.fault(
+                17,
+                "the snapshot has another version; run `labspec snapshot --accept` to write it again",
+            )),
             _ => Err(self.fault(0, &format!("the file is not a snapshot: a snapshot begins with `{HEAD}`"))),
         }
     }
