@@ -259,7 +259,7 @@ impl Ledger {
         if any(State::LeftOut) {
             let all_is_well = parts.is_empty();
             parts.push(match all_is_well {
-                true => "no problems found in what was checked, but not everything was checked".into(),
+                true => "the checked part has no problems, but not everything was checked".into(),
                 false => "not everything was checked".into(),
             });
         }
@@ -446,15 +446,15 @@ mod tests {
                 );
             }
             let bad = count(0) + count(1) > 0;
-            assert_eq!(said.contains("nothing wrong"), !bad && count(2) > 0, "{said}");
+            assert_eq!(said.contains("the checked part has no problems"), !bad && count(2) > 0, "{said}");
             let clean = (0..4).all(|digit| count(digit) == 0);
-            assert_eq!(said == "nothing to complain about", clean && count(4) > 0, "{said}");
+            assert_eq!(said == "no problems found", clean && count(4) > 0, "{said}");
             assert_eq!(said == "nothing to check", code == 0, "{said}");
             assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{said}");
         }
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::File, State::False));
-        assert_eq!(ledger.conclusion(""), "a file has faults");
+        assert_eq!(ledger.conclusion(""), "a file has problems");
         assert_eq!(ledger.conclusion("1 warning"), "1 warning");
         ledger.add(entry(Subject::Answer, State::False));
         ledger.add(entry(Subject::Answer, State::Unchecked));
@@ -464,7 +464,7 @@ mod tests {
         assert_eq!(ledger.conclusion("2 errors, 1 warning"), both);
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::Lab, State::True(Evidence::Simulated)));
-        assert_eq!(ledger.conclusion("1 note"), "nothing to complain about, 1 note");
+        assert_eq!(ledger.conclusion("1 note"), "no problems found, 1 note");
     }
 
     #[test]

@@ -351,7 +351,7 @@ mod tests {
             };
             review(&mut all, &mut answers.as_bytes(), &mut say).unwrap();
             assert_eq!(all[0].accepted.iter().collect::<Vec<_>>(), accepted, "{answers}");
-            assert_eq!(said.matches("take it over?").count(), questions, "{answers}: {said}");
+            assert_eq!(said.matches("accept it?").count(), questions, "{answers}: {said}");
             assert!(
                 said.contains("a.md.snap (1 of 3)\n  changed    lab #1: the lab is not in the snapshot\n")
             );

@@ -97,9 +97,9 @@ mod tests {
         let message = |text: &str| format!("content-length:{}\r\nX: y\r\n\r\n{text}", text.len());
         let good = message(r#"{"jsonrpc":"2.0","method":"exit"}"#);
         for (bad, why) in [
-            (message("{"), "this is no message: EOF"),
-            (message("[]"), "this is no message"),
-            (message("\u{0}"), "this is no message"),
+            (message("{"), "the message is invalid: EOF"),
+            (message("[]"), "the message is invalid"),
+            (message("\u{0}"), "the message is invalid"),
             ("Content-Length: x\r\n\r\n".into(), "a message has no Content-Length"),
             ("\r\n".into(), "a message has no Content-Length"),
             ("hello\n".into(), "a line of a header has no colon"),

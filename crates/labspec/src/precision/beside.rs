@@ -132,10 +132,10 @@ mod tests {
         for (text, what) in [
             ("[", "it is not JSON"),
             ("{}", "it has no list `traces`"),
-            (r#"{"traces": [1], "times": [], "rows": []}"#, "a name is no text"),
+            (r#"{"traces": [1], "times": [], "rows": []}"#, "a name is not a text"),
             (
                 r#"{"traces": ["z"], "times": [0], "rows": [{"integrator": "Euler", "values": [[]]}]}"#,
-                "a value of each",
+                "lacks a value of a trace",
             ),
             (r#"{"traces": [], "times": [], "rows": []}"#, "it has no `engine`"),
         ] {

@@ -82,9 +82,9 @@ mod tests {
         assert_eq!((message.as_str(), help.as_str()), ("the model has no site `tpi`", "did you mean `tip`?"));
         let (message, help) = told("rod", tip);
         assert_eq!(message, "`rod` is a body of the model, but a trail follows a site");
-        assert_eq!(help, "its sites are tip, end");
+        assert_eq!(help, "use one of its sites: tip, end");
         let (message, help) = told("bar", "<site/>");
-        assert!(message.contains("a geom") && help.contains("has no site with a name"), "{message}: {help}");
+        assert!(message.contains("a geom") && help.contains("name a site in the model"), "{message}: {help}");
     }
 
     #[test]

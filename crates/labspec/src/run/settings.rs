@@ -270,10 +270,10 @@ mod tests {
         assert_eq!(outcome(&select, Value::Number(4.0)), "ok 4");
         assert_eq!(
             outcome(&select, Value::Number(3.0)),
-            "3 is no option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")"
+            "3 is not an option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")"
         );
         assert!(outcome(&select, "Discrete".into()).starts_with("the text \"Discrete\" is no option"));
-        assert!(outcome(&select, Value::Boolean(true)).starts_with("true is no option"));
+        assert!(outcome(&select, Value::Boolean(true)).starts_with("true is not an option"));
     }
 
     #[test]
@@ -303,7 +303,7 @@ mod tests {
         }
         assert_eq!(
             outcome(&slider, Value::Number(0.35)),
-            "\"m\" cannot stand at 0.35: it moves in steps of 0.2 from 0.1; the nearest values are 0.3 and 0.5"
+            "\"m\" cannot be set to 0.35: it moves in steps of 0.2 from 0.1; the nearest values are 0.3 and 0.5"
         );
         assert!(outcome(&slider, Value::Number(4.95)).ends_with("the nearest values are 4.9 and 5"));
         let outside = "\"m\" goes from 0.1 to 5: 5.1 cannot be chosen";
@@ -312,7 +312,7 @@ mod tests {
             assert!(outcome(&slider, Value::Number(x)).contains("cannot be chosen"), "{x}");
         }
         for given in ["5".into(), Value::Boolean(true)] {
-            assert!(outcome(&slider, given).contains("it takes a number from 0.1 to 5, not"));
+            assert!(outcome(&slider, given).contains("it needs a number from 0.1 to 5, not"));
         }
     }
 

@@ -248,10 +248,10 @@ mod tests {
             ("geom irn mass", "1", "no geom `irn`; did you mean `iron`?"),
             ("geom iron mas", "1", "no attribute `mas`; did you mean `mass`?"),
             ("goem iron mass", "1", "no element `goem`; did you mean `geom`?"),
-            ("geom mass", "1", "4 elements `geom`; say which one: floor"),
+            ("geom mass", "1", "4 elements `geom`; name one of them: floor"),
             ("body rod mass", "1", "its 2 geoms; change the mass of one of them: one, two"),
             ("geom iron name", "gold", "cannot be changed"),
-            ("mass", "1", "no attribute of an element"),
+            ("mass", "1", "not an attribute of an element"),
             ("geom iron mass", "heavy", "`mass` of geom"),
         ] {
             match patched(path, value) {

@@ -190,6 +190,6 @@ mod tests {
         let problem = parse(Kind::Reals(3, 3), "1  x2 3").unwrap_err();
         assert_eq!(problem.at, Some(3..5));
         assert_eq!(parse(Kind::Ints(1, 1), "99999999999").unwrap_err().code, rules::NUMBER);
-        assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, it takes at least 2");
+        assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, but needs at least 2");
     }
 }

@@ -155,7 +155,7 @@ mod tests {
     fn damage_has_a_line() {
         for (text, what) in [
             ("v 0 0\n", "fewer than 3 numbers in line 1"),
-            ("# x\r\nv 0 0 zero\r\n", "`zero` where a number should be in line 2"),
+            ("# x\r\nv 0 0 zero\r\n", "`zero` instead of a number in line 2"),
             ("v 0 0 nan\n", "not finite in line 1"),
             ("v 0 0 0\nf 0 1 1\n", "the number 0 in a face"),
             ("v 0 0 0\nf -2 1 1\n", "the number -2 in a face"),
