@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     /// Compute trees without a short way; may be given several times
     #[arg(long, value_name = "WAY", value_parser = short_way())]
     without: Vec<Way>,
-    /// Start every repetition again from the reset state, so that it is the same flight or fall
+    /// Start every repetition from the reset state, so that all compute the same motion
     #[arg(long)]
     reset: bool,
 }

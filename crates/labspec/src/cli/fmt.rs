@@ -19,10 +19,10 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     models: ModelOptions,
-    /// Also write bare indexes by name: data.qpos[9] as data.joint('light').qpos[2]
+    /// Also replace bare indexes by names: data.qpos[9] as data.joint('light').qpos[2]
     #[arg(long)]
     modernize: bool,
-    /// Change nothing; say which files would change
+    /// Change nothing; list the files that would change
     #[arg(long)]
     check: bool,
 }

@@ -17,13 +17,13 @@ pub(super) struct Arguments {
     lab: String,
     #[command(flatten)]
     models: ModelOptions,
-    /// What one more reader would cost: a field (data.sensordata), a sensor, or an expression
+    /// Show the cost of one more reader: a field (data.sensordata), a sensor, or an expression
     #[arg(long, value_name = "NAME")]
     read: Vec<String>,
-    /// Decide only; run and measure nothing
+    /// Only make the plan; do not run or measure
     #[arg(long)]
     no_run: bool,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }

@@ -19,17 +19,17 @@ const MOST: u64 = 1 << 20;
 /// What is said of findings on the command line.
 #[derive(clap::Args, Debug, Clone, Default)]
 pub(super) struct PolicyOptions {
-    /// Tell only these findings: codes of rules, layers (source, json, structure, model, program, run, claim), errors,
+    /// Report only these findings: codes of rules, layers (source, json, structure, model, program, run, claim), errors,
     /// warnings, notes, or all [default: `select` in labspec.toml, else all]
     #[arg(long, value_name = "RULES", value_delimiter = ',')]
     select: Vec<String>,
-    /// Leave these findings out, besides those that labspec.toml leaves out
+    /// Skip these findings, in addition to those that labspec.toml ignores
     #[arg(long, value_name = "RULES", value_delimiter = ',')]
     ignore: Vec<String>,
-    /// Tell these findings as errors: `warnings`, `notes`, codes of rules, or layers
+    /// Report these findings as errors: `warnings`, `notes`, codes of rules, or layers
     #[arg(long, value_name = "RULES", value_delimiter = ',')]
     deny: Vec<String>,
-    /// Settings of this file, and of no other [default: the nearest labspec.toml around each lesson]
+    /// Use only the settings of this file [default: the nearest labspec.toml around each lesson]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 }

@@ -17,13 +17,13 @@ pub(super) struct Arguments {
     model: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// A recording whose states are used
+    /// A recording with the states to use
     #[arg(long, value_name = "ORACLE.json")]
     states: PathBuf,
     /// Steps of the trajectory
     #[arg(long, value_name = "N", default_value_t = 100)]
     steps: usize,
-    /// A row after every M steps
+    /// Write a row after every M steps
     #[arg(long, value_name = "M", default_value_t = 10)]
     every: usize,
     /// Solve the constraint problem to rounding

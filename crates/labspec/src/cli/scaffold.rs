@@ -22,10 +22,10 @@ pub(super) struct Arguments {
     lesson: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// Put the objects into the lesson; everything else stays as it is
+    /// Insert the objects into the lesson; everything else stays unchanged
     #[arg(long)]
     write: bool,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }

@@ -28,13 +28,13 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     models: ModelOptions,
-    /// Go through what has changed, one lab after the other; where there is no terminal, list it
+    /// Review the changes lab by lab; without a terminal, list them
     #[arg(long, conflicts_with = "accept")]
     review: bool,
-    /// Store everything as it is now, and remove snapshots of lessons that are gone
+    /// Store the current output, and remove snapshots of deleted lessons
     #[arg(long)]
     accept: bool,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }

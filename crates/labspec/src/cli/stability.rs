@@ -26,7 +26,7 @@ pub(super) struct Arguments {
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Find the largest timestep, gains, stiffnesses and mass ratios that the lab stands
+    /// Find the largest timestep, gains, stiffnesses and mass ratios that work in the lab
     #[arg(long)]
     margins: bool,
     /// Run the lab over a grid of two controls
@@ -35,10 +35,10 @@ pub(super) struct Arguments {
     /// Draw the map
     #[arg(long, value_name = "FILE", requires = "map")]
     svg: Option<PathBuf>,
-    /// The same in pixels
+    /// Draw the map as PNG
     #[arg(long, value_name = "FILE", requires = "map")]
     png: Option<PathBuf>,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }

@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     lesson: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }

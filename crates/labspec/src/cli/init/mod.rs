@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `init`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// The folder; it is made where it is not there
+    /// The folder; it is created if it does not exist
     #[arg(default_value = ".", value_name = "DIR")]
     folder: PathBuf,
 }

@@ -29,16 +29,16 @@ pub(super) struct Arguments {
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Only this integrator, or `all`, with those that MuJoCo does not have [default: MuJoCo's five]
+    /// Test only this integrator, or `all`, including those that MuJoCo does not have [default: MuJoCo's five]
     #[arg(long, value_name = "NAME")]
     integrator: Vec<String>,
     /// Vary a setting of the constraint solver as well
     #[arg(long, value_enum, value_name = "SETTING")]
     vary: Vec<Vary>,
-    /// Another program's runs of the same lab, to stand beside ours
+    /// Runs of the same lab by another program, for comparison
     #[arg(long, value_name = "FILE")]
     beside: Option<PathBuf>,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
     /// Write all errors as comma-separated values
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
     /// Write the chart of the first trace
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The same in pixels
+    /// Write the chart as PNG
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
 }
