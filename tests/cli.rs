@@ -328,7 +328,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
             let text = twice.strip_suffix('}').unwrap().to_string() + lint;
             write("a.json", &text);
             let done = check(&["a.json"])?;
-            assert!(done.stdout.contains("(1 finding allowed by the lessons)"), "{}", done.stdout);
+            assert!(done.stdout.contains("(1 finding suppressed by the lessons)"), "{}", done.stdout);
             Some(done)
         }
         "the baseline has every finding and every claim that is not true, as they are: the last line counts them" =>
@@ -368,7 +368,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
             assert_eq!(check(&["nowhere.md"])?.code, 2);
             check(&["clean.md", "--no-such-option"])
         }
-        "there is nothing to check" => {
+        "has nothing to check" => {
             assert_eq!(check(&["empty"])?.code, 2);
             write("a.md", "# Only prose\n");
             check(&["a.md"])
@@ -399,7 +399,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
         #[cfg(unix)]
         "Ctrl-C, after what was finished has been printed" => {
             let watched = Watched::start(folder, &["check", "clean.md", "--watch"]);
-            watched.wait_for("nothing to complain about");
+            watched.wait_for("no problems found");
             let (stdout, stderr) = Default::default();
             Some(Done { code: watched.interrupt(), stdout, stderr })
         }

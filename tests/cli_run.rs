@@ -182,7 +182,7 @@ fn precision_against_the_closed_form() {
     // Run times, the mark that follows from them and the advice are this machine's.
     let stripped: Vec<String> = table
         .lines()
-        .take_while(|line| !line.starts_with("As the lab has it"))
+        .take_while(|line| !line.starts_with("With the settings of the lab"))
         .map(|line| match line.split_once(" ms") {
             Some((setting, rest)) if line.starts_with("  ") => {
                 let errors = rest.split_once('%').map_or(rest, |(_, errors)| errors);

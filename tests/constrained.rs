@@ -174,7 +174,9 @@ fn rows_and_forces_are_those_of_mujoco() {
                 };
                 let (expected, others): (Vec<_>, Vec<_>) = list.iter().partition(listed);
                 exceptions += expected.len();
-                others.iter().for_each(|line| drop(writeln!(wrong, "{name}: {line}")));
+                others.iter().for_each(|line| {
+                    let _ = writeln!(wrong, "{name}: {line}");
+                });
             }
         }
     }

@@ -209,13 +209,13 @@ fn watching_checks_again_what_changed() {
             }
         }
     };
-    wait_for("nothing to complain about");
+    wait_for("no problems found");
     std::fs::write(folder.path().join("clean.md"), wrong()).unwrap();
     wait_for("error[answer-refuted]");
     wait_for("1 file, 1 lab run");
     // A model is a part of the lesson.
     std::fs::write(folder.path().join("clean.md"), crate::program::CLEAN).unwrap();
-    wait_for("nothing to complain about");
+    wait_for("no problems found");
     let model = folder.path().join("models/ball_drop.xml");
     std::fs::write(model, "<mujoco><worldbody><body><goem/></body></worldbody></mujoco>").unwrap();
     wait_for("goem");

@@ -142,7 +142,7 @@ fn units_that_contradict_are_told() {
     ] {
         let found = readout(label, expr);
         let [message] = found.as_slice() else { panic!("{label}, {expr}: {found:?}") };
-        assert!(message.ends_with(&format!(", and the expression gives {unit}")), "{message}");
+        assert!(message.ends_with(&format!(", but the expression gives {unit}")), "{message}");
     }
 }
 

@@ -309,7 +309,7 @@ fn numbers_that_nothing_claims_are_those_of_the_rule() {
     let (page, report) = page_of(folder.path(), &["a.md"]);
     let told: Vec<&str> =
         report["findings"].as_array().unwrap().iter().filter_map(|f| f["message"].as_str()).collect();
-    assert_eq!(told, ["11 m is claimed nowhere, as nearly all of the other 10 numbers are"]);
+    assert_eq!(told, ["no `verify` quotes 11 m, although nearly all of the other 10 numbers are quoted"]);
     let tree = parse(&page);
     let listed: Vec<String> = with_class(tree.root(), "numbers")[0]
         .descendants()

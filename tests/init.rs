@@ -20,7 +20,7 @@ fn a_new_folder_holds_a_lesson_that_is_true() {
     std::fs::write(&lesson, "mine").unwrap();
     let again = run_in(folder.path(), &["init", "course"]);
     assert_eq!(again.code, 2);
-    assert!(again.stderr.contains("Nothing was written"), "{}", again.stderr);
+    assert!(again.stderr.contains("nothing was written"), "{}", again.stderr);
     assert_eq!(std::fs::read_to_string(&lesson).unwrap(), "mine");
 }
 

@@ -237,14 +237,14 @@ fn what_is_no_recording_is_refused() {
     });
     let cases = [
         ("{", "EOF"),
-        ("[]", "does not say that it is one"),
+        ("[]", "its version is missing"),
         ("{\"recording\": \"judge\", \"version\": 2}", "of this version"),
         (&with(&|r| r["engine"] = json!("")), "does not name its engine"),
         (&with(&|r| r["runs"] = json!(5)), "has no runs"),
         (&with(&|r| r["runs"][0]["hash"] = json!(5)), "run 0 has no \"hash\""),
         (
             &with(&|r| r["runs"][1]["values"]["height"] = json!("high")),
-            "the value of \"height\" is no number",
+            "the value of \"height\" is not a number",
         ),
         (&with(&|r| r["runs"][0]["warnings"] = json!(-1)), "\"warnings\""),
         (&twice, "recorded twice"),

@@ -340,7 +340,7 @@ fn a_baseline_hides_no_claim_that_changed() {
     let known = check(&[]);
     assert_eq!(known.code, 0, "{}", known.stdout);
     assert!(
-        last_line(&known).contains("2 already in the baseline: nothing that is not in the baseline"),
+        last_line(&known).contains("2 already in the baseline: no problems outside the baseline"),
         "{}",
         known.stdout
     );
@@ -361,7 +361,7 @@ fn a_baseline_hides_no_claim_that_changed() {
     assert_eq!(check(&[]).code, 0);
     write(CLEAN);
     let clean = check(&[]);
-    assert!(clean.code == 0 && last_line(&clean).contains("nothing to complain about"), "{}", clean.stdout);
+    assert!(clean.code == 0 && last_line(&clean).contains("no problems found"), "{}", clean.stdout);
 }
 
 /// The last line says how many claims are false beside how much was found, and what the lessons allow.
@@ -395,7 +395,7 @@ fn the_last_line_says_what_is_so() {
     std::fs::write(folder.path().join("allowed.json"), twice).unwrap();
     let allowed = run_in(folder.path(), &["check", "allowed.json"]);
     assert_eq!(allowed.code, 0, "{}", allowed.stdout);
-    let end = "nothing to complain about (1 finding allowed by the lessons)";
+    let end = "no problems found (1 finding suppressed by the lessons)";
     assert!(last_line(&allowed).ends_with(end), "{}", allowed.stdout);
 }
 

@@ -84,7 +84,7 @@ fn an_error_that_is_ignored_is_left_out_and_not_clean() {
     assert_eq!(told(&folder, &["a.md"]).0, 1);
     let done = check(&folder, &["a.md", "--ignore", "unknown-field"]);
     assert_ne!(done.code, 0, "{}", done.stdout);
-    assert!(!done.stdout.contains("nothing to complain about"), "{}", done.stdout);
+    assert!(!done.stdout.contains("no problems found"), "{}", done.stdout);
 }
 
 #[test]
@@ -126,8 +126,8 @@ fn an_author_allows_with_a_reason() {
     assert_eq!(told(&folder, &["d.md"]), (1, codes(&["allowance-without-reason", "duplicate-readout"])));
     assert!(told(&folder, &["e.md"]).1.contains(&"missing-key".to_string()));
     let done = check(&folder, &["a.md", "--show-allowed"]);
-    assert!(done.stdout.contains("allowed: both are read aloud"), "{}", done.stdout);
-    assert!(done.stdout.contains("1 finding allowed by the lessons"), "{}", done.stdout);
+    assert!(done.stdout.contains("suppressed: both are read aloud"), "{}", done.stdout);
+    assert!(done.stdout.contains("1 finding suppressed by the lessons"), "{}", done.stdout);
     let aside = &parsed(&check(&folder, &["a.md", "--format", "json"]))["aside"];
     assert_eq!((&aside["allowed"][0]["code"], &aside["ignored"]), (&json!("duplicate-readout"), &json!(0)));
 }
@@ -140,8 +140,8 @@ fn what_the_baseline_knows_is_not_told_again() {
     assert_eq!(written.code, 0, "{}", written.stderr);
     assert_eq!(told(&folder, &["lessons", "--baseline", "known.json"]), (0, vec![]));
     let done = check(&folder, &["lessons", "--baseline", "known.json"]);
-    assert!(done.stdout.contains("nothing that is not in the baseline"), "{}", done.stdout);
-    assert!(!done.stdout.contains("nothing to complain about"), "{}", done.stdout);
+    assert!(done.stdout.contains("no problems outside the baseline"), "{}", done.stdout);
+    assert!(!done.stdout.contains("no problems found"), "{}", done.stdout);
     // Text that moves stays known; what is new is told.
     let moved = broken.replace("# Fall", "# Fall\n\nA ball falls.\n\nIt falls fast.");
     write(folder.path(), "lessons/a.md", &moved);

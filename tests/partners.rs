@@ -82,7 +82,7 @@ fn repaired(lab: &Json, code: &str) -> (f64, f64) {
     let finding = &all[0];
     assert_eq!(finding.severity, Severity::Warning);
     let help = finding.help.as_ref().unwrap();
-    assert!(help.contains("; tried, the lab then runs with "), "{help}");
+    assert!(help.contains("; in a test run, the lab then uses "), "{help}");
     let mut text = lab.to_string();
     let fix = finding.fix.clone().unwrap_or_else(|| panic!("no fix: {finding:?}"));
     assert_eq!(fix.applicability.as_str(), "unsafe");

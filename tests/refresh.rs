@@ -64,7 +64,7 @@ fn a_mass_that_shows_is_said_with_its_evidence() {
     let finding = only(&drop(&json!([slider(&json!({"set": "model.body_mass[2]", "value": 0.1}))])));
     let why = finding.why.unwrap();
     assert!(why.contains("with \"mass\" at 5, \"depth (mm)\" is "), "{why}");
-    assert!(why.contains(" with the constants computed anew"), "{why}");
+    assert!(why.contains(" with the constants recomputed"), "{why}");
     // A `set` is a target: nothing can be written behind it.
     assert_eq!(finding.fix, None);
     let help = finding.help.unwrap();
@@ -279,7 +279,7 @@ fn the_real_labs_are_warned_only_of_what_a_run_shows() {
             let checked = check::check(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
             for f in &checked.findings {
                 let evidence = match f.code {
-                    "missing-setconst" => " with the constants computed anew",
+                    "missing-setconst" => " with the constants recomputed",
                     "lost-at-reset" => " after a reset",
                     "apply-unused" | "wrong-type" => panic!("{name}: {f:?}"),
                     _ => continue,

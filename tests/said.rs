@@ -235,7 +235,7 @@ fn a_lab_may_stand_in_another_lesson() {
     for (name, says) in [
         ("labs.md#3", "has no lab #3: it has #1, #2"),
         ("none.md#1", "none.md"),
-        ("labs.txt#1", "stands in a lesson"),
+        ("labs.txt#1", "a lab must be in a lesson"),
         ("/labs.md#1", "by its path from this one"),
     ] {
         write("quiz.md", &quiz(name));

@@ -68,7 +68,7 @@ fn a_verified_run_with_a_setting_that_no_student_can_make_is_refused_at_its_valu
         (
             json!({"integrator": 3}),
             "3",
-            "3 is no option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")",
+            "3 is not an option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")",
         ),
         (json!({"integrator": "RK4"}), "RK4", "the text \"RK4\" is no option"),
         (json!({"gravity": -25}), "-25", "\"gravity\" goes from -20 to 0: -25 cannot be chosen"),
@@ -124,11 +124,11 @@ fn a_run_takes_what_a_student_can_choose_and_nothing_else() {
     assert!(run_with(&[("integrator", "discrete".into())], &[]).is_ok());
     assert!(run_with(&[], &[("Kick", 0.05)]).unwrap() > fell);
     for (set, said) in [
-        (("integrator", "Discrete".into()), "is no option"),
+        (("integrator", "Discrete".into()), "is not an option"),
         (("gravity", Value::Number(f64::NAN)), "cannot be chosen"),
         (("gravity", Value::Number(f64::NEG_INFINITY)), "cannot be chosen"),
         (("gravity", Value::Number(-9.8)), "the nearest values are -10 and -9.75"),
-        (("gravity", "-5".into()), "it takes a number"),
+        (("gravity", "-5".into()), "it needs a number"),
     ] {
         let error = run_with(&[set], &[]).unwrap_err();
         assert!(error.contains(said), "{error}");

@@ -219,7 +219,7 @@ fn only_what_is_accepted_is_overwritten() {
             "{}",
             done.stdout
         );
-        assert!(done.stdout.contains("--review shows each change and asks; --accept takes all"));
+        assert!(done.stdout.contains("--review shows each change and asks; --accept accepts all"));
         assert_eq!(stored(folder.path()), first);
     }
     let done = run_in(folder.path(), &["snapshot", ".", "--accept"]);
@@ -278,25 +278,25 @@ fn a_file_that_is_no_snapshot_has_a_place() {
     let half = &text[..text.find("lab \"#2\"").unwrap()];
     let huge = "1".repeat(5 << 20);
     for (bytes, said) in [
-        (half.as_bytes(), "the file ends here, without the line"),
+        (half.as_bytes(), "the file is incomplete: the line"),
         (
             text.replacen("0.50000", "0.5OOOO", 1).as_bytes(),
-            &format!("two.md.snap:{row}:20: `0.5OOOO` is no value")[..],
+            &format!("two.md.snap:{row}:20: `0.5OOOO` is not a value")[..],
         ),
-        (b"", "two.md.snap:1:1: this is no snapshot"),
+        (b"", "two.md.snap:1:1: the file is not a snapshot"),
         (
             text.replacen("snapshot 1", "snapshot 7", 1).as_bytes(),
-            "two.md.snap:1:18: this is of another version",
+            "two.md.snap:1:18: the snapshot has another version",
         ),
         (huge.as_bytes(), "larger than 4 MB, the limit for a snapshot"),
         (b"labspec snapshot 1\n\xff\xfe", "two.md.snap"),
         (
             text.replacen("0.50000", &"9".repeat(2000), 1).as_bytes(),
-            "`999999999999999999999999…` is no value",
+            "`999999999999999999999999…` is not a value",
         ),
         (
             text.replacen("\"plot/0/angle\"", "\"plot/0/angle", 1).as_bytes(),
-            ": this text between quotes is not whole",
+            ": this quoted text is incomplete",
         ),
     ] {
         std::fs::write(&path, bytes).unwrap();

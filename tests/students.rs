@@ -323,7 +323,7 @@ fn a_map_shows_where_a_lab_is_stable() {
         }
     }
     assert!(std::fs::read_to_string(folder.path().join("map.svg")).unwrap().starts_with("<svg"));
-    for (wrong, says) in [("kp,q", "there is no control"), ("kp", "write CONTROL1,CONTROL2")] {
+    for (wrong, says) in [("kp,q", "the lab has no control"), ("kp", "write CONTROL1,CONTROL2")] {
         let done = run_in(folder.path(), &["stability", "lab.json", "--map", wrong]);
         assert!(done.code == 2 && done.stderr.contains(says), "{}", done.stderr);
     }
@@ -388,7 +388,7 @@ fn a_base_is_where_everything_begins() {
     assert!(thrown["runs"].as_array().unwrap().iter().all(presses), "{}", thrown["runs"]);
     for (more, says) in [
         (["--set", "kp=9"], "cannot be chosen"),
-        (["--set", "Kp=100"], "there is no control"),
+        (["--set", "Kp=100"], "the lab has no control"),
         (["--press", "kp@0.1"], "is not a button"),
     ] {
         let folder = tempfile::tempdir().unwrap();

@@ -191,7 +191,7 @@ fn what_a_setup_changes_is_put_back() {
     let Some(quiz) = Case::open("corpus/quizzes/5.3_01.json") else { return };
     assert_eq!(
         found(&quiz, "15.44 N"),
-        "#5.3-check.5 after \"Grasp and lift\" is pressed, with the model as its file has it: -final(data.actuator_force[3])"
+        "#5.3-check.5 after \"Grasp and lift\" is pressed, with the model as in its file: -final(data.actuator_force[3])"
     );
     // Its other numbers are those of the lab as it stands.
     for (quote, measure) in [

@@ -220,7 +220,9 @@ fn others(folder: &Path, name: &str, text: &str, models: Option<&str>) -> Result
         .unwrap()
         .iter()
         .filter(|b| {
-            b["help"].as_str().is_some_and(|help| !help.contains("`labspec stability` makes these runs"))
+            b["help"]
+                .as_str()
+                .is_some_and(|help| !help.contains("`labspec stability`, which makes these runs"))
         })
         .map(|b| b["what"].as_str().unwrap().to_string())
         .collect();

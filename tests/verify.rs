@@ -601,7 +601,7 @@ fn what_a_run_cannot_change_is_said_with_what_is_near() {
         (json!({"key": "lo"}), "did you mean `low`?"),
         (json!({"key": 3}), "has no keyframe 3"),
         (json!({"controller": "data.qfrc_aplied[2] = 1"}), "qfrc_applied"),
-        (json!({"stop": "first(contact('ball', 'floor'))"}), "looks at one sample"),
+        (json!({"stop": "first(contact('ball', 'floor'))"}), "must look at one sample"),
     ] {
         let found = run(keys.clone());
         assert!(says(&found, words), "{keys}: {found:#?}");
@@ -627,7 +627,7 @@ fn runs_are_of_several_labs() {
     assert!(says(&wrong.findings, "named \"too\""), "{:#?}", wrong.findings);
     let none = lesson("1 * 1", "#7");
     assert!(
-        says(&none.findings, "there is no lab `#7`") || says(&none.findings, "there is no lab"),
+        says(&none.findings, "the lesson has no lab `#7`") || says(&none.findings, "there is no lab"),
         "{:#?}",
         none.findings
     );
@@ -677,7 +677,7 @@ fn a_sweep_that_is_none_is_refused() {
     for (sweep, words) in [
         (json!({"start (m)": [1]}), "2 to 50 values; this one has 1"),
         (json!({"start (m)": {"from": 0, "to": 1, "count": 51}}), "2 to 50 values; this one has 51"),
-        (json!({"start (m)": [0.5, 1], "timestep h": [0.1]}), "changes one thing"),
+        (json!({"start (m)": [0.5, 1], "timestep h": [0.1]}), "must change exactly one thing"),
         (json!({"strat (m)": [0.5, 1]}), "did you mean `start (m)`?"),
         (json!({"geom bal mass": [0.5, 1]}), "did you mean `ball`?"),
         (json!({"start (m)": [0.5, 3]}), "3 cannot be chosen"),
@@ -720,13 +720,13 @@ fn a_limit_is_found_by_halving() {
     for (find, words) in [
         (with("to", json!(0.02)), "over the whole range from 0.001 to 0.02"),
         (with("from", json!(0.03)), "at neither end of the range"),
-        (with("while", json!("z < 0.049")), "it has a smallest value, and no largest"),
+        (with("while", json!("z < 0.049")), "it has a smallest value, but no largest"),
         (with("while", json!("Math.sin(700 * initial(model.opt.timestep)) > 0.5")), "more than once"),
         (with("largest", json!("timestp h")), "did you mean `timestep h`?"),
         (with("largest", json!("option timestp")), "did you mean `timestep`?"),
         (with("run", json!("s")), "name the run"),
-        (with("smallest", json!("timestep")), "largest or for the smallest"),
-        (with("from", json!(0.05)), "begins below its end"),
+        (with("smallest", json!("timestep")), "either `largest` or `smallest`"),
+        (with("from", json!(0.05)), "must be below its `to`"),
         (with("while", json!("zz > 1")), "zz"),
     ] {
         let (verdicts, found) = rest(find.clone(), &[["0.0226 s", "limit"]]);
@@ -787,9 +787,9 @@ fn tables_are_held_to_sweeps() {
         ),
         (
             json!([{"column": "touchdown (s)", "by": ["height (m)", "fall.value.map(x => x + 0.1)"], "is": "fall.touch"}]),
-            "nothing was run for the row \"0.5\"",
+            "no run covers the row \"0.5\"",
         ),
-        (json!([{"column": "time", "is": "slow.touch"}]), "a column has `by`"),
+        (json!([{"column": "time", "is": "slow.touch"}]), "a column needs `by`"),
         (column("slow.touch"), "slow.touch"),
     ] {
         let (verdicts, _, found) = lesson("0.442", table.clone());

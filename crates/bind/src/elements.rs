@@ -172,8 +172,8 @@ fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
 const QUATERNION: Advice = Advice {
     rule: QUATERNION_AS_ANGLE,
     what: "a component of a quaternion",
-    why: "four numbers that give the orientation together",
-    help: "the whole angle of the turn is `2 * Math.acos(w)`, with w the first of the four numbers",
+    why: "it is one of four numbers that give the orientation together",
+    help: "write the whole angle as `2 * Math.acos(w)`, with w the first of the four numbers",
 };
 
 /// What an element measures: coordinates of joints are angles, parts of quaternions, or neither.

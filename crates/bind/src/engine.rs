@@ -119,7 +119,7 @@ impl Accessor {
     fn run(&self, engine: &mut Engine) -> Result<Value, Error> {
         if self.model != engine.world.model.identity() {
             return Err(Error::Call(format!(
-                "`{}` was compiled for another model: its names and indexes mean nothing here; compile it with this engine",
+                "`{}` was compiled for another model, so its names and indexes do not apply; compile it with this engine",
                 self.text
             )));
         }

@@ -47,7 +47,7 @@ impl Functions {
         call: impl Fn(&[f64]) -> Result<f64, String> + Send + Sync + 'static,
     ) -> Result<Functions, Error> {
         if self.find(name).is_some() || is_taken(name) {
-            return Err(Error::Call(format!("`{name}` has a meaning already")));
+            return Err(Error::Call(format!("`{name}` already has a meaning")));
         }
         let at = self.0.len() as u32;
         let own = Own { name: name.to_string(), params, doc: doc.to_string(), call: Arc::new(call) };
@@ -60,7 +60,7 @@ impl Functions {
         let program = compiler.expression(&text).program;
         match program.is_some_and(|p| p.effects().calls.contains(&FunctionId(at))) {
             true => Ok(self),
-            false => Err(Error::Call(format!("no text can call a function `{name}`"))),
+            false => Err(Error::Call(format!("`{name}` is not a valid name for a function"))),
         }
     }
 

@@ -17,11 +17,11 @@ pub static WORDS: Words = Words {
     statements: "`setup`, `controller`, `apply` or `run`",
     keeper: "`controller`",
     shown: "a readout or a trace",
-    clock: "the time of the simulation is `data.time`, in seconds",
+    clock: "the simulation time is `data.time`, in seconds",
     wait: "test `data.time` in the controller instead",
     split: "split it: into several controls, or a `setup` and a `controller`",
     input: (
-        "`value` is what a slider or select gives to its own `set` or `apply`",
+        "`value` is the value of a slider or select, in its own `set` or `apply`",
         "give the control a `param` and read it as `ctx.<param>`",
     ),
     store: "store it first, as `ctx.{name} = 0` in `setup`, or give a control `\"param\": \"{name}\"`",

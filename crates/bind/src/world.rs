@@ -36,7 +36,7 @@ impl Host for World {
     }
 
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
-        let field = FieldId::new(f as usize).ok_or("there is no such field")?;
+        let field = FieldId::new(f as usize).ok_or("the field does not exist")?;
         check(field, value)?;
         // What stays as it is is no change of the model: plans were made for it.
         let same = |held: f64| held.to_bits() == value.to_bits();
@@ -71,7 +71,7 @@ impl Host for World {
                 core::charge(&mut self.data, own::PRICE);
                 let called =
                     (f as usize).checked_sub(functions::TABLE.len()).and_then(|at| self.own.call(at, args));
-                called.unwrap_or_else(|| Err("there is no such function".into()))
+                called.unwrap_or_else(|| Err("the function does not exist".into()))
             }
         }
     }

@@ -39,8 +39,8 @@ pub enum Foreign {
 impl fmt::Display for Foreign {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Foreign::Identity => "what is recorded and the expressions were not compiled for the same thing",
-            Foreign::Recording => "what the expression reads was not recorded",
+            Foreign::Identity => "the recording and the expressions belong to different models",
+            Foreign::Recording => "the recording does not contain what the expression reads",
         })
     }
 }

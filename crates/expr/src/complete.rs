@@ -183,15 +183,15 @@ impl List<'_> {
 
     fn roots(&mut self, has_value: bool) {
         if has_value {
-            self.add("value", Suggested::Variable, "value", "what was chosen");
+            self.add("value", Suggested::Variable, "value", "the chosen value");
         }
         for name in self.schema.root_names() {
             if let Some(entry) = self.schema.root(&name) {
                 self.entry(&name, of_entry(entry));
             }
         }
-        self.add("ctx", Suggested::Object, "ctx", "variables that all texts share");
-        self.add("Math", Suggested::Object, "Math", "functions and constants of mathematics");
+        self.add("ctx", Suggested::Object, "ctx", "global variables");
+        self.add("Math", Suggested::Object, "Math", "mathematical functions and constants");
         for name in ["Infinity", "NaN", "undefined", "null", "true", "false"] {
             self.add(name, Suggested::Constant, name, "");
         }
@@ -223,12 +223,7 @@ impl List<'_> {
             Some(Meaning::Globals) => {
                 for slot in 0..globals.len() {
                     let name = globals.name(slot as u32).to_string();
-                    self.add(
-                        &name,
-                        Suggested::Variable,
-                        format!("ctx.{name}"),
-                        "a variable that all texts share",
-                    );
+                    self.add(&name, Suggested::Variable, format!("ctx.{name}"), "a global variable");
                 }
             }
             Some(Meaning::Field(field)) if !field.is_scalar() => self.methods(Type::View),
@@ -246,7 +241,7 @@ impl List<'_> {
 
     fn methods(&mut self, of: Type) {
         if matches!(of, Type::View | Type::List | Type::String) {
-            self.add("length", Suggested::Field, ".length", "how many there are");
+            self.add("length", Suggested::Field, ".length", "the number of elements");
         }
         for row in natives::rows().filter(|row| of != Type::Any && row.is_of(of)) {
             self.add(row.name, Suggested::Function, row.title(), row.doc);

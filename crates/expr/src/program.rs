@@ -425,7 +425,6 @@ impl Program {
 
 #[cold]
 fn foreign() -> RuntimeError {
-    let message =
-        "this was compiled for something else than what it is run on: compile it for that".to_string();
+    let message = "the program was compiled for something else; compile it for what it runs on".to_string();
     RuntimeError { rule: rules::HOST_CALL, span: Span::default(), message }
 }

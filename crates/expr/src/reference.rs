@@ -75,7 +75,7 @@ fn table(out: &mut String, title: &str, rows: Vec<Row>) {
 /// The page, in Markdown, with the words of a host.
 pub fn language_page(words: &Words) -> String {
     let mut out = format!(
-        "# The language of {0}s\n\nThe core of JavaScript that {0}s write. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that gives an operand, numbers to text. Of `Math`, what the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) is the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
+        "# The language of {0}s\n\nThe core of JavaScript that {0}s use. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that returns an operand, numbers to text. The functions of `Math` whose result the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) are the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
         words.lesson
     );
     out.push_str(GRAMMAR);
@@ -94,7 +94,7 @@ pub fn language_page(words: &Words) -> String {
             let _ = writeln!(out, "| {power} | {} |", symbols.join(" "));
         }
     }
-    out.push_str("\n`**` groups from the right, all others from the left; a sign directly before `**` is refused, as in JavaScript.\n");
+    out.push_str("\n`**` groups from the right, all others from the left; a sign directly before `**` is rejected, as in JavaScript.\n");
     let sections = [
         ("Methods of lists and arrays", &[On::List, On::Growing, On::Untyped][..]),
         ("Methods of texts", &[On::Text]),
@@ -109,10 +109,10 @@ pub fn language_page(words: &Words) -> String {
     let constants: Vec<String> =
         math::names().filter(|n| math::constant(n).is_some()).map(|n| format!("`Math.{n}`")).collect();
     out.push_str(&constants.join(", "));
-    out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with other exponents than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here. A list has no holes: what lies between its end and an assignment beyond it is `undefined`.\n\n## Limits\n\n");
+    out.push_str(".\n\nFunctions whose last digit the standard leaves open (`sin`, `log`, `**` with exponents other than 2, …) may differ from an engine's by one unit in the last place; they are the same on every platform here. A list has no holes: the elements between its end and an assignment beyond it are `undefined`.\n\n## Limits\n\n");
     let _ = writeln!(
         out,
-        "A text has at most {} bytes and nests {} levels; a run does at most {} operations (an element that a method goes through counts as five, a step of the {} as what it takes), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
+        "A text has at most {} bytes and {} nested levels; a run does at most {} operations (an element that a method visits counts as five, a step of the {} as its own cost), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
         crate::MAX_SOURCE,
         crate::MAX_DEPTH,
         crate::vm::MAX_WORK / crate::vm::OPERATION,

@@ -62,12 +62,12 @@ impl Words {
         statements: "a text of statements",
         keeper: "a text of statements",
         shown: "an expression",
-        clock: "what the host gives is the same in every run",
-        wait: "keep in `ctx` what is waited for, and test it in every run of the text",
+        clock: "the values from the host are the same in every run",
+        wait: "store in `ctx` what to wait for, and test it in every run of the text",
         split: "split it",
-        input: ("the host gives it to some texts only", "keep what is needed in `ctx`"),
+        input: ("the host provides it to some texts only", "store the value in `ctx`"),
         store: "store it first, as `ctx.{name} = 0`",
         rounding: "",
-        recompute: "a computation of what follows from it",
+        recompute: "a recomputation of the derived values",
     };
 }

@@ -252,27 +252,27 @@ impl Ledger {
         let is_wrong = any(State::False) || any(State::Unchecked);
         match (is_wrong, findings) {
             // What is wrong with a file that claims nothing.
-            (true, "") if parts.is_empty() => parts.push("a file has faults".into()),
+            (true, "") if parts.is_empty() => parts.push("a file has problems".into()),
             (true, findings) if !findings.is_empty() => parts.push(findings.into()),
             _ => {}
         }
         if any(State::LeftOut) {
             let all_is_well = parts.is_empty();
             parts.push(match all_is_well {
-                true => "nothing wrong in what was checked, but not everything was".into(),
+                true => "the checked part has no problems, but not everything was checked".into(),
                 false => "not everything was checked".into(),
             });
         }
         if any(State::Known) {
             parts.push(match parts.is_empty() {
-                true => "nothing that is not in the baseline".into(),
+                true => "no problems outside the baseline".into(),
                 false => format!("{} already in the baseline", self.known()),
             });
         }
         match (parts.is_empty(), self.outcome()) {
             (false, _) => {}
             (true, Outcome::Nothing) => parts.push("nothing to check".into()),
-            (true, _) => parts.push("nothing to complain about".into()),
+            (true, _) => parts.push("no problems found".into()),
         }
         // Notes alone are no fault.
         if !is_wrong && !findings.is_empty() {
@@ -346,7 +346,7 @@ impl Ledger {
     pub fn break_off(&mut self, is_broken_off: impl Fn(&Arc<str>) -> bool) {
         for entry in self.entries.iter_mut().filter(|e| e.state == State::LeftOut && is_broken_off(&e.path)) {
             (entry.state, entry.word) = (State::Unchecked, "unchecked");
-            entry.remark = "the check of this lesson was broken off".into();
+            entry.remark = "the check of this lesson was interrupted".into();
         }
     }
 
@@ -446,15 +446,15 @@ mod tests {
                 );
             }
             let bad = count(0) + count(1) > 0;
-            assert_eq!(said.contains("nothing wrong"), !bad && count(2) > 0, "{said}");
+            assert_eq!(said.contains("the checked part has no problems"), !bad && count(2) > 0, "{said}");
             let clean = (0..4).all(|digit| count(digit) == 0);
-            assert_eq!(said == "nothing to complain about", clean && count(4) > 0, "{said}");
+            assert_eq!(said == "no problems found", clean && count(4) > 0, "{said}");
             assert_eq!(said == "nothing to check", code == 0, "{said}");
             assert_eq!(ledger.outcome() == Outcome::Findings, bad, "{said}");
         }
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::File, State::False));
-        assert_eq!(ledger.conclusion(""), "a file has faults");
+        assert_eq!(ledger.conclusion(""), "a file has problems");
         assert_eq!(ledger.conclusion("1 warning"), "1 warning");
         ledger.add(entry(Subject::Answer, State::False));
         ledger.add(entry(Subject::Answer, State::Unchecked));
@@ -464,7 +464,7 @@ mod tests {
         assert_eq!(ledger.conclusion("2 errors, 1 warning"), both);
         let mut ledger = Ledger::default();
         ledger.add(entry(Subject::Lab, State::True(Evidence::Simulated)));
-        assert_eq!(ledger.conclusion("1 note"), "nothing to complain about, 1 note");
+        assert_eq!(ledger.conclusion("1 note"), "no problems found, 1 note");
     }
 
     #[test]

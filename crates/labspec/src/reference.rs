@@ -38,8 +38,7 @@ const GENERATED: &str =
 
 fn fields() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Fields\n\nEvery field that an expression can name. Arrays are flat and row-major: `data.xpos[3 * i + 2]` is the height of body `i`. \
-         One object's part is read by name: `data.body(\"ball\").xpos[2]`.\n"
+        "{GENERATED}\n# Fields\n\nEvery field that an expression can name. Arrays are flat and row-major: `data.xpos[3 * i + 2]` is the height of body `i`. The part of one object is read by name: `data.body(\"ball\").xpos[2]`.\n"
     );
     let objects = [
         (Object::Data, "data", "State, inputs and results."),
@@ -63,8 +62,7 @@ fn fields() -> String {
         }
     }
     text.push_str(
-        "\nKinds: *state* evolves in time and may be set; *input* is set from outside; *constant* takes effect at the next step; \
-         *inertial* needs `mj_setConst` after a change; *derived* is computed, so setting it is refused; *structure* is fixed.\n",
+        "\nKinds: *state* evolves in time and can be set; *input* is set from outside; *constant* takes effect at the next step; *inertial* needs `mj_setConst` after a change; *derived* is computed, so it cannot be set; *structure* is fixed.\n",
     );
     text
 }
@@ -82,12 +80,12 @@ fn kind(kind: Kind, stage: Stage) -> String {
 
 fn function_list() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Functions\n\nThe language itself, its methods and `Math` are in [language.md](language.md). Examples are of `specs/models/pendulum.xml`, measures of a run of 0.1 s; in those of a sweep, `h` is measured with the timesteps 1, 2 and 4 ms.\n"
+        "{GENERATED}\n# Functions\n\n[language.md](language.md) describes the language itself, its methods and `Math`. Examples use `specs/models/pendulum.xml`, and measures use a run of 0.1 s; in those of a sweep, `h` is measured with the timesteps 1, 2 and 4 ms.\n"
     );
     let tables = [
         ("In labs and in measures", [false, false]),
-        ("In the measures of `verify` only", [true, false]),
-        ("In what `verify` claims of a run with a `sweep`", [false, true]),
+        ("Only in the measures of `verify`", [true, false]),
+        ("In the claims of `verify` about a run with a `sweep`", [false, true]),
     ];
     for (title, place) in tables {
         let _ = write!(text, "\n## {title}\n\n| function | meaning | example | value |\n|---|---|---|---|\n");
@@ -104,8 +102,7 @@ fn function_list() -> String {
 
 fn codes() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Codes\n\nWhat a finding's code means, by what a rule needs in order to look. `labspec explain CODE` shows the long form: why it matters, \
-         and a wrong and a right example, both of which are executed by the tests.\n"
+        "{GENERATED}\n# Codes\n\nThe meaning of each finding's code, grouped by what the rule needs. `labspec explain CODE` shows the long form: why it matters, and a wrong and a right example, both of which the tests execute.\n"
     );
     for layer in Layer::ALL {
         let title = match layer {
@@ -136,10 +133,7 @@ fn codes() -> String {
 
 fn compatibility() -> String {
     let mut text = format!(
-        "{GENERATED}\n# Compatibility with MJCF\n\nEvery element and attribute of MuJoCo 3.14.0's format, element by element. *Supported*: it does what MuJoCo does. \
-         *Ignored*: accepted, checked, and without effect on physics. *Partly*: some of its values are refused. \
-         Everything else is refused by name, with its place in the file; nothing is silently left out. \
-         Defaults take the attributes of the elements that they stand for.\n\n| element | what is done |\n|---|---|\n"
+        "{GENERATED}\n# Compatibility with MJCF\n\nEvery element and attribute of MuJoCo 3.14.0's format, element by element. *Supported*: it does what MuJoCo does. *Ignored*: accepted, checked, and without effect on physics. *Partly*: some of its values are refused. Everything else is refused by name, with its place in the file; nothing is skipped silently. Defaults take the attributes of the elements that they stand for.\n\n| element | support |\n|---|---|\n"
     );
     let rows = xml::schema_rows();
     for element in rows.iter().filter(|r| r.attribute.is_none() && !r.path.contains("default/")) {

@@ -53,7 +53,7 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         reads: Touches::Contacts,
         unit: Unit::Of("N"),
-        doc: "normal force in N, summed over all contacts, or over those of one geom",
+        doc: "normal force in N, summed over all contacts or over those of one geom",
         example: ("lib.normalForce()", "0"),
         run: |w, _, args| {
             let geom = if args.is_empty() { None } else { Some(index(args)?) };
@@ -94,7 +94,7 @@ pub(super) const ROWS: &[Function] = &[
         gives: Some((data::site_xpos, Obj::Site)),
         reads: Touches::Places,
         unit: Unit::Of("m"),
-        doc: "place of a site in the world, m",
+        doc: "world position of a site, m",
         example: ("lib.sitePos('tip')[2]", "0.5"),
         run: |w, heap, args| place(heap, &w.fields().site_xpos, index(args)?),
         ..LIST
@@ -106,7 +106,7 @@ pub(super) const ROWS: &[Function] = &[
         gives: Some((data::xpos, Obj::Body)),
         reads: Touches::Places,
         unit: Unit::Of("m"),
-        doc: "place of a body in the world, m",
+        doc: "world position of a body, m",
         example: ("lib.bodyPos('bob')[2]", "1"),
         run: |w, heap, args| place(heap, &w.fields().xpos, index(args)?),
         ..LIST
@@ -119,7 +119,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Energy,
         writes: &[Touches::Flags, Touches::Derived],
         unit: Unit::Of("J"),
-        doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
+        doc: "potential, kinetic and total energy, J; the first use turns the energy computation on",
         example: ("lib.energy().total", "4.905"),
         run: |w, heap, _| energy(w, heap),
         ..ROW
@@ -127,7 +127,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "contactPairs",
         reads: Touches::Contacts,
-        doc: "which geoms touch, each pair as text; a geom without a name shows its body's",
+        doc: "pairs of geoms in contact, each as text; a geom without a name is shown by its body",
         example: ("lib.contactPairs().length", "0"),
         run: |w, heap, _| {
             let pairs = w
@@ -145,7 +145,7 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         length: Some(6),
         reads: Touches::Motion,
-        doc: "how a site moves with each degree of freedom: three rows of velocity, three of turning; the second argument keeps only the first columns",
+        doc: "Jacobian of a site: three rows of linear and three of angular velocity per degree of freedom; the second argument keeps only the first columns",
         example: ("lib.jacobian('tip')[0][0]", "-0.5"),
         run: |w, heap, args| {
             let rows = jacobian(w, index(args)?, args.get(1).map(Value::to_number))?;

@@ -87,7 +87,7 @@ pub(super) const ROWS: &[Function] = &[
         returns: Type::Boolean,
         reads: Touches::Contacts,
         place: Place::Measures,
-        doc: "whether two geoms are in contact, or whether one touches anything",
+        doc: "whether two geoms are in contact, or whether one geom is in any contact",
         example: ("max(contact('bob'))", "0"),
         run: |w, _, args| {
             let (a, b) = (index(args)?, args.get(1).map(|v| handle::index_of(v.to_number())));
@@ -106,7 +106,7 @@ pub(super) const ROWS: &[Function] = &[
         members: CONTACT,
         reads: Touches::Contacts,
         place: Place::Measures,
-        doc: "the deepest contact of two geoms as the engine mixed it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 where it pushes) and force (6, N and N m); NaN everywhere while they have none",
+        doc: "the deepest contact of two geoms, as the engine mixes it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 if it pushes) and force (6, N and N m); NaN everywhere without a contact",
         example: ("final(mixed('bob', 'bob').dim)", "NaN"),
         run: mixed,
         ..ROW
@@ -116,11 +116,11 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Any],
         returns: Type::List,
         place: Place::Measures,
-        doc: "eigenvalues of a symmetric matrix, a list of its rows or of its numbers row by row: the smallest first",
+        doc: "eigenvalues of a symmetric matrix, given as rows or as a flat list row by row; smallest first",
         example: ("final(eigenvalues([[2, 1], [1, 2]])[1])", "3"),
         run: |_, heap, args| {
             let matrix = args.first().and_then(|v| symmetric(heap, v)).ok_or(
-                "`eigenvalues` takes a symmetric matrix: a list of n rows with n numbers each, or of n × n numbers",
+                "`eigenvalues` needs a symmetric matrix: a list of n rows with n numbers each, or of n × n numbers",
             )?;
             let size: f64 = matrix.iter().flatten().map(|x| x * x).sum();
             let mut values = eigenvalues(matrix, 1e-30 * size);
@@ -135,7 +135,7 @@ pub(super) const ROWS: &[Function] = &[
         returns: Type::Any,
         reads: Touches::Shown,
         place: Place::Measures,
-        doc: "what a student reads under the label of a readout, as it is printed, or the number of a trace; where both have the label, the trace is called as in a table of `labspec run`: `plot/0/label`",
+        doc: "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
         example: ("max(shown('time (s)'))", "0.1"),
         run: |w, _, args| Ok(w.shown(index(args)?).cloned().unwrap_or_default()),
         ..ROW
@@ -153,7 +153,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "first",
         unit: Unit::Of("s"),
-        doc: "time in s of the first sample at which a condition holds; NaN if it never does",
+        doc: "time in s of the first sample where a condition holds; NaN if it never does",
         example: ("first(data.time > 0.049)", "0.05"),
         ..OVER_RUN
     },
@@ -161,7 +161,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "at",
         args: &[Arg::Lazy, Arg::Lazy],
         unit: Unit::Times(1, "1"),
-        doc: "at(condition, x): x at the first sample at which the condition holds; NaN if it never does",
+        doc: "at(condition, x): x at the first sample where the condition holds; NaN if it never does",
         example: ("at(data.time > 0.049, data.qpos[0])", "0"),
         ..OVER_RUN
     },
@@ -178,7 +178,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
         unit: Unit::Of("s"),
-        doc: "crossing(x) or crossing(x, level): time in s at which x first passes through zero, or through a level, on a straight line between the two samples around it; a sample at the level counts; NaN if it never does",
+        doc: "crossing(x) or crossing(x, level): time in s when x first crosses zero, or a level, interpolated linearly between two samples; a sample at the level counts; NaN if it never does",
         example: ("crossing(0.0495 - data.time)", "0.0495"),
         ..OVER_RUN
     },
@@ -187,21 +187,21 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
         unit: Unit::Of("s"),
-        doc: "period(x) or period(x, level): mean time in s from one upward passage of x through zero, or through a level, to the next, each on a straight line between two samples; NaN with fewer than two",
+        doc: "period(x) or period(x, level): mean time in s between upward crossings of zero, or of a level, each interpolated linearly between two samples; NaN with fewer than two",
         example: ("period(Math.abs(data.time % 0.04 - 0.02), 0.01)", "0.04"),
         ..OVER_RUN
     },
     Function {
         name: "last",
         unit: Unit::Of("s"),
-        doc: "time in s of the last sample at which a condition holds; NaN if it never does",
+        doc: "time in s of the last sample where a condition holds; NaN if it never does",
         example: ("last(data.time < 0.051)", "0.05"),
         ..OVER_RUN
     },
     Function {
         name: "count",
         unit: Unit::Of("1"),
-        doc: "how often a condition begins to hold; one that holds at the start has begun",
+        doc: "how often a condition begins to hold; holding at the start counts",
         example: ("count(data.time % 0.04 < 0.019)", "3"),
         ..OVER_RUN
     },
@@ -210,7 +210,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Lazy, Arg::Lazy],
         optional: 1,
         unit: Unit::Of("1"),
-        doc: "crossings(x) or crossings(x, level): how often x passes through zero, or through a level, upwards or downwards; a touch is no passage",
+        doc: "crossings(x) or crossings(x, level): how often x crosses zero, or a level, upwards or downwards; a touch does not count",
         example: ("crossings(data.time % 0.04 - 0.019)", "5"),
         ..OVER_RUN
     },
@@ -218,14 +218,14 @@ pub(super) const ROWS: &[Function] = &[
         name: "settles",
         args: &[Arg::Lazy, Arg::Lazy, Arg::Lazy],
         unit: Unit::Of("s"),
-        doc: "settles(x, target, band): time in s from which on x stays within a band around its target, to the end of the run; NaN if it does not",
+        doc: "settles(x, target, band): time in s from which x stays within a band around its target until the end of the run; NaN if it does not",
         example: ("settles(data.time, 0.1, 0.0201)", "0.08"),
         ..OVER_RUN
     },
     Function {
         name: "peak",
         unit: Unit::Of("s"),
-        doc: "time in s of the first sample at which x is largest; `peak(-x)` is when it is smallest",
+        doc: "time in s of the first sample where x is largest; `peak(-x)` is the time of the smallest",
         example: ("peak(data.time * (0.1 - data.time))", "0.05"),
         ..OVER_RUN
     },
@@ -239,7 +239,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "rate",
         unit: Unit::Times(0, "1/s"),
-        doc: "how fast x changes in a second, as the slope of the straight line through all samples that is nearest in the sense of least squares; NaN with one sample",
+        doc: "rate of change of x per second: the slope of the least-squares line through all samples; NaN with one sample",
         example: ("rate(3 * data.time)", "3"),
         ..OVER_RUN
     },
@@ -281,7 +281,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "previous",
         unit: Unit::Argument(1.0),
-        doc: "value at the sample before this one, within another measure: `first(x < previous(x))` is when x begins to fall; NaN at the first sample",
+        doc: "value at the previous sample, within another measure: `first(x < previous(x))` is when x begins to fall; NaN at the first sample",
         example: ("max(data.time - previous(data.time))", "0.002"),
         ..OVER_RUN
     },

@@ -12,7 +12,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_setConst",
         writes: &[Touches::Coordinates, Touches::Derived],
-        doc: "recomputes the constants that follow from masses, inertias and poses; puts qpos back to the start",
+        doc: "recomputes the constants that follow from masses, inertias and poses; resets qpos to qpos0",
         example: ("model.body_mass[1] = 2; mj.mj_setConst(model, data); model.body_subtreemass[0]", "2"),
         run: |w, _, _| done(w.set_const()),
         ..ENGINE
@@ -39,7 +39,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_resetData",
         writes: &[Touches::State, Touches::Derived],
-        doc: "puts the data back to the default configuration",
+        doc: "resets the data to the default configuration",
         example: ("data.qpos[0] = 1; mj.mj_resetData(model, data); data.qpos[0]", "0"),
         run: |w, _, _| done(w.reset_data()),
         ..ENGINE
@@ -48,12 +48,12 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_resetDataKeyframe",
         args: &[Arg::Model, Arg::Data, Arg::Number],
         writes: &[Touches::State, Touches::Derived],
-        doc: "puts the data back to a keyframe, counted from 0",
+        doc: "resets the data to a keyframe, counted from 0",
         example: ("mj.mj_resetDataKeyframe(model, data, 1); data.qpos[0]", "1.5"),
         run: |w, _, args| {
             let key = args.first().map_or(0.0, Value::to_number);
             if !(key >= 0.0 && key < w.nkey() as f64) {
-                return Err(format!("there is no keyframe {key}: the model has {}", w.nkey()));
+                return Err(format!("keyframe {key} does not exist: the model has {}", w.nkey()));
             }
             done(w.reset_to(Some(key as usize)))
         },
@@ -62,7 +62,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_step1",
         writes: &[Touches::Derived],
-        doc: "computes what follows from position and velocity: the first half of a step",
+        doc: "computes everything that follows from position and velocity: the first half of a step",
         example: ("mj.mj_step1(model, data); data.time", "0"),
         run: |w, _, _| done(w.step1()),
         ..ENGINE
@@ -102,7 +102,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_fwdVelocity",
         reads: Touches::Derived,
         writes: &[Touches::Derived],
-        doc: "computes everything that follows from velocities, where positions have been looked at",
+        doc: "computes everything that follows from velocities, after the position stage",
         example: (
             "data.qvel[0] = 2; mj.mj_fwdPosition(model, data); mj.mj_fwdVelocity(model, data); data.cvel[7]",
             "2",
@@ -114,7 +114,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_collision",
         reads: Touches::Derived,
         writes: &[Touches::Contacts],
-        doc: "finds the contacts of geoms where they are now",
+        doc: "finds the contacts of geoms at their current poses",
         example: ("mj.mj_kinematics(model, data); mj.mj_collision(model, data); data.ncon", "0"),
         run: |w, _, _| done(w.collision()),
         ..ENGINE
@@ -122,7 +122,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mj_integratePos",
         args: &[Arg::Model, Arg::Any, Arg::Numbers, Arg::Number],
-        doc: "moves coordinates (the list of the second argument is written) with a velocity for so many seconds",
+        doc: "integrates coordinates in place (the list in the second argument) with a velocity over a time in s",
         example: ("ctx.q = [0.5]; mj.mj_integratePos(model, ctx.q, [2], 0.1); ctx.q[0]", "0.7"),
         run: |w, heap, args| {
             let mut q = numbers(heap, args, 0)?;
@@ -131,14 +131,14 @@ pub(super) const ROWS: &[Function] = &[
                 &numbers(heap, args, 1)?,
                 args.get(2).map_or(f64::NAN, Value::to_number),
             )?;
-            written(heap, args, &q, "the second argument takes the result: give it a list of `nq` numbers")
+            written(heap, args, &q, "the second argument receives the result: pass a list of `nq` numbers")
         },
         ..ENGINE
     },
     Function {
         name: "mj_differentiatePos",
         args: &[Arg::Model, Arg::Any, Arg::Number, Arg::Numbers, Arg::Numbers],
-        doc: "writes the velocity that leads from one list of coordinates to another in so many seconds into the list of the second argument",
+        doc: "computes the velocity that leads from one list of coordinates to another over a time in s, and writes it into the list in the second argument",
         example: (
             "ctx.v = [0]; mj.mj_differentiatePos(model, ctx.v, 0.1, [0.5], [0.7]); ctx.v[0].toFixed(6)",
             "2.000000",
@@ -150,7 +150,7 @@ pub(super) const ROWS: &[Function] = &[
                 heap,
                 args,
                 &v,
-                "the second argument takes the result: write `const v = new Array(model.nv).fill(0)` before, and `v` here",
+                "the second argument receives the result: write `const v = new Array(model.nv).fill(0)` first, and pass `v`",
             )
         },
         ..ENGINE
@@ -159,7 +159,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_energyPos",
         reads: Touches::Derived,
         writes: &[Touches::Energy],
-        doc: "computes the potential energy of the poses at hand into data.energy[0], J",
+        doc: "computes the potential energy of the current poses into data.energy[0], J",
         example: ("mj.mj_energyPos(model, data); data.energy[0]", "4.905"),
         run: |w, _, _| done(w.energy_pos()),
         ..ENGINE
@@ -168,7 +168,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_energyVel",
         reads: Touches::Derived,
         writes: &[Touches::Energy],
-        doc: "computes the kinetic energy of the velocities at hand into data.energy[1], J",
+        doc: "computes the kinetic energy of the current velocities into data.energy[1], J",
         example: ("data.qvel[0] = 2; mj.mj_energyVel(model, data); data.energy[1].toFixed(5)", "0.50072"),
         run: |w, _, _| done(w.energy_vel()),
         ..ENGINE
@@ -207,7 +207,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_contactForce",
         args: &[Arg::Model, Arg::Data, Arg::Number, Arg::Any],
         reads: Touches::Contacts,
-        doc: "writes force and torque of a contact, counted from 0, into a list of six: N along the normal and two tangents, then N m about them; zeros where the contact has no constraint",
+        doc: "writes the force and torque of a contact, counted from 0, into a list of six: N along the normal and two tangents, then N m about them; zeros if the contact has no constraint",
         example: (
             "ctx.f = [0, 0, 0, 0, 0, 0]; if (data.ncon > 0) { mj.mj_contactForce(model, data, 0, ctx.f) }; ctx.f[0]",
             "0",
@@ -217,13 +217,13 @@ pub(super) const ROWS: &[Function] = &[
             let found = if id >= 0.0 { w.contacts().get(id as usize) } else { None };
             let Some(contact) = found else {
                 return Err(format!(
-                    "there is no contact {id}: there are {} now; test `data.ncon` first",
+                    "contact {id} does not exist: there are {} now; test `data.ncon` first",
                     w.fields().ncon
                 ));
             };
             let force = w.contact_force(contact)?;
             if !args.get(1).is_some_and(|list| heap.overwrite(list, &force)) {
-                return Err("the fourth argument takes the result: write `const f = [0, 0, 0, 0, 0, 0]` before, and `f` here".into());
+                return Err("the fourth argument receives the result: write `const f = [0, 0, 0, 0, 0, 0]` first, and pass `f`".into());
             }
             NOTHING
         },
@@ -233,7 +233,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_name2id",
         args: &[Arg::Model, Arg::Number, Arg::Text],
         returns: Type::Number,
-        doc: "index of the object of this kind (as mj.mjtObj.mjOBJ_BODY.value) and name; -1 when there is none",
+        doc: "index of the object of this kind (as mj.mjtObj.mjOBJ_BODY.value) and name; -1 if there is none",
         example: ("mj.mj_name2id(model, mj.mjtObj.mjOBJ_BODY.value, 'bob')", "1"),
         run: |w, _, args| {
             let name = args.get(1).map(Value::to_string).unwrap_or_default();
@@ -246,7 +246,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "mj_id2name",
         args: &[Arg::Model, Arg::Number, Arg::Number],
         returns: Type::Any,
-        doc: "name of the object of this kind and index; null when there is none",
+        doc: "name of the object of this kind and index; null if there is none",
         example: ("mj.mj_id2name(model, mj.mjtObj.mjOBJ_SITE.value, 0)", "tip"),
         run: |w, _, args| {
             let index = args.get(1).map_or(-1.0, Value::to_number);

@@ -12,7 +12,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "slope",
         args: &[Arg::Any, Arg::Any],
         optional: 1,
-        doc: "slope(run.measure): how fast a measure of a sweep grows with the value that is swept, as the slope of the nearest straight line in the sense of least squares; slope(y, x) for two lists",
+        doc: "slope(run.measure): how fast a measure of a sweep grows with the swept value, as the slope of the least-squares line; slope(y, x) for two lists",
         example: ("slope(run.h) + slope([1, 3, 5], [0, 1, 2])", "3"),
         run: |w, heap, args| {
             let (y, x) = pairs(w, heap, args.first(), args.get(1))?;
@@ -24,7 +24,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "fit",
         args: &[Arg::Any, Arg::Text, Arg::Any],
         optional: 1,
-        doc: "fit(run.measure, law): what the nearest law of this kind says, by least squares in the logarithms that make it a straight line: 'power' the exponent n of a xⁿ, 'exponential' the rate k of a exp(k x), 'logarithm' the factor b of a + b ln x; NaN where a number that a logarithm is taken of is not above zero; fit(y, law, x) for two lists",
+        doc: "fit(run.measure, law): the parameter of a least-squares fit, in the logarithms that make the law a straight line: 'power' the exponent n of a xⁿ, 'exponential' the rate k of a exp(k x), 'logarithm' the factor b of a + b ln x; NaN if a logarithm needs a number that is not positive; fit(y, law, x) for two lists",
         example: ("fit(run.h, 'power') + fit([1, 4, 9], 'power', [1, 2, 3])", "3"),
         run: |w, heap, args| {
             let law = match args.get(1) {
@@ -32,7 +32,7 @@ pub(super) const ROWS: &[Function] = &[
                 _ => None,
             };
             let &(_, of_x, of_y) =
-                law.ok_or("`fit` knows the laws 'power', 'exponential' and 'logarithm'")?;
+                law.ok_or("the laws of `fit` are 'power', 'exponential' and 'logarithm'")?;
             let (y, x) = pairs(w, heap, args.first(), args.get(2))?;
             let line =
                 |list: Vec<f64>, bent: bool| list.into_iter().map(|x| if bent { ln(x) } else { x }).collect();
@@ -44,7 +44,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "min",
         unit: Unit::Argument(1.0),
-        doc: "smallest of the numbers that a measure has in a sweep",
+        doc: "smallest value of a measure over a sweep",
         example: ("min(run.h)", "0.001"),
         run: |w, heap, args| fold(w, heap, args, f64::min),
         ..OVER
@@ -52,7 +52,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "max",
         unit: Unit::Argument(1.0),
-        doc: "largest of the numbers that a measure has in a sweep",
+        doc: "largest value of a measure over a sweep",
         example: ("max(run.h)", "0.004"),
         run: |w, heap, args| fold(w, heap, args, f64::max),
         ..OVER
@@ -60,7 +60,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "mean",
         unit: Unit::Argument(1.0),
-        doc: "mean of the numbers that a measure has in a sweep",
+        doc: "mean of a measure over a sweep",
         example: ("3000 * mean(run.h)", "7"),
         run: |w, heap, args| {
             let (list, _) = numbers(w, heap, args.first())?;
@@ -92,7 +92,7 @@ fn numbers(
             Ok((all.collect(), Some(first)))
         }
         Some(list) => heap.to_numbers(list).map(|list| (list, None)).ok_or_else(|| {
-            "this is one number: write the measure of a run with a `sweep`, or a list".to_string()
+            "this is a single number: pass the measure of a run with a `sweep`, or a list".to_string()
         }),
         None => Err("a list is missing".into()),
     }
@@ -108,12 +108,12 @@ fn pairs(
     let (y, first) = numbers(w, heap, y)?;
     let x = match (x, first) {
         (Some(Value::Undefined) | None, Some(first)) => {
-            let before = first.checked_sub(y.len()).ok_or("these numbers belong to no values")?;
+            let before = first.checked_sub(y.len()).ok_or("these numbers have no swept values")?;
             (before..first).map_while(|i| w.number(i)).collect()
         }
         (Some(Value::Undefined) | None, None) => {
             return Err(
-                "a computed list belongs to no values: give them as the last argument, as `run.value`".into(),
+                "a computed list has no swept values: pass them as the last argument, as `run.value`".into(),
             );
         }
         (x, _) => numbers(w, heap, x)?.0,

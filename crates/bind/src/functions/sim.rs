@@ -7,11 +7,11 @@ use labspec_expr::{Type, Value};
 const SIM: Function = Function { object: "sim", returns: Type::Void, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[
-    Function { name: "play", doc: "lets the page go on", example: ("sim.play(); data.time", "0"), ..SIM },
-    Function { name: "pause", doc: "stops the page", example: ("sim.pause(); data.time", "0"), ..SIM },
+    Function { name: "play", doc: "resumes the page", example: ("sim.play(); data.time", "0"), ..SIM },
+    Function { name: "pause", doc: "pauses the page", example: ("sim.pause(); data.time", "0"), ..SIM },
     Function {
         name: "toggle",
-        doc: "stops the page, or lets it go on",
+        doc: "pauses or resumes the page",
         example: ("sim.toggle(); data.time", "0"),
         ..SIM
     },
@@ -26,7 +26,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "reset",
         writes: &[Touches::State, Touches::Derived],
-        doc: "puts the data back to the start, or to the keyframe of the lab, and computes the derived fields",
+        doc: "resets the data to the initial state, or to the keyframe of the lab, and computes the derived fields",
         example: ("data.qpos[0] = 1; sim.reset(); data.qpos[0]", "0"),
         run: |w, _, _| {
             w.reset()?;
@@ -41,7 +41,7 @@ pub(super) const ROWS: &[Function] = &[
         reads: Touches::Energy,
         writes: &[Touches::Flags, Touches::Derived],
         unit: Unit::Of("J"),
-        doc: "potential, kinetic and total energy, J; switches the computation of energy on at its first use",
+        doc: "potential, kinetic and total energy, J; the first use turns the energy computation on",
         example: ("sim.energy().potential", "4.905"),
         run: |w, heap, _| energy(w, heap),
         ..SIM

@@ -117,13 +117,12 @@ impl fmt::Display for Error {
                 nearest.as_ref().map_or(Ok(()), |n| write!(f, "; did you mean `{n}`?"))
             }
             Error::NoId { kind, id, count } => {
-                write!(f, "there is no {kind} {id}: the model has {count}, counted from 0")
+                write!(f, "{kind} {id} does not exist: the model has {count}, counted from 0")
             }
             Error::NoField(name) => write!(f, "model and data have no field `{name}`"),
             Error::LeftOut { field, stage } => write!(
                 f,
-                "`{}` cannot be read: the plan was made without it and may leave out the {stage:?} stage, so that what it holds \
-                 is not of now; add it to the `reads` of the plan's `Demand`",
+                "`{}` cannot be read: the plan may skip the {stage:?} stage, so its value may be out of date; add it to the `reads` of the plan's `Demand`",
                 field.info().name
             ),
             Error::NotWritable(field) => write!(
@@ -136,7 +135,7 @@ impl fmt::Display for Error {
                 }
             ),
             Error::Length { what, wanted, found } => {
-                write!(f, "{what} must have {wanted} numbers, and has {found}")
+                write!(f, "{what} must have {wanted} numbers, but has {found}")
             }
             Error::Value { what, must } => write!(f, "{what} must be {must}"),
             Error::Inverse(e) => e.fmt(f),
@@ -144,12 +143,10 @@ impl fmt::Display for Error {
             Error::Restore(e) => e.fmt(f),
             Error::NoConvex { geom1, geom2 } => write!(
                 f,
-                "the contacts or the distance of geoms {geom1} and {geom2} take the general algorithm for convex shapes, \
-                 which was left out of this build: build the engine with its feature `convex`, or use spheres, capsules, \
-                 boxes and planes"
+                "the contacts or the distance of geoms {geom1} and {geom2} need the general algorithm for convex shapes, which this build does not include: build the engine with its feature `convex`, or use spheres, capsules, boxes and planes"
             ),
             Error::NotAModel => f.write_str(
-                "the bytes are no compiled model of this version of the engine: compile it again and store that",
+                "the bytes are not a compiled model of this version of the engine: compile the model again and store the result",
             ),
         }
     }

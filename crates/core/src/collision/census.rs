@@ -43,7 +43,7 @@ impl PairFate {
             PairFate::ParentAndChild => "their bodies are parent and child",
             PairFate::Masks => "their contact bits admit no contact",
             PairFate::Shapes => "such shapes pass through each other",
-            PairFate::OutOfReach => "they are out of reach of each other, whatever the joints do",
+            PairFate::OutOfReach => "they are out of reach of each other in every configuration",
         }
     }
 }

@@ -259,11 +259,11 @@ impl Classes {
     /// Reports the first list that was too much to complete from its defaults.
     pub(crate) fn check_room(&self, report: &mut Report) {
         if let Some(at) = self.room.exceeded.get() {
-            let message = format!("lists that defaults complete have more than {MAX_COMPLETED} numbers");
+            let message = format!("lists completed by defaults have more than {MAX_COMPLETED} numbers");
             report
                 .error(rules::LIMIT, at..at, message)
-                .why("each element would have a long list of its own")
-                .help("write the lists out, or shorten that of the default");
+                .why("each element would have its own long list")
+                .help("write the lists out, or shorten the list of the default");
         }
     }
 

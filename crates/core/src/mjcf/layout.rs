@@ -85,18 +85,18 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         if body.mocap && (body.parent != 0 || !body.joints.is_empty()) {
             let what = if body.parent == 0 { "has joints" } else { "is not a child of the world" };
             report
-                .error(rules::MOCAP, body.span.clone(), format!("{} is a mocap body but {what}", shown(body)))
-                .why("a mocap body is placed from outside: `data.mocap_pos` is its position in the world")
+                .error(
+                    rules::MOCAP,
+                    body.span.clone(),
+                    format!("{} is a mocap body, but {what}", shown(body)),
+                )
+                .why("a mocap body is moved from outside: `data.mocap_pos` is its position in the world")
                 .help("make it a child of `worldbody` without joints");
         }
         let moves = layout.body_tree.get(i).is_some_and(|&t| t >= 0);
         for g in body.geoms.iter().filter(|g| g.only_static && moves) {
             report
-                .error(
-                    rules::GEOM,
-                    g.span.clone(),
-                    format!("a plane stands in {}, which can move", shown(body)),
-                )
+                .error(rules::GEOM, g.span.clone(), format!("a plane is in {}, which can move", shown(body)))
                 .why("a plane is infinite and has no mass")
                 .help("put it into `worldbody`, or use another shape");
         }
@@ -120,8 +120,8 @@ fn within_limits(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         if n > most {
             report
                 .error(rules::LIMIT, 0..0, format!("the model has {n} {what}; the limit is {most}"))
-                .why("larger scenes would take minutes for a step")
-                .help("leave out what the lesson does not need");
+                .why("larger scenes would need minutes for one step")
+                .help("remove what the lesson does not need");
         }
     }
 }
@@ -136,7 +136,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
                 .error(
                     rules::JOINT,
                     j.span.clone(),
-                    format!("a free joint in {}, which is not a child of the world", shown(body)),
+                    format!("a free joint is in {}, which is not a child of the world", shown(body)),
                 )
                 .why("a free joint gives the pose in the world, whatever the parent does")
                 .help("move the body to `worldbody`, or use ball and slide joints");
@@ -146,10 +146,10 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
                 .error(
                     rules::JOINT,
                     j.span.clone(),
-                    format!("a rotation after the ball joint of {}", shown(body)),
+                    format!("a rotation follows the ball joint of {}", shown(body)),
                 )
-                .why("a ball joint already turns about every axis")
-                .help("remove the joint, or put it into a body of its own");
+                .why("a ball joint already rotates about every axis")
+                .help("remove the joint, or put it into another body");
         }
         after_ball |= j.kind == joint::BALL;
         let before = dofs;
@@ -159,10 +159,10 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
                 .error(
                     rules::JOINT,
                     j.span.clone(),
-                    format!("with this joint {} has more than 6 degrees of freedom", shown(body)),
+                    format!("with this joint, {} has more than 6 degrees of freedom", shown(body)),
                 )
                 .why("a rigid body has six: three translations and three rotations")
-                .help("remove a joint; a free joint stands alone");
+                .help("remove a joint; a free joint must be the only one");
         }
     }
 }

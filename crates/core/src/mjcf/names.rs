@@ -37,11 +37,13 @@ impl<'t> NameTable<'t> {
                         .error(
                             rules::DUPLICATE_NAME,
                             a.span.clone(),
-                            format!("a second {kind} is named {}", shown(name)),
+                            format!("a second {kind} has the name {}", shown(name)),
                         )
                         .why("expressions and sensors find an object by its name, so it must be unique")
                         .help(match name.as_str() {
-                            WORLD if kind == "body" => "`world` is the name of the world body".to_string(),
+                            WORLD if kind == "body" => {
+                                "use another name: `world` is the world body".to_string()
+                            }
                             _ => format!("give one {kind} another name"),
                         });
                 }
@@ -70,7 +72,7 @@ impl<'t> NameTable<'t> {
         match nearest(name, self.of(kind)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
             None if self.of(kind).next().is_none() => {
-                error.help(format!("no {kind} of this model has a name"))
+                error.help(format!("give it a name: no {kind} of this model has one"))
             }
             None => error,
         };
@@ -193,7 +195,7 @@ fn check_dangling(
         let message = format!("this default names the {} {}, which does not exist", d.kind, shown(d.name));
         report
             .warning(rules::UNKNOWN_NAME, d.attribute.span.clone(), message)
-            .why("no element uses this default yet; with the first one that does, the model will not load")
+            .why("no element uses this default yet; if one does, the model will not load")
             .help(format!("remove the attribute, or name a {} that exists", d.kind));
     }
 }

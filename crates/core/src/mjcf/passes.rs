@@ -74,15 +74,13 @@ pub(super) fn build(
         for light in bodies.iter().flat_map(|b| &b.lights).filter(|l| l.texture.is_some()) {
             let message =
                 format!("light `{}` has a texture, and `discardvisual` removes all textures", light.name);
-            cx.report.error(rules::CONFLICT, light.span.clone(), message).help("remove the one or the other");
+            cx.report.error(rules::CONFLICT, light.span.clone(), message).help("remove one of them");
         }
         for skin in &assets.skins {
             if skin.value.as_ref().is_some_and(|s| s.material.is_some()) {
                 let message =
                     format!("skin `{}` has a material, and `discardvisual` removes all materials", skin.name);
-                cx.report
-                    .error(rules::CONFLICT, skin.span.clone(), message)
-                    .help("remove the one or the other");
+                cx.report.error(rules::CONFLICT, skin.span.clone(), message).help("remove one of them");
             }
         }
         (scene.materials, scene.textures) = Default::default();

@@ -32,7 +32,7 @@ pub(crate) fn checked(
     let x = props.real(name)?;
     if !test(x) {
         let span = props.span(name).unwrap_or(0..0);
-        report.error(rules::VALUE, span, format!("`{name}` of {owner} is {x}, it must be {must}"));
+        report.error(rules::VALUE, span, format!("`{name}` of {owner} is {x}, but it must be {must}"));
     }
     Some(x)
 }
@@ -220,7 +220,7 @@ fn disabled_groups(p: &Props, report: &mut Report) -> i32 {
             let span = p.span("actuatorgroupdisable").unwrap_or(0..0);
             report
                 .error(rules::VALUE, span, format!("`actuatorgroupdisable` of option has {group}"))
-                .why("groups that can be switched off are 0 to 30");
+                .why("only groups 0 to 30 can be switched off");
         }
     }
     bits
@@ -358,8 +358,8 @@ pub(crate) fn user_width(
     let span = p.span(size).unwrap_or(0..0);
     if let Some(n) = p.int(size).filter(|&n| n < -1) {
         report
-            .error(rules::VALUE, span.clone(), format!("`{size}` of size is {n}, it must be -1 or more"))
-            .help("write how many user values each element has, or -1 for as many as its longest list needs");
+            .error(rules::VALUE, span.clone(), format!("`{size}` of size is {n}, but it must be -1 or more"))
+            .help("write the number of user values per element, or -1 for the length of the longest list");
     }
     let given = p.int(size).and_then(|n| usize::try_from(n).ok());
     let (mut longest, mut count, mut longest_at) = (0, 0, 0..0);
@@ -397,15 +397,13 @@ pub(crate) fn memory(tree: &Tree, report: &mut Report) {
         if text != "-1" && (digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())) {
             let span = p.span("memory").unwrap_or(0..0);
             let message = format!("`memory` of size is {}, not a number of bytes", shown(text));
-            report
-                .error(rules::VALUE, span, message)
-                .help("write a whole number such as `64M`, or remove it");
+            report.error(rules::VALUE, span, message).help("write an integer such as `64M`, or remove it");
         }
     }
     for name in ["njmax", "nconmax", "nstack"] {
         if let Some(n) = p.int(name).filter(|&n| n < -1) {
             let span = p.span(name).unwrap_or(0..0);
-            report.error(rules::VALUE, span, format!("`{name}` of size is {n}, it must be -1 or more"));
+            report.error(rules::VALUE, span, format!("`{name}` of size is {n}, but it must be -1 or more"));
         }
     }
 }
@@ -419,7 +417,11 @@ pub(crate) fn userdata(tree: &Tree, report: &mut Report) -> usize {
         Ok(n) if report.take(n, span.clone(), "`nuserdata`") => n,
         Ok(_) => 0,
         Err(_) => {
-            report.error(rules::VALUE, span, format!("`nuserdata` of size is {n}, it must be zero or more"));
+            report.error(
+                rules::VALUE,
+                span,
+                format!("`nuserdata` of size is {n}, but it must be zero or more"),
+            );
             0
         }
     }

@@ -22,8 +22,8 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     let acts = |e: usize| m.eq_type[e] == eqtype::TENDON && m.eq_active0[e];
     if (0..m.neq).any(acts) {
         report
-            .error(rules::NOT_SUPPORTED, span(), "trees cannot sleep while an equality ties tendons")
-            .why("MuJoCo has no rule for what wakes them, and refuses such a model, too")
+            .error(rules::NOT_SUPPORTED, span(), "trees cannot sleep while an equality connects tendons")
+            .why("MuJoCo has no rule for what wakes them, and refuses such a model too")
             .help("switch sleeping off, or remove the equality between tendons");
         return;
     }
@@ -34,8 +34,8 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
                 span(),
                 "trees cannot sleep with the discrete integrator without islands",
             )
-            .why("nobody knows which of them hold each other; MuJoCo refuses such a model, too")
-            .help("leave islands switched on, or choose another integrator");
+            .why("without islands the engine does not know which trees are connected; MuJoCo refuses such a model too")
+            .help("keep islands switched on, or choose another integrator");
         return;
     }
     if !m.tree_sleep_policy.contains(&policy::INIT) {
@@ -48,7 +48,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
         let who = body.map_or("a body without a name".into(), |name| format!("body `{name}`"));
         report
             .error(rules::JOINT, span(), format!("{who} cannot start asleep"))
-            .why("it touches, or is tied to, what does not start asleep: bodies that hold each other sleep together")
-            .help("give `sleep=\"init\"` to all that touch at the start, or move them apart");
+            .why("it is in contact with, or tied to, a body that does not start asleep: connected bodies sleep together")
+            .help("give `sleep=\"init\"` to all bodies in contact at the start, or move them apart");
     }
 }

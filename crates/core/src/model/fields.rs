@@ -16,7 +16,7 @@ macro_rules! model_fields {
         nq: usize, [], Structure, Compile, "", "number of generalized coordinates";
         nv: usize, [], Structure, Compile, "", "number of degrees of freedom";
         nu: usize, [], Structure, Compile, "", "number of control inputs";
-        nactuator: usize, [], Structure, Compile, "", "number of actuators; each has one control unless it says otherwise";
+        nactuator: usize, [], Structure, Compile, "", "number of actuators, each with one control by default";
         nout: usize, [], Structure, Compile, "", "number of force outputs of all actuators";
         na: usize, [], Structure, Compile, "", "number of activation states";
         nbody: usize, [], Structure, Compile, "", "number of bodies, the world included";
@@ -322,7 +322,7 @@ macro_rules! model_fields {
         eq_obj1id: Vec<i32>, [neq], Structure, Compile, "", "first object";
         eq_obj2id: Vec<i32>, [neq], Structure, Compile, "", "second object, -1 if none";
         eq_objtype: Vec<i32>, [neq], Structure, Compile, "", "kind of both objects (mjtObj)";
-        eq_active0: Vec<bool>, [neq], Constant, Compile, "", "whether the constraint acts after a reset";
+        eq_active0: Vec<bool>, [neq], Constant, Compile, "", "whether the constraint is active after a reset";
         eq_solref: Vec<f64>, [neq, 2], Constant, Compile, "s, 1", "time constant and damping ratio (or -stiffness, -damping)";
         eq_solimp: Vec<f64>, [neq, 5], Constant, Compile, "", "impedance";
         eq_data: Vec<f64>, [neq, 11], Constant, Compile, "", "anchors, relative pose, or polynomial";
@@ -403,7 +403,7 @@ macro_rules! model_fields {
         // Sensors.
         sensor_type: Vec<i32>, [nsensor], Structure, Compile, "", "type (mjtSensor)";
         sensor_datatype: Vec<i32>, [nsensor], Structure, Compile, "", "0 real, 1 positive, 2 axis, 3 quaternion";
-        sensor_needstage: Vec<i32>, [nsensor], Structure, Compile, "", "1 position, 2 velocity, 3 acceleration: what must be known to compute it";
+        sensor_needstage: Vec<i32>, [nsensor], Structure, Compile, "", "1 position, 2 velocity, 3 acceleration: the stage that computes it";
         sensor_objtype: Vec<i32>, [nsensor], Structure, Compile, "", "kind of the sensed object (mjtObj)";
         sensor_objid: Vec<i32>, [nsensor], Structure, Compile, "", "the sensed object";
         sensor_reftype: Vec<i32>, [nsensor], Structure, Compile, "", "kind of the reference object (mjtObj)";
@@ -500,7 +500,7 @@ macro_rules! data_fields {
         xfrc_applied: Vec<f64>, [nbody, 6], Input, User, "N, N m", "force (3) then torque (3) applied at the centre of mass, world axes";
         mocap_pos: Vec<f64>, [nmocap, 3], Input, User, "m", "positions of mocap bodies";
         mocap_quat: Vec<f64>, [nmocap, 4], Input, User, "", "orientations of mocap bodies";
-        eq_active: Vec<bool>, [neq], Input, User, "", "whether each equality constraint acts";
+        eq_active: Vec<bool>, [neq], Input, User, "", "whether each equality constraint is active";
         userdata: Vec<f64>, [nuserdata], Input, User, "", "values of the user; the engine does not touch them";
 
         tree_asleep: Vec<i32>, [ntree], State, User, "", "-11 to -1 while the tree is awake, counting steps at rest; then the next of the trees that sleep with it";
@@ -581,7 +581,7 @@ macro_rules! data_fields {
 
         // Constraints: as many rows as there are now (`nefc`).
         efc_type: Vec<i32>, [nefc], Derived, Constraint, "", "type of the constraint (mjtConstraint)";
-        efc_id: Vec<i32>, [nefc], Derived, Constraint, "", "the equality, degree of freedom, joint, tendon or contact that the row belongs to";
+        efc_id: Vec<i32>, [nefc], Derived, Constraint, "", "the equality, degree of freedom, joint, tendon or contact of the row";
         efc_pos: Vec<f64>, [nefc], Derived, Constraint, "m or rad", "violation (negative when violated)";
         efc_margin: Vec<f64>, [nefc], Derived, Constraint, "m or rad", "violation at which the constraint starts to act";
         efc_frictionloss: Vec<f64>, [nefc], Derived, Constraint, "N or N m", "largest force of dry friction";
@@ -591,7 +591,7 @@ macro_rules! data_fields {
         efc_R: Vec<f64>, [nefc], Derived, Constraint, "1/kg", "regularization";
         efc_vel: Vec<f64>, [nefc], Derived, Reference, "m/s or rad/s", "velocity along the constraint, J v";
         efc_aref: Vec<f64>, [nefc], Derived, Reference, "m/s^2 or rad/s^2", "reference acceleration";
-        efc_b: Vec<f64>, [nefc], Derived, Solve, "m/s^2 or rad/s^2", "how far the acceleration without constraints misses the reference";
+        efc_b: Vec<f64>, [nefc], Derived, Solve, "m/s^2 or rad/s^2", "difference between the acceleration without constraints and the reference";
         efc_force: Vec<f64>, [nefc], Derived, Solve, "N or N m", "force of the constraint";
         efc_state: Vec<i32>, [nefc], Derived, Solve, "", "0 satisfied, 1 quadratic, 2 and 3 dry friction at its largest, 4 sliding (mjtConstraintState)";
 

@@ -70,7 +70,7 @@ impl fmt::Display for StateError {
             StateError::Signature(sig) => {
                 write!(
                     f,
-                    "{sig} is no signature of a state: it is a sum of the bits from 1 to {}",
+                    "{sig} is not a state signature: use a sum of the bits from 1 to {}",
                     1 << (COUNT - 1)
                 )
             }
@@ -78,7 +78,7 @@ impl fmt::Display for StateError {
                 write!(f, "a state of this signature has {wanted} numbers, and the list has {found}")
             }
             StateError::Missing(bits) => {
-                write!(f, "the parts {bits} are not in the list that they are to be taken from")
+                write!(f, "the list does not contain the requested parts {bits}")
             }
         }
     }

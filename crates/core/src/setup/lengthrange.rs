@@ -254,8 +254,8 @@ mod tests {
             ),
             ("mode='all' inttotal='1e300'", limit, motor, "too many steps"),
             ("mode='all' timestep='1e-300'", limit, motor, "too many steps"),
-            ("mode='all' accel='1e300'", limit, motor, "no range"),
-            ("mode='all' timeconst='-1' interval='-5'", limit, motor, "no range"),
+            ("mode='all' accel='1e300'", limit, motor, "no length range"),
+            ("mode='all' timeconst='-1' interval='-5'", limit, motor, "no length range"),
         ];
         for (lengthrange, joint, actuators, want) in cases {
             let message = arm(lengthrange, "", joint, actuators).unwrap_err();

@@ -23,8 +23,7 @@ pub enum InverseError {
 impl std::fmt::Display for InverseError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(
-            "inverse dynamics of a whole step (flag `invdiscrete`) is not known for an integrator with several \
-             stages, like RK4: choose another integrator, or clear the flag",
+            "inverse dynamics of a whole step (flag `invdiscrete`) is not available for an integrator with several stages, such as RK4: choose another integrator, or clear the flag",
         )
     }
 }

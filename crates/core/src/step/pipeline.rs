@@ -132,7 +132,8 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| {
             let wakes = s.sleeps && s.m.tendon_limited.contains(&true);
-            s.reads(Stage::Tendon).or_else(|| because(wakes, "tendons at their limits wake what they hold"))
+            s.reads(Stage::Tendon)
+                .or_else(|| because(wakes, "tendons at their limits wake the trees that they connect"))
         },
         left_out: without_tendons,
         run: &[(Part::Positions, run::tendons)],
@@ -291,7 +292,7 @@ pub(super) const STAGES: [Row; 26] = [
             }),
             (&[Stage::Kinematics], |s, _| s.pushed()),
         ],
-        wanted: |s| because(s.m.nv > 0, "it is what the integrator needs"),
+        wanted: |s| because(s.m.nv > 0, "the integrator needs it"),
         left_out: |_| "nothing moves",
         run: &[(Part::Inputs, run::acceleration)],
     },
@@ -363,7 +364,7 @@ pub(super) const STAGES: [Row; 26] = [
 
 const MOVING_MASS: &str = "the mass matrix depends on the configuration";
 const CONSTANT_MASS: &str =
-    "every moving body is a single free or sliding one: its mass matrix is diagonal and constant";
+    "every moving body is a single free or sliding body: its mass matrix is diagonal and constant";
 const NO_SPATIAL_BODIES: &str =
     "every tree is one rigid body, a short chain or slides alone, whose equations need no composite bodies";
 const NO_CONSTRAINTS: &str = "no contact and no limit is possible";

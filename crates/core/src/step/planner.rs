@@ -19,7 +19,7 @@ impl Plan {
     pub(crate) fn full() -> Plan {
         let mut plan = Plan::default();
         for row in &STAGES {
-            plan.decide(row.stage, true, "the full pipeline was asked for".into());
+            plan.decide(row.stage, true, "the full pipeline was requested".into());
         }
         plan.arranged()
     }
@@ -52,7 +52,7 @@ impl Plan {
         for row in STAGES.iter().rev() {
             let user = STAGES.iter().find(|later| plan.keeps(later.stage) && later.uses(&scene, row.stage));
             let why = (row.wanted)(&scene).or_else(|| user.map(|u| format!("the {} stage uses it", u.name)));
-            let why = why.or_else(|| (more == Some(row.stage)).then(|| "it was asked for".into()));
+            let why = why.or_else(|| (more == Some(row.stage)).then(|| "it was requested".into()));
             match why {
                 Some(reason) => plan.decide(row.stage, true, reason),
                 None => plan.decide(row.stage, false, (row.left_out)(&scene).into()),

@@ -36,9 +36,7 @@ pub enum RestoreError {
 impl fmt::Display for RestoreError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            RestoreError::NotData => {
-                f.write_str("these are no saved data: they do not begin as saved data do")
-            }
+            RestoreError::NotData => f.write_str("these bytes are not saved data: their header is missing"),
             RestoreError::Version(v) => write!(
                 f,
                 "the data were saved by another version of the engine (layout {v}, this one has {VERSION}): save them again with this one"
@@ -47,10 +45,10 @@ impl fmt::Display for RestoreError {
                 "the data belong to another model: its objects, their types or their names are not the same",
             ),
             RestoreError::Damaged => {
-                f.write_str("the saved data are damaged: they are cut off or were changed")
+                f.write_str("the saved data are damaged: they are truncated or were changed")
             }
             RestoreError::Wrong(field) => {
-                write!(f, "the saved data are damaged: `{field}` holds what it cannot hold")
+                write!(f, "the saved data are damaged: `{field}` has an invalid value")
             }
         }
     }

@@ -66,9 +66,9 @@ const MAX_LEVELS: usize = 200;
 
 /// The finding for a text beyond [`MAX_LEVELS`].
 fn too_deep(span: Span) -> Finding {
-    let message = format!("functions that name each other reach more than {MAX_LEVELS} levels deep");
+    let message = format!("functions that call each other are nested more than {MAX_LEVELS} levels deep");
     Finding::error(rules::TOO_DEEP, span, message)
-        .why("brackets, signs and functions inside one another count as levels")
+        .why("nested brackets, signs and functions count as levels")
         .help("split the text, or the functions")
 }
 

@@ -86,7 +86,7 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
     if !tail.is_empty() {
         return Some(
             bad(format!("`{text}` runs into `{tail}`"))
-                .why("a product needs its sign, and a name cannot start with a digit")
+                .why("a product needs its `*`, and a name cannot start with a digit")
                 .help(format!("write `{text} * {tail}` for the product"))
                 .guess(span, format!("{text} * {tail}")),
         );
@@ -100,8 +100,8 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
             format!("0{trimmed}")
         };
         return Some(
-            bad(format!("`{text}` starts with a zero too many"))
-                .why("JavaScript refuses it, or reads it in base 8")
+            bad(format!("`{text}` starts with an extra zero"))
+                .why("JavaScript rejects it, or reads it in base 8")
                 .help(format!("write `{meant}`"))
                 .guess(span, meant),
         );
@@ -260,7 +260,7 @@ fn say<'a>(
                     Finding::error(
                         rules::BAD_STRING,
                         Span::new(start, start + escape.len()),
-                        "this escape is broken",
+                        "this escape is invalid",
                     )
                     .why("`\\x` takes two hexadecimal digits, `\\u` four or a code point in braces; other digits have no meaning")
                     .help("write the character itself, or `\\\\` for a backslash"),
@@ -282,8 +282,8 @@ pub(super) fn text_of(
     let text = say(parts, source, diagnostics, |_, _| {});
     if !closed {
         diagnostics.push(
-            Finding::error(rules::BAD_STRING, span, "this string is never closed")
-                .why("a string ends on the line where it starts, with the quote that it starts with")
+            Finding::error(rules::BAD_STRING, span, "this string is not closed")
+                .why("a string must end on the line where it starts, with the same quote")
                 .help(format!("write `{quote}` where the string ends")),
         );
     }
@@ -309,7 +309,7 @@ pub(super) fn template_of(
 /// A template literal that does not end, which takes the whole rest of the text.
 pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> Tok<'static> {
     diagnostics.push(
-        Finding::error(rules::BAD_STRING, Span::new(start, start + 1), "this backquote is never closed")
+        Finding::error(rules::BAD_STRING, Span::new(start, start + 1), "this backquote is not closed")
             .why("a template literal ends with a backquote, and every `${` in it with `}`")
             .help("write a backquote where the text ends"),
     );

@@ -166,8 +166,8 @@ fn nom_str<'a, P: Parser<&'a str, Error = nom::error::Error<&'a str>>>(
 }
 
 fn unclosed_comment(start: usize) -> Finding {
-    Finding::error(rules::UNCLOSED_COMMENT, Span::new(start, start + 2), "this comment is never closed")
-        .why("everything behind it is part of the comment and is not read")
+    Finding::error(rules::UNCLOSED_COMMENT, Span::new(start, start + 2), "this comment is not closed")
+        .why("everything after it is part of the comment")
         .help("write `*/` where the comment ends")
 }
 
@@ -207,7 +207,7 @@ fn token<'s>(raw: Raw<'s>, source: &str, span: Span, diagnostics: &mut Vec<Findi
         Raw::Typographic(text) => {
             diagnostics.push(
                 Finding::error(rules::BAD_CHARACTER, span, "typographic quotes do not make a string")
-                    .why("word processors put them in place of the plain ones")
+                    .why("word processors insert them instead of plain quotes")
                     .help("write `\"` or `'`")
                     .fix(span, format!("\"{text}\"")),
             );
@@ -280,7 +280,7 @@ fn bad_character(c: char, span: Span) -> Finding {
     let report = Finding::error(rules::BAD_CHARACTER, span, format!("`{shown}` has no meaning here"));
     if let Some(text) = look_alike(c) {
         return report
-            .why("it looks like an operator, but is another character, as word processors write it")
+            .why("it looks like an operator but is another character, which word processors insert")
             .help(format!("write `{text}`"))
             .fix(span, text);
     }
@@ -290,13 +290,13 @@ fn bad_character(c: char, span: Span) -> Finding {
         }
         '²' => report.why("superscripts are not operators").help("write `** 2`").fix(span, " ** 2"),
         '³' => report.why("superscripts are not operators").help("write `** 3`").fix(span, " ** 3"),
-        '√' => report.why("signs of mathematics are not operators").help("write `Math.sqrt(…)`"),
+        '√' => report.why("mathematical symbols are not operators").help("write `Math.sqrt(…)`"),
         '°' => report
             .why("angles have no unit sign; functions of `Math` take radians")
             .help("write `x * Math.PI / 180` for x degrees"),
         '\\' => report
-            .why("a backslash has a meaning only inside a string")
-            .help("remove it; inside JSON, `\\n` in the text is already a line end"),
+            .why("a backslash is allowed only inside a string")
+            .help("remove it; in JSON, `\\n` in the text is already a line break"),
         _ => report.help("remove it"),
     }
 }

@@ -39,27 +39,27 @@ pub(super) static ROWS: &[Row] = table! {
         "index of the last element for which a condition holds, or -1",
         1 => "(v, f) => { for (let i = v.length - 1; i >= 0; i--) if (f(v[i], i, v)) return i; return -1 }";
     "flatMap" Untyped: "[1, 2].flatMap(x => [x, x])" => "1,1,2,2",
-        "a list of what a function makes of each element; lists that it makes are taken apart",
+        "a list of the results of a function for each element, with lists among them flattened",
         1 => "(v, f) => { const n = _untyped(v).length, r = []; for (let i = 0; i < n; i++) { const x = f(v[i], i, v); if (Array.isArray(x)) { for (const y of x) r.push(y) } else r.push(x) } return r }";
     "forEach" List: "[1, 2].forEach(x => x)" => "undefined",
         "calls a function for each element",
         1 => "(v, f) => { const n = v.length; for (let i = 0; i < n; i++) f(v[i], i, v) }";
     "map" List: "[1, 2].map(x => 2 * x)" => "2,4",
-        "a list of what a function makes of each element",
+        "a list of the results of a function for each element",
         1 => "(v, f) => { const n = v.length, r = _like(v, n); for (let i = 0; i < n; i++) r[i] = f(v[i], i, v); return r }";
     "reduce" List: "[1, 2, 3].reduce((sum, x) => sum + x, 0)" => "6",
-        "one value from all elements: a function of the value so far and the element, from a first value on",
+        "one value from all elements: a function combines the value so far with the next element, from an initial value on",
         1 => "(v, f) => { const n = v.length; if (n === 0) _empty(); let a = v[0]; for (let i = 1; i < n; i++) a = f(a, v[i], i, v); return a }",
         2 => "(v, f, start) => { const n = v.length; let a = start; for (let i = 0; i < n; i++) a = f(a, v[i], i, v); return a }";
     "reduceRight" List: "['a', 'b'].reduceRight((text, x) => text + x, '')" => "ba",
-        "as `reduce`, from the last element to the first",
+        "like `reduce`, from the last element to the first",
         1 => "(v, f) => { const n = v.length; if (n === 0) _empty(); let a = v[n - 1]; for (let i = n - 2; i >= 0; i--) a = f(a, v[i], i, v); return a }",
         2 => "(v, f, start) => { let a = start; for (let i = v.length - 1; i >= 0; i--) a = f(a, v[i], i, v); return a }";
     "some" List: "[1, 2].some(x => x > 1)" => "true",
         "whether a condition holds for at least one element",
         1 => "(v, f) => { const n = v.length; for (let i = 0; i < n; i++) if (f(v[i], i, v)) return true; return false }";
     "sort" List changes: "[3, 10, 2].sort((a, b) => a - b)" => "2,3,10",
-        "sorts the elements by a function that gives a positive number when its first argument belongs behind its second",
+        "sorts the elements by a function that returns a positive number if its first argument belongs after its second",
         1 => merge_sort!("for (let i = 0; i < n; i++) v[i] = a[i]; return v");
     "toSorted" List: "[3, 10, 2].toSorted((a, b) => b - a)" => "10,3,2",
         "a sorted copy, see `sort`",

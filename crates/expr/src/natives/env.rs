@@ -75,13 +75,13 @@ impl Env<'_> {
             Some(_) => {
                 return Err(Trouble::new(
                     rules::ASSIGN_DERIVED,
-                    "a computed array is assigned: what is stored there would be overwritten",
+                    "an assignment stores into a computed array, which is overwritten later",
                 ));
             }
             None => {
                 return Err(Trouble::new(
                     rules::HOST_STORE,
-                    "an array that another text kept is assigned; name it here instead",
+                    "an assignment stores into an array that another text kept; name the array here instead",
                 ));
             }
         }
@@ -139,17 +139,14 @@ impl Env<'_> {
         match value {
             Value::String(text) => out.push_str(text),
             Value::Function(_) => {
-                return Err(Trouble::new(
-                    rules::NOT_A_VALUE,
-                    "a function is used as a text: it is not called",
-                ));
+                return Err(Trouble::new(rules::NOT_A_VALUE, "a function is used as a text but not called"));
             }
             Value::List(_) | Value::View(_) => {
                 if lists.iter().any(|list| list.strictly_equals(value)) {
                     return Ok(());
                 }
                 if lists.len() >= MAX_DEPTH {
-                    let message = format!("lists stand in each other more than {MAX_DEPTH} deep");
+                    let message = format!("lists are nested more than {MAX_DEPTH} levels deep");
                     return Err(Trouble::new(rules::TEXT_TOO_LONG, message));
                 }
                 lists.push(value.clone());
@@ -205,18 +202,18 @@ impl Env<'_> {
             other => {
                 let what =
                     if other.is_nothing() { other.to_string() } else { other.type_of().describe().into() };
-                Err(Trouble::new(rules::NO_PARTS, format!("{what} has no elements to go through")))
+                Err(Trouble::new(rules::NO_PARTS, format!("{what} has no elements to iterate over")))
             }
         }
     }
 }
 
 pub(crate) fn too_long() -> Trouble {
-    Trouble::new(rules::TEXT_TOO_LONG, format!("a string grew beyond {MAX_TEXT} bytes"))
+    Trouble::new(rules::TEXT_TOO_LONG, format!("a string exceeds {MAX_TEXT} bytes"))
 }
 
 pub(crate) fn out_of_steps() -> Trouble {
-    Trouble::new(rules::BUDGET, "this text does not come to an end: it was stopped")
+    Trouble::new(rules::BUDGET, "the step budget ran out, so this text was stopped")
 }
 
 /// JavaScript's ToIntegerOrInfinity.

@@ -9,45 +9,45 @@ use crate::value::{Value, View};
 
 pub(super) static ROWS: &[Row] = table! {
     "at" List (1, 1) Item Moves at: "[1, 2, 3].at(-1)" => "3",
-        "element at an index, which counts from the end when negative";
+        "element at an index; a negative index counts from the end";
     "concat" Untyped (0, MANY) List Keeps concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
         "a list of all elements";
     "fill" List changes (1, 3) Receiver Moves fill: "[1, 2, 3].fill(0, 1)" => "1,0,0",
         "stores one value in all elements, or in those from one index up to another";
     "flat" Untyped (0, 1) List Moves flat: "[1, [2, 3]].flat()" => "1,2,3",
-        "the elements, and the elements of the lists among them";
+        "the elements, with lists among them flattened";
     "includes" List (1, 2) Boolean Looks includes: "[1, 2].includes(2)" => "true",
-        "whether a value is among the elements";
+        "whether the list contains a value";
     "indexOf" List (1, 2) Number Looks index_of: "[5, 6].indexOf(6)" => "1",
         "index of the first element with a value, or -1";
     "join" List (0, 1) String Looks join: "[1, 2].join(' / ')" => "1 / 2",
-        "the elements as one text, with a text between them (a comma)";
+        "the elements as one text, with a separator between them (a comma by default)";
     "lastIndexOf" List (1, 2) Number Looks last_index_of: "[5, 6, 5].lastIndexOf(5)" => "2",
         "index of the last element with a value, or -1";
     "pop" Growing changes (0, 0) Any Moves pop: "[1, 2].pop()" => "2",
-        "takes the last element away, and gives it";
+        "removes the last element and returns it";
     "push" Growing changes (0, MANY) Number Keeps push: "[1, 2].push(3)" => "3",
-        "appends elements, and gives the new length";
+        "appends elements and returns the new length";
     "reverse" List changes (0, 0) Receiver Moves reverse: "[1, 2, 3].reverse()" => "3,2,1",
-        "turns the order of the elements around";
+        "reverses the order of the elements";
     "set" List changes (1, 2) Undefined Moves set: "{array}.slice(0, 2).set([0, 1])" => "undefined",
         "stores values one after the other, from an index on";
     "shift" Growing changes (0, 0) Any Moves shift: "[1, 2].shift()" => "1",
-        "takes the first element away, and gives it";
+        "removes the first element and returns it";
     "slice" List (0, 2) List Moves slice: "[1, 2, 3].slice(1)" => "2,3",
-        "a copy of the elements from one index up to another; indexes count from the end when negative";
+        "a copy of the elements from one index up to another; negative indexes count from the end";
     "sort" List changes (0, 0) Receiver Looks sort: "[3, 10, 2].sort()" => "10,2,3",
         "sorts the elements: of a list as texts, of an array as numbers; `sort((a, b) => a - b)` sorts by a function";
     "splice" Growing changes (1, MANY) List Moves splice: "[1, 2, 3].splice(1, 1)" => "2",
-        "takes elements away from an index on, puts others there, and gives those that were taken";
+        "removes elements from an index on, inserts others there, and returns the removed ones";
     "subarray" List (0, 2) Receiver Moves subarray: "{array}.subarray(0, 2).length" => "2",
-        "a part of an array of the host, not a copy";
+        "a part of an array of the engine, not a copy";
     "toReversed" List (0, 0) List Moves to_reversed: "[1, 2].toReversed()" => "2,1",
         "a copy in reverse order";
     "toSorted" List (0, 0) List Looks to_sorted: "[3, 1, 2].toSorted()" => "1,2,3",
         "a sorted copy, see `sort`";
     "unshift" Growing changes (0, MANY) Number Keeps unshift: "[2].unshift(1)" => "2",
-        "puts elements in front, and gives the new length";
+        "inserts elements at the front and returns the new length";
     "with" List (2, 2) List Moves with: "[1, 2].with(0, 5)" => "5,2",
         "a copy with one element replaced";
     "_like" Nothing (2, 2) List Keeps like: "" => "", "";
@@ -391,7 +391,7 @@ fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
         None => {
             return Err(Trouble::new(
                 rules::INDEX_RANGE,
-                format!("there is no element {x}: the list has {}", items.len()),
+                format!("element {x} does not exist: the list has {}", items.len()),
             ));
         }
     }
@@ -417,7 +417,7 @@ fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 
 /// What `reduce` of nothing does.
 fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
-    Err(Trouble::new(rules::NO_PARTS, "`reduce` of a list without elements needs a first value"))
+    Err(Trouble::new(rules::NO_PARTS, "`reduce` of an empty list needs an initial value"))
 }
 
 /// A list or an array, on which a method of this name is called.

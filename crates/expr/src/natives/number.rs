@@ -8,33 +8,33 @@ use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
     "toExponential" Number (0, 1) String Looks to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
-        "in exponential form with so many decimals";
+        "in exponential form with this many decimals";
     "toFixed" Number (0, 1) String Looks to_fixed_method: "(2.345).toFixed(1)" => "2.3",
-        "with so many decimals";
+        "with this many decimals";
     "toPrecision" Number (0, 1) String Looks to_precision_method: "(1234.5).toPrecision(2)" => "1.2e+3",
-        "with so many significant digits";
+        "with this many significant digits";
     "toString" Number (0, 1) String Looks to_string_method: "(255).toString(16)" => "ff",
         "as text, in base 10 or another base";
     "Number" Nothing (0, 1) Number Looks number: "Number('12') + 1" => "13",
-        "a value as number";
+        "converts a value to a number";
     "Number.isFinite" Nothing (1, 1) Boolean Asks is_finite: "Number.isFinite('1')" => "false",
         "whether a value is a number and finite";
     "Number.isInteger" Nothing (1, 1) Boolean Looks is_integer: "Number.isInteger(2)" => "true",
-        "whether a value is a whole number";
+        "whether a value is an integer";
     "Number.isNaN" Nothing (1, 1) Boolean Asks is_nan: "Number.isNaN('a')" => "false",
         "whether a value is NaN";
     "Number.parseFloat" Nothing (1, 1) Number Looks parse_float: "Number.parseFloat('1.5 m')" => "1.5",
         "the number at the start of a text";
     "Number.parseInt" Nothing (1, 2) Number Looks parse_int: "Number.parseInt('12px')" => "12",
-        "the whole number at the start of a text";
+        "the integer at the start of a text";
     "parseFloat" Nothing (1, 1) Number Looks parse_float: "parseFloat('1.5 m')" => "1.5",
         "the number at the start of a text";
     "parseInt" Nothing (1, 2) Number Looks parse_int: "parseInt('ff', 16)" => "255",
-        "the whole number at the start of a text, in base 10 or another base";
+        "the integer at the start of a text, in base 10 or another base";
     "String" Nothing (0, 1) String Looks string: "String([1, 2])" => "1,2",
-        "a value as text";
+        "converts a value to a text";
     "Boolean" Nothing (0, 1) Boolean Looks boolean: "Boolean('')" => "false",
-        "whether a value counts as true";
+        "converts a value to true or false";
 };
 
 /// The constants of `Number`.
@@ -61,7 +61,7 @@ fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>
     }
     let x = integer(env.number(arg(args, 0))?);
     if !(least..=100.0).contains(&x) {
-        let message = format!("{x} digits: between {least} and 100 are possible");
+        let message = format!("{x} digits are not allowed: the range is {least} to 100");
         return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
     Ok(Some(x as usize))
@@ -194,7 +194,7 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
         radix => integer(env.number(radix)?),
     };
     if !(2.0..=36.0).contains(&radix) {
-        let message = format!("base {}: between 2 and 36 are possible", convert::to_text(radix));
+        let message = format!("base {} is not allowed: the range is 2 to 36", convert::to_text(radix));
         return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
     let x = own(x);

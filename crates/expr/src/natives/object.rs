@@ -8,22 +8,22 @@ use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
     "Array.isArray" Nothing (1, 1) Boolean Asks is_array: "Array.isArray([1])" => "true",
-        "whether a value is a list; an array of the host is none, as in JavaScript";
+        "whether a value is a list; an array of the engine is not one, as in JavaScript";
     "Array.of" Nothing (0, MANY) List Keeps of: "Array.of(1, 2)" => "1,2",
         "a list of the arguments";
     "Array.from" Nothing (1, 1) List Keeps from: "Array.from('ab')" => "a,b",
-        "a list of the elements of an array, the characters of a text, or as many elements as `{length: n}` says; with a function, what it makes of each";
+        "a list of the elements of an array, the characters of a text, or `{length: n}` elements; with a function, its result for each";
     "Object.keys" Nothing (1, 1) List Keeps keys: "Object.keys({b: 1, a: 2}).join()" => "b,a",
         "the keys of a record";
     "Object.values" Nothing (1, 1) List Keeps values: "Object.values({b: 1, a: 2}).join()" => "1,2",
         "the values of a record";
     "Object.entries" Nothing (1, 1) List Keeps entries: "Object.entries({a: 1}).join()" => "a,1",
-        "lists of key and value of a record";
+        "pairs of key and value of a record";
 };
 
 /// `Array.from` with a function for every element.
 pub(super) static WRITTEN: &[Row] = table! {
-    "Array.from" Nothing: "Array.from([1, 2], x => 2 * x)" => "2,4", "a list of what a function makes of each element",
+    "Array.from" Nothing: "Array.from([1, 2], x => 2 * x)" => "2,4", "a list of the results of a function for each element",
         2 => "(v, f) => { const l = Array.from(v), n = l.length, r = []; for (let i = 0; i < n; i++) r.push(f(l[i], i)); return r }";
 };
 

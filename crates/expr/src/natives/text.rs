@@ -10,43 +10,43 @@ use crate::value::Value;
 
 pub(super) static ROWS: &[Row] = table! {
     "at" Text (1, 1) Any Looks at: "'abc'.at(-1)" => "c",
-        "character at an index, which counts from the end when negative";
+        "character at an index; a negative index counts from the end";
     "concat" Text (0, MANY) String Looks concat: "'a'.concat('b', 1)" => "ab1",
         "the texts joined";
     "includes" Text (1, 2) Boolean Looks includes: "'abc'.includes('bc')" => "true",
-        "whether a text stands in it";
+        "whether it contains a text";
     "indexOf" Text (1, 2) Number Looks index_of: "'abc'.indexOf('c')" => "2",
-        "index at which a text stands in it, or -1";
+        "first index of a text in it, or -1";
     "lastIndexOf" Text (1, 1) Number Looks last_index_of: "'abca'.lastIndexOf('a')" => "3",
-        "index at which a text stands last, or -1";
+        "last index of a text in it, or -1";
     "slice" Text (0, 2) String Looks slice: "'abc'.slice(0, -1)" => "ab",
-        "the part from one index up to another; indexes count from the end when negative";
+        "the part from one index up to another; negative indexes count from the end";
     "charAt" Text (0, 1) String Looks char_at: "'abc'.charAt(1)" => "b",
         "character at an index";
     "charCodeAt" Text (0, 1) Number Looks char_code_at: "'A'.charCodeAt(0)" => "65",
-        "number of the character at an index";
+        "UTF-16 code of the character at an index";
     "endsWith" Text (1, 1) Boolean Looks ends_with: "'abc'.endsWith('c')" => "true",
         "whether it ends with a text";
     "padEnd" Text (1, 2) String Looks pad_end: "'7'.padEnd(3, '0')" => "700",
-        "filled up to a length behind";
+        "padded at the end to a length";
     "padStart" Text (1, 2) String Looks pad_start: "'7'.padStart(3)" => "  7",
-        "filled up to a length in front";
+        "padded at the start to a length";
     "repeat" Text (1, 1) String Looks repeat: "'ab'.repeat(2)" => "abab",
-        "the text several times";
+        "the text repeated several times";
     "replace" Text (2, 2) String Looks replace: "'aa'.replace('a', 'b')" => "ba",
-        "with the first of a text replaced by another";
+        "with the first occurrence of a text replaced";
     "replaceAll" Text (2, 2) String Looks replace_all: "'aa'.replaceAll('a', 'b')" => "bb",
-        "with every one of a text replaced by another";
+        "with every occurrence of a text replaced";
     "split" Text (0, 2) List Looks split: "'a,b'.split(',').length" => "2",
-        "the parts between a text";
+        "the parts between the occurrences of a separator";
     "startsWith" Text (1, 2) Boolean Looks starts_with: "'abc'.startsWith('a')" => "true",
         "whether it starts with a text";
     "substring" Text (1, 2) String Looks substring: "'abc'.substring(2, 0)" => "ab",
         "the part between two indexes";
     "toLowerCase" Text (0, 0) String Looks to_lower_case: "'ABC'.toLowerCase()" => "abc",
-        "in small letters";
+        "in lower case";
     "toUpperCase" Text (0, 0) String Looks to_upper_case: "'abc'.toUpperCase()" => "ABC",
-        "in capital letters";
+        "in upper case";
     "trim" Text (0, 0) String Looks trim: "' a '.trim()" => "a",
         "without white space at both ends";
     "trimEnd" Text (0, 0) String Looks trim_end: "'a '.trimEnd()" => "a",
@@ -71,7 +71,7 @@ fn from_units(env: &mut Env<'_>, units: &[u16]) -> Outcome {
 /// The text of units. Texts hold whole characters: half of one has no text.
 pub(crate) fn whole(units: &[u16]) -> Result<String, Trouble> {
     String::from_utf16(units).map_err(|_| {
-        let message = "half of a character that takes two units is asked for, and a text cannot hold that; `[...text]` has whole characters";
+        let message = "an index selects half of a two-unit character, which a text cannot hold; `[...text]` has whole characters";
         Trouble::new(rules::ARGUMENT_TYPE, message)
     })
 }

@@ -74,8 +74,8 @@ impl Parser<'_> {
     pub(super) fn too_deep<T>(&mut self, span: Span) -> Attempt<T> {
         let message = format!("the expression is nested more than {MAX_DEPTH} levels deep");
         let report = Finding::error(rules::TOO_DEEP, span, message)
-            .why("brackets, signs and each further operator of a chain count as a level")
-            .help("split it: keep parts in `const` names, or in `ctx`");
+            .why("each bracket, sign and further operator of a chain counts as a level")
+            .help("split it: store parts in `const` names or in `ctx`");
         self.refuse(report)
     }
 
@@ -163,9 +163,9 @@ impl Parser<'_> {
             }
             Tok::Bad => Err(Reported),
             _ => {
-                let message = format!("expected a name behind `.`, found {}", self.shown());
+                let message = format!("expected a name after `.`, found {}", self.shown());
                 let report = Finding::error(rules::MISSING_NAME, span, message).help(format!(
-                    "write the field behind the point, as `{0}`, and indexes in brackets, as `{0}[2]`",
+                    "write the field after the point, as `{0}`, and indexes in brackets, as `{0}[2]`",
                     self.words.array
                 ));
                 self.refuse(report)
@@ -191,10 +191,10 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::AMBIGUOUS_POWER,
                 left.expr.span,
-                format!("a `{sign}` directly before a power"),
+                format!("a `{sign}` is directly before a power"),
             )
             .why(
-                "it could mean the power of the negative or the negative of the power; JavaScript refuses it",
+                "it could mean the power of the negative or the negative of the power; JavaScript rejects it",
             )
             .help(format!("write `{sign}({base} ** {exponent})` or `({sign}{base}) ** {exponent}`"));
             self.diagnostics.push(report); // and read on, as if it were the second
@@ -224,8 +224,8 @@ impl Parser<'_> {
         let then = self.expression(ASSIGNMENT)?;
         if self.eat(":").is_none() {
             let report = Finding::error(rules::HALF_CHOICE, question, "this `?` has no `:`")
-                .why(format!("found {} where the other value must stand", self.shown()))
-                .help("a choice is written `test ? a : b`");
+                .why(format!("found {} where the second value is required", self.shown()))
+                .help("write a conditional expression as `test ? a : b`");
             return self.refuse(report);
         }
         let otherwise = self.expression(ASSIGNMENT)?;
@@ -366,7 +366,7 @@ impl Parser<'_> {
     fn template_value(&mut self, place: Span) -> Attempt<Node> {
         if self.ended() {
             let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces")
-                .help(format!("write the value that belongs into the text, as `${{{}}}`", self.words.number));
+                .help(format!("write the value to insert into the text, as `${{{}}}`", self.words.number));
             return self.refuse(report);
         }
         let value = self.expression(ASSIGNMENT)?;
@@ -430,7 +430,7 @@ impl Parser<'_> {
             _ => {
                 let message = format!("expected a key, found {}", self.shown());
                 let report = Finding::error(rules::MISSING_NAME, span, message)
-                    .why("braces inside an expression hold a record: keys and their values")
+                    .why("braces inside an expression contain a record: keys and their values")
                     .help("write it as `{a: 1, b: 2}`");
                 return self.refuse(report);
             }
@@ -533,9 +533,9 @@ impl Parser<'_> {
         }
         let open = opener.text(self.source);
         Some(
-            Finding::error(rules::UNCLOSED, opener, format!("this `{open}` is never closed"))
-                .why(format!("found {} where `{closer}` must stand", self.shown()))
-                .help(format!("write `{closer}` behind `{}`", before.text(self.source)))
+            Finding::error(rules::UNCLOSED, opener, format!("this `{open}` is not closed"))
+                .why(format!("found {} where `{closer}` is required", self.shown()))
+                .help(format!("write `{closer}` after `{}`", before.text(self.source)))
                 .guess(before.after(), closer),
         )
     }
@@ -547,12 +547,12 @@ impl Parser<'_> {
         let message = format!("expected a value, found {}", self.shown());
         let mut report = Finding::error(rules::MISSING_VALUE, span, message);
         if !before.is_empty() && self.at > 0 {
-            report = report.why(format!("`{before}` needs a value behind it"));
+            report = report.why(format!("`{before}` needs a value after it"));
         }
         report = match self.peek() {
             // `a = == b`, `a * * b`: two operators in a row.
             Tok::Symbol(symbol) if infix(symbol).is_some() && before.is_empty() => {
-                report.help(format!("write the value that stands before `{symbol}`, or remove it"))
+                report.help(format!("write the value before `{symbol}`, or remove it"))
             }
             Tok::Symbol(symbol) if infix(symbol).is_some() => report.help(format!(
                 "remove one of the operators, or write the value between `{before}` and `{symbol}`"

@@ -72,7 +72,7 @@ impl Parser<'_> {
         let (name, function) = self.function()?;
         let Some(name) = name else {
             let report = Finding::error(rules::MISSING_NAME, place, "this function has no name")
-                .why("a function that stands alone can only be called by its name")
+                .why("a function declaration can only be called by its name")
                 .help("write `function name(x) { … }`, or `const name = (x) => …`");
             return self.refuse(report);
         };
@@ -132,7 +132,7 @@ impl Parser<'_> {
         }
         if params.len() > MAX_PARAMS {
             let span = opener.to(self.last_span());
-            let message = format!("a function of {} parameters", params.len());
+            let message = format!("this function has {} parameters", params.len());
             let report = Finding::error(rules::ARGUMENT_COUNT, span, message)
                 .why(format!("at most {MAX_PARAMS} are allowed"))
                 .help("pass a list or a record");
@@ -249,12 +249,9 @@ impl Parser<'_> {
             }
         };
         if refuse::is_reserved(&text) {
-            let report = Finding::error(
-                rules::NAME_TAKEN,
-                span,
-                format!("`{text}` is a word of the language, not a name"),
-            )
-            .help("choose another name");
+            let report =
+                Finding::error(rules::NAME_TAKEN, span, format!("`{text}` is a keyword, not a name"))
+                    .help("choose another name");
             return self.refuse(report);
         }
         self.bump();
@@ -266,8 +263,8 @@ impl Parser<'_> {
         let opener = self.bump();
         let statements = self.statements_up_to("}");
         if self.eat("}").is_none() {
-            let report = Finding::error(rules::UNCLOSED, opener, "this `{` is never closed")
-                .why("everything behind it is part of the block")
+            let report = Finding::error(rules::UNCLOSED, opener, "this `{` is not closed")
+                .why("everything after it is part of the block")
                 .help("write `}` where the block ends");
             return self.refuse(report);
         }

@@ -69,9 +69,9 @@ pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
             Finding::error(
                 rules::TOO_MANY_ERRORS,
                 span,
-                format!("more than {MAX_DIAGNOSTICS} mistakes: the rest is not shown"),
+                format!("the text has more than {MAX_DIAGNOSTICS} mistakes: the rest are not listed"),
             )
-            .help("repair the first ones; the others may follow from them"),
+            .help("fix the first ones; the others may follow from them"),
         );
     }
     found
@@ -103,8 +103,7 @@ impl<'s> Parser<'s> {
     fn new(source: &'s str, words: &'static Words, tells: bool) -> Parser<'s> {
         let mut diagnostics = Vec::new();
         let tokens = if source.len() > MAX_SOURCE {
-            let message =
-                format!("the text has {} bytes, the language reads at most {MAX_SOURCE}", source.len());
+            let message = format!("the text has {} bytes, but the limit is {MAX_SOURCE}", source.len());
             diagnostics.push(Finding::error(rules::TOO_LONG, Span::default(), message).help(words.split));
             vec![Token { kind: Tok::Bad, span: Span::default(), newline: false, doubt: None }]
         } else {
@@ -232,7 +231,7 @@ impl<'s> Parser<'s> {
     fn whole_expression(&mut self) -> Expr {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
         if self.ended() {
-            let report = Finding::error(rules::EMPTY, self.span(), "there is nothing to evaluate")
+            let report = Finding::error(rules::EMPTY, self.span(), "the expression is empty")
                 .help(format!("write an expression, as `{}`", self.words.number));
             self.diagnostics.push(report);
             return nothing;
@@ -265,12 +264,12 @@ impl<'s> Parser<'s> {
         let report = Finding::error(rules::EXPRESSION_ONLY, span, "an expression does not end with `;`");
         Some(if self.ended() {
             report
-                .why("this text is one value, not a list of statements")
+                .why("this text is a single value, not a list of statements")
                 .help("remove the `;`")
                 .fix(span, "")
         } else {
-            report.why("only one value is read here; a second statement has no place").help(format!(
-                "keep the expression that gives the value; statements belong into {}",
+            report.why("only one value is read here, so a second statement is not allowed").help(format!(
+                "keep the expression of the value, and move statements into {}",
                 self.words.statements
             ))
         })

@@ -11,19 +11,19 @@ fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {
         .help(help)
 }
 
-const NO_OBJECTS: &str =
-    "the language works on numbers, texts, lists and records; it has no classes of its own";
-const NO_TIME: &str = "every text runs to its end at once; nothing is ever waited for";
+const NO_OBJECTS: &str = "the language has numbers, texts, lists and records, but no classes";
+const NO_TIME: &str = "every text runs to its end at once and never waits";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
-const STORE_HELP: &str = "keep values in variables, as `ctx.peak`";
+const STORE_HELP: &str = "store values in variables, as `ctx.peak`";
 
 /// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
 pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
-    let misplaced =
-        |help: &str| Finding::error(rules::MISPLACED, span, format!("`{word}` has no place here")).help(help);
+    let misplaced = |help: &str| {
+        Finding::error(rules::MISPLACED, span, format!("`{word}` is not allowed here")).help(help)
+    };
     Some(match word {
         "this" | "super" => {
-            never(span, &format!("`{word}` references"), NO_OBJECTS, "name the thing itself, as `ctx`")
+            never(span, &format!("`{word}` references"), NO_OBJECTS, "name the object itself, as `ctx`")
         }
         "class" | "extends" | "enum" | "interface" => never(span, "classes", NO_OBJECTS, STORE_HELP),
         "new" => {
@@ -36,41 +36,44 @@ pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
         "import" | "export" => never(
             span,
             "modules",
-            "a text reaches nothing outside itself",
-            "use `Math` and the functions that there are",
+            "a text cannot access anything outside itself",
+            "use `Math` and the available functions",
         ),
         "delete" => never(
             span,
             "`delete` expressions",
-            "whoever reads the variable next should find a value, if only `null`",
+            "a later reader of the variable should find a value, even if it is `null`",
             "store `null` or `undefined` instead",
         ),
         "void" => never(span, "`void` expressions", "they only give `undefined`", "write `undefined`"),
         "instanceof" | "in" => never(
             span,
             &format!("`{word}` tests"),
-            "a variable that nothing has stored yet is `undefined`, which a comparison tells as well",
-            "to ask whether there is a value, write `ctx.start != null`",
+            "an unset variable is `undefined`, and a comparison can test for that",
+            "to test for a value, write `ctx.start != null`",
         ),
-        "with" => {
-            never(span, "`with` statements", "names must mean the same everywhere", "write the names in full")
-        }
+        "with" => never(
+            span,
+            "`with` statements",
+            "names must have the same meaning everywhere",
+            "write the full names",
+        ),
         "debugger" => never(
             span,
             "`debugger` statements",
-            "a text is not run in a debugger",
+            "a text does not run in a debugger",
             &format!("show the value in {}", words.shown),
         ),
         "switch" | "case" | "default" => never(
             span,
             "`switch` statements",
-            "a forgotten `break` runs on into the next case, and nothing shows it",
+            "without a `break`, a case silently continues into the next one",
             "write `if … else if … else`, or choose a value with `test ? a : b`",
         ),
         "if" | "for" | "while" | "do" | "return" | "break" | "continue" => {
-            misplaced("it starts a statement of its own; a value is chosen with `test ? a : b`")
+            misplaced("it starts a statement; to choose a value, write `test ? a : b`")
         }
-        "else" => misplaced("`else` follows directly behind the statement of its `if`"),
+        "else" => misplaced("`else` must directly follow the statement of its `if`"),
         _ => return None,
     })
 }
@@ -81,7 +84,7 @@ pub(super) fn new_date(span: Span, words: &Words) -> Finding {
         span,
         "dates",
         &format!(
-            "a {} must give the same numbers whenever it is run, and the clock on the wall is no part of it",
+            "a {} must give the same numbers in every run, so it cannot use the wall clock",
             words.lesson
         ),
         words.clock,
@@ -100,7 +103,7 @@ pub(super) fn symbol(text: &str, span: Span, words: &Words) -> Option<Finding> {
         "/" | "/=" => never(
             span,
             "regular expressions",
-            &format!("a {} computes with numbers; text is only shown", words.lesson),
+            &format!("a {} computes with numbers; text is only displayed", words.lesson),
             "compare strings with `===`, or use `includes` and `startsWith`",
         ),
         "@" | "#" => never(span, "decorators and private names", NO_OBJECTS, STORE_HELP),
@@ -113,7 +116,7 @@ pub(super) fn for_in(span: Span) -> Finding {
     never(
         span,
         "`for … in` loops",
-        "they walk over the keys as text, in an order that surprises",
+        "they iterate over keys as text, in a surprising order",
         "write `for (const x of list)`, or count with `for (let i = 0; i < n; i++)`",
     )
 }
@@ -123,7 +126,7 @@ pub(super) fn label(span: Span) -> Finding {
     never(
         span,
         "labels",
-        "a jump out of several loops at once is hard to follow",
+        "leaving several loops at once is hard to follow",
         "put the loops into a function and leave it with `return`",
     )
 }
@@ -132,9 +135,9 @@ pub(super) fn label(span: Span) -> Finding {
 pub(super) fn rest(span: Span) -> Finding {
     never(
         span,
-        "parameters that collect the rest",
-        "how many there are would be known in the run only, and could not be checked before it",
-        "give the function one list, as `f([a, b])`",
+        "rest parameters",
+        "their number would be known only during the run, so it could not be checked before",
+        "pass one list, as `f([a, b])`",
     )
 }
 
@@ -146,15 +149,15 @@ pub(super) fn member_function(span: Span) -> Finding {
 /// The comma operator.
 pub(super) fn comma(span: Span, decimal: Option<(Span, String)>) -> Finding {
     if let Some((number, meant)) = decimal {
-        return Finding::error(rules::DECIMAL_COMMA, number, "a decimal comma")
-            .why("a comma separates things; the decimal sign is a point")
+        return Finding::error(rules::DECIMAL_COMMA, number, "this number has a decimal comma")
+            .why("a comma separates values; the decimal separator is a point")
             .help(format!("write `{meant}`"))
             .guess(number, meant);
     }
     never(
         span,
         "values joined by a comma",
-        "all but the last value would be computed and dropped",
+        "all values but the last would be computed and discarded",
         "separate statements with `;`",
     )
 }
@@ -165,14 +168,14 @@ pub(super) fn var(span: Span) -> Finding {
         span,
         "`var` declarations",
         "a `var` name can be used before it has a value, which hides mistakes",
-        "write `const`, or `let` when the value changes later",
+        "write `const`, or `let` if the value changes later",
     )
     .fix(span, "let")
 }
 
 /// `a ?? b || c` without parentheses.
 pub(super) fn mixed(span: Span) -> Finding {
-    Finding::error(rules::AMBIGUOUS_DEFAULT, span, "`??` next to `||` or `&&` without parentheses")
-        .why("it could group in two ways; JavaScript refuses it")
+    Finding::error(rules::AMBIGUOUS_DEFAULT, span, "`??` is next to `||` or `&&` without parentheses")
+        .why("it could group in two ways; JavaScript rejects it")
         .help("put one of them into parentheses, as `(a ?? b) || c`")
 }

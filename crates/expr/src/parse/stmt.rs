@@ -109,12 +109,9 @@ impl Parser<'_> {
                 self.bump();
                 let body = Box::new(self.body("do")?);
                 if !self.is_word("while") {
-                    let report = Finding::error(
-                        rules::DO_WITHOUT_WHILE,
-                        self.span(),
-                        "a `do` loop without its `while`",
-                    )
-                    .help("write `do { … } while (test)`");
+                    let report =
+                        Finding::error(rules::DO_WITHOUT_WHILE, self.span(), "a `do` loop has no `while`")
+                            .help("write `do { … } while (test)`");
                     return self.refuse(report);
                 }
                 self.bump();
@@ -184,7 +181,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` behind `{word}`, found {}", self.shown()),
+                format!("expected `(` after `{word}`, found {}", self.shown()),
             )
             .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
             return self.refuse(report);
@@ -196,11 +193,14 @@ impl Parser<'_> {
     fn body(&mut self, word: &str) -> Attempt<Stmt> {
         let span = self.span();
         if self.eat(";").is_some() {
-            let report =
-                Finding::warning(rules::EMPTY_BODY, span, format!("this `;` is all that the `{word}` does"))
-                    .why("the statement behind it runs in any case, and only once")
-                    .help("remove the `;`")
-                    .guess(span, "");
+            let report = Finding::warning(
+                rules::EMPTY_BODY,
+                span,
+                format!("this `;` is the whole body of the `{word}`"),
+            )
+            .why("the statement after it always runs, and only once")
+            .help("remove the `;`")
+            .guess(span, "");
             self.diagnostics.push(report);
             return Ok(Stmt { kind: StmtKind::Empty, span });
         }
@@ -208,17 +208,20 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_STATEMENT,
                 span,
-                format!("expected a statement behind `{word}`, found {}", self.shown()),
+                format!("expected a statement after `{word}`, found {}", self.shown()),
             )
-            .help("write what is to be done, several statements in braces");
+            .help("write the statement to run, or several statements in braces");
             return self.refuse(report);
         }
         let declares = ["const", "let", "function"].iter().any(|w| self.is_word(w));
         if declares {
-            let report =
-                Finding::error(rules::LONE_DECLARATION, span, format!("a declaration alone behind `{word}`"))
-                    .why("the name would be gone at once; JavaScript refuses it")
-                    .help("put the statements into braces");
+            let report = Finding::error(
+                rules::LONE_DECLARATION,
+                span,
+                format!("a declaration is the only statement after `{word}`"),
+            )
+            .why("the name would disappear at once; JavaScript rejects it")
+            .help("put the statements in braces");
             self.diagnostics.push(report);
         }
         let kind = self.statement()?;
@@ -244,7 +247,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` behind `for`, found {}", self.shown()),
+                format!("expected `(` after `for`, found {}", self.shown()),
             )
             .help("write `for (let i = 0; i < n; i++) { … }`");
             return self.refuse(report);
@@ -331,9 +334,9 @@ impl Parser<'_> {
                     self.span(),
                     format!("`{word}` declares a name, but only one value is read here"),
                 )
-                .why("this text is an expression: it gives a value and changes nothing")
+                .why("this text is an expression, which returns a value and changes nothing")
                 .help(format!(
-                    "write the expression in one piece, or compute the part in {} and keep it in `ctx`",
+                    "write a single expression, or compute the part in {} and store it in `ctx`",
                     self.words.keeper
                 )),
             ),
@@ -343,9 +346,9 @@ impl Parser<'_> {
                     self.span(),
                     format!("`{word}` starts a statement, but only one value is read here"),
                 )
-                .why("this text is an expression: it gives a value and changes nothing")
+                .why("this text is an expression, which returns a value and changes nothing")
                 .help(format!(
-                    "choose a value with `test ? a : b`, or compute it in {} and keep it in `ctx`",
+                    "choose a value with `test ? a : b`, or compute it in {} and store it in `ctx`",
                     self.words.keeper
                 )),
             ),
@@ -458,12 +461,12 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::DECLARED_WITHOUT_VALUE,
                 span,
-                format!("`{text}` is declared with `{word}` but gets no value"),
+                format!("`{text}` is declared with `{word}` but has no value"),
             );
             return self.refuse(match target {
                 Pattern::Name(_) => report
-                    .why("a `const` name never changes, so it needs its value at once")
-                    .help(format!("write `const {text} = …`, or `let {text}` when it gets its value later")),
+                    .why("a `const` name can never change, so it needs its value at once")
+                    .help(format!("write `const {text} = …`, or `let {text}` if it gets its value later")),
                 _ => report
                     .why("there is nothing to take the parts from")
                     .help(format!("write `{word} {text} = …`")),
@@ -499,23 +502,23 @@ impl Parser<'_> {
                     .guess(span, ""),
             ),
             Tok::Symbol(":") => Some(
-                Finding::error(rules::HALF_CHOICE, span, "`:` without a `?` before it")
-                    .help("a choice is written `test ? a : b`"),
+                Finding::error(rules::HALF_CHOICE, span, "this `:` has no `?` before it")
+                    .help("write a conditional expression as `test ? a : b`"),
             ),
             Tok::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
                 refuse::symbol(text, span, self.words)
             }
             Tok::Symbol(text) => Some(
-                Finding::error(rules::MISPLACED, span, format!("`{text}` has no place here"))
+                Finding::error(rules::MISPLACED, span, format!("`{text}` is not allowed here"))
                     .help("remove it"),
             ),
             Tok::Word(word) if matches!(*word, "in" | "instanceof") => refuse::word(word, span, self.words),
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(
-                    Finding::error(rules::MISSING_OPERATOR, span, format!("{shown} stands directly behind `{left}`"))
-                        .why("nothing between them says how they belong together")
-                        .help("write what is missing: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
+                    Finding::error(rules::MISSING_OPERATOR, span, format!("{shown} directly follows `{left}` without an operator"))
+                        .why("the operation between them is unknown")
+                        .help("add the missing part: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
                 )
             }
         }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// `??` beside `||` or `&&` without brackets.
+/// An expression mixes `??` with `||` or `&&` without brackets.
 pub const AMBIGUOUS_DEFAULT: &Rule = &Rule {
     code: "ambiguous-default",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "`??` beside `||` or `&&` without brackets",
-    why: "JavaScript refuses it, because it could mean either of two things",
+    summary: "an expression mixes `??` with `||` or `&&` without brackets",
+    why: "JavaScript rejects it, because it has two possible meanings",
     bad: Example::Expression("data.time ?? 0 ⟦||⟧ 1"),
     good: Example::Expression("data.time || 1"),
 };

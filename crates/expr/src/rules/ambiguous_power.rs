@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A sign before `**`.
+/// A sign is directly before the base of `**`.
 pub const AMBIGUOUS_POWER: &Rule = &Rule {
     code: "ambiguous-power",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a sign before `**`",
-    why: "JavaScript refuses it, because it could mean either of two numbers",
+    summary: "a sign is directly before the base of `**`",
+    why: "JavaScript rejects it, because it has two possible values",
     bad: Example::Expression("⟦-data.qpos[7]⟧ ** 2"),
     good: Example::Expression("-(data.qpos[7] ** 2)"),
 };

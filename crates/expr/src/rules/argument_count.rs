@@ -6,7 +6,7 @@ pub const ARGUMENT_COUNT: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a function gets too few or too many arguments",
-    why: "what is missing is undefined, what is too much is not looked at",
+    why: "JavaScript passes undefined for a missing argument and ignores an extra one",
     bad: Example::Expression("⟦Math.sin()⟧"),
     good: Example::Expression("Math.sin(data.time)"),
 };

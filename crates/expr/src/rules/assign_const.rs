@@ -6,7 +6,7 @@ pub const ASSIGN_CONST: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a name declared with `const` is assigned again",
-    why: "JavaScript throws there",
+    why: "JavaScript throws",
     bad: Example::Statements("const a = 1; ⟦a⟧ = 2; ctx.a = a"),
     good: Example::Statements("let a = 1; a = 2; ctx.a = a"),
 };

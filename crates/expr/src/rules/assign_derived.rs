@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A computed field is assigned.
+/// An assignment writes a computed field.
 pub const ASSIGN_DERIVED: &Rule = &Rule {
     code: "assign-derived",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a computed field is assigned",
-    why: "it is computed anew, and what was stored is gone",
+    summary: "an assignment writes a computed field",
+    why: "the engine computes the field again, so the stored value is lost",
     bad: Example::Statements("⟦data.xpos[5]⟧ = 1"),
     good: Example::Statements("data.qpos[2] = 1"),
 };

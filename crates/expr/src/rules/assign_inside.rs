@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// `=` inside an expression.
+/// An expression contains `=`.
 pub const ASSIGN_INSIDE: &Rule = &Rule {
     code: "assign-inside",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "`=` inside an expression",
-    why: "it stores; a comparison was probably meant",
+    summary: "an expression contains `=`",
+    why: "`=` stores a value; a comparison was probably meant",
     bad: Example::Statements("if (data.time ⟦=⟧ 1) { ctx.a = 1 }"),
     good: Example::Statements("if (data.time === 1) { ctx.a = 1 }"),
 };

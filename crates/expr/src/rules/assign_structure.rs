@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A size, a type or an address is assigned.
+/// An assignment writes a size, a type or an address.
 pub const ASSIGN_STRUCTURE: &Rule = &Rule {
     code: "assign-structure",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a size, a type or an address is assigned",
-    why: "it is fixed from the start: the host would read what is not there",
+    summary: "an assignment writes a size, a type or an address",
+    why: "the compiled model fixes it: the engine would read memory that does not exist",
     bad: Example::Statements("⟦model.nq⟧ = 9"),
     good: Example::Statements("model.body_mass[1] = 9; mj.mj_setConst(model, data)"),
 };

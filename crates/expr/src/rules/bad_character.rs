@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A character that has no meaning in the language.
+/// A character has no meaning in the language.
 pub const BAD_CHARACTER: &Rule = &Rule {
     code: "bad-character",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a character that has no meaning in the language",
-    why: "JavaScript refuses the whole text",
+    summary: "a character has no meaning in the language",
+    why: "JavaScript rejects the whole text",
     bad: Example::Expression("data.qpos[7] ⟦×⟧ 2"),
     good: Example::Expression("data.qpos[7] * 2"),
 };

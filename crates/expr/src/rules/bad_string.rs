@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A string that does not end, or holds a broken escape.
+/// A string is not closed or contains an invalid escape.
 pub const BAD_STRING: &Rule = &Rule {
     code: "bad-string",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a string that does not end, or holds a broken escape",
-    why: "all that follows is read as part of the string",
+    summary: "a string is not closed or contains an invalid escape",
+    why: "everything that follows is read as part of the string",
     bad: Example::Expression("data.body(⟦'ball).xpos[2]⟧"),
     good: Example::Expression("data.body('ball').xpos[2]"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A function of the host failed.
+/// A function of the engine fails.
 pub const HOST_CALL: &Rule = &Rule {
     code: "call-failed",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a function of the host failed",
-    why: "JavaScript throws there, and stops the whole text",
+    summary: "a function of the engine fails",
+    why: "JavaScript throws and stops the whole text",
     bad: Example::Statements("⟦mj.mj_resetDataKeyframe(model, data, 5)⟧"),
     good: Example::Statements("mj.mj_resetData(model, data)"),
 };

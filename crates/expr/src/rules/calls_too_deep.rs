@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Functions that call each other too deeply.
+/// Function calls are nested too deeply.
 pub const CALL_DEPTH: &Rule = &Rule {
     code: "calls-too-deep",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "functions that call each other too deeply",
-    why: "JavaScript throws there when its stack is full",
+    summary: "function calls are nested too deeply",
+    why: "JavaScript throws when its stack is full",
     bad: Example::Statements("const f = n => ⟦f(n + 1)⟧ + 1; ctx.a = f(0)"),
     good: Example::Statements("const f = n => n + 1; ctx.a = f(0)"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two comparisons in a row.
+/// An expression chains two comparisons.
 pub const CHAINED_COMPARISON: &Rule = &Rule {
     code: "chained-comparison",
     severity: Severity::Warning,
     layer: Layer::Program,
-    summary: "two comparisons in a row",
-    why: "the second one compares a truth value: `0 < 5 < 3` is true",
+    summary: "an expression chains two comparisons",
+    why: "the second comparison compares a truth value: `0 < 5 < 3` is true",
     bad: Example::Expression("⟦0 < data.time < 1⟧"),
     good: Example::Expression("0 < data.time && data.time < 1"),
 };

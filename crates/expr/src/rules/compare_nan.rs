@@ -1,11 +1,11 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A comparison with NaN.
+/// An expression compares with NaN.
 pub const COMPARE_NAN: &Rule = &Rule {
     code: "compare-nan",
     severity: Severity::Warning,
     layer: Layer::Program,
-    summary: "a comparison with NaN",
+    summary: "an expression compares with NaN",
     why: "NaN equals nothing, not even itself",
     bad: Example::Expression("⟦data.time === NaN⟧"),
     good: Example::Expression("Number.isNaN(data.time)"),

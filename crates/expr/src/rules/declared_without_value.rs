@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A `const` or a pattern gets no value.
+/// A `const` or a pattern has no value.
 pub const DECLARED_WITHOUT_VALUE: &Rule = &Rule {
     code: "declared-without-value",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a `const` or a pattern gets no value",
-    why: "a name that never changes needs its value at once",
+    summary: "a `const` or a pattern has no value",
+    why: "the name can never change, so it needs its value at once",
     bad: Example::Statements("const ⟦a⟧; ctx.a = a"),
     good: Example::Statements("const a = 1; ctx.a = a"),
 };

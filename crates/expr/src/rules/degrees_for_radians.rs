@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A number of degrees where radians are meant.
+/// A number is in degrees where radians are expected.
 pub const DEGREES: &Rule = &Rule {
     code: "degrees-for-radians",
     severity: Severity::Warning,
     layer: Layer::Program,
-    summary: "a number of degrees where radians are meant",
-    why: "the functions of `Math`, and fields that hold angles, measure in radians",
+    summary: "a number is in degrees where radians are expected",
+    why: "the functions of `Math` and the fields that hold angles use radians",
     bad: Example::Expression("Math.sin(⟦90⟧)"),
     good: Example::Expression("Math.sin(Math.PI / 2)"),
 };

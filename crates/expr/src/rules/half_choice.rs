@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A choice lacks one of its two values.
+/// A conditional expression lacks one of its two values.
 pub const HALF_CHOICE: &Rule = &Rule {
     code: "half-choice",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a choice lacks one of its two values",
-    why: "JavaScript refuses the whole text: a choice is written `test ? a : b`",
+    summary: "a conditional expression lacks one of its two values",
+    why: "JavaScript rejects the whole text: a conditional expression is written `test ? a : b`",
     bad: Example::Expression("data.time > 1 ⟦?⟧ 2"),
     good: Example::Expression("data.time > 1 ? 2 : 3"),
 };

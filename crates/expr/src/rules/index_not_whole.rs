@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An index that is not a whole number.
+/// An index is not an integer.
 pub const INDEX_FRACTION: &Rule = &Rule {
     code: "index-not-whole",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "an index that is not a whole number",
-    why: "JavaScript gives undefined there, and a computation with it NaN",
+    summary: "an index is not an integer",
+    why: "JavaScript gives undefined, and a computation with it gives NaN",
     bad: Example::Expression("data.qpos[⟦1.5⟧]"),
     good: Example::Expression("data.qpos[1]"),
 };

@@ -6,7 +6,7 @@ pub const LOOP_HEAD: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "the head of a `for` lacks one of its three parts",
-    why: "JavaScript refuses the whole text: a start, a condition and a step stand there",
+    why: "JavaScript rejects the whole text: the head needs a start, a condition and a step",
     bad: Example::Statements("for (let i = 0, i ⟦<⟧ 3, i++) { ctx.a = i }"),
     good: Example::Statements("for (let i = 0; i < 3; i++) { ctx.a = i }"),
 };

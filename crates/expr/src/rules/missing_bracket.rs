@@ -6,7 +6,7 @@ pub const MISSING_BRACKET: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an opening bracket is missing",
-    why: "JavaScript refuses the whole text: conditions stand in parentheses, bodies of functions in braces",
+    why: "JavaScript rejects the whole text: conditions need parentheses, function bodies need braces",
     bad: Example::Statements("if ⟦data⟧.time > 1 { ctx.a = 1 }"),
     good: Example::Statements("if (data.time > 1) { ctx.a = 1 }"),
 };

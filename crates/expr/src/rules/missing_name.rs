@@ -6,7 +6,7 @@ pub const MISSING_NAME: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a name or a key is missing",
-    why: "JavaScript refuses the whole text",
+    why: "JavaScript rejects the whole text",
     bad: Example::Expression("data.⟦⟧"),
     good: Example::Expression("data.time"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two values stand beside each other.
+/// Two values have no operator between them.
 pub const MISSING_OPERATOR: &Rule = &Rule {
     code: "missing-operator",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "two values stand beside each other",
-    why: "nothing between them says how they belong together: a product needs its `*`",
+    summary: "two values have no operator between them",
+    why: "the operation is unknown: a product needs its `*`",
     bad: Example::Expression("2 ⟦data⟧.qpos[7]"),
     good: Example::Expression("2 * data.qpos[7]"),
 };

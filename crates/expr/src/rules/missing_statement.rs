@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A condition or a loop has nothing to do.
+/// A condition or a loop has no body.
 pub const MISSING_STATEMENT: &Rule = &Rule {
     code: "missing-statement",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a condition or a loop has nothing to do",
-    why: "JavaScript refuses the whole text",
+    summary: "a condition or a loop has no body",
+    why: "JavaScript rejects the whole text",
     bad: Example::Statements("if (data.time > 1)⟦⟧"),
     good: Example::Statements("if (data.time > 1) { ctx.a = 1 }"),
 };

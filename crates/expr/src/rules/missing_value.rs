@@ -6,7 +6,7 @@ pub const MISSING_VALUE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a value is missing",
-    why: "JavaScript refuses the whole text",
+    why: "JavaScript rejects the whole text",
     bad: Example::Expression("data.qpos[7] *⟦⟧ "),
     good: Example::Expression("data.qpos[7] * 2"),
 };

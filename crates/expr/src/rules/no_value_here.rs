@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// `value` is used where no control gives one.
+/// An expression uses `value` where no control provides one.
 pub const NO_VALUE_HERE: &Rule = &Rule {
     code: "no-value-here",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "`value` is used where no control gives one",
-    why: "there is no such name: JavaScript throws there",
+    summary: "an expression uses `value` where no control provides one",
+    why: "the name does not exist there, so JavaScript throws",
     bad: Example::Expression("⟦value⟧ * 2"),
     good: Example::Expression("data.time * 2"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Something stands left of `=` that cannot hold a value.
+/// The left side of `=` cannot hold a value.
 pub const NOT_ASSIGNABLE: &Rule = &Rule {
     code: "not-assignable",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "something stands left of `=` that cannot hold a value",
-    why: "JavaScript refuses the whole text, or nothing is stored",
+    summary: "the left side of `=` cannot hold a value",
+    why: "JavaScript rejects the whole text, or stores nothing",
     bad: Example::Statements("⟦data.time + 1⟧ = 2"),
     good: Example::Statements("data.time = 2"),
 };

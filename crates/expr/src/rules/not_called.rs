@@ -6,7 +6,7 @@ pub const NOT_CALLED: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a function is named but not called",
-    why: "nothing happens, or the text of the function is shown",
+    why: "nothing happens, or the page shows the source of the function",
     bad: Example::Statements("⟦mj.mj_forward⟧"),
     good: Example::Statements("mj.mj_forward(model, data)"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The host refused to store a value.
+/// The engine rejects a stored value.
 pub const HOST_STORE: &Rule = &Rule {
     code: "store-failed",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "the host refused to store a value",
-    why: "nothing is stored, and nobody is told",
+    summary: "the engine rejects a stored value",
+    why: "nothing is stored, and the page shows no error",
     bad: Example::Statements("⟦model.opt.timestep = 0⟧"),
     good: Example::Statements("model.opt.timestep = 0.001"),
 };

@@ -5,8 +5,8 @@ pub const STORED_TWICE: &Rule = &Rule {
     code: "stored-twice",
     severity: Severity::Warning,
     layer: Layer::Program,
-    summary: "an element is stored, and at once stored again",
-    why: "what the first statement stores is lost: one of the two indexes is hardly the one that is meant",
+    summary: "an element is stored twice in a row",
+    why: "the value of the first statement is lost: one of the two indexes is probably wrong",
     bad: Example::Statements("⟦data.qvel[0]⟧ = 1; data.qvel[0] = 2"),
     good: Example::Statements("data.qvel[0] = 1; data.qvel[1] = 2"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The expression is nested deeper than the language accepts.
+/// An expression is nested too deeply.
 pub const TOO_DEEP: &Rule = &Rule {
     code: "too-deep",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "the expression is nested deeper than the language accepts",
-    why: "a limit keeps a page responsive whatever it is given",
+    summary: "an expression is nested too deeply",
+    why: "limits keep the page responsive for any input",
     bad: Example::Long("", "(", 300, "data.time"),
     good: Example::Expression("(data.time)"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A loop or a recursion that does not come to an end.
+/// A loop or a recursion does not end within the step budget.
 pub const BUDGET: &Rule = &Rule {
     code: "too-many-steps",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a loop or a recursion that does not come to an end",
-    why: "whoever waits for it would wait forever",
+    summary: "a loop or a recursion does not end within the step budget",
+    why: "without a budget the page would hang",
     bad: Example::Statements("while (⟦true⟧) { ctx.a = 1 }"),
     good: Example::Statements("for (let i = 0; i < 3; i++) { ctx.a = i }"),
 };

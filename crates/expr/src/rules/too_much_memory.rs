@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Lists and records that take too much memory.
+/// Lists and records take too much memory.
 pub const MEMORY: &Rule = &Rule {
     code: "too-much-memory",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "lists and records that take too much memory",
-    why: "whoever waits for it would wait forever",
+    summary: "lists and records take too much memory",
+    why: "without a limit the page could hang",
     bad: Example::Statements("ctx.all = []; for (let i = 0; i < 1e7; i++) ⟦ctx.all.push([i, i, i])⟧"),
     good: Example::Statements("ctx.all = [data.time]"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A comment that does not end.
+/// A comment is not closed.
 pub const UNCLOSED_COMMENT: &Rule = &Rule {
     code: "unclosed-comment",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a comment that does not end",
-    why: "all that follows is read as part of the comment",
+    summary: "a comment is not closed",
+    why: "everything that follows is read as part of the comment",
     bad: Example::Expression("data.time ⟦/*⟧ in s"),
     good: Example::Expression("data.time /* in s */"),
 };

@@ -6,7 +6,7 @@ pub const UNKNOWN_FIELD: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an object has no member of this name",
-    why: "JavaScript gives undefined there, and a computation with it NaN",
+    why: "JavaScript gives undefined, and a computation with it gives NaN",
     bad: Example::Expression("data.⟦qpso⟧[7]"),
     good: Example::Expression("data.qpos[7]"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// There is no function of this name.
+/// A call names an unknown function.
 pub const UNKNOWN_FUNCTION: &Rule = &Rule {
     code: "unknown-function",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "there is no function of this name",
-    why: "JavaScript throws there",
+    summary: "a call names an unknown function",
+    why: "JavaScript throws",
     bad: Example::Expression("Math.⟦sine⟧(data.time)"),
     good: Example::Expression("Math.sin(data.time)"),
 };

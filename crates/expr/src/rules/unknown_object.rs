@@ -5,8 +5,8 @@ pub const UNKNOWN_OBJECT: &Rule = &Rule {
     code: "unknown-object",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "there is no object of this name",
-    why: "JavaScript throws there",
+    summary: "the model has no object of this name",
+    why: "JavaScript throws",
     bad: Example::Expression("data.body(⟦'bal'⟧).xpos[2]"),
     good: Example::Expression("data.body('ball').xpos[2]"),
 };

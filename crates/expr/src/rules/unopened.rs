@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A bracket closes nothing.
+/// A closing bracket has no opening bracket.
 pub const UNOPENED: &Rule = &Rule {
     code: "unopened",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "a bracket closes nothing",
-    why: "JavaScript refuses the whole text",
+    summary: "a closing bracket has no opening bracket",
+    why: "JavaScript rejects the whole text",
     bad: Example::Expression("data.time⟦)⟧"),
     good: Example::Expression("(data.time)"),
 };

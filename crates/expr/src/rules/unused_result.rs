@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A statement that changes nothing.
+/// A statement has no effect.
 pub const UNUSED_RESULT: &Rule = &Rule {
     code: "unused-result",
     severity: Severity::Warning,
     layer: Layer::Program,
-    summary: "a statement that changes nothing",
-    why: "a value is computed and thrown away",
+    summary: "a statement has no effect",
+    why: "it computes a value and discards it",
     bad: Example::Statements("⟦data.qpos[7] + 1⟧"),
     good: Example::Statements("data.qpos[7] += 1"),
 };

@@ -6,7 +6,7 @@ pub const USED_TOO_EARLY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "a local name is used before its declaration",
-    why: "JavaScript throws there",
+    why: "JavaScript throws",
     bad: Example::Statements("ctx.x = ⟦x⟧; const x = 1"),
     good: Example::Statements("const x = 1; ctx.x = x"),
 };

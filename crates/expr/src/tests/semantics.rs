@@ -267,6 +267,6 @@ fn half_a_character_is_refused() {
         let mut globals = Globals::new();
         let program = Compiler::new(&Mock, &mut globals).expression(source).program.unwrap();
         let thrown = program.run(&mut World::new(), &mut Context::of(&globals), None);
-        assert!(thrown.is_err_and(|e| e.message.contains("half of a character")), "{source}");
+        assert!(thrown.is_err_and(|e| e.message.contains("half of a two-unit character")), "{source}");
     }
 }

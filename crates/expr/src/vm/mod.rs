@@ -301,8 +301,7 @@ impl Machine<'_> {
     /// Counts a call.
     fn enter(&mut self, callee: &CodeUnit) -> Result<(), Trouble> {
         if self.depth >= MAX_CALLS {
-            let message =
-                format!("functions call each other more than {MAX_CALLS} times, one inside the other");
+            let message = format!("function calls are nested more than {MAX_CALLS} levels deep");
             return Err(Trouble::new(rules::CALL_DEPTH, message));
         }
         self.charge(callee.cost)?;
@@ -438,7 +437,7 @@ impl Machine<'_> {
         if matches!(value, Value::View(_)) {
             return Err(Trouble::new(
                 rules::WHOLE_ARRAY,
-                "an array of the host cannot be kept in `ctx`; keep a copy, as `list.slice()`",
+                "`ctx` cannot store an array of the engine; store a copy, as `list.slice()`",
             ));
         }
         Ok(())

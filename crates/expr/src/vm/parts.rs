@@ -268,7 +268,7 @@ impl Machine<'_> {
         match object {
             Value::Undefined | Value::Null => Err(Trouble::new(
                 rules::NO_PARTS,
-                format!("`{name}` of {object} was read: nothing was stored there before"),
+                format!("`{name}` of {object} was read before anything stored it"),
             )),
             Value::Record(_) => Ok(self.context.heap.get(object, name).unwrap_or_default()),
             Value::String(text) if name == "length" => Ok(Value::Number(text.encode_utf16().count() as f64)),
@@ -365,7 +365,7 @@ impl Machine<'_> {
                 let what = what(other, self.context.heap.object(other));
                 Err(Trouble::new(
                     rules::NO_PARTS,
-                    format!("`{name}` of {what} was assigned: it has no members"),
+                    format!("`{name}` of {what} was assigned, but it has no members"),
                 ))
             }
         }
@@ -400,7 +400,7 @@ impl Machine<'_> {
         let (code, at, captures) = match self.context.heap.object(callee) {
             Object::Closure { code, unit, captures } => (code.clone(), *unit, captures.clone()),
             object => {
-                let message = format!("{} is called, but it is not a function", what(callee, object));
+                let message = format!("{} is called but is not a function", what(callee, object));
                 return Err(Trouble::new(rules::NOT_CALLABLE, message).into());
             }
         };
@@ -432,5 +432,5 @@ impl Machine<'_> {
 }
 
 fn too_early() -> Trouble {
-    Trouble::new(rules::USED_TOO_EARLY, "a name is used before its declaration has run")
+    Trouble::new(rules::USED_TOO_EARLY, "a name is used before its declaration runs")
 }

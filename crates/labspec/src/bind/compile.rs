@@ -245,7 +245,7 @@ impl Work<'_> {
             self.findings.push(
                 Finding::warning(rules::VALUE_UNUSED, text.span(), "these statements never use `value`")
                     .why(format!(
-                        "moving \"{}\" changes nothing: the chosen value is called `value`",
+                        "moving \"{}\" changes nothing, because only `value` holds the chosen value",
                         control.label.value
                     ))
                     .help("write `value` where the chosen value belongs"),

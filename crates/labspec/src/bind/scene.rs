@@ -112,9 +112,9 @@ impl Models {
                 // A model that does not exist is reported by the rules of the lesson's structure.
                 if model.is_none() && self.folder.has(&name.value) {
                     findings.push(
-                        Finding::error(rules::MODEL_BROKEN, name.span(), format!("the model `{}` has mistakes", name.value))
-                            .why("this lab cannot run, and its expressions cannot be checked, until the model loads")
-                            .help(format!("correct what is reported for {}.xml", name.value)),
+                        Finding::error(rules::MODEL_BROKEN, name.span(), format!("the model `{}` has errors", name.value))
+                            .why("until the model loads, this lab cannot run and its expressions cannot be checked")
+                            .help(format!("fix what is reported for {}.xml", name.value)),
                     );
                 }
                 model
@@ -142,8 +142,8 @@ impl Models {
         }
         examined.model.map(Arc::new).ok_or_else(|| {
             let first = examined.findings.into_iter().find(|f| f.severity == Severity::Error);
-            let message = first.map_or("no model comes of this change".into(), |f| f.message);
-            (None, Refusal { message, help: "change it to what the model can be".into() })
+            let message = first.map_or("the changed model is invalid".into(), |f| f.message);
+            (None, Refusal { message, help: "change it to a value that the model accepts".into() })
         })
     }
 

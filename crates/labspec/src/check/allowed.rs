@@ -46,12 +46,8 @@ pub(super) fn suppress_allowed(
     });
     errors.dedup();
     findings.extend(errors.into_iter().map(|(code, span)| {
-        Finding::new(
-            rules::ERROR_ALLOWED,
-            span,
-            format!("`{code}` is an error here: it is told all the same"),
-        )
-        .help("mend what it is about, then leave this out")
+        Finding::new(rules::ERROR_ALLOWED, span, format!("`{code}` is an error and cannot be suppressed"))
+            .help("fix the error, then delete this code")
     }));
     let mut wrong = Vec::new();
     for allowance in &allowances {
@@ -59,27 +55,31 @@ pub(super) fn suppress_allowed(
             break;
         }
         if allowance.why.is_empty() {
-            let message = "something is allowed without a reason";
+            let message = "this suppression gives no reason";
             wrong.push(
                 Finding::new(rules::ALLOWANCE_WITHOUT_REASON, allowance.span.clone(), message)
-                    .help("write the reason behind the codes, as \"why\" or after a colon"),
+                    .help("write the reason after the codes, as \"why\" or after a colon"),
             );
             continue;
         }
         wrong.extend(allowance.codes.iter().filter(|code| !used.contains(code)).filter_map(
             |(code, span)| {
                 let Some(rule) = rules::find(code) else {
-                    let message = format!("no rule is called `{code}`");
+                    let message = format!("`allow` names the unknown rule `{code}`");
                     let near = nearest(code, rules::all().map(|r| r.code));
                     let found = Finding::new(rules::UNKNOWN_RULE, span.clone(), message);
                     return Some(match near {
                         Some(near) => found.help(format!("did you mean `{near}`?")),
-                        None => found.help("`labspec explain` lists all rules"),
+                        None => found.help("run `labspec explain` for a list of all rules"),
                     });
                 };
                 looked_at(rule.layer, depth).then(|| {
-                    Finding::new(rules::UNUSED_ALLOWANCE, span.clone(), format!("`{code}` is not found here"))
-                        .help("leave it out")
+                    Finding::new(
+                        rules::UNUSED_ALLOWANCE,
+                        span.clone(),
+                        format!("`{code}` matches no finding here"),
+                    )
+                    .help("delete it")
                 })
             },
         ));
@@ -87,7 +87,7 @@ pub(super) fn suppress_allowed(
     if wrong.len() > MAX_FINDINGS {
         wrong.truncate(MAX_FINDINGS);
         let end = lesson.file.text().len();
-        let message = "more mistakes in what is allowed are not shown";
+        let message = "more mistakes in suppressions are not listed";
         wrong.push(
             Finding::new(rules::LESSON_LIMIT, end..end, message).help("fix the first ones, then check again"),
         );

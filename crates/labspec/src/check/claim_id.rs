@@ -76,7 +76,7 @@ fn answer_result(verify: &Verify, question: Option<&Question>, judgement: &Judge
         for weight in &answer.weights {
             let holds = match weight.holds {
                 Some(true) => "holds",
-                Some(false) => "does not hold",
+                Some(false) => "is false",
                 None => "is undecided",
             };
             let option = weight.option.map_or(String::from("value"), |i| i.to_string());

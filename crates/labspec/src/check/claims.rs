@@ -174,16 +174,14 @@ fn named_scene<'r>(
     let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
     let name = read::named(text.as_str());
     let message = match lesson.other(&text.span()).map(|other| &other.lab) {
-        Some(Ok(_)) => format!("{name} cannot run: its model or its code has mistakes"),
-        Some(Err(why)) => format!("{name} is not there: {why}"),
-        None => format!("{name} is not there: only this lesson was given, or it names too many others"),
+        Some(Ok(_)) => format!("{name} cannot run, because its model or its code has errors"),
+        Some(Err(why)) => format!("{name} does not exist: {why}"),
+        None => format!("{name} does not exist: only this lesson was given, or it names too many others"),
     };
     findings.push(
         Finding::error(rules::UNKNOWN_LAB, text.span(), message)
-            .why("nothing that is claimed of it could be checked")
-            .help(
-                "check that lesson; a lab of another one is named by the path from this lesson: other.md#2",
-            ),
+            .why("claims about it cannot be checked")
+            .help("check that lesson; name a lab of another lesson by its path from this one: other.md#2"),
     );
     None
 }
@@ -314,7 +312,7 @@ impl ClaimChecker<'_> {
         // What is left of an object with mistakes may say something else than what was meant.
         let inside = |f: &&Finding| verify.span.start <= f.span.start && f.span.end <= verify.span.end;
         if self.lesson.findings.iter().filter(inside).any(Finding::is_error) {
-            judgement.withdraw("its `verify` has mistakes");
+            judgement.withdraw("its `verify` has errors");
         }
         claim_id::identify(name, self.lesson.whole(verify), question, &judgement, &mut found);
         findings.extend(found);
@@ -353,7 +351,7 @@ impl ClaimChecker<'_> {
                 }
                 judgement
             }
-            None => verify::unmade(verify, question, "its runs or measures have mistakes"),
+            None => verify::unmade(verify, question, "its runs or measures have errors"),
         }
     }
 }

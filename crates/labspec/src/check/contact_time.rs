@@ -32,14 +32,14 @@ pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
         Finding::new(
             rules::CONTACT_TIME_LATE,
             text.span(),
-            format!("`ctx.{name}` is the time of a contact, and one step late"),
+            format!("`ctx.{name}` records the time of a contact one step late"),
         )
         .why(format!(
-            "in a run, a contact of the positions at {} s makes it {}: contacts are found at the start of a step, and `data.time` is that of its end",
+            "in a run, a contact of the positions at {} s sets it to {}: a step finds contacts at its start, but `data.time` is already the time of its end",
             said(time - step),
             said(time)
         ))
-        .help("keep `data.time - model.opt.timestep`"),
+        .help("store `data.time - model.opt.timestep`"),
     );
 }
 

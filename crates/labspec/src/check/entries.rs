@@ -191,7 +191,7 @@ fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
 }
 
 fn unknown_widget(name: &str) -> String {
-    format!("not checked; if the page has it, labspec.toml says so: widgets = [\"{name}\"]")
+    format!("not checked; if the page has it, add it to labspec.toml: widgets = [\"{name}\"]")
 }
 
 fn lab(ran: &RanLab) -> (State, &'static str, String) {

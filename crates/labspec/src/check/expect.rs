@@ -37,17 +37,21 @@ pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first:
         return;
     }
     findings.push(
-        Finding::error(rules::DOES_NOT_BREAK, place.clone(), "this lab is said to break, and it does not")
-            .why(format!(
-                "{}: a student who waits for what the text speaks of sees a simulation that goes well",
-                if runs == 1 {
-                    "it was run, and every number stayed one".into()
-                } else {
-                    format!(
-                        "it was run {runs} times, with every control at its ends, and every number stayed one"
-                    )
-                }
-            ))
-            .help("make it break (a larger timestep, a stiffer spring, a longer run), or leave `expect` out"),
+        Finding::error(
+            rules::DOES_NOT_BREAK,
+            place.clone(),
+            "this lab is expected to break, but it does not",
+        )
+        .why(format!(
+            "{}: a student does not see the break that the text describes",
+            if runs == 1 {
+                "one run was made, and every number stayed finite".into()
+            } else {
+                format!(
+                    "{runs} runs were made, with every control at its ends, and every number stayed finite"
+                )
+            }
+        ))
+        .help("make it break (a larger timestep, a stiffer spring, a longer run), or delete `expect`"),
     );
 }

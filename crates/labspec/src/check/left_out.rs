@@ -29,11 +29,13 @@ pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     if claimed.len() >= LEAST && left.len() * SHARE <= all {
         for s in left {
             let others = all - 1;
-            let message =
-                format!("{} is claimed nowhere, as nearly all of the other {others} numbers are", s.quote);
+            let message = format!(
+                "no `verify` quotes {}, although nearly all of the other {others} numbers are quoted",
+                s.quote
+            );
             findings.push(
                 Finding::new(NUMBERS_UNCLAIMED, s.span.clone(), message)
-                    .help("quote it under `says`, or write what was claimed here before"),
+                    .help("quote it under `says`, or restore the earlier claim"),
             );
         }
         return;
@@ -44,11 +46,11 @@ pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     if let Some(first) = left.first().filter(|_| left.len() >= FEWEST && !lesson.labs.is_empty()) {
         let (some, all) = (claimed.len(), claimed.len() + left.len());
         let message = format!(
-            "{some} of {all} numbers with units in the text are claimed; this is the first that is not"
+            "the text has {all} numbers with units and `verify` quotes {some} of them; this is the first one that it does not quote"
         );
         findings.push(
             Finding::new(NUMBERS_UNCLAIMED, first.span.clone(), message)
-                .help("quote those that come from a run under `says` of a `verify`; `labspec trace` looks for their origin"),
+                .help("quote numbers that come from a run under `says` of a `verify`; `labspec trace` finds their origin"),
         );
     }
 }

@@ -251,11 +251,11 @@ pub(crate) fn bind(
             findings.extend(match folder.given() {
                 Some(_) if folder.has(&name.value) => None,
                 Some(_) => Some(
-                    Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", name.value))
-                        .help("name a model that there is"),
+                    Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("the model `{}` does not exist", name.value))
+                        .help("use the name of an existing model"),
                 ),
-                None => Some(Finding::error(rules::NO_MODEL_FOLDER, name.span(), "there is no folder of models, so this lab cannot run")
-                    .why("its expressions, its runs and every claim about it could not be checked")
+                None => Some(Finding::error(rules::NO_MODEL_FOLDER, name.span(), "the model folder does not exist, so this lab cannot run")
+                    .why("the checker skips its expressions, its runs and every claim about it")
                     .help(format!("put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR", name.value)),
                 ),
             });

@@ -96,11 +96,11 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
                 rules::LABEL_NAMES_ANOTHER,
                 one.label.span(),
                 format!(
-                    "the label names the {} \"{}\", and the expression reads the {} \"{}\"",
+                    "the label names the {} \"{}\", but the expression reads the {} \"{}\"",
                     named.noun, named.name, other.noun, other.name
                 ),
             )
-            .help("read what the label names, or name what is read; two labels may have been exchanged")
+            .help("read the object that the label names, or correct the label; two labels may be exchanged")
             .related(one.bound.text.span(), format!("this belongs to \"{}\"", other.name)),
         );
     }
@@ -122,9 +122,9 @@ fn another_size(label: &Text, bound: &Bound) -> Option<Finding> {
     let read = bound.text.value.trim().strip_prefix("model.")?;
     let both = SIZES.contains(&named) && SIZES.contains(&read) && named != read;
     both.then(|| {
-        let message = format!("the label names `{named}`, and the expression reads `{read}`");
+        let message = format!("the label names `{named}`, but the expression reads `{read}`");
         Finding::new(rules::LABEL_NAMES_ANOTHER, label.span(), message)
-            .help("read what the label names; two labels may have been exchanged")
+            .help("read the field that the label names; two labels may be exchanged")
             .related(bound.text.span(), format!("this is `{read}`"))
     })
 }
@@ -151,11 +151,11 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
     let all: Option<Vec<usize>> = own.iter().map(|w| (w.count == Some(1)).then_some(w.first)).collect();
     let all = all.filter(|all| !all.is_empty())?;
     let other = all.iter().find(|i| outside(**i)).filter(|_| all.iter().all(|i| outside(*i)))?;
-    let message = format!("the label names `{name}[{inside}]`, and `{name}[{other}]` is written");
+    let message = format!("the label names `{name}[{inside}]`, but the control writes `{name}[{other}]`");
     Some(
         Finding::new(rules::LABEL_NAMES_ANOTHER, label.span(), message)
-            .help("write what the label names, or name what is written")
-            .related(bound.text.span(), "what is written"),
+            .help("write the element that the label names, or correct the label")
+            .related(bound.text.span(), "the control writes this"),
     )
 }
 
@@ -165,11 +165,11 @@ fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[Named]) -> Option<Findi
     let words = words_of(trace.label.as_str());
     let named = all.iter().find(|n| n.words == words)?;
     let message =
-        format!("the label names the {} \"{}\", and the expression reads nothing", named.noun, named.name);
+        format!("the label names the {} \"{}\", but the expression reads nothing", named.noun, named.name);
     Some(
         Finding::new(rules::LABEL_NAMES_ANOTHER, trace.label.span(), message)
-            .help("read what the label names; for a line that is meant there is `refLines`")
-            .related(bound.text.span(), "this is one number"),
+            .help("read the object that the label names; use `refLines` for an intended constant line")
+            .related(bound.text.span(), "this is a constant"),
     )
 }
 

@@ -31,8 +31,8 @@ pub(super) fn check(lesson: &Lesson, ready: &Ready<'_>, findings: &mut Vec<Findi
             .map(|slot| programs.globals.name(*slot))
             .collect();
         let help = match nearest(&name.value, others) {
-            Some(near) => format!("the lab reads `ctx.{near}`: is that meant?"),
-            None => format!("read it as `ctx.{}` where it is to act, or leave the control out", name.value),
+            Some(near) => format!("did you mean `ctx.{near}`, which the lab reads?"),
+            None => format!("read it as `ctx.{}` where it should act, or delete the control", name.value),
         };
         findings.push(
             Finding::warning(rules::PARAM_UNREAD, name.span(), format!("nothing reads `ctx.{}`", name.value))

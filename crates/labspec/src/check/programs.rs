@@ -22,13 +22,13 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
             Finding::warning(
                 rules::LOST_AT_RESET,
                 bound.text.span(),
-                format!("what \"{label}\" sets is lost at the next reset"),
+                format!("a reset discards what \"{label}\" sets"),
             )
             .why(format!(
-                "a reset puts data.{} back, while the control still shows the chosen value: {shown}",
+                "a reset restores data.{}, but the control still displays the chosen value: {shown}",
                 field.info().name
             ))
-            .help("add \"init\": true, so that it is applied again after every reset")
+            .help("add \"init\": true, so that every reset applies it again")
             .related(control.label.span(), "the control"),
         );
     }

@@ -61,11 +61,11 @@ fn at_odds(plot: &Plot, model: &Model) -> Option<Finding> {
             Finding::new(
                 rules::LABEL_UNIT,
                 axis.span(),
-                format!("the plot is in {text}, and a trace of it in {own}"),
+                format!("the plot is in {text}, but one of its traces is in {own}"),
             )
-            .why("a student reads the curve on an axis of another unit")
+            .why("a student reads the curve on an axis with another unit")
             .related(trace.label.span(), "the trace")
-            .help("show both in one unit")
+            .help("use the same unit for both")
         })
     })
 }
@@ -94,20 +94,20 @@ fn wrong_label(labels: &[&Text], model: &Model, bound: &Bound, found: &Dimension
         return None;
     }
     let gives = written(found);
-    let message = format!("the label says {text}, and the expression gives {gives}");
+    let message = format!("the label says {text}, but the expression gives {gives}");
     let found = Finding::new(rules::LABEL_UNIT, label.span(), message)
         .why(why(found, &wanted))
         .related(bound.text.span(), format!("this is in {gives}"));
     Some(found.help(match factor_words(&wanted) {
         Some(words) => format!("convert the number ({words}), or write its unit into the label"),
-        None => "write the unit of the number into the label, or show what the label says".to_string(),
+        None => "write the unit of the number into the label, or display what the label says".to_string(),
     }))
 }
 
 /// What a student reads.
 fn why(found: &Dimension, wanted: &Dimension) -> String {
     if !found.agrees(wanted) {
-        return "the two measure different things".to_string();
+        return "the two are different quantities".to_string();
     }
     let ratio = found.factor.abs() / wanted.factor.abs();
     let near = |x: f64| (x - x.round()).abs() < 1e-6 * x;
@@ -118,7 +118,7 @@ fn why(found: &Dimension, wanted: &Dimension) -> String {
         (_, r) if r >= 1.0 && near(r) => {
             format!("a student reads a number that is {} times too small", r.round())
         }
-        _ => "a student takes the number for another one".to_string(),
+        _ => "a student takes the number for something else".to_string(),
     }
 }
 
@@ -126,7 +126,7 @@ fn why(found: &Dimension, wanted: &Dimension) -> String {
 fn factor_words(wanted: &Dimension) -> Option<String> {
     let factor = wanted.factor.abs();
     if (factor - 1f64.to_degrees()).abs() < 1e-6 {
-        return Some("`lib.deg(…)` makes degrees of radians".to_string());
+        return Some("`lib.deg(…)` converts radians to degrees".to_string());
     }
     let power = factor.log10();
     let plain = (power - power.round()).abs() < 1e-9 && power.round() > 0.0;
@@ -155,9 +155,9 @@ fn wrong_control(
         _ => &control.label,
     };
     let message =
-        format!("by its unit the control stores {}, and {field} is in {}", written(&found), written(&wanted));
+        format!("the control stores a value in {}, but {field} is in {}", written(&found), written(&wanted));
     let at = bound.text.span_of(stored.span.into());
-    let told = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "what it stores");
+    let told = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "it stores this");
     Some(
         told.why(why(&found, &wanted))
             .help("convert `value` where it is stored, or write the unit of the field"),
@@ -169,7 +169,7 @@ fn clashes(bound: &Bound, measured: &Measured, severity: Severity) -> Vec<Findin
     let one = |clash: &labspec_expr::Clash| {
         let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));
         let mut found = Finding::new(rules::MIXED_DIMENSIONS, bound.text.span_of(clash.span.into()), message)
-            .help("look at the index and at the field: is one of the two another quantity than is meant?");
+            .help("check the index and the field: one of the two may be a different quantity than intended");
         found.severity = severity;
         found
     };

@@ -40,21 +40,21 @@ impl Baseline {
     pub(super) fn read(path: &Path) -> Result<Baseline, Failure> {
         let no = |why: &str| {
             format!(
-                "{} is no baseline: {why}; name another file, and --update-baseline writes one",
+                "{} is not a baseline: {why}; name another file, or use --update-baseline to write one",
                 printable_path(path)
             )
         };
         let text = read_text(path, MOST, "a baseline")?;
         let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
         if value["report"] != "baseline" || value["schemaVersion"] != report::SCHEMA_VERSION {
-            return Err(no("it does not say that it is one of this version"));
+            return Err(no("its version is missing or unsupported"));
         }
         let mut all = Baseline::new(path);
         for entry in value["findings"].as_array().ok_or_else(|| no("it has no findings"))? {
             let text = |key: &str| entry[key].as_str().map(String::from);
             let mark = [text("file"), text("code"), text("message"), text("line")];
             let [Some(file), Some(code), Some(message), Some(line)] = mark else {
-                return Err(no("one of its findings is not whole"));
+                return Err(no("one of its findings is incomplete"));
             };
             let count = entry["count"].as_u64().unwrap_or(1) as usize;
             // Findings about something else carry no claim.

@@ -33,7 +33,7 @@ pub(super) struct Arguments {
     /// Compute trees without a short way; may be given several times
     #[arg(long, value_name = "WAY", value_parser = short_way())]
     without: Vec<Way>,
-    /// Start every repetition again from the reset state, so that it is the same flight or fall
+    /// Start every repetition from the reset state, so that all compute the same motion
     #[arg(long)]
     reset: bool,
 }
@@ -41,7 +41,7 @@ pub(super) struct Arguments {
 /// A short way of computing trees, by its name.
 fn short_way() -> impl TypedValueParser<Value = Way> {
     PossibleValuesParser::new(Way::short().map(Way::name))
-        .try_map(|name| Way::short().find(|way| way.name() == name).ok_or("no such way"))
+        .try_map(|name| Way::short().find(|way| way.name() == name).ok_or("this algorithm does not exist"))
 }
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {

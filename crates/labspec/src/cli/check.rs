@@ -32,15 +32,15 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     models: ModelOptions,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
     #[arg(long, value_enum, default_value = "auto", value_name = "WHEN")]
     color: Color,
-    /// Check so many files at the same time [default: as many as there are processors]
+    /// Number of files to check in parallel [default: the number of processors]
     #[arg(long, value_name = "N")]
     jobs: Option<NonZeroUsize>,
-    /// Check everything, also what has not changed since the last time, and keep nothing
+    /// Check everything, even unchanged files, and store no results
     #[arg(long)]
     no_cache: bool,
     /// Check again whenever a file changes, until Ctrl-C
@@ -51,22 +51,22 @@ pub(super) struct Arguments {
     stdin_name: PathBuf,
     #[command(flatten)]
     policy: PolicyOptions,
-    /// Tell only findings that are not in this file
+    /// Report only findings that are not in this file
     #[arg(long, value_name = "FILE")]
     baseline: Option<PathBuf>,
-    /// Write the baseline anew: whatever is found now is known from now on
+    /// Replace the baseline by the current findings
     #[arg(long, requires = "baseline")]
     update_baseline: bool,
-    /// Write what a second judge is to run: every run of every `verify` object, for tests/judge/record.mjs
+    /// Write the runs for a second judge: every run of every `verify` object, for tests/judge/record.mjs
     #[arg(long, value_name = "FILE")]
     judge_request: Option<PathBuf>,
-    /// Compare every measure with what the real library has recorded, and judge every claim again with its numbers
+    /// Compare every measure with a recording of MuJoCo, and check every claim again with its numbers
     #[arg(long, value_name = "FILE")]
     judge: Option<PathBuf>,
-    /// Count the findings of each rule, and show no more of them
+    /// Show only the number of findings of each rule
     #[arg(long)]
     statistics: bool,
-    /// Show also what the lessons allow, with the reasons
+    /// Also show suppressed findings, with the reasons
     #[arg(long)]
     show_allowed: bool,
 }
@@ -76,26 +76,26 @@ pub(super) struct Arguments {
 pub(super) struct CheckArguments {
     #[command(flatten)]
     common: Arguments,
-    /// Check structure, models and the names in every text, and run nothing: labs and claims are counted as left out,
-    /// and the exit code is 3 where nothing is wrong
+    /// Check structure, models and the names in every text, but run nothing: labs and claims count as left out,
+    /// and the exit code is 3 if no problems are found
     #[arg(long)]
     no_run: bool,
-    /// Repair what can be repaired safely; every repair is checked before it is written
+    /// Apply safe fixes; every fix is checked before it is written
     #[arg(long)]
     fix: bool,
-    /// Repair also by guesses, as good as any
+    /// Also apply fixes that are guesses
     #[arg(long)]
     unsafe_fixes: bool,
     /// Show what --fix would change, and change nothing
     #[arg(long)]
     diff: bool,
-    /// Write every verdict with what it rests on: versions, settings of every run, digests of models and texts
+    /// Write every verdict with its basis: versions, settings of every run, digests of models and texts
     #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
     record: Option<PathBuf>,
     /// Write a page for a browser: every verdict with its evidence, plots of the runs, and how much of the text is claimed
     #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
     html: Option<PathBuf>,
-    /// Tell what has changed since a check that was recorded: verdicts and values, with the settings and models that changed too
+    /// Report the changes since a recorded check: verdicts and values, with changed settings and models
     #[arg(long, value_name = "FILE", conflicts_with = "no_run")]
     since: Option<PathBuf>,
 }
@@ -152,7 +152,7 @@ fn work(
     let piped = a.paths.iter().any(|p| p.as_os_str() == STDIN);
     let stdin = piped.then(|| read_stdin().map(|text| (a.stdin_name.clone(), text))).transpose()?;
     if piped && (a.watch || mode.is_some()) {
-        return Err("standard input can be checked, and neither watched nor repaired; name a file".into());
+        return Err("--watch and --fix do not work on standard input; name a file".into());
     }
     let baseline = match &a.baseline {
         Some(file) if !a.update_baseline => Some(Baseline::read(file)?),
@@ -196,7 +196,7 @@ fn work(
         }
         if repaired.fixes > 0 {
             complain(&format!(
-                "repaired {} in {}\n",
+                "fixed {} in {}\n",
                 many(repaired.fixes, "finding"),
                 many(repaired.files, "file")
             ));
@@ -297,12 +297,11 @@ fn report(
     }
     match outcome {
         ledger::Outcome::Findings => Ok(Outcome::Findings),
-        ledger::Outcome::Nothing if found == ledger::Outcome::Clean => Err(format!(
-            "there is nothing to verify in {}: no question and no lab carries a `verify` object",
-            named()
-        )),
+        ledger::Outcome::Nothing if found == ledger::Outcome::Clean => {
+            Err(format!("{} has nothing to verify: no question and no lab has a `verify` object", named()))
+        }
         ledger::Outcome::Nothing => {
-            Err(format!("there is nothing to check in {}: no lab, no question and no model", named()))
+            Err(format!("{} has nothing to check: no lab, no question and no model", named()))
         }
         ledger::Outcome::Partial => Ok(Outcome::Partial),
         ledger::Outcome::Clean | ledger::Outcome::Known
@@ -407,7 +406,7 @@ fn suppressed_summary(course: &Course) -> String {
     let ignored = Summary::of(&aside.ignored);
     let parts = [
         (aside.ignored.len(), format!("{ignored} ignored")),
-        (aside.allowed.len(), format!("{} allowed by the lessons", many(aside.allowed.len(), "finding"))),
+        (aside.allowed.len(), format!("{} suppressed by the lessons", many(aside.allowed.len(), "finding"))),
         (aside.baselined.len(), format!("{} in the baseline", many(aside.baselined.len(), "finding"))),
     ];
     let parts: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
@@ -419,7 +418,7 @@ fn allowed(course: &Course, sources: &[&SourceFile]) -> String {
     let mut text = String::new();
     for aside in &course.suppressed.allowed {
         let line = drawn::concise(std::slice::from_ref(&aside.finding), sources);
-        let _ = writeln!(text, "{}\n  allowed: {}", line.trim_end(), printable(&aside.why));
+        let _ = writeln!(text, "{}\n  suppressed: {}", line.trim_end(), printable(&aside.why));
     }
     if !text.is_empty() {
         text.push('\n');

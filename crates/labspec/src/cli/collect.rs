@@ -50,7 +50,7 @@ impl Collected {
     /// Names on standard error what was left out.
     pub(super) fn complain(&self) {
         for (path, why) in &self.left_out {
-            complain(&printable_lines(&format!("labspec: {} is left out: {why}\n", path.display())));
+            complain(&printable_lines(&format!("labspec: {} is skipped: {why}\n", path.display())));
         }
     }
 }
@@ -147,7 +147,8 @@ fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Co
         true if is_file => all.files.push((link.to_path_buf(), false)),
         true => {}
         false => {
-            let why = format!("it is a link that leads out of {}; name {} itself", shown(root), shown(&real));
+            let why =
+                format!("it is a link that leads outside {}; name {} itself", shown(root), shown(&real));
             all.left_out.push((link.to_path_buf(), why));
         }
     }

@@ -25,7 +25,7 @@ pub(super) fn explain(a: &Arguments) -> Result<Outcome, Failure> {
             let near = json::nearest(code, rules::all().map(|rule| rule.code));
             let near = near.map_or(String::new(), |c| format!("; did you mean `{c}`?"));
             let code = crate::report::printable(code);
-            Err(format!("there is no code `{code}`{near}\n`labspec explain` lists all codes"))
+            Err(format!("the code `{code}` does not exist{near}\n`labspec explain` lists all codes"))
         }
     }
 }

@@ -19,10 +19,10 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     models: ModelOptions,
-    /// Also write bare indexes by name: data.qpos[9] as data.joint('light').qpos[2]
+    /// Also replace bare indexes by names: data.qpos[9] as data.joint('light').qpos[2]
     #[arg(long)]
     modernize: bool,
-    /// Change nothing; say which files would change
+    /// Change nothing; list the files that would change
     #[arg(long)]
     check: bool,
 }
@@ -70,7 +70,7 @@ fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failur
     let again = reload_lesson(&lesson, &done.text, &folder);
     if !format::says_the_same(&lesson, &again) {
         return Err(format!(
-            "{} is left alone: laid out anew it would not be read as before; please report this lesson",
+            "{} is unchanged: formatting would change its meaning; please report this lesson",
             printable_path(path)
         ));
     }

@@ -47,14 +47,14 @@ pub(super) fn ask(file: &Path, course: &Course) -> Result<(), Failure> {
 pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
     let no = |why: &str| {
         format!(
-            "{} is no recording of a judge: {why}; tests/judge/record.mjs makes one of what `--judge-request FILE` writes",
+            "{} is not a recording of a judge: {why}; tests/judge/record.mjs makes one from the file of `--judge-request FILE`",
             printable_path(file)
         )
     };
     let text = read_text(file, MOST, "a recording of a judge")?;
     let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
     if value["recording"] != "judge" || value["version"] != VERSION {
-        return Err(no("it does not say that it is one of this version"));
+        return Err(no("its version is missing or unsupported"));
     }
     let engine = value["engine"].as_str().filter(|e| !e.trim().is_empty() && e.len() < 100);
     let engine = engine.ok_or_else(|| no("it does not name its engine"))?.to_string();
@@ -69,7 +69,7 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
         if let Some(before) = recording.runs.insert(text("hash")?, taken.clone())
             && format!("{before:?}") != format!("{taken:?}")
         {
-            return Err(no(&format!("run {i} is recorded twice, with other numbers")));
+            return Err(no(&format!("run {i} is recorded twice, with different numbers")));
         }
     }
     Ok(recording)
@@ -91,21 +91,21 @@ fn taken(run: &Value) -> Result<Taken, String> {
     let values = run["values"].as_object().ok_or("it has no \"values\"")?;
     for (name, value) in values {
         let x = value.as_f64().or_else(|| no_finite(value.as_str()?));
-        taken.values.insert(name.clone(), x.ok_or_else(|| format!("the value of \"{name}\" is no number"))?);
+        taken
+            .values
+            .insert(name.clone(), x.ok_or_else(|| format!("the value of \"{name}\" is not a number"))?);
     }
     for (name, why) in run["refused"].as_object().into_iter().flatten() {
-        let why = why.as_str().ok_or_else(|| format!("why \"{name}\" is refused is no text"))?;
+        let why = why.as_str().ok_or_else(|| format!("the reason for refusing \"{name}\" is not a text"))?;
         taken.refused.insert(name.clone(), why.to_string());
     }
     taken.warnings = match &run["warnings"] {
         Value::Null => 0,
-        n => {
-            n.as_u64().and_then(|n| usize::try_from(n).ok()).ok_or("its \"warnings\" is no number of them")?
-        }
+        n => n.as_u64().and_then(|n| usize::try_from(n).ok()).ok_or("its \"warnings\" is not a count")?,
     };
     taken.broke = match &run["broke"] {
         Value::Null => None,
-        why => Some(why.as_str().ok_or("what broke in it is no text")?.to_string()),
+        why => Some(why.as_str().ok_or("its \"broke\" is not a text")?.to_string()),
     };
     Ok(taken)
 }
@@ -180,7 +180,7 @@ pub(super) fn summary(file: &Path, engine: &str, course: &Course) -> String {
         for (name, ours, theirs) in &judged.differing {
             let _ = writeln!(
                 text,
-                "  differs    {file}, {owner}: `{name}` is {} here and {} there",
+                "  differs    {file}, {owner}: `{name}` is {} here but {} there",
                 shown_as(*ours),
                 shown_as(*theirs)
             );

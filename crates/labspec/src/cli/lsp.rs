@@ -19,7 +19,7 @@ pub(super) struct Arguments {
     models: ModelOptions,
     #[command(flatten)]
     policy: PolicyOptions,
-    /// Speak over standard input and output, which is the only way there is: many editors say so
+    /// Use standard input and output (the only transport; many editors pass this option)
     #[arg(long)]
     stdio: bool,
 }

@@ -57,40 +57,40 @@ struct Cli {
 
 #[derive(Subcommand, Debug)]
 enum Command {
-    /// Make a folder for lessons: settings, a first lesson with its model, a workflow
+    /// Create a folder for lessons: settings, a first lesson with its model, a workflow
     Init(init::Arguments),
     /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
     Check(check::CheckArguments),
     /// Verify the claims of quizzes and labs only, with every measure
     Verify(check::Arguments),
-    /// Store what the labs of lessons show, beside them, for reviews; `check` holds them against it
+    /// Store the output of labs in snapshots for review; `check` compares the labs with them
     Snapshot(snapshot::Arguments),
-    /// Lay out the code in lessons; with --modernize, write bare indexes by name
+    /// Format the code in lessons; with --modernize, replace bare indexes by names
     Fmt(fmt::Arguments),
     /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
     Run(run::Arguments),
-    /// Error against run time of integrators and timesteps, for one lab
+    /// Compare error and run time of integrators and timesteps, for one lab
     Precision(precision::Arguments),
-    /// What breaks when a student does whatever can be done to one lab
+    /// Find what breaks in one lab when a student moves its controls in every way
     Stability(stability::Arguments),
-    /// Which stages of the engine a lab or model needs, why, and what each costs
+    /// Show which stages of the engine a lab or model needs, why, and what each costs
     Plan(plan::Arguments),
-    /// Where the numbers of a lesson come from: runs and measures that have their digits
+    /// Find the origin of the numbers in a lesson: runs and measures with the same digits
     Trace(trace::Arguments),
-    /// Propose a first `verify` object for every question and lab that has none, tried before it is shown
+    /// Propose a first, tested `verify` object for every question and lab that has none
     Scaffold(scaffold::Arguments),
-    /// What a finding's code means, with an example; without a code, the list of all
+    /// Explain the code of a finding, with an example; without a code, list all codes
     Explain(explain::Arguments),
     /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
     Schema(schema::Arguments),
-    /// Serve an editor: findings, completion, values and names as one types (Language Server Protocol)
+    /// Serve an editor: findings, completion, values and names while typing (Language Server Protocol)
     #[cfg(feature = "lsp")]
     Lsp(lsp::Arguments),
-    /// For engineers: our engine's numbers for the states of a recording of MuJoCo
+    /// For engineers: compute the numbers of this engine for the states of a MuJoCo recording
     Record(record::Arguments),
-    /// For engineers: time of a step
+    /// For engineers: measure the time of a step
     Bench(bench::Arguments),
-    /// Print a script with which a shell completes commands and options
+    /// Print a completion script for a shell
     Completions(completions::Arguments),
     /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
     #[command(hide = true)]
@@ -106,7 +106,7 @@ struct ModelOptions {
     /// The folder of models [default: `models/` beside or above the lesson]
     #[arg(long, value_name = "DIR")]
     models: Option<PathBuf>,
-    /// What models may read, meshes and included files, lies in this folder [default: the nearest folder around the
+    /// Models can read meshes and included files only in this folder [default: the nearest folder around the
     /// models with `labspec.toml`, else their repository or environment of packages, else the folder that is checked,
     /// else their own folder]
     #[arg(long, value_name = "DIR")]

@@ -49,7 +49,7 @@ pub(super) fn write_with(
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
     replace(path, kind, write)
-        .map_err(|e| format!("cannot write {}: {e}; what was there is unchanged", printable_path(path)))
+        .map_err(|e| format!("cannot write {}: {e}; the old file is unchanged", printable_path(path)))
 }
 
 fn replace(
@@ -183,7 +183,7 @@ fn place(path: &Path) -> io::Result<PathBuf> {
             }
         }
     }
-    Err(io::Error::new(io::ErrorKind::InvalidInput, "its links go round in a circle"))
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "its links form a circle"))
 }
 
 /// What is there now, if it is a file that may be written. A pipe or a device is never opened: it may block.
@@ -257,7 +257,7 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
     // Where standard output itself goes to a file.
     #[cfg(unix)]
     if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
-        taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "what is printed".into()));
+        taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
     }
     for Wanted { kind, path } in outputs {
         let named = format!("{} {}", kind.option(), printable_path(path));
@@ -267,18 +267,17 @@ pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Fai
         let is_read = old.is_some() && kind.is_input(&identity.place);
         if is_read || inputs.iter().any(|input| input.is(&identity)) {
             return Err(format!(
-                "{named} would overwrite a lesson or a model; name another file, nothing was written"
+                "{named} would overwrite a lesson or a model, so nothing was written; name another file"
             ));
         }
         if old.as_ref().is_some_and(|old| kind.refuses(&identity.place, old).is_some()) {
             return Err(format!(
-                "{named} would overwrite a file that labspec did not write with this option; name another file, or remove \
-                 that one first; nothing was written"
+                "{named} would overwrite a file that labspec did not write with this option, so nothing was written; name another file, or remove that one first"
             ));
         }
         if let Some((_, other)) = taken.iter().find(|(t, _)| t.is(&identity)) {
             return Err(format!(
-                "{named} and {other} are the same file; name different ones, nothing was written"
+                "{named} and {other} are the same file, so nothing was written; name different ones"
             ));
         }
         taken.push((identity, named));

@@ -78,11 +78,11 @@ impl OutputKind<'_> {
     /// Why this may not replace the file that lies there; `None` where it may.
     pub(super) fn refuses(self, place: &Path, old: &fs::Metadata) -> Option<&'static str> {
         match self {
-            OutputKind::New => Some("something is there already"),
+            OutputKind::New => Some("a file already exists there"),
             OutputKind::Lesson(text) => {
                 let same =
                     old.len() == text.len() as u64 && fs::read(place).is_ok_and(|now| now == text.as_bytes());
-                (!same).then_some("the file is not what was read: it was changed meanwhile, or is no UTF-8")
+                (!same).then_some("the file has changed since it was read, or is not UTF-8")
             }
             _ if self.is_input(place) => Some("it is a lesson, a model or a part of one"),
             _ => {

@@ -17,13 +17,13 @@ pub(super) struct Arguments {
     lab: String,
     #[command(flatten)]
     models: ModelOptions,
-    /// What one more reader would cost: a field (data.sensordata), a sensor, or an expression
+    /// Show the cost of one more reader: a field (data.sensordata), a sensor, or an expression
     #[arg(long, value_name = "NAME")]
     read: Vec<String>,
-    /// Decide only; run and measure nothing
+    /// Only make the plan; do not run or measure
     #[arg(long)]
     no_run: bool,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }
@@ -85,13 +85,7 @@ fn human(report: &Report) -> String {
     }
     if let Some(step) = &report.step {
         let (share, time) = costs(Some(step.integrator));
-        row(
-            "",
-            "integrator",
-            share,
-            time,
-            "the next state, a look for numbers that are none, and what a run looks after",
-        );
+        row("", "integrator", share, time, "the next state, the test for NaN, and what a run looks after");
         if let Some(when) = report.controller {
             let (share, time) = costs(step.controller);
             row("", "controller", share, time, when);
@@ -103,7 +97,7 @@ fn human(report: &Report) -> String {
         let [low, high] = step.quarters;
         let _ = writeln!(
             text,
-            "a step takes {} ns ({} to {}); if everything were read, {} ns",
+            "a step takes {} ns ({} to {}); with everything read, it takes {} ns",
             ns(step.ns),
             ns(low),
             ns(high),
@@ -111,14 +105,14 @@ fn human(report: &Report) -> String {
         );
         let _ = writeln!(
             text,
-            "measured over {} steps of this lab's own run, {REPEATS} times in turn; in brackets: what a stage would cost that does not run",
+            "measured over {} steps of the run of this lab, {REPEATS} times in turn; in brackets: the cost of a stage that does not run",
             step.steps
         );
     }
     parts(report, &mut text);
     readers(report, &mut text);
     if interrupted() {
-        text.push_str("stopped by Ctrl-C: times are of what was finished\n");
+        text.push_str("stopped by Ctrl-C: times cover what was finished\n");
     }
     text
 }
@@ -128,7 +122,7 @@ fn parts(report: &Report, text: &mut String) {
     let pairs = &report.pairs;
     let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
     for (shapes, n, searched) in &pairs.tests {
-        let how = if *searched { "searched for by the general algorithm" } else { "in closed form" };
+        let how = if *searched { "found by the general algorithm" } else { "in closed form" };
         let _ = writeln!(text, "  keep   {n:>5}  {} and {}, {how}", shapes[0], shapes[1]);
     }
     for (reason, n) in &pairs.left_out {
@@ -177,7 +171,7 @@ fn sensors(report: &Report, text: &mut String) {
 
 /// Which ways trees take.
 fn ways(report: &Report, text: &mut String) {
-    let _ = writeln!(text, "\nways of computing trees");
+    let _ = writeln!(text, "\ntree algorithms");
     for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = way.trees;
         let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];

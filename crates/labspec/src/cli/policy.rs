@@ -19,17 +19,17 @@ const MOST: u64 = 1 << 20;
 /// What is said of findings on the command line.
 #[derive(clap::Args, Debug, Clone, Default)]
 pub(super) struct PolicyOptions {
-    /// Tell only these findings: codes of rules, layers (source, json, structure, model, program, run, claim), errors,
+    /// Report only these findings: codes of rules, layers (source, json, structure, model, program, run, claim), errors,
     /// warnings, notes, or all [default: `select` in labspec.toml, else all]
     #[arg(long, value_name = "RULES", value_delimiter = ',')]
     select: Vec<String>,
-    /// Leave these findings out, besides those that labspec.toml leaves out
+    /// Skip these findings, in addition to those that labspec.toml ignores
     #[arg(long, value_name = "RULES", value_delimiter = ',')]
     ignore: Vec<String>,
-    /// Tell these findings as errors: `warnings`, `notes`, codes of rules, or layers
+    /// Report these findings as errors: `warnings`, `notes`, codes of rules, or layers
     #[arg(long, value_name = "RULES", value_delimiter = ',')]
     deny: Vec<String>,
-    /// Settings of this file, and of no other [default: the nearest labspec.toml around each lesson]
+    /// Use only the settings of this file [default: the nearest labspec.toml around each lesson]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 }
@@ -73,7 +73,7 @@ impl Set {
         } else {
             let near =
                 nearest(word, words()).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-            return Err(format!("`{}` is no rule and no group of rules{near}", printable(word)));
+            return Err(format!("`{}` is not a rule or a group of rules{near}", printable(word)));
         }
         Ok(())
     }
@@ -221,7 +221,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
             let line = text.get(..span.start).unwrap_or_default().matches('\n').count() + 1;
             format!(" (line {line})")
         });
-        cannot(format!("it is no TOML: {}{place}", e.message()))
+        cannot(format!("invalid TOML: {}{place}", e.message()))
     })?;
     reject_unknown_keys(&table, &KEYS).map_err(cannot)?;
     let list = |name: &str| string_list(&table, name, true).map_err(cannot);
@@ -247,7 +247,7 @@ fn read(path: &Path) -> Result<PolicyFile, Failure> {
 fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
     let Some(value) = table.get("paths") else { return Ok(Vec::new()) };
     let tables = value.as_array().and_then(|list| list.iter().map(toml::Value::as_table).collect());
-    tables.ok_or_else(|| "`paths` has to be a list of tables: [[paths]]".to_string())
+    tables.ok_or_else(|| "`paths` must be a list of tables: [[paths]]".to_string())
 }
 
 /// Every key is one of these.
@@ -255,9 +255,9 @@ fn reject_unknown_keys(table: &toml::Table, keys: &[&str]) -> Result<(), String>
     let Some(key) = table.keys().find(|key| !keys.contains(&key.as_str())) else { return Ok(()) };
     let near = match nearest(key, keys.iter().copied()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("there are {}", keys.join(", ")),
+        None => format!("use one of {}", keys.join(", ")),
     };
-    Err(format!("there is no setting `{}`; {near}", printable(key)))
+    Err(format!("unknown setting `{}`; {near}", printable(key)))
 }
 
 /// A list of texts; of rules, if so.
@@ -265,7 +265,7 @@ fn string_list(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<St
     let Some(value) = table.get(name) else { return Ok(Vec::new()) };
     let list = value.as_array().map(|list| list.iter().map(|v| v.as_str().map(String::from)).collect());
     let words: Option<Vec<String>> = list.unwrap_or(None);
-    let words = words.ok_or_else(|| format!("`{name}` has to be a list of texts"))?;
+    let words = words.ok_or_else(|| format!("`{name}` must be a list of texts"))?;
     if of_rules {
         Set::of(&words).map_err(|e| format!("{name}: {e}"))?;
     }

@@ -17,13 +17,13 @@ pub(super) struct Arguments {
     model: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// A recording whose states are used
+    /// A recording with the states to use
     #[arg(long, value_name = "ORACLE.json")]
     states: PathBuf,
     /// Steps of the trajectory
     #[arg(long, value_name = "N", default_value_t = 100)]
     steps: usize,
-    /// A row after every M steps
+    /// Write a row after every M steps
     #[arg(long, value_name = "M", default_value_t = 10)]
     every: usize,
     /// Solve the constraint problem to rounding
@@ -61,7 +61,7 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
     let rows = (a.steps / every).saturating_add(1);
     if a.steps > MAX_STEPS || rows.saturating_mul(m.nq + m.nv + m.na + 3) > MAX_NUMBERS {
         return Err(format!(
-            "a trajectory of {} steps with a row after every {every} is too long; ask for fewer steps, or fewer rows with --every",
+            "a trajectory of {} steps with a row after every {every} is too long; request fewer steps, or fewer rows with --every",
             a.steps
         ));
     }
@@ -86,7 +86,7 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         written += size(&row);
         if written > MAX_NUMBERS {
             return Err(format!(
-                "the states of {} ask for more than {MAX_NUMBERS} numbers; name fewer fields or fewer states",
+                "the states of {} request more than {MAX_NUMBERS} numbers; name fewer fields or fewer states",
                 printable_path(&a.states)
             ));
         }
@@ -203,7 +203,7 @@ fn set_array(m: &mut Model, d: &mut Data, name: &str, values: &Value) -> Result<
     let list = recorded(values);
     if list.len() != expected {
         return Err(format!(
-            "the recording has {} numbers for {name}, the model {expected}: is it of another model?",
+            "the recording has {} numbers for {name}, but the model has {expected}: is it for another model?",
             list.len()
         ));
     }

@@ -55,12 +55,15 @@ pub(super) fn write(file: &Path, record: &Value) -> Result<(), Failure> {
 /// It cannot be read, or is none.
 pub(super) fn read(file: &Path) -> Result<Value, Failure> {
     let no = |why: &str| {
-        format!("{} is no record of a check: {why}; labspec check --record writes one", printable_path(file))
+        format!(
+            "{} is not a record of a check: {why}; labspec check --record writes one",
+            printable_path(file)
+        )
     };
     let text = read_text(file, MOST, "a record of a check")?;
     let value: Value = serde_json::from_str(&text).map_err(|e| no(&e.to_string()))?;
     if value["report"] != "reproduction" || value["schemaVersion"] != report::SCHEMA_VERSION {
-        return Err(no("it does not say that it is one of this version"));
+        return Err(no("its version is missing or unsupported"));
     }
     if !value["lessons"].is_array() {
         return Err(no("it has no lessons"));

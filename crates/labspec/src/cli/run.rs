@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     /// Compute every field in every step, read or not, as MuJoCo does. The results are the same; the run takes longer
     #[arg(long)]
     full: bool,
-    /// What to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
     /// Write all samples as comma-separated values
@@ -42,7 +42,7 @@ pub(super) struct Arguments {
     /// Write the plots; further plots go to FILE-2.svg, FILE-3.svg, …; into a folder as plot-1.svg, plot-2.svg, …
     #[arg(long, value_name = "FILE|DIR/")]
     svg: Option<PathBuf>,
-    /// The same in pixels
+    /// Write the plots as PNG
     #[arg(long, value_name = "FILE|DIR/")]
     png: Option<PathBuf>,
 }

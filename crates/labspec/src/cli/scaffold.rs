@@ -22,10 +22,10 @@ pub(super) struct Arguments {
     lesson: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// Put the objects into the lesson; everything else stays as it is
+    /// Insert the objects into the lesson; everything else stays unchanged
     #[arg(long)]
     write: bool,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }
@@ -53,7 +53,7 @@ pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
         let again = reload_lesson(&lesson, &text, &folder);
         if again.verifies().count() != lesson.verifies().count() + proposals {
             return Err(format!(
-                "{} is left alone: with the objects it would not be read as before; mend what `labspec check` finds first",
+                "{} is unchanged: the new objects would change its meaning; fix what `labspec check` finds first",
                 printable_path(&a.lesson)
             ));
         }
@@ -93,7 +93,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
                 for option in undecided {
                     let _ = writeln!(
                         text,
-                        "  option {option} is left open: its words say nothing that was measured"
+                        "  option {option} is left open: its words state nothing that was measured"
                     );
                 }
                 if !a.write {
@@ -104,7 +104,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
                 counts[1] += 1;
                 let _ = writeln!(
                     text,
-                    "  the runs speak for option {}, which is not the key; nothing is proposed",
+                    "  the runs support option {}, which is not the key; nothing is proposed",
                     option + 1
                 );
                 for (name, x) in values {
@@ -120,7 +120,7 @@ fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
     let [proposed, against, open] = counts;
     let done = if a.write { "written" } else { "proposed" };
     let against =
-        if against > 0 { format!("{against} where the runs speak against the key, ") } else { String::new() };
+        if against > 0 { format!("{against} where the runs contradict the key, ") } else { String::new() };
     let _ = writeln!(text, "\n{}: {proposed} {done}, {against}{open} left open", printable_path(&a.lesson));
     text
 }

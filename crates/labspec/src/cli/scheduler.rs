@@ -220,8 +220,8 @@ fn look_marked(plan: &Plan<'_>, cache: &Cache, mark: Hash) -> Result<Course, Fai
     }
     for (path, why) in refused {
         let mut f = Finding::error(rules::UNREADABLE_FILE, 0..0, why)
-            .why("nothing in it was checked")
-            .help("mend the file, or leave it out");
+            .why("nothing in it is checked")
+            .help("fix the file, or exclude it");
         f.path = Arc::from(path.display().to_string());
         course.last.push(f);
     }
@@ -391,7 +391,7 @@ fn tasks(
             FileKind::Unknown => {
                 let shown = printable_path(path);
                 Task::Refuse(format!(
-                    "{shown} is no lesson: lessons are Markdown (.md, .markdown, .mdx, .qmd, .Rmd) or JSON, models are .xml"
+                    "{shown} is not a lesson: lessons are Markdown (.md, .markdown, .mdx, .qmd, .Rmd) or JSON, models are .xml"
                 ))
             }
         };
@@ -408,7 +408,7 @@ fn tasks(
 
 /// What is said where a mistake of the program ended the check of a file.
 fn failed(why: &str) -> String {
-    format!("labspec failed while it checked this file: {why}")
+    format!("labspec failed while checking this file: {why}")
 }
 
 /// Checks one file.
@@ -448,7 +448,7 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
         Ok(found) => found,
         Err(why) => {
             let found = Finding::error(rules::UNREADABLE_FILE, 0..0, failed(&why))
-                .why("no lab of this lesson was run to its end, and no claim was judged")
+                .why("no lab of this lesson was run to its end, and no claim was checked")
                 .help("report it with this lesson; the other lessons were checked");
             let checked = Box::new(check::join(lesson, LabOutcome::of(found), CheckLevel::STATIC));
             let aside = Aside { failed: true, ..Aside::default() };
@@ -480,9 +480,9 @@ fn lost(path: &Path) -> Finding {
     let mut f = Finding::new(
         rules::SNAPSHOT_WITHOUT_LESSON,
         0..0,
-        format!("{lesson} is not there, of which this is the snapshot"),
+        format!("this snapshot belongs to {lesson}, which does not exist"),
     )
-    .help("rename it as its lesson was, or remove it: labspec snapshot --accept, with the folder");
+    .help("rename it like its lesson, or remove it: labspec snapshot --accept, with the folder");
     f.path = Arc::from(path.display().to_string());
     f
 }
@@ -508,7 +508,7 @@ fn model_entry(path: &Path, loads: bool) -> Entry {
 fn nothing(paths: &[PathBuf], problems: &[(PathBuf, String)]) -> Failure {
     let names: Vec<String> = paths.iter().map(|p| printable_path(p)).collect();
     match problems {
-        [] => format!("no lessons in {}: name .md or .json files, or a folder of them", names.join(", ")),
+        [] => format!("{} has no lessons: name .md or .json files, or a folder of them", names.join(", ")),
         all => all.iter().map(|(_, why)| why.as_str()).collect::<Vec<_>>().join("\nlabspec: "),
     }
 }

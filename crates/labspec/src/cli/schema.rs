@@ -7,7 +7,7 @@ use clap::ValueEnum;
 /// Arguments of `schema`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// What the schema is of
+    /// The kind of object
     #[arg(value_enum, default_value = "lesson")]
     of: Of,
 }

@@ -41,7 +41,8 @@ pub(super) fn changes(before: &Value, now: &Value) -> Vec<Change> {
     for file in files(before).union(&files(now)) {
         let [old, new] = [before, now].map(|v| one(&v["lessons"], "file", file));
         if old.is_null() || new.is_null() {
-            let what = if old.is_null() { "new lesson" } else { "lesson that was not checked, or is gone" };
+            let what =
+                if old.is_null() { "new lesson" } else { "lesson that was not checked, or no longer exists" };
             let step = Step { what: what.into(), before: Value::Null, now: Value::Null };
             all.push(Change {
                 file: file.clone(),
@@ -168,7 +169,7 @@ fn settings(of: &str, a: &Value, b: &Value, compiled: bool, steps: &mut Vec<Step
     }
     // Something of the model that has no name here: a mass, a length.
     if !compiled && told == steps.len() {
-        differ(&format!("the model{of}, as it begins"), &a["model"], &b["model"], steps);
+        differ(&format!("the initial model{of}"), &a["model"], &b["model"], steps);
     }
 }
 
@@ -212,7 +213,7 @@ fn describe_key(key: &str) -> String {
 pub(super) fn summary(name: &str, all: &[Change]) -> String {
     let name = printable(name);
     if all.is_empty() {
-        return format!("since {name} nothing has changed\n");
+        return format!("nothing has changed since {name}\n");
     }
     let mut text = format!("since {name}:\n");
     for change in all {
@@ -239,7 +240,7 @@ fn line(step: &Step) -> String {
         .map_or(String::new(), |d| format!(" ({}{})", if d > 0.0 { "+" } else { "" }, significant(d)));
     match (&step.before, &step.now) {
         (Value::Null, Value::Null) => step.what.clone(),
-        (a, b) if digest(a) && digest(b) => format!("{}: another one", step.what),
+        (a, b) if digest(a) && digest(b) => format!("{}: changed", step.what),
         (a, b) => format!("{}: {} → {}{by}", step.what, format_value(a), format_value(b)),
     }
 }
@@ -251,7 +252,7 @@ fn difference(step: &Step) -> Option<f64> {
 
 fn format_value(value: &Value) -> String {
     match value {
-        Value::Null => "not there".into(),
+        Value::Null => "missing".into(),
         Value::String(text) if text.len() == 64 => "there".into(),
         Value::String(text) => text.clone(),
         Value::Number(n) => n.as_f64().map_or(n.to_string(), significant),

@@ -28,13 +28,13 @@ pub(super) struct Arguments {
     paths: Vec<PathBuf>,
     #[command(flatten)]
     models: ModelOptions,
-    /// Go through what has changed, one lab after the other; where there is no terminal, list it
+    /// Review the changes lab by lab; without a terminal, list them
     #[arg(long, conflicts_with = "accept")]
     review: bool,
-    /// Store everything as it is now, and remove snapshots of lessons that are gone
+    /// Store the current output, and remove snapshots of deleted lessons
     #[arg(long)]
     accept: bool,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }
@@ -132,7 +132,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
         }
         if !matches!(kind_of(path), FileKind::Lesson | FileKind::Json) {
             return Err(format!(
-                "{} is no lesson: name .md or .json files, or a folder of them",
+                "{} is not a lesson: name .md or .json files, or a folder of them",
                 printable_path(path)
             ));
         }
@@ -165,7 +165,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
     }
     if all.is_empty() {
         let names: Vec<String> = a.paths.iter().map(|p| printable_path(p)).collect();
-        return Err(format!("there is no lab in {}", names.join(", ")));
+        return Err(format!("{} has no lab", names.join(", ")));
     }
     Ok(all)
 }
@@ -196,7 +196,7 @@ fn review(
             let can = lab.new.is_some() || lab.kept.state == State::False;
             say(&format!("\n{file} ({number} of {total})\n{}", about(&lab)))?;
             while can && !rest {
-                say("take it over? y: yes, n: no, a: this and all that follow, q: leave the rest > ")?;
+                say("accept it? y: yes, n: no, a: this and all that follow, q: leave the rest > ")?;
                 let mut answer = String::new();
                 let read =
                     answers.read_line(&mut answer).map_err(|e| format!("cannot read an answer: {e}"))?;
@@ -266,7 +266,7 @@ fn summary(all: &[Looked], asked: bool) -> String {
             (Standing::Gone, true) => _ = writeln!(text, "removed    {file}: its lesson is gone"),
             (Standing::Gone, false) => {
                 open += 1;
-                _ = writeln!(text, "gone       {file}: its lesson is not there");
+                _ = writeln!(text, "gone       {file}: its lesson does not exist");
             }
             (_, true) => _ = writeln!(text, "stored     {file}: {}", many(labs, "lab")),
             (Standing::Unreadable, false) => {
@@ -289,9 +289,7 @@ fn summary(all: &[Looked], asked: bool) -> String {
         let _ = writeln!(text, "as stored  {}", many(same, "lesson"));
     }
     if open > 0 {
-        text.push_str(
-            "labspec snapshot --review shows each change and asks; --accept takes all of them over\n",
-        );
+        text.push_str("labspec snapshot --review shows each change and asks; --accept accepts all of them\n");
     }
     text
 }
@@ -353,7 +351,7 @@ mod tests {
             };
             review(&mut all, &mut answers.as_bytes(), &mut say).unwrap();
             assert_eq!(all[0].accepted.iter().collect::<Vec<_>>(), accepted, "{answers}");
-            assert_eq!(said.matches("take it over?").count(), questions, "{answers}: {said}");
+            assert_eq!(said.matches("accept it?").count(), questions, "{answers}: {said}");
             assert!(
                 said.contains("a.md.snap (1 of 3)\n  changed    lab #1: the lab is not in the snapshot\n")
             );

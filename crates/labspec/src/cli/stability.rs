@@ -26,7 +26,7 @@ pub(super) struct Arguments {
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Find the largest timestep, gains, stiffnesses and mass ratios that the lab stands
+    /// Find the largest timestep, gains, stiffnesses and mass ratios that work in the lab
     #[arg(long)]
     margins: bool,
     /// Run the lab over a grid of two controls
@@ -35,10 +35,10 @@ pub(super) struct Arguments {
     /// Draw the map
     #[arg(long, value_name = "FILE", requires = "map")]
     svg: Option<PathBuf>,
-    /// The same in pixels
+    /// Draw the map as PNG
     #[arg(long, value_name = "FILE", requires = "map")]
     png: Option<PathBuf>,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }
@@ -96,7 +96,7 @@ fn human(report: &Report, programs: &Programs) -> String {
         finding(found, programs, &mut text);
     }
     for line in left_out(report) {
-        let _ = writeln!(text, "Not tried: {line}.");
+        let _ = writeln!(text, "Not tested: {line}.");
     }
     if report.found.is_empty() {
         text.push_str("Nothing went wrong.\n");
@@ -107,14 +107,14 @@ fn human(report: &Report, programs: &Programs) -> String {
         letters(map, &mut text);
     }
     if interrupted() {
-        text.push_str("stopped by Ctrl-C: what stands above are the runs that were finished\n");
+        text.push_str("stopped by Ctrl-C: the runs above are the finished ones\n");
     }
     text
 }
 
 fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
     let FaultGroup { fault, handling, settings, worst, expected, remedies } = found;
-    let expected = if *expected { " (as the lab says it does)" } else { "" };
+    let expected = if *expected { " (as the lab expects)" } else { "" };
     let _ = writeln!(
         text,
         "\n{}{expected}: {}, at t = {} s, {}",
@@ -140,8 +140,8 @@ fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
             x => format!("{} times the work", two_digits(x)),
         };
         let error = match remedy.error {
-            Some(x) if x < 1e-4 => ", no error to be seen".to_string(),
-            Some(x) => format!(", off by {} % of a range at most", two_digits(100.0 * x)),
+            Some(x) if x < 1e-4 => ", no visible error".to_string(),
+            Some(x) => format!(", off by at most {} % of a range", two_digits(100.0 * x)),
             None => String::new(),
         };
         let time = two_digits(remedy.time);
@@ -165,7 +165,7 @@ fn margins(report: &Report, text: &mut String) {
     let length = crate::verify::significant(report.window);
     let _ = writeln!(
         text,
-        "\nThe largest values with which nothing goes wrong in {length} s, as the lab stands and after a touch (but for what creeps):"
+        "\nThe largest values with which nothing goes wrong in {length} s, as the lab stands and after a touch (except for creeping):"
     );
     for row in &rows {
         let cells = row.iter().zip(&widths).enumerate().map(|(k, (cell, w))| match k {
@@ -232,7 +232,7 @@ fn sensitivity(s: &Sensitivity, text: &mut String) {
         if let Some(t) = h.until {
             let _ = writeln!(
                 text,
-                "For a start that is {:e} off, \"{}\" shows other digits from {} s on.",
+                "For a start that is off by {:e}, \"{}\" shows other digits from {} s on.",
                 s.apart,
                 printable(&h.label),
                 crate::run::time(t)
@@ -319,13 +319,13 @@ fn left_out(report: &Report) -> Vec<String> {
     let cut: usize = report.tried.iter().map(|t| t.cut).sum();
     if let Some(shortest) = report.shortest {
         list.push(format!(
-            "the end of {cut} run{}, which took more work than they may; the shortest covers {} s",
+            "the end of {cut} run{}, which need more work than allowed; the shortest covers {} s",
             if cut == 1 { "" } else { "s" },
             two_digits(shortest)
         ));
     }
     if report.pairs_left_out > 0 {
-        list.push(format!("{} pairs of settings, as there are too many", report.pairs_left_out));
+        list.push(format!("{} pairs of settings, because there are too many", report.pairs_left_out));
     }
     list.extend(report.left_out.iter().cloned());
     list

@@ -32,7 +32,7 @@ pub(super) fn model_folder_within(
     }
     let root = root(options, &folder, &around)?;
     ModelFolder::below(&root, &folder).map_err(|e| {
-        format!("cannot read the model folder {}: {e}; state another one with --models", folder.display())
+        format!("cannot read the model folder {}: {e}; name another one with --models", folder.display())
     })
 }
 
@@ -42,7 +42,7 @@ pub(super) fn root(options: &ModelOptions, models: &Path, named: &[PathBuf]) -> 
     let real = root.canonicalize().map_err(|e| format!("cannot read the root {}: {e}", root.display()))?;
     match models.canonicalize() {
         Ok(models) if !models.starts_with(&real) => Err(format!(
-            "the models in {} do not lie in the root {}; name a folder that holds both with --root",
+            "the models in {} are outside the root {}; name a folder that holds both with --root",
             models.display(),
             root.display()
         )),
@@ -110,9 +110,9 @@ fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
     match argument.split_once('#') {
         Some((path, address)) => match LabAddress::parse(&format!("#{address}")) {
             Some(parsed) => Ok((PathBuf::from(path), Some(parsed))),
-            None => {
-                Err(format!("`#{address}` is not a place of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1"))
-            }
+            None => Err(format!(
+                "`#{address}` is not the address of a lab; write LESSON.md#2 or LESSON.md#quiz-id.1"
+            )),
         },
         None => Ok((PathBuf::from(argument), None)),
     }
@@ -124,11 +124,11 @@ fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) 
     let argument = printable(argument);
     match address {
         Some(address) => lesson.lab(address).ok_or_else(|| match known.as_slice() {
-            [] => format!("{argument}: the file has no lab that can be read; `labspec check` says why"),
-            _ => format!("there is no lab {address} in this file; it has {}", known.join(", ")),
+            [] => format!("{argument}: the file has no readable lab; `labspec check` says why"),
+            _ => format!("this file has no lab {address}; it has {}", known.join(", ")),
         }),
         None => match lesson.addressed().as_slice() {
-            [] => Err(format!("{argument} has no lab that can be read; `labspec check {argument}` says why")),
+            [] => Err(format!("{argument} has no readable lab; `labspec check {argument}` says why")),
             [(_, lab)] => Ok(lab),
             _ => Err(format!("{argument} has several labs: add one of {} to its name", known.join(", "))),
         },

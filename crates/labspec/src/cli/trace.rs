@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     lesson: PathBuf,
     #[command(flatten)]
     models: ModelOptions,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
 }
@@ -81,7 +81,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
             Origin::Unsteady(hit) => {
                 let _ = writeln!(
                     text,
-                    " is not reproducible: {} = {}  ({}), and other digits where the start is moved by 1e-14",
+                    " is not reproducible: {} = {}  ({}), and other digits if the start moves by 1e-14",
                     printable(&hit.description()),
                     significant(hit.value),
                     printable(&place(found, hit))
@@ -114,7 +114,7 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     }
     for (address, block) in blocks(found) {
         let has = lesson.lab(&address).is_some_and(|lab| lab.verify.is_some());
-        let accept = if has { "to add to what its `verify` has" } else { "to accept" };
+        let accept = if has { "to add to its `verify`" } else { "to accept" };
         let _ = write!(
             text,
             "\nfor lab {address}, {accept}:\n\n\"verify\": {}\n",

@@ -41,21 +41,27 @@ fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
     for (text, message, place, read, repaired) in [
         (r#"{"a": 1 "b": 2}"#, "a comma is missing here", "", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
         (r#"[1 {"b": 2}]"#, "a comma is missing here", "", r#"[1,{"b":2}]"#, r#"[1, {"b": 2}]"#),
-        (r#"{"a": 1,}"#, "a comma before a closing bracket", ",", r#"{"a":1}"#, r#"{"a": 1}"#),
-        (r#"[1, 2, ]"#, "a comma before a closing bracket", ",", "[1,2]", "[1, 2 ]"),
-        (r#"{"a": 1,, "b": 2}"#, "a comma too many", ",", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
-        (r#"[, 1]"#, "a comma without a value before it", ",", "[1]", "[ 1]"),
+        (r#"{"a": 1,}"#, "a comma is before a closing bracket", ",", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"[1, 2, ]"#, "a comma is before a closing bracket", ",", "[1,2]", "[1, 2 ]"),
+        (r#"{"a": 1,, "b": 2}"#, "there is an extra comma", ",", r#"{"a":1,"b":2}"#, r#"{"a": 1, "b": 2}"#),
+        (r#"[, 1]"#, "a comma has no value before it", ",", "[1]", "[ 1]"),
         (
             r#"{"a": 1; "b": 2}"#,
-            "a semicolon where JSON needs a comma",
+            "a semicolon is used where JSON needs a comma",
             ";",
             r#"{"a":1,"b":2}"#,
             r#"{"a": 1, "b": 2}"#,
         ),
-        (r#"{'a': 1}"#, "a single quote where JSON needs a double quote", "'", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (
+            r#"{'a': 1}"#,
+            "JSON has a single quote where it needs a double quote",
+            "'",
+            r#"{"a":1}"#,
+            r#"{"a": 1}"#,
+        ),
         (
             r#"{'a': 'it\'s "x"'}"#,
-            "2 texts in single quotes where JSON needs double quotes",
+            "JSON has 2 texts in single quotes where it needs double quotes",
             "'",
             r#"{"a":"it's \"x\""}"#,
             r#"{"a": "it's \"x\""}"#,
@@ -77,7 +83,7 @@ fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
             r#"{"a":"b","c":1}"#,
             "{\"a\": \"b\",\n\"c\": 1}",
         ),
-        ("{\"a\": \"b\nc\"}", "a line break inside of a text", "\n", r#"{"a":"b\nc"}"#, r#"{"a": "b\nc"}"#),
+        ("{\"a\": \"b\nc\"}", "a text contains a line break", "\n", r#"{"a":"b\nc"}"#, r#"{"a": "b\nc"}"#),
         (
             r#"{"model": "ball, "stopAt": 2}"#,
             "this string is not closed",
@@ -94,63 +100,63 @@ fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
         ),
         (
             r#"{"a": "the "heavy" ball"}"#,
-            "2 double quotes inside of a text",
+            "a text contains 2 double quotes",
             "\"",
             r#"{"a":"the \"heavy\" ball"}"#,
             r#"{"a": "the \"heavy\" ball"}"#,
         ),
         (
             "{\"a\": \"b\tc\"}",
-            "a control character (U+0009) inside a string",
+            "a string contains a control character (U+0009)",
             "\t",
             r#"{"a":"b\tc"}"#,
             r#"{"a": "b\tc"}"#,
         ),
-        (r#"{"a": NaN}"#, "`NaN` is not a number that JSON knows", "NaN", "{}", r#"{"a": NaN}"#),
+        (r#"{"a": NaN}"#, "JSON has no number `NaN`", "NaN", "{}", r#"{"a": NaN}"#),
+        (r#"{"a": -Infinity}"#, "JSON has no number `-Infinity`", "-Infinity", "{}", r#"{"a": -Infinity}"#),
         (
-            r#"{"a": -Infinity}"#,
-            "`-Infinity` is not a number that JSON knows",
-            "-Infinity",
-            "{}",
-            r#"{"a": -Infinity}"#,
+            r#"{"a": True}"#,
+            "`True` must be written `true` in JSON",
+            "True",
+            r#"{"a":true}"#,
+            r#"{"a": true}"#,
         ),
-        (r#"{"a": True}"#, "`True` is written `true` in JSON", "True", r#"{"a":true}"#, r#"{"a": true}"#),
-        (r#"{"a": None}"#, "`None` is written `null` in JSON", "None", r#"{"a":null}"#, r#"{"a": null}"#),
-        (r#"{"a": .5}"#, "`.5` is not a number as JSON writes it", ".5", r#"{"a":0.5}"#, r#"{"a": 0.5}"#),
-        (r#"{"a": 5.}"#, "`5.` is not a number as JSON writes it", "5.", r#"{"a":5.0}"#, r#"{"a": 5}"#),
-        (r#"{"a": +1}"#, "`+1` is not a number as JSON writes it", "+1", r#"{"a":1.0}"#, r#"{"a": 1}"#),
         (
-            r#"{"a": 0x10}"#,
-            "`0x10` is not a number as JSON writes it",
-            "0x10",
-            r#"{"a":16.0}"#,
-            r#"{"a": 16}"#,
+            r#"{"a": None}"#,
+            "`None` must be written `null` in JSON",
+            "None",
+            r#"{"a":null}"#,
+            r#"{"a": null}"#,
         ),
-        (r#"{"a": 0,5}"#, "a number with a comma", ",", r#"{"a":0.0}"#, r#"{"a": 0.5}"#),
+        (r#"{"a": .5}"#, "`.5` is not a JSON number", ".5", r#"{"a":0.5}"#, r#"{"a": 0.5}"#),
+        (r#"{"a": 5.}"#, "`5.` is not a JSON number", "5.", r#"{"a":5.0}"#, r#"{"a": 5}"#),
+        (r#"{"a": +1}"#, "`+1` is not a JSON number", "+1", r#"{"a":1.0}"#, r#"{"a": 1}"#),
+        (r#"{"a": 0x10}"#, "`0x10` is not a JSON number", "0x10", r#"{"a":16.0}"#, r#"{"a": 16}"#),
+        (r#"{"a": 0,5}"#, "a number has a decimal comma", ",", r#"{"a":0.0}"#, r#"{"a": 0.5}"#),
         (
             r#"{"a": "\tau \alpha"}"#,
-            "`\\a` is not an escape of JSON",
+            "`\\a` is not a JSON escape",
             "\\a",
             r#"{"a":"\tau \\alpha"}"#,
             r#"{"a": "\tau \\alpha"}"#,
         ),
-        (r#"{"a": "it\'s"}"#, "`\\'` is not an escape of JSON", "\\'", r#"{"a":"it's"}"#, r#"{"a": "it's"}"#),
+        (r#"{"a": "it\'s"}"#, "`\\'` is not a JSON escape", "\\'", r#"{"a":"it's"}"#, r#"{"a": "it's"}"#),
         (r#"{"a" 1}"#, "a colon is missing after this key", "", r#"{"a":1}"#, r#"{"a": 1}"#),
-        (r#"{"a" = 1}"#, "an equals sign where JSON needs a colon", "=", r#"{"a":1}"#, r#"{"a" : 1}"#),
-        (r#"{"a":: 1}"#, "one colon is enough", ":", r#"{"a":1}"#, r#"{"a": 1}"#),
-        (r#"{"a": }"#, "the value of this key is missing", "\"a\"", "{}", r#"{"a": }"#),
-        (r#"{"a": {"b": 1}"#, "this object is never closed", "{", r#"{"a":{"b":1}}"#, r#"{"a": {"b": 1}}"#),
         (
-            r#"{"a": [{"b": 1"#,
-            "this object is never closed",
-            "{",
-            r#"{"a":[{"b":1}]}"#,
-            r#"{"a": [{"b": 1}]}"#,
+            r#"{"a" = 1}"#,
+            "an equals sign is used where JSON needs a colon",
+            "=",
+            r#"{"a":1}"#,
+            r#"{"a" : 1}"#,
         ),
+        (r#"{"a":: 1}"#, "there is an extra colon", ":", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"{"a": }"#, "the value of this key is missing", "\"a\"", "{}", r#"{"a": }"#),
+        (r#"{"a": {"b": 1}"#, "this object is not closed", "{", r#"{"a":{"b":1}}"#, r#"{"a": {"b": 1}}"#),
+        (r#"{"a": [{"b": 1"#, "this object is not closed", "{", r#"{"a":[{"b":1}]}"#, r#"{"a": [{"b": 1}]}"#),
         (r#"{"a": [1, 2}"#, "a `]` is missing here", "", r#"{"a":[1,2]}"#, r#"{"a": [1, 2]}"#),
         (
             r#"{"a": [1, 2}, "b": 3}"#,
-            "`}` where a list ends",
+            "`}` is used where a list ends",
             "}",
             r#"{"a":[1,2],"b":3}"#,
             r#"{"a": [1, 2], "b": 3}"#,
@@ -164,30 +170,36 @@ fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
         ),
         (
             r#"{"a": [1]], "b": 2}"#,
-            "a `]` that closes nothing here",
+            "this `]` closes nothing",
             "]",
             r#"{"a":[1],"b":2}"#,
             r#"{"a": [1], "b": 2}"#,
         ),
         (
             r#"{"a": {"b": 1}}, "c": 2}"#,
-            "a `}` that closes nothing here",
+            "this `}` closes nothing",
             "}",
             r#"{"a":{"b":1},"c":2}"#,
             r#"{"a": {"b": 1}, "c": 2}"#,
         ),
-        (r#"{"a": 1}}"#, "a `}` that closes nothing here", "}", r#"{"a":1}"#, r#"{"a": 1}"#),
+        (r#"{"a": 1}}"#, "this `}` closes nothing", "}", r#"{"a":1}"#, r#"{"a": 1}"#),
         (r#""a": 1}"#, "the opening `{` is missing", "", r#"{"a":1}"#, r#"{"a": 1}"#),
-        (r#"{"a": 1} x"#, "text after the end of the JSON value", "x", r#"{"a":1}"#, r#"{"a": 1} x"#),
+        (
+            r#"{"a": 1} x"#,
+            "there is text after the end of the JSON value",
+            "x",
+            r#"{"a":1}"#,
+            r#"{"a": 1} x"#,
+        ),
         (
             "{\"a\":\u{a0}1}",
-            "an invisible character (U+00A0) between values",
+            "an invisible character (U+00A0) is between values",
             "\u{a0}",
             r#"{"a":1}"#,
             r#"{"a": 1}"#,
         ),
-        ("", "nothing here", "", "null", ""),
-        (r#"{"a": 1e999}"#, "this number is too large to compute with", "1e999", "{}", r#"{"a": 1e999}"#),
+        ("", "there is no JSON here", "", "null", ""),
+        (r#"{"a": 1e999}"#, "this number is too large", "1e999", "{}", r#"{"a": 1e999}"#),
         (
             r#"{"a": ball}"#,
             "`ball` is neither a number nor a text in quotes",
@@ -216,7 +228,13 @@ fn mistakes_are_told_in_plain_words_and_reading_goes_on() {
             r#"{"a":5,"b":1}"#,
             r#"{"a": 5 kg, "b": 1}"#,
         ),
-        (r#"{“a”: “b”}"#, "4 typographic quotes where JSON needs \"", "“", r#"{"a":"b"}"#, r#"{"a": "b"}"#),
+        (
+            r#"{“a”: “b”}"#,
+            "JSON has 4 typographic quotes where it needs \"",
+            "“",
+            r#"{"a":"b"}"#,
+            r#"{"a": "b"}"#,
+        ),
     ] {
         assert_eq!(complaints(text), [(message.to_string(), place.to_string())], "{text}");
         let read: serde_json::Value = serde_json::from_str(read).unwrap();
@@ -242,15 +260,15 @@ fn all_mistakes_of_a_block_are_told_at_once() {
     let said: Vec<_> = complaints(text).into_iter().map(|(message, _)| message).collect();
     insta::assert_debug_snapshot!(said, @r#"
     [
-        "a single quote where JSON needs a double quote",
+        "JSON has a single quote where it needs a double quote",
         "the key `stopAt` has no quotes",
         "a comma is missing here",
-        "`True` is written `true` in JSON",
+        "`True` must be written `true` in JSON",
         "JSON has no comments",
-        "`\\a` is not an escape of JSON",
-        "`+90` is not a number as JSON writes it",
+        "`\\a` is not a JSON escape",
+        "`+90` is not a JSON number",
         "a colon is missing after this key",
-        "a comma before a closing bracket",
+        "a comma is before a closing bracket",
         "a `]` is missing here",
     ]
     "#);
@@ -261,13 +279,13 @@ fn all_mistakes_of_a_block_are_told_at_once() {
 #[test]
 fn deep_nesting_is_refused_before_it_can_hurt() {
     let deep = "[".repeat(1_000_000);
-    assert!(complaints(&deep)[0].0.contains("brackets inside each other"));
+    assert!(complaints(&deep)[0].0.contains("nested brackets"));
 }
 
 #[test]
 fn too_many_values_are_refused() {
     let long = format!("[{}1]", "1,".repeat(MAX_VALUES + 1));
-    assert!(complaints(&long)[0].0.contains("values in one JSON text"));
+    assert!(complaints(&long)[0].0.contains("the JSON has more than"));
 }
 
 #[test]

@@ -16,7 +16,7 @@ pub(super) fn to_finding(misfit: &Misfit) -> Finding {
     let reason = |rule: &rules::Rule| *finding.code == *rule && finding.why.as_deref() == Some(rule.why);
     if misfit.in_verify && [rules::UNKNOWN_KEY, rules::WRONG_TYPE].into_iter().any(reason) {
         finding.why =
-            Some("`verify` is read by this checker only: what it does not understand is not checked".into());
+            Some("only this checker reads `verify`: what it does not understand is not checked".into());
     }
     finding
 }
@@ -27,7 +27,7 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
     match mistake {
         Mistake::Type { what, expected, found, text } => of_type(&span, what, *expected, found, text.as_deref()),
         Mistake::NotWhole { key, value } => {
-            wrong(format!("`{key}` is a whole number, not {value}")).help("write a number without a point")
+            wrong(format!("`{key}` must be an integer, not {value}")).help("write a number without a decimal point")
         }
         Mistake::UnknownKey { of, key, meant } => unknown_key(span, of, key, meant),
         Mistake::MissingKey { of, key, why, advised } => {
@@ -37,61 +37,61 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
                 .help(format!("add \"{key}\": …"))
         }
         Mistake::ControlType(word) => {
-            let finding = wrong(format!("there is no control of type {}", named(word)))
-                .why("the page knows sliders, selects and buttons; it shows nothing for anything else");
-            let help = "write \"select\" or \"button\"; without `type` it is a slider";
+            let finding = wrong(format!("`{}` is not a type of control", named(word)))
+                .why("the page knows sliders, selects and buttons; it shows nothing for other types");
+            let help = "write \"select\" or \"button\", or delete `type` for a slider";
             one_of(finding, word, texts(CONTROL.words), help.to_string())
         }
         Mistake::QuestionKind(word) => {
-            let finding = wrong(format!("there is no question of kind {}", named(word)))
-                .why("the page does not know how to ask it, nor how to grade it");
+            let finding = wrong(format!("`{}` is not a kind of question", named(word)))
+                .why("the page can neither ask nor grade it");
             let kinds: Vec<&str> = texts(QUESTION.words).collect();
-            one_of(finding, word, texts(QUESTION.words), format!("the kinds are {}", kinds.join(", ")))
+            one_of(finding, word, texts(QUESTION.words), format!("use one of the kinds {}", kinds.join(", ")))
         }
         Mistake::LabExpects(word) => {
             let finding = wrong(format!("`expect` cannot be {}", named(word)))
-                .why("it says what is meant to happen when the lab runs; there is one thing that it can say");
-            let help = "write \"breaks\" when the lab is about a simulation that breaks, else leave it out";
+                .why("`expect` describes the result of a run, and \"breaks\" is its only value");
+            let help = "write \"breaks\" if the lab shows a simulation that breaks, or delete it";
             one_of(finding, word, ["breaks"].into_iter(), help.to_string())
         }
-        Mistake::RunExpects(word) => wrong(format!("a run cannot be expected to be {}", named(word)))
-            .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or leave it out"),
+        Mistake::RunExpects(word) => wrong(format!("the `expect` of a run cannot be {}", named(word)))
+            .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or delete it"),
         Mistake::NoChoice => {
-            Finding::new(rules::SELECT_OPTIONS, span, "an option of a select is a pair [text, value]")
+            Finding::new(rules::SELECT_OPTIONS, span, "an option of a select must be a pair [text, value]")
                 .help("write [\"RK4\", 1]")
         }
         Mistake::NothingOffered => {
-            Finding::new(rules::SELECT_OPTIONS, open(), "this select offers nothing")
-                .help("write \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
+            Finding::new(rules::SELECT_OPTIONS, open(), "this select has no options")
+                .help("add \"options\": [[\"Euler\", 0], [\"RK4\", 1]]")
         }
         Mistake::NoTraces => Finding::new(rules::EMPTY_PLOT, open(), "this plot has no traces")
             .help("add \"traces\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]"),
         Mistake::NoPoint => {
             wrong("`target` must be three numbers, in metres".into()).help("write \"target\": [0, 0, 0.5]")
         }
-        Mistake::NoSwitch => wrong("an overlay is switched by true or false".into())
+        Mistake::NoSwitch => wrong("an overlay must be true or false".into())
             .help("write true or false, without quotes"),
         // A text of the right type, which the format cannot tell from an address.
-        Mistake::NoPlace(text) => Finding::new(rules::UNKNOWN_LAB, span.clone(), format!("{} is not a place of a lab", named(text)))
+        Mistake::NoPlace(text) => Finding::new(rules::UNKNOWN_LAB, span.clone(), format!("{} is not the address of a lab", named(text)))
             .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object"),
         Mistake::NoLab(found) => wrong(format!("`lab` must be a text or a lab object; this is {found}"))
             .help("write \"#2\" for the second lab of the lesson, or a lab object"),
-        Mistake::NoSweep => wrong("a sweep changes one thing: a control, or an attribute of the model".into())
+        Mistake::NoSweep => wrong("a sweep must change exactly one thing: a control or an attribute of the model".into())
             .help("write {\"timestep h\": [0.002, 0.005, 0.01]}"),
-        Mistake::NoRows => wrong("a column has `by`, and one cell of it has `row`".into())
+        Mistake::NoRows => wrong("a column needs `by`, and a single cell needs `row`".into())
             .help("write \"by\": [\"height (m)\", \"fall.value\"], or \"row\": \"0.65\""),
-        Mistake::FindsNothing => wrong("a search is for the largest or for the smallest value".into())
+        Mistake::FindsNothing => wrong("a search needs either `largest` or `smallest`".into())
             .help("write \"largest\": \"timestep h\", or \"smallest\""),
-        Mistake::FindsBackwards => wrong("a search begins below its end".into()).help("write `from` below `to`"),
+        Mistake::FindsBackwards => wrong("the `from` of a search must be below its `to`".into()).help("write `from` below `to`"),
         Mistake::SweptValues(count) => {
-            wrong(format!("a sweep has 2 to {MOST_SWEPT} values; this one has {count}"))
+            wrong(format!("a sweep must have 2 to {MOST_SWEPT} values; this one has {count}"))
                 .help("write [0.002, 0.005, 0.01], or {\"from\": 0.2, \"to\": 2, \"count\": 5}")
         }
-        Mistake::NoRange => wrong("a range is a pair [smallest, largest]".into())
+        Mistake::NoRange => wrong("a range must be a pair [smallest, largest]".into())
             .help("write the smaller end first: `\"gravity\": [-20, -1]`"),
-        Mistake::NoPress => wrong("a press is a pair [label, time]".into())
+        Mistake::NoPress => wrong("a press must be a pair [label, time]".into())
             .help("write [\"Drop\", 0.5]: the button's label and the time in seconds"),
-        Mistake::NoQuote => wrong("what the text says is a pair [quote, expression]".into())
+        Mistake::NoQuote => wrong("an entry of `says` must be a pair [quote, expression]".into())
             .help("write [\"0.442 s\", \"fine.touch\"]"),
         Mistake::ClaimsNothing => {
             Finding::new(rules::VERIFY_NOTHING, open(), "nothing is compared with these runs")
@@ -103,8 +103,8 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
         }
         Mistake::EmptyFence => Finding::new(rules::JSON_SYNTAX, span, "this fence is empty")
             .help("write one JSON object between the two ``` lines: { … }"),
-        Mistake::UnknownObject => Finding::new(rules::UNKNOWN_SPEC, open(), "neither a lab nor a quiz")
-            .help("a lab has a `model` or an `xml`; a quiz has `questions`"),
+        Mistake::UnknownObject => Finding::new(rules::UNKNOWN_SPEC, open(), "the object is neither a lab nor a quiz")
+            .help("add `model` or `xml` for a lab, or `questions` for a quiz"),
         Mistake::TooLarge => {
             let limit = MAX_FILE >> 20;
             Finding::new(rules::LESSON_LIMIT, span, format!("this file is larger than {limit} MB"))
@@ -144,11 +144,11 @@ fn unknown_key(span: Range<usize>, of: &str, key: &str, meant: &Meant) -> Findin
     let finding = Finding::new(rules::UNKNOWN_KEY, span.clone(), message);
     match meant {
         Meant::There(right) => {
-            finding.help(format!("did you mean `{right}`? the object has it already: delete one of the two"))
+            finding.help(format!("did you mean `{right}`? the object already has it: delete one of the two"))
         }
         Meant::Likely(right) => finding.help(format!("did you mean `{right}`?")).guess(span, *right),
         Meant::Other { key, takes } => finding.help(format!("did you mean `{key}`? it takes {takes}")),
-        Meant::Unclear(keys) => finding.help(format!("its keys are {}", keys.join(", "))),
+        Meant::Unclear(keys) => finding.help(format!("use one of its keys: {}", keys.join(", "))),
     }
 }
 

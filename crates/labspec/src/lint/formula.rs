@@ -39,7 +39,7 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
                 break;
             }
             if faults.len() < MAX_IN_TEXT && is_formula(inside, open, work) {
-                faults.push((at..at + open.len(), format!("nothing closes the formula that `{open}` opens")));
+                faults.push((at..at + open.len(), format!("the formula that `{open}` opens is not closed")));
             }
             // What follows is read as text.
             at += open.len();
@@ -130,13 +130,13 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
             _ => {}
         }
         if left < 0 {
-            return Some("`\\right` stands without its `\\left`".into());
+            return Some("`\\right` has no `\\left`".into());
         }
         at += length;
     }
     match (depth, left, inner.pop()) {
         (d, ..) if d > 0 => Some("a brace `{` is not closed".into()),
-        (_, l, _) if l > 0 => Some("`\\left` stands without its `\\right`".into()),
+        (_, l, _) if l > 0 => Some("`\\left` has no `\\right`".into()),
         (.., Some(name)) => Some(format!("`\\begin{{{}}}` is not closed", crate::json::read::shorten(name))),
         _ => None,
     }
@@ -172,8 +172,7 @@ fn code(html: &str) -> Vec<Range<usize>> {
 }
 
 fn finding(span: Range<usize>, said: String) -> Finding {
-    Finding::new(rules::FORMULA_UNBALANCED, span, said)
-        .help("close it, or write `\\$` where a dollar is meant")
+    Finding::new(rules::FORMULA_UNBALANCED, span, said).help("close it, or write `\\$` for a dollar sign")
 }
 
 /// Looks into a text of a lab or a quiz.

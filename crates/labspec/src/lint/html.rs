@@ -108,7 +108,7 @@ fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
 fn finding(tag: &str, span: Range<usize>) -> Finding {
     let shown = crate::json::read::shorten(tag);
     let escaped = tag.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    Finding::new(rules::UNESCAPED_ELEMENT, span.clone(), format!("a browser takes `{shown}` for HTML"))
+    Finding::new(rules::UNESCAPED_ELEMENT, span.clone(), format!("a browser reads `{shown}` as HTML"))
         .help(format!("write {}", crate::json::read::shorten(&escaped)))
         .fix(span, escaped)
 }

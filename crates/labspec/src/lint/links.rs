@@ -114,7 +114,7 @@ pub(super) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findi
         match (sources.real(&path), anchor) {
             (None, _) if sources.has_files() => findings.push(finding(
                 link,
-                if link.image { "there is no such picture" } else { "there is no such file" },
+                if link.image { "this image does not exist" } else { "this file does not exist" },
             )),
             (Some(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
                 let Ok(text) = sources.text(&real, MAX_FILE, "a lesson") else { continue };
@@ -185,5 +185,5 @@ fn decoded(text: &str) -> String {
 fn finding(link: &Link, said: &str) -> Finding {
     let shown = crate::json::read::shorten(&link.target);
     Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{shown}`: {said}"))
-        .help("correct where it leads to, or add what is missing")
+        .help("correct the link, or add its target")
 }

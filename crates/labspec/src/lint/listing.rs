@@ -148,7 +148,7 @@ fn typographic(body: &Text, scan: &Scan, findings: &mut Vec<Finding>) {
     let mut finding = Finding::new(
         rules::TYPOGRAPHIC_QUOTE,
         body.span_of(first.clone()),
-        format!("typographic quotes in a listing{on}"),
+        format!("a listing has typographic quotes{on}"),
     )
     .help("write \" for “ and ”, and ' for ‘ and ’");
     for &quote in lines.iter().skip(1).take(7) {
@@ -174,7 +174,7 @@ fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
                 Finding::new(
                     rules::LISTING_UNDERSCORES,
                     body.span_of(content.start..end),
-                    "the underscores of `__name__` are gone",
+                    "the underscores of `__name__` are missing",
                 )
                 .help("write if __name__ == \"__main__\":"),
             );
@@ -203,9 +203,9 @@ fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
                 Finding::new(
                     rules::LISTING_LINE_BREAKS,
                     body.span_of(from..content.end),
-                    "several statements on one line",
+                    "several statements are on one line",
                 )
-                .help("give every statement its own line, indented below the `def`"),
+                .help("put every statement on its own line, indented below the `def`"),
             );
         }
     }

@@ -55,7 +55,7 @@ fn limit(lesson: &mut Lesson) {
     lesson.findings.truncate(MAX_FINDINGS);
     let end = lesson.file.text().len();
     lesson.findings.push(
-        Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not shown"))
+        Finding::new(rules::LESSON_LIMIT, end..end, format!("{more} more findings are not listed"))
             .help("fix the first ones, then check again")
             .at(&lesson.file),
     );
@@ -125,16 +125,16 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     named.map(&mut read).collect()
 }
 
-const NOT_FROM_HERE: &str = "a lesson is named by its path from this one";
+const NOT_FROM_HERE: &str = "a lesson must be named by its path from this one";
 
 /// The text of another lesson, whose labs find the same models.
 fn read_other_file(own: &Path, other: &Path, sources: &Sources) -> Result<String, String> {
     if !is_lesson(other) {
-        return Err("a lab stands in a lesson (.md) or in a JSON file".into());
+        return Err("a lab must be in a lesson (.md) or in a JSON file".into());
     }
     let models = |path: &Path| sources.place(Asked::Models, path, || ModelFolder::find_near(path));
     if models(own) != models(other) {
-        return Err("that lesson has another folder of models".into());
+        return Err("that lesson has another model folder".into());
     }
     sources.text(other, MOST_OF_OTHER, "a lesson")
 }
@@ -191,12 +191,12 @@ pub fn not_utf8(bad: BadText) -> Finding {
             } else {
                 String::new()
             };
-            (at..at + 1, format!("here is a byte that is not UTF-8 (0x{byte:02X}{old})"))
+            (at..at + 1, format!("a byte here is not UTF-8 (0x{byte:02X}{old})"))
         }
     };
     Finding::error(rules::NOT_UTF8, span, message)
-        .why("a page reads lessons as UTF-8, so such characters are shown as �")
-        .help("save the file with the encoding UTF-8")
+        .why("a page reads lessons as UTF-8, so it shows such characters as �")
+        .help("save the file as UTF-8")
 }
 
 #[cfg(test)]

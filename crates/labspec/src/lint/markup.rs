@@ -191,7 +191,7 @@ pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
             Fault::Unknown => (
                 rules::HTML_ELEMENT,
                 format!("HTML has no element `{}`", crate::json::read::shorten(&name)),
-                "write `&lt;` for `<` where no element is meant".to_string(),
+                "write `&lt;` for `<` if this is not an element".to_string(),
             ),
             Fault::Unclosed => (
                 rules::HTML_NESTING,
@@ -201,11 +201,11 @@ pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
             Fault::Unopened => (
                 rules::HTML_NESTING,
                 format!("`{shown}` closes nothing"),
-                format!("remove it, or write <{name}> where it begins"),
+                format!("delete it, or write <{name}> where the element begins"),
             ),
             Fault::Crossed(outer) => (
                 rules::HTML_NESTING,
-                format!("`{shown}` is still open where `</{outer}>` closes what holds it"),
+                format!("`{shown}` is still open where `</{outer}>` closes the element around it"),
                 format!("write </{name}> before </{outer}>"),
             ),
         };

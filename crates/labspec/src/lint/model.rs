@@ -33,10 +33,10 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
             format!("{} is not the name of a model", named(text)),
         );
         return Some(if stem.is_empty() || stem.contains("..") {
-            finding.help("write the file's name without folder and extension")
+            finding.help("write the name of the file without folder and extension")
         } else {
             let named = finding
-                .help(format!("write the file's name without folder and extension: {}", shorten(stem)));
+                .help(format!("write the name of the file without folder and extension: {}", shorten(stem)));
             // What the folder does not have is no repair.
             let known = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
             if known { named.fix(name.span(), encode(stem)) } else { named }
@@ -46,15 +46,18 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
     if names.iter().any(|n| n == text) {
         return None;
     }
-    let finding =
-        Finding::new(rules::UNKNOWN_MODEL, name.span(), format!("there is no model `{}`", shorten(text)));
+    let finding = Finding::new(
+        rules::UNKNOWN_MODEL,
+        name.span(),
+        format!("the model `{}` does not exist", shorten(text)),
+    );
     Some(match nearest(text, names.iter().map(String::as_str)) {
         Some(right) => finding.help(format!("did you mean `{right}`?")).guess(name.span(), encode(right)),
-        None if names.is_empty() => finding.help("the folder of models is empty"),
+        None if names.is_empty() => finding.help("add the model: the model folder is empty"),
         None => {
             let some: Vec<&str> = names.iter().map(String::as_str).take(12).collect();
             let more = if names.len() > some.len() { ", …" } else { "" };
-            finding.help(format!("the folder of models has {}{more}", some.join(", ")))
+            finding.help(format!("use one of the models in the model folder: {}{more}", some.join(", ")))
         }
     })
 }

@@ -44,7 +44,7 @@ fn repair(document: &Document, f: &Finding, fix: &Fix) -> Option<Value> {
     let (old, new) = (short(file.slice(fix.span.clone())), short(&fix.text));
     let what = match (old.is_empty(), new.is_empty()) {
         (true, _) => format!("write `{new}`"),
-        (_, true) => format!("leave out `{old}`"),
+        (_, true) => format!("delete `{old}`"),
         _ => format!("write `{new}` instead of `{old}`"),
     };
     let (title, preferred) = match fix.applicability {
@@ -101,7 +101,7 @@ fn everything(document: &Document, lesson: &Lesson, models: &Models) -> Option<V
     }
     let changes = [changed(old, &new)];
     Some(
-        json!({"title": "labspec: make all safe repairs", "kind": "source.fixAll.labspec", "edit": edit(document, &changes)}),
+        json!({"title": "labspec: apply all safe fixes", "kind": "source.fixAll.labspec", "edit": edit(document, &changes)}),
     )
 }
 
@@ -157,7 +157,7 @@ fn allow(document: &Document, lesson: &Lesson, f: &Finding) -> Option<Value> {
         None => return None,
     };
     Some(json!({
-        "title": format!("allow `{}` here, with a reason", f.code),
+        "title": format!("suppress `{}` here, with a reason", f.code),
         "kind": "quickfix",
         "diagnostics": [super::diagnostic::diagnostic(f, file, &document.uri)],
         "edit": edit(document, &[(at..at, text)]),

@@ -76,8 +76,8 @@ fn quoted(s: &Suggestion) -> String {
 }
 
 fn about(c: &Completion) -> String {
-    let default = c.default.as_ref().map_or(String::new(), |d| format!("\n\nWithout it: `{d}`"));
-    let required = if c.required { "\n\nIt must stand." } else { "" };
+    let default = c.default.as_ref().map_or(String::new(), |d| format!("\n\nDefault: `{d}`"));
+    let required = if c.required { "\n\nRequired." } else { "" };
     format!("{}{default}{required}", c.doc)
 }
 
@@ -96,7 +96,7 @@ fn kind_of(kind: Suggested) -> u8 {
 fn measures(verify: &Verify, items: &mut Vec<Value>) {
     let named = |name: &str, what: &str| json!({"label": name, "kind": kind::VARIABLE, "detail": what, "sortText": " "});
     items.extend(verify.measure.iter().map(|(name, _)| named(&name.value, "a measure")));
-    items.extend(verify.find.iter().map(|find| named(&find.name.value, "a value that is searched for")));
+    items.extend(verify.find.iter().map(|find| named(&find.name.value, "a value found by a search")));
     items.extend(verify.runs.iter().map(|run| named(&run.name.value, "a run")));
 }
 

@@ -65,7 +65,7 @@ fn key(document: &Document, around: &Around, byte: usize) -> Option<Value> {
     let word = file.text().get(start + 1..end)?;
     let offered = completions_in(file, end, &|asked| around.models.names(asked));
     let found = offered.iter().find(|c| c.text == word)?;
-    let default = found.default.as_ref().map_or(String::new(), |d| format!("\n\nWithout it: `{d}`"));
+    let default = found.default.as_ref().map_or(String::new(), |d| format!("\n\nDefault: `{d}`"));
     let text = format!("**{}**: {}\n\n{}{default}", found.text, found.takes, found.doc);
     Some(json!({
         "contents": {"kind": "markdown", "value": text},

@@ -193,10 +193,10 @@ fn in_model(
     let doubt = |span: Range<usize>, why| Doubt { file: file.clone(), span, why };
     let texts = read.texts.into_iter().filter(|(text, _)| *text == name.name);
     found.doubts.extend(texts.map(|(_, span)| {
-        doubt(span_of(&span).unwrap_or_default(), "this attribute may name it, or something else")
+        doubt(span_of(&span).unwrap_or_default(), "this attribute may mean it, or something else")
     }));
     if read.composed.is_some() {
-        found.doubts.push(doubt(0..0, "this model makes names of others, or takes them from other files"));
+        found.doubts.push(doubt(0..0, "this model generates names, or takes them from other files"));
     }
 }
 
@@ -232,10 +232,10 @@ fn in_lesson(name: &Name, lesson: &Lesson, path: &Path, models: &Models, found: 
             spot(text, 0..text.value.len());
         }
     }
-    let why = "this text may name it, or something else";
+    let why = "this text may mean it, or something else";
     found.doubts.extend(doubts.into_iter().map(|span| Doubt { file: file.clone(), span, why }));
     let broken = lesson.broken.iter().filter(|span| file.slice((*span).clone()).contains(&name.name));
-    let why = "this block cannot be read for certain until its JSON is mended";
+    let why = "the JSON of this block must be fixed before it can be read";
     found.doubts.extend(broken.map(|span| Doubt { file: file.clone(), span: span.clone(), why }));
     // The model itself, where it is written in the lab.
     for lab in lesson.all_labs() {

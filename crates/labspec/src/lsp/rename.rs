@@ -14,7 +14,7 @@ pub(super) fn rename(name: &Name, places: &Places, new: &str, ground: &Ground<'_
     let Name { noun, name: old, .. } = name;
     good(new)?;
     if places.spots.iter().filter(|spot| spot.defines).count() != 1 {
-        return Err(format!("the model has no {noun} that is called `{old}` in exactly one place"));
+        return Err(format!("the model does not define the {noun} `{old}` in exactly one place"));
     }
     if let Some(doubt) = places.doubts.first() {
         return Err(format!(
@@ -25,7 +25,7 @@ pub(super) fn rename(name: &Name, places: &Places, new: &str, ground: &Ground<'_
     }
     if let Some(spot) = places.spots.iter().find(|spot| !spot.plain) {
         let at = describe_position(&spot.file, spot.span.start);
-        return Err(format!("{at}: the name is written with escapes here; nothing was changed"));
+        return Err(format!("{at}: the name is written with escapes here, so nothing was changed"));
     }
     let mut changes: Map<String, Value> = Map::new();
     let mut spots: Vec<_> =
@@ -45,12 +45,10 @@ pub(super) fn rename(name: &Name, places: &Places, new: &str, ground: &Ground<'_
 /// Names that need escapes nowhere: neither in MJCF, nor in JSON, nor in code.
 fn good(new: &str) -> Result<(), String> {
     if new.is_empty() || new.trim() != new {
-        return Err("a name has at least one character, and no blanks around it".into());
+        return Err("a name needs at least one character, and no spaces around it".into());
     }
     match new.chars().find(|c| c.is_control() || "\"'`\\<>&/".contains(*c)) {
-        Some(c) => {
-            Err(format!("a name without `{}` is needed: it would have to be escaped", c.escape_default()))
-        }
+        Some(c) => Err(format!("a name cannot contain `{}`, which would need an escape", c.escape_default())),
         None => Ok(()),
     }
 }

@@ -206,13 +206,13 @@ impl Server<'_> {
                 return Ok(capabilities());
             }
             (State::New, _) => {
-                return Err(Refused(ErrorCode::ServerNotInitialized, "`initialize` comes first".into()));
+                return Err(Refused(ErrorCode::ServerNotInitialized, "`initialize` must come first".into()));
             }
             (State::Shut, _) => {
-                return Err(Refused(ErrorCode::InvalidRequest, "`shutdown` was asked for".into()));
+                return Err(Refused(ErrorCode::InvalidRequest, "the server is shutting down".into()));
             }
             (State::Open, "initialize") => {
-                return Err(Refused(ErrorCode::InvalidRequest, "`initialize` comes once".into()));
+                return Err(Refused(ErrorCode::InvalidRequest, "`initialize` can be sent only once".into()));
             }
             (State::Open, "shutdown") => {
                 self.state = State::Shut;
@@ -230,7 +230,7 @@ impl Server<'_> {
             "textDocument/rename" => self.rename(params),
             "textDocument/codeAction" => self.code_action(params),
             "textDocument/inlayHint" => self.inlay_hint(params),
-            _ => Err(Refused(ErrorCode::MethodNotFound, format!("`{method}` is not known here"))),
+            _ => Err(Refused(ErrorCode::MethodNotFound, format!("unknown method `{method}`"))),
         }
     }
 
@@ -523,15 +523,17 @@ impl Server<'_> {
 
     fn rename(&mut self, params: &Value) -> Answer {
         let (uri, byte) = self.place(params)?;
-        let new =
-            params.get("newName").and_then(Value::as_str).ok_or_else(|| invalid("a new name is missing"))?;
+        let new = params
+            .get("newName")
+            .and_then(Value::as_str)
+            .ok_or_else(|| invalid("the new name is missing"))?;
         let Some((name, _)) = self.name(&uri, byte) else {
-            return Err(Refused(ErrorCode::RequestFailed, "here stands no name of the model".into()));
+            return Err(Refused(ErrorCode::RequestFailed, "there is no name of the model here".into()));
         };
         let failed = |why: String| Refused(ErrorCode::RequestFailed, why);
         let taken = Name { name: new.to_string(), ..name.clone() };
         if new != name.name && self.places_of(&taken).spots.iter().any(|spot| spot.defines) {
-            return Err(failed(format!("there is a {} `{new}` already", name.noun)));
+            return Err(failed(format!("a {} `{new}` already exists", name.noun)));
         }
         rename(&name, &self.places_of(&name), new, &self.ground()).map_err(failed)
     }

@@ -51,7 +51,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     let Some(length) = length else { return Ok(Incoming::Bad("a message has no Content-Length".into())) };
     if length > MOST {
         io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
-        return Ok(Incoming::Bad(format!("a message of {length} bytes is too long; {MOST} are read")));
+        return Ok(Incoming::Bad(format!("a message of {length} bytes is too long; the limit is {MOST}")));
     }
     let mut body = Vec::new();
     input.by_ref().take(length).read_to_end(&mut body)?;
@@ -60,7 +60,7 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     }
     Ok(match serde_json::from_slice::<Message>(&body) {
         Ok(message) => Incoming::Message(message),
-        Err(e) => Incoming::Bad(format!("this is no message: {e}")),
+        Err(e) => Incoming::Bad(format!("the message is invalid: {e}")),
     })
 }
 
@@ -97,9 +97,9 @@ mod tests {
         let message = |text: &str| format!("content-length:{}\r\nX: y\r\n\r\n{text}", text.len());
         let good = message(r#"{"jsonrpc":"2.0","method":"exit"}"#);
         for (bad, why) in [
-            (message("{"), "this is no message: EOF"),
-            (message("[]"), "this is no message"),
-            (message("\u{0}"), "this is no message"),
+            (message("{"), "the message is invalid: EOF"),
+            (message("[]"), "the message is invalid"),
+            (message("\u{0}"), "the message is invalid"),
             ("Content-Length: x\r\n\r\n".into(), "a message has no Content-Length"),
             ("\r\n".into(), "a message has no Content-Length"),
             ("hello\n".into(), "a line of a header has no colon"),

@@ -60,7 +60,7 @@ impl Player {
                 lesson.addressed().iter().map(|(address, _)| address.to_string()).collect();
             return Err(match (known.is_empty(), errors.is_empty()) {
                 (false, _) => {
-                    Error::Call(format!("there is no lab {address} here; there is {}", known.join(", ")))
+                    Error::Call(format!("this lesson has no lab {address}; it has {}", known.join(", ")))
                 }
                 (true, false) => Error::Findings(errors),
                 (true, true) => Error::Call(format!("{path} has no lab")),

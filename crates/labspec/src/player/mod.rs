@@ -164,7 +164,7 @@ impl Player {
 
     fn play(&mut self, time: f64, mut each: impl FnMut(&mut Session<'_>, usize)) -> Result<usize, Error> {
         if time.is_nan() {
-            return Err(Error::Call("a lab is played to a time in seconds, not to NaN".into()));
+            return Err(Error::Call("a lab cannot run to the time NaN; pass a time in seconds".into()));
         }
         let ahead = (time - self.time()).max(0.0);
         let steps = run::count_steps(&self.lab, Some(ahead), None, self.timestep())?;
@@ -202,7 +202,7 @@ impl Player {
     pub fn restore(&mut self, saved: &Saved) -> Result<(), Error> {
         if !Arc::ptr_eq(&self.lab, &saved.lab) {
             return Err(Error::Call(
-                "this state was saved by another lab, or by this one before it was loaded anew".into(),
+                "this state belongs to another lab, or was saved before this lab was loaded again".into(),
             ));
         }
         self.now.clone_from(saved);
@@ -263,11 +263,13 @@ impl Player {
     fn spent(&self) -> Option<Finding> {
         let Some(End::Budget { time }) = self.now.session.ended() else { return None };
         let what = format!(
-            "the lab was stopped at t = {} s: it does more work than a page can wait for",
+            "the lab was stopped at t = {} s: it needs more work than a page allows",
             run::time(*time)
         );
         let finding = Finding::error(rules::RUN_IMPOSSIBLE, self.lab.place(), what);
-        Some(finding.why("the page would stand still").help("simplify the scene or its programs"))
+        Some(
+            finding.why("without this limit, the page would hang").help("simplify the scene or its programs"),
+        )
     }
 
     /// What was done to the lab, for findings.
@@ -292,7 +294,7 @@ impl Player {
     fn unknown(&self, index: usize) -> Error {
         Error::Call(match self.controls.len() {
             0 => "this lab has no controls".into(),
-            n => format!("there is no control {index}: this lab has {n}, counted from 0"),
+            n => format!("the control {index} does not exist: this lab has {n}, counted from 0"),
         })
     }
 }

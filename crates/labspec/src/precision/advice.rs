@@ -84,7 +84,7 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
         {
             let times = rows[own].score / reliable(rows, i).max(f64::MIN_POSITIVE);
             let how = if reliable(rows, i) == 0.0 || times > 1e12 {
-                "right to rounding".to_string()
+                "exact except for rounding".to_string()
             } else {
                 format!("{} times closer", two_digits(times))
             };
@@ -98,12 +98,15 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     if let Some(i) = cheapest {
         let text = match mine {
             Some(own) if i == own => {
-                format!("It is also the cheapest setting tried that shows {every} rightly.")
+                format!("It is also the cheapest tested setting that shows {every} correctly.")
             }
             own => {
                 let time =
                     own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
-                format!("The cheapest setting tried that shows {every} rightly is {}{time}.", name(&rows[i]))
+                format!(
+                    "The cheapest tested setting that shows {every} correctly is {}{time}.",
+                    name(&rows[i])
+                )
             }
         };
         list.push(Advice { kind: Kind::Right, row: i, text });
@@ -120,14 +123,13 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
         });
         let text = match doubtful {
             Some((target, _)) if !(0..rows.len()).filter(usable).all(|i| wrong(&rows[i])) => format!(
-                "Whether any setting tried shows {every} rightly is not known: of \"{}\" the reference itself may be off by {}, and \
-                 {} would be seen; the closest is {}.",
+                "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
                 target.label,
                 with_unit(target.doubt, target),
                 with_unit(target.unseen, target),
                 name(&rows[i])
             ),
-            _ => format!("No setting tried shows {every} rightly; the closest is {}.", name(&rows[i])),
+            _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
         };
         list.push(Advice { kind: Kind::Closest, row: i, text });
     }
@@ -141,8 +143,8 @@ fn every(report: &Report) -> String {
     let until = compared.filter_map(|t| t.until).reduce(f64::min);
     let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
     match until {
-        Some(t) => format!("every number that is compared (until {} s)", crate::run::time(t)),
-        None if some => "every number that is compared".to_string(),
+        Some(t) => format!("every compared number (until {} s)", crate::run::time(t)),
+        None if some => "every compared number".to_string(),
         None => "every number".to_string(),
     }
 }
@@ -168,25 +170,31 @@ fn about_own(report: &Report, own: usize) -> String {
     let name = name(row);
     if !matches!(row.fate, super::Fate::Good | super::Fate::Warned) {
         let why = row.reported.first().map_or(String::new(), |t| format!(": {t}"));
-        return format!("As the lab has it, {name}, the run is no good ({}{why}).", row.fate.word());
+        return format!(
+            "With the settings of the lab, {name}, the run is not usable ({}{why}).",
+            row.fate.word()
+        );
     }
     let known = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
     if known.clone().next().is_none() {
-        return format!("As the lab has it, {name}: nothing could be compared.");
+        return format!("With the settings of the lab, {name}, nothing could be compared.");
     }
     if let Some((target, _)) = known.clone().find(|(_, e)| e.largest.is_nan()) {
-        return format!("As the lab has it, {name}, \"{}\" is not a number everywhere.", target.label);
+        return format!("With the settings of the lab, {name}, \"{}\" is not always a number.", target.label);
     }
     let above = known.filter(|(_, e)| !e.below);
     let Some((target, e)) = above.max_by(|(_, a), (_, b)| a.seen[0].total_cmp(&b.seen[0])) else {
-        return format!("As the lab has it, {name}, {} is as exact as the reference.", every(report));
+        return format!(
+            "With the settings of the lab, {name}, {} is as exact as the reference.",
+            every(report)
+        );
     };
     let [most, least] = e.seen;
     let samples = || format!("at {} of {} samples", e.wrong, e.samples);
     let seen = match (least > 1.0, target.readout) {
-        _ if most <= 1.0 => "which nobody sees".to_string(),
+        _ if most <= 1.0 => "which is not visible".to_string(),
         (false, _) => {
-            format!("give or take {}, the reference's own error", with_unit(target.doubt, target))
+            format!("within {}, the error of the reference", with_unit(target.doubt, target))
         }
         (true, true) => format!("which its digits show {}", samples()),
         (true, false) => {
@@ -194,7 +202,7 @@ fn about_own(report: &Report, own: usize) -> String {
         }
     };
     let how = format!("up to {} at {} s", with_unit(e.largest, target), crate::run::time(e.at));
-    format!("As the lab has it, {name}, \"{}\" is off by {how}, {seen}.", target.label)
+    format!("With the settings of the lab, {name}, \"{}\" is off by {how}, {seen}.", target.label)
 }
 
 /// A number with the unit of what is compared.

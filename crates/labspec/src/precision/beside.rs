@@ -59,7 +59,7 @@ impl Recording {
         let list = |value: &Value, key: &str| {
             value.get(key).and_then(Value::as_array).cloned().ok_or_else(|| format!("it has no list `{key}`"))
         };
-        let words = |v: &Value| v.as_str().map(str::to_string).ok_or("a name is no text".to_string());
+        let words = |v: &Value| v.as_str().map(str::to_string).ok_or("a name is not a text".to_string());
         let number = |v: Option<&Value>| v.and_then(Value::as_f64).unwrap_or(f64::NAN);
         let traces = list(&value, "traces")?.iter().map(words).collect::<Result<Vec<_>, _>>()?;
         let times: Vec<f64> = list(&value, "times")?.iter().map(|v| number(Some(v))).collect();
@@ -71,9 +71,7 @@ impl Recording {
             let apart = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
             let met = times.len().saturating_sub(1) / apart as usize + 1;
             if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
-                return Err(
-                    "a run does not have a value of each trace at each time that it meets".to_string()
-                );
+                return Err("a run lacks a value of a trace at one of its times".to_string());
             }
             let integrator =
                 row.get("integrator").map_or(Err("a run has no integrator".to_string()), words)?;
@@ -97,7 +95,7 @@ impl Recording {
         let same = |k: usize, t: f64| (t - k as f64 * case.interval).abs() <= 1e-9 * (1.0 + t);
         if self.times.len() != case.count + 1 || !self.times.iter().enumerate().all(|(k, &t)| same(k, t)) {
             return Err(RunError(format!(
-                "the recording to stand beside was made at other times; record it at {} times, {} s apart from 0 on",
+                "the recording has other times; record it at {} times, {} s apart, starting at 0",
                 case.count + 1,
                 crate::verify::significant(case.interval)
             )));
@@ -105,9 +103,7 @@ impl Recording {
         let mut places = Vec::new();
         for target in targets {
             let place = self.traces.iter().position(|t| *t == target.label);
-            places.push(place.ok_or_else(|| {
-                RunError(format!("the recording to stand beside has no \"{}\"", target.label))
-            })?);
+            places.push(place.ok_or_else(|| RunError(format!("the recording has no \"{}\"", target.label)))?);
         }
         let rows = self.runs.iter().map(|run| {
             let values = places.iter().map(|&i| run.values[i].clone()).collect();
@@ -136,10 +132,10 @@ mod tests {
         for (text, what) in [
             ("[", "it is not JSON"),
             ("{}", "it has no list `traces`"),
-            (r#"{"traces": [1], "times": [], "rows": []}"#, "a name is no text"),
+            (r#"{"traces": [1], "times": [], "rows": []}"#, "a name is not a text"),
             (
                 r#"{"traces": ["z"], "times": [0], "rows": [{"integrator": "Euler", "values": [[]]}]}"#,
-                "a value of each",
+                "lacks a value of a trace",
             ),
             (r#"{"traces": [], "times": [], "rows": []}"#, "it has no `engine`"),
         ] {

@@ -63,7 +63,7 @@ pub struct LeftOut {
 }
 
 /// Left out, yet compared: under another label.
-pub(super) const AGAIN: &str = "it is another one again";
+pub(super) const AGAIN: &str = "it repeats another one";
 
 /// What all runs of a comparison share.
 pub(super) struct PrecisionCase<'a> {
@@ -244,9 +244,9 @@ impl<'a> PrecisionCase<'a> {
         let effects = bound.program.effects();
         let reads = |id| effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == Some(id));
         let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any) {
-            "it is no number"
+            "it is not a number"
         } else if exact.is_none() && (reads(option::timestep) || reads(option::integrator)) {
-            "it is a function of the timestep or the integrator, and has no closed form"
+            "it depends on the timestep or the integrator, so it has no closed form"
         } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.shown == shown) {
             AGAIN
         } else {
@@ -415,7 +415,7 @@ impl Run {
             _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
             _ if session.growth().is_some() => Fate::Grows,
             Some(End::Budget { time }) => {
-                self.reported.push(format!("the run takes more work than it may and ends at {time} s"));
+                self.reported.push(format!("the work budget ran out, so the run ends at {time} s"));
                 Fate::Stopped
             }
             Some(_) => Fate::Stopped,

@@ -159,7 +159,7 @@ pub fn compare(
     let targets = judge::compared(&case, &truth, &mine);
     let blank = targets.iter().filter(|t| t.blank);
     case.left_out
-        .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is no number at the start" }));
+        .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is not a number at the start" }));
     let horizon = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let part = horizon.map_or(1.0, |t| t / case.length().max(f64::MIN_POSITIVE));
     let judge = Judge {
@@ -208,16 +208,20 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
     if case.targets.is_empty() {
         let why = match case.left_out.first() {
             Some(out) => {
-                format!(": \"{}\" is left out, as {}", crate::printable::printable(&out.label), out.reason)
+                format!(
+                    ": \"{}\" is skipped, because {}",
+                    crate::printable::printable(&out.label),
+                    out.reason
+                )
             }
             None => "; add a plot with a trace, or a readout".to_string(),
         };
-        return Err(RunError(format!("this lab shows no numbers to compare{why}")));
+        return Err(RunError(format!("this lab displays no numbers to compare{why}")));
     }
     case.presses = run::presses(case.programs, &options.press)?;
     if let Some(who) = case.steps_itself() {
         return Err(RunError(format!(
-            "{} sets the timestep while the lab runs, so that no other can be tried",
+            "{} sets the timestep while the lab runs, so no other timestep can be tested",
             crate::printable::printable(&who)
         )));
     }

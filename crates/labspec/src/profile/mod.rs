@@ -93,8 +93,8 @@ pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) ->
         demand,
         rows,
         controller: programs.controller.as_ref().map(|bound| match is_steady(&bound.program) {
-            true => "the lab's own program runs only when something changes that it reads or writes",
-            false => "the lab's own program runs before every step",
+            true => "the program of the lab runs only when something that it reads or writes changes",
+            false => "the program of the lab runs before every step",
         }),
         pairs: parts::pairs(&now, &plan, measured.as_ref().map(|m| m.seen)),
         cone: if now.opt.cone == 0 { "pyramidal" } else { "elliptic" },

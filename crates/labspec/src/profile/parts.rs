@@ -16,7 +16,7 @@ pub struct Code {
 }
 
 /// What happens where a program may write an option.
-const WHEN_WRITTEN: &str = "when a program changes that, the plan is made again";
+const WHEN_WRITTEN: &str = "a program that changes it triggers a new plan";
 
 /// A way of computing trees, and how many take it: for where their bodies are, for their inertia and forces, and for their
 /// accelerations.
@@ -106,7 +106,7 @@ pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<Sensor> {
         let keep = plan.evaluates(model, sensor);
         let reason = match keep {
             true if sensor.values(model).any(read) => "its values are read",
-            true => "the state or the energies keep what it measures",
+            true => "the state or the energies contain what it measures",
             false => "nothing reads it",
         };
         let name = model.name_of(core::Obj::Sensor, sensor.index());
@@ -139,9 +139,9 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
         keep: runs && model.opt.noslip_iterations > 0,
         reason: match () {
             () if !runs => nothing.to_string(),
-            () if model.opt.noslip_iterations > 0 => "the options ask for it".into(),
-            () if slips => format!("the options ask for no iterations of it; {WHEN_WRITTEN}"),
-            () => "the options ask for no iterations of it".into(),
+            () if model.opt.noslip_iterations > 0 => "the options request it".into(),
+            () if slips => format!("the options request no iterations of it; {WHEN_WRITTEN}"),
+            () => "the options request no iterations of it".into(),
         },
     };
     methods.chain([noslip]).collect()

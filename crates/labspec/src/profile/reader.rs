@@ -63,7 +63,7 @@ fn read(model: &Model, programs: &Programs, text: &str, demand: &mut Demand) -> 
         None => {
             let why = compiled.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
             return Err(RunError(format!(
-                "`{text}` names no field of the data and no sensor, and is no expression{why}"
+                "`{text}` is not a field of the data, a sensor or an expression{why}"
             )));
         }
     }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An allowance that does not say why.
+/// A suppression gives no reason.
 pub const ALLOWANCE_WITHOUT_REASON: &Rule = &Rule {
     code: "allowance-without-reason",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "something is allowed without a reason",
-    why: "whoever reads the lesson later cannot know whether the reason still holds; without one nothing is allowed",
+    summary: "a suppression gives no reason",
+    why: "a later reader cannot tell whether the reason still holds; without a reason nothing is suppressed",
     bad: Example::Lesson("# Fall\n\n⟦<!-- labspec allow listing-line-breaks -->⟧\n\nA ball falls.\n"),
     good: Example::Lesson("# Fall\n\nA ball falls.\n"),
 };

@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The explanation of a numeric question ends with another number than the key.
+/// The explanation of a numeric question gives a different number than its answer.
 pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
     code: "answer-against-explanation",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the explanation of a numeric question gives another number than its answer",
-    why: "who has understood the explanation, and computes again, does not come to the number that counts as right",
+    summary: "the explanation of a numeric question gives a different number than its answer",
+    why: "a student who follows the explanation gets a number that is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast, in m/s?", "answer": ⟦12.65⟧, "tol": 0.05, "unit": "m/s", "explain": "$v = \\sqrt{2 g h}$ = 12.64 m/s."}]}"#,
     ),
@@ -27,12 +27,12 @@ const NEAR: f64 = 0.02;
 const AROUND: usize = 60;
 /// How a slip changes a number.
 const SLIPS: [(f64, &str); 6] = [
-    (-1.0, "the sign is another one"),
-    (10.0, "that is a tenth of it"),
-    (100.0, "that is a hundredth of it"),
-    (0.1, "that is ten times as much"),
-    (0.01, "that is a hundred times as much"),
-    (2.0, "that is half of it"),
+    (-1.0, "the sign differs"),
+    (10.0, "the explanation gives a tenth of the answer"),
+    (100.0, "the explanation gives a hundredth of the answer"),
+    (0.1, "the explanation gives ten times the answer"),
+    (0.01, "the explanation gives a hundred times the answer"),
+    (2.0, "the explanation gives half of the answer"),
 ];
 
 fn check(question: &Question, findings: &mut Vec<Finding>) {
@@ -53,9 +53,9 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     for n in all.iter().filter(result) {
         let slip = SLIPS.iter().find(|(by, _)| is(n, key / by, decimals + 2) && n.value != 0.0);
         let why = match slip {
-            _ if (n.value - key).abs() <= NEAR * key.abs() => "the two differ at the digits that are printed",
+            _ if (n.value - key).abs() <= NEAR * key.abs() => "the printed digits differ",
             _ if ((n.value - key).abs() - 0.1_f64.powi(decimals as i32)).abs() < 1e-9 => {
-                "the two differ by one in the last digit"
+                "the last digits differ by one"
             }
             Some((_, words)) => words,
             None => continue,
@@ -66,10 +66,10 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 ANSWER_AGAINST_EXPLANATION,
                 answer.span.clone(),
-                format!("the answer is {key}, and its explanation comes to {sign}{shown}: {why}"),
+                format!("the answer is {key}, but its explanation gives {sign}{shown}: {why}"),
             )
             .related(explain.span_of(n.at.clone()), "the explanation")
-            .help("compute it again, and write one number in both places"),
+            .help("compute it again, and write the same number in both places"),
         );
         return;
     }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// More than one option holds.
+/// More than one option is true.
 pub const ANSWER_AMBIGUOUS: &Rule = &Rule {
     code: "answer-ambiguous",
     severity: Severity::Error,
     layer: Layer::Claim,
-    summary: "more than one option holds",
-    why: "A student who chooses the other one is right and is told otherwise",
+    summary: "more than one option is true",
+    why: "a student who picks the other true option is graded as wrong",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": ⟦0⟧, "explain": "It has a weight.",
  "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z < 2"]}}"##,

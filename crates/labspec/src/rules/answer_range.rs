@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The index of the answer is not that of an option.
+/// `answer` is not the index of an option.
 pub const ANSWER_RANGE: &Rule = &Rule {
     code: "answer-range",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the answer is not the index of an option",
-    why: "no choice is right, and every student is told to be wrong",
+    summary: "`answer` is not the index of an option",
+    why: "no option is graded as correct, so every student is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": ⟦2⟧}]}"#,
     ),
@@ -25,10 +25,10 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     if question.right_option().is_none() && options.len() >= 2 {
         let last = options.len() - 1;
         let message =
-            format!("answer {} is not the index of an option; they run from 0 to {last}", answer.value);
+            format!("`answer` is {}, which is not the index of an option (0 to {last})", answer.value);
         findings.push(Finding::new(ANSWER_RANGE, answer.span.clone(), message).help(
             if answer.value == options.len() as f64 {
-                format!("options are counted from 0: the last one is {last}")
+                format!("count options from 0: the index of the last one is {last}")
             } else {
                 format!("write a number from 0 to {last}")
             },

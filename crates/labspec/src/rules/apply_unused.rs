@@ -4,13 +4,13 @@ use crate::json::read::{named, shorten};
 use crate::spec::Control;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A control with `set` and `apply`.
+/// A control has both `set` and `apply`.
 pub const APPLY_UNUSED: &Rule = &Rule {
     code: "apply-unused",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "a control has both `set` and `apply`",
-    why: "the page does what `set` says and never looks at `apply`: those statements do nothing",
+    why: "the page runs `set` and ignores `apply`, so those statements do nothing",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "apply": "⟦mj.mj_setConst(model, data)⟧", "min": 1, "max": 5, "value": 1}]}"#,
     ),
@@ -26,10 +26,10 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     if let (Some(set), Some(apply)) = (&action.set, &action.apply) {
         let label = named(control.label.as_str());
         findings.push(
-            Finding::new(APPLY_UNUSED, apply.span(), format!("{label} never does this: it also has `set`"))
-                .related(set.span(), "what it does instead")
+            Finding::new(APPLY_UNUSED, apply.span(), format!("{label} never runs `apply`, because it also has `set`"))
+                .related(set.span(), "the page runs this instead")
                 .help(format!(
-                    "leave `set` out, and begin these statements with `{} = value;`",
+                    "delete `set`, and begin these statements with `{} = value;`",
                     shorten(set.as_str())
                 )),
         );

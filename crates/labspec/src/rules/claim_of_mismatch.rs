@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A claim that is true only of a body, or a servo, that does not exist.
+/// A claim holds only because a program changes a parameter and not the parameter that belongs to it.
 pub const CLAIM_OF_MISMATCH: &Rule = &Rule {
     code: "claim-of-mismatch",
     severity: Severity::Error,
     layer: Layer::Claim,
-    summary: "a claim holds only while a program changes a parameter and leaves its partner behind",
-    why: "A heavier ball with the inertia of a light one rolls faster, and no ball does: the claim is judged a second time with the partner corrected, and does not hold then",
+    summary: "a claim holds only because a program changes a parameter and not the parameter that belongs to it",
+    why: "a heavier ball with the inertia of a light one rolls faster than any real ball: the claim is checked again with the other parameter corrected, and then it is false",
     bad: Example::Lesson(BAD),
     good: Example::Lesson(GOOD),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An expression that should give a number gives none.
+/// An expression that must give a number gives none.
 pub const CLAIM_WITHOUT_NUMBER: &Rule = &Rule {
     code: "claim-without-number",
     severity: Severity::Error,
     layer: Layer::Claim,
-    summary: "an expression that should give a number gives none",
-    why: "Nothing can be compared with it",
+    summary: "an expression that must give a number gives none",
+    why: "there is no number to compare the claim with",
     bad: Example::Question(
         r##"{"kind": "numeric", "q": "When does it land?", "answer": 0.44, "tol": 0.01, "explain": "Half a second.",
  "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "value": "⟦first(contact('ball', 'floor'))⟧"}}"##,

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The runs do not tell whether a trace follows its closed form.
+/// The runs do not decide whether a trace follows its closed form.
 pub const CLOSED_FORM_UNDECIDED: &Rule = &Rule {
     code: "closed-form-undecided",
     severity: Severity::Error,
     layer: Layer::Claim,
-    summary: "the runs do not tell whether a trace follows its closed form",
-    why: "The difference between them neither vanishes nor stays as the timestep shrinks. State a tolerance",
+    summary: "the runs do not decide whether a trace follows its closed form",
+    why: "the difference neither vanishes nor settles as the timestep shrinks; a stated tolerance decides it",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><option integrator='RK4'/><worldbody><body pos='0 0 3'><joint name='a' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/><body pos='0 0 -1'><joint name='b' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></body></worldbody></mujoco>", "setup": "data.qpos[0] = 3; data.qpos[1] = 0.1", "stopAt": 30, "plots": [{"traces": [{"label": "height", "expr": "Math.sin(data.qpos[1])"}]}], "verify": {"exact": {"height": "⟦Math.cos(3 * data.time)⟧"}}}"#,
     ),

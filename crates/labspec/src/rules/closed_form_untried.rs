@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A closed form cannot be tried.
+/// A closed form cannot be tested.
 pub const CLOSED_FORM_UNTRIED: &Rule = &Rule {
     code: "closed-form-untried",
     severity: Severity::Error,
     layer: Layer::Claim,
-    summary: "a closed form cannot be tried",
-    why: "Nothing says whether the trace follows it",
+    summary: "a closed form cannot be tested",
+    why: "nothing shows whether the trace follows the formula",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 0.3, "plots": [{"traces": [{"label": "height", "expr": "data.qpos[2]"}]}], "verify": {"exact": {"height": {"is": "⟦1 - 'x' * data.time⟧", "tol": 0.01}}}}"#,
     ),

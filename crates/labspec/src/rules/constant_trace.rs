@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A trace never changes.
+/// A trace shows the same number in every run.
 pub const CONSTANT_TRACE: &Rule = &Rule {
     code: "constant-trace",
     severity: Severity::Warning,
     layer: Layer::Run,
-    summary: "a trace shows one number, whatever happens",
-    why: "A curve that cannot change is often a wrong name or index: `model.qpos0` for `data.qpos`, the world's body for the one that moves. It is told when no run changes it, with every control moved, and when even another state of the scene does not. For a line that is meant there is `refLines`",
+    summary: "a trace shows the same number in every run",
+    why: "a curve that cannot change is often a wrong name or index: `model.qpos0` for `data.qpos`, or the world body for the moving one. The rule tries every control and another state of the scene before it reports. `refLines` draws an intended constant line",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "plots": [{"window": 1, "traces": [{"label": "height", "expr": "⟦model.qpos0[2]⟧"}]}]}"#,
     ),

@@ -4,13 +4,13 @@ use crate::json::read::named;
 use crate::spec::Control;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A control that changes nothing.
+/// A slider or select has no `set`, `apply` or `param`.
 pub const CONTROL_WITHOUT_EFFECT: &Rule = &Rule {
     code: "control-without-effect",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "a slider or select has none of `set`, `apply` and `param`",
-    why: "it moves, but nothing in the lab changes",
+    summary: "a slider or select has no `set`, `apply` or `param`",
+    why: "the control moves, but nothing in the lab changes",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "⟦mass⟧", "min": 1, "max": 5, "value": 1}]}"#,
     ),

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A damper below zero feeds the scene without end.
+/// A negative damping feeds energy into the scene without end.
 pub const DAMPER_PUSHES: &Rule = &Rule {
     code: "damper-pushes",
     severity: Severity::Error,
     layer: Layer::Run,
-    summary: "a damper below zero feeds the scene without end",
-    why: "It pushes what moves, the harder the faster: a student sees a swing that grows for ever, and no motor",
+    summary: "a negative damping feeds energy into the scene without end",
+    why: "the faster a part moves, the harder the damper pushes it: a student sees a swing that grows forever without a motor",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' damping='-.05'/><geom type='capsule' size='.02' mass='.5' fromto='0 0 0 .4 0 0'/></body></worldbody></mujoco>⟧", "stopAt": 6, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),

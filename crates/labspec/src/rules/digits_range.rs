@@ -4,13 +4,13 @@ use crate::spec::format::{MAX_DIGITS, READOUT, SLIDER};
 use crate::spec::{ControlKind, Lab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// `digits` outside of what a number has.
+/// `digits` is not between 0 and 17.
 pub const DIGITS_RANGE: &Rule = &Rule {
     code: "digits-range",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "`digits` is not between 0 and 17",
-    why: "a number has 17 significant digits at most; a negative count makes the page throw",
+    why: "a number has at most 17 significant digits; a negative count makes the page throw",
     bad: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "t", "expr": "data.time", "digits": ⟦-1⟧}]}"#,
     ),
@@ -35,7 +35,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 n.span.clone(),
                 format!("`digits` is {}, not between 0 and {MAX_DIGITS}", n.value),
             )
-            .help("it is the number of decimals; leave it out for 3"),
+            .help("write the number of decimals, or delete it for 3"),
         );
     }
 }

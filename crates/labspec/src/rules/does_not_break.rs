@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A lab or a run that is said to break does not.
+/// A lab or a run is expected to break but does not.
 pub const DOES_NOT_BREAK: &Rule = &Rule {
     code: "does-not-break",
     severity: Severity::Error,
     layer: Layer::Run,
-    summary: "a lab or a run that is said to break does not",
-    why: "The author says `\"expect\": \"breaks\"`, and no run does: a student sees nothing of what the text speaks of",
+    summary: "a lab or a run is expected to break but does not",
+    why: "the author writes `\"expect\": \"breaks\"`, but no run breaks: a student does not see what the text describes",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "expect": "⟦breaks⟧", "readouts": [{"label": "shown", "expr": "data.qpos[2]"}]}"#,
     ),

@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two controls with one label.
+/// Two controls of a lab have the same label.
 pub const DUPLICATE_CONTROL: &Rule = &Rule {
     code: "duplicate-control",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "two controls of a lab have the same label",
-    why: "a student cannot tell them apart, and neither can a run that sets controls by their labels",
+    why: "neither a student nor a run that sets controls by label can tell them apart",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "push", "type": "button", "run": "data.qvel[0] = 1"}, {"label": "⟦push⟧", "type": "button", "run": "data.qvel[1] = 1"}]}"#,
     ),

@@ -6,13 +6,13 @@ use crate::spec::Lesson;
 use labspec_finding::{Example, Layer, Rule, Severity};
 use std::collections::HashMap;
 
-/// An id that two quizzes share.
+/// Two quizzes have the same id.
 pub const DUPLICATE_ID: &Rule = &Rule {
     code: "duplicate-id",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "two quizzes have the same id",
-    why: "the page stores answers under the id, so an answer to one quiz shows up as an answer to the other",
+    why: "the page stores answers under the id, so the answer to one quiz appears as the answer to the other",
     bad: Example::Lesson(
         "```quiz\n{\"id\": \"fall\", \"questions\": [{\"q\": \"Does mass matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n\n```quiz\n{\"id\": \"⟦fall⟧\", \"questions\": [{\"q\": \"Does size matter?\", \"options\": [\"yes\", \"no\"], \"answer\": 1}]}\n```\n",
     ),
@@ -63,8 +63,8 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
 }
 
 fn duplicate(id: &Text) -> Finding {
-    Finding::new(DUPLICATE_ID, id.span(), format!("another quiz has the id {} too", named(id.as_str())))
-        .help("give every quiz its own id, such as the number of the lesson and a word")
+    Finding::new(DUPLICATE_ID, id.span(), format!("another quiz also has the id {}", named(id.as_str())))
+        .help("give every quiz its own id, such as the lesson number and a word")
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ pub const DUPLICATE_KEY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Json,
     summary: "a key is written twice in one object",
-    why: "only the last one counts; the other is silently ignored",
+    why: "only the last value counts; the page silently ignores the others",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": 1, "⟦stopAt⟧": 2}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 2}"#),
 };

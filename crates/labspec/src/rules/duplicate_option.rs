@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two options with one text.
+/// Two options of a question have the same text.
 pub const DUPLICATE_OPTION: &Rule = &Rule {
     code: "duplicate-option",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "two options of a question have the same text",
-    why: "one of them is graded as wrong although it says what the right one says, or it is a copy left over",
+    why: "one of them is graded as wrong although it says the same as the right one, or it is a leftover copy",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no", "⟦no⟧"], "answer": 1}]}"#,
     ),

@@ -4,7 +4,7 @@ use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two readouts with one name.
+/// Two readouts of a lab have the same label.
 pub const DUPLICATE_READOUT: &Rule = &Rule {
     code: "duplicate-readout",
     severity: Severity::Warning,

@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two curves of a plot with one name.
+/// Two traces of a plot have the same label.
 pub const DUPLICATE_TRACE: &Rule = &Rule {
     code: "duplicate-trace",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "two traces of a plot have the same label",
-    why: "the legend cannot tell them apart",
+    why: "a student cannot tell them apart in the legend",
     bad: Example::Lab(
         r#"{"model": "ball", "plots": [{"traces": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "⟦z⟧", "expr": "data.qpos[7]"}]}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::Quiz;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A quiz without questions.
+/// A quiz has no questions.
 pub const EMPTY_QUIZ: &Rule = &Rule {
     code: "empty-quiz",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a quiz has no questions",
-    why: "it shows a title and nothing to do",
+    why: "the page shows a title and no question",
     bad: Example::Quiz(r#"⟦{⟧"id": "fall", "questions": []}"#),
     good: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]}"#,

@@ -4,7 +4,7 @@ use crate::json::Number;
 use crate::spec::{ControlKind, Lab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// `min` is not below `max`.
+/// The lower end of a range is not below its upper end.
 pub const EMPTY_RANGE: &Rule = &Rule {
     code: "empty-range",
     severity: Severity::Error,
@@ -38,7 +38,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             findings.extend(ends(min, max, ["ymin", "ymax"]).map(|found| {
                 found
                     .why("the plot has no height")
-                    .help("swap the two, or leave both out: the axis then follows the data")
+                    .help("swap the two, or delete both: the axis then follows the data")
             }));
         }
     }

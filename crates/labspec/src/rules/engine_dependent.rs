@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// With the numbers of the real library a claim has another verdict.
+/// A claim has a different verdict with the recorded numbers of MuJoCo (--judge).
 pub const ENGINE_DEPENDENT: &Rule = &Rule {
     code: "engine-dependent",
     severity: Severity::Warning,
     layer: Layer::Claim,
-    summary: "a claim has another verdict with the numbers that the real library was recorded with (--judge)",
-    why: "An answer that depends on the engine or its version is wrong for every reader who has another one",
+    summary: "a claim has a different verdict with the recorded numbers of MuJoCo (--judge)",
+    why: "an answer that depends on the engine or its version is wrong for every reader who uses another one",
     bad: Example::Files(&[("fall.md", MARKED.as_bytes()), ("judge.json", BAD.as_bytes())]),
     good: Example::Files(&[("fall.md", LESSON.as_bytes()), ("judge.json", GOOD.as_bytes())]),
 };

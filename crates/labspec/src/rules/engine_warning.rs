@@ -6,7 +6,7 @@ pub const ENGINE_WARNING: &Rule = &Rule {
     severity: Severity::Warning,
     layer: Layer::Run,
     summary: "the engine warns while a lab runs",
-    why: "A body that moves has no inertia, or more things touch than are kept: what follows is not physics, and the page says nothing",
+    why: "a moving body has no inertia, or there are more contacts than the engine keeps: what follows is not physics, and the page shows no warning",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>⟧", "setup": "model.dof_armature[0] = -5; mj.mj_setConst(model, data)", "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),

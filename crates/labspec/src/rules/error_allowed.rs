@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An allowance of an error.
+/// An error cannot be suppressed.
 pub const ERROR_ALLOWED: &Rule = &Rule {
     code: "error-allowed",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "an error is allowed, and told all the same",
-    why: "what is broken or false stays so, whoever has looked at it; only doubts can be put aside",
+    summary: "an error cannot be suppressed",
+    why: "a broken or false lesson stays broken, whoever has reviewed it; only warnings and notes can be suppressed",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "mass", "min": 1, "max": 5, "value": 1}], "lint": {"allow": ["⟦control-without-effect⟧"], "why": "later"}}"#,
     ),

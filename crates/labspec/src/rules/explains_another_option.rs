@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The explanation says that another option is the right one.
+/// The explanation calls a different option correct than the answer key.
 pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {
     code: "explains-another-option",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the explanation calls another option right than the key",
-    why: "a student reads that the option is right for which no point was given",
+    summary: "the explanation calls a different option correct than the answer key",
+    why: "a student reads that an option is correct that is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no"], "answer": ⟦0⟧, "explain": "Option B is right: mass cancels."}]}"#,
     ),
@@ -43,14 +43,14 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
                 EXPLAINS_ANOTHER_OPTION,
                 answer.span.clone(),
                 format!(
-                    "the key is option {}, and the explanation calls option {} right",
+                    "the answer is option {}, but the explanation calls option {} correct",
                     letter(key),
                     letter(*other)
                 ),
             )
             .related(explain.span(), "the explanation")
-            .related(option.span(), "what it calls right")
-            .help("one of the two is wrong: the key, which counts from 0, or the explanation"),
+            .related(option.span(), "the option that it calls correct")
+            .help("correct the answer, which counts from 0, or the explanation"),
         );
     }
 }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A quiz in a lab fence, or the other way round.
+/// A `lab` fence holds a quiz, or a `quiz` fence holds a lab.
 pub const FENCE_KIND: &Rule = &Rule {
     code: "fence-kind",
     severity: Severity::Error,
     layer: Layer::Source,
-    summary: "a fence says `lab` but holds a quiz, or the other way round",
-    why: "the page reads it as what the fence says and shows an empty block",
+    summary: "a `lab` fence holds a quiz, or a `quiz` fence holds a lab",
+    why: "the page reads the content as the kind that the fence names, and shows an empty block",
     bad: Example::Lesson(
         "⟦```lab simlab⟧\n{\"id\": \"fall\", \"questions\": [{\"kind\": \"open\", \"q\": \"Why?\"}]}\n```\n",
     ),

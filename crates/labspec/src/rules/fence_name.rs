@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A fence whose kind is misspelt.
+/// The kind of a fence is misspelt.
 pub const FENCE_NAME: &Rule = &Rule {
     code: "fence-name",
     severity: Severity::Error,

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tag of no element of HTML.
+/// A text of a lab or a quiz has a tag that HTML does not have.
 pub const HTML_ELEMENT: &Rule = &Rule {
     code: "html-element",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "a text of a lab or a quiz has a tag of an element that HTML does not have",
-    why: "a browser takes it for an element without a meaning, and what stands between `<` and `>` is not shown",
+    summary: "a text of a lab or a quiz has a tag that HTML does not have",
+    why: "a browser reads it as an unknown element, and does not show the text between `<` and `>`",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "open", "q": "Is ⟦<strnog>⟧it the same?"}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tolerance that no typed number can meet.
+/// The tolerance of a numeric question is negative, too small to type, or 0 for an answer that is not an integer.
 pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
     code: "impossible-tolerance",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the tolerance of a numeric question is negative, too small for anybody to type, or 0 for an answer that is no whole number",
-    why: "an answer is right when it is off by no more than `tol`; a count may be asked exactly, a measured number may not",
+    summary: "the tolerance of a numeric question is negative, too small to type, or 0 for an answer that is not an integer",
+    why: "an answer is right if it differs by at most `tol`; a count may be asked exactly, a measured number may not",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦0⟧}]}"#,
     ),
@@ -28,17 +28,17 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let whole = answer.value.fract() == 0.0;
     let too_small = tol.value > 0.0 && tol.value < TYPED * answer.value.abs();
     if too_small {
-        let message = format!("a tolerance of {} takes {} alone", tol.value, answer.value);
+        let message = format!("a tolerance of {} accepts only {}", tol.value, answer.value);
         findings.push(
             Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
-                .why("it is less than a billionth of the answer, and nobody types so many digits")
-                .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %, or write 0 for a count"),
+                .why("the tolerance is less than a billionth of the answer, and nobody types so many digits")
+                .help("write how far an answer may be off, in its unit; delete `tol` for 2 %, or write 0 for a count"),
         );
     } else if tol.value < 0.0 || (tol.value == 0.0 && !whole) {
-        let message = format!("no answer can be within {} of {}", tol.value, answer.value);
+        let message = format!("no answer is within {} of {}", tol.value, answer.value);
         findings.push(
             Finding::new(IMPOSSIBLE_TOLERANCE, tol.span.clone(), message)
-                .help("write how far an answer may be off, in its unit; leave `tol` out for 2 %"),
+                .help("write how far an answer may be off, in its unit; delete `tol` for 2 %"),
         );
     }
 }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An inertia changes to one that no body of that mass and size has.
+/// A program gives a body an inertia that no body of its mass and size has.
 pub const INERTIA_ALONE: &Rule = &Rule {
     code: "inertia-alone",
     severity: Severity::Warning,
     layer: Layer::Run,
     summary: "a program gives a body an inertia that no body of its mass and size has",
-    why: "No part of a body is farther from its axis than the body reaches, so no moment of inertia is above the mass times the square of that, and none is above the other two together. The lab was run with the mass, or the other moments, that belong to it: what differs is stated",
+    why: "a moment of inertia is at most the mass times the squared distance of the farthest part, and at most the sum of the other two moments. The finding states what differs in a run with the matching mass or moments",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><option gravity='4.905 0 -8.496'/><worldbody><geom type='plane' size='9 9 1'/><body name='ball' pos='0 0 .1'><freejoint/><geom size='.1' mass='1'/></body></worldbody></mujoco>", "stopAt": 1, "controls": [{"label": "inertia of the axle (kg m²)", "apply": "⟦model.body_inertia[4] = value; mj.mj_setConst(model, data); data.qvel[3] = 5; data.qvel[5] = 20⟧", "init": true, "min": 0.004, "max": 0.009, "value": 0.004, "step": 0.001}], "readouts": [{"label": "spin (rad/s)", "expr": "data.qvel[3]"}]}"#,
     ),

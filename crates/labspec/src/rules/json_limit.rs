@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// JSON beyond the limits.
+/// The JSON is nested too deeply or holds too many values.
 pub const JSON_LIMIT: &Rule = &Rule {
     code: "json-limit",
     severity: Severity::Error,
     layer: Layer::Json,
     summary: "the JSON is nested too deeply or holds too many values",
-    why: "limits keep a checker and a page responsive whatever they are given",
+    why: "limits keep the checker and the page responsive for any input",
     bad: Example::Lab(
         r#"{"model": [[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[⟦[⟧"ball"]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]]}"#,
     ),

@@ -10,7 +10,7 @@ pub const KEYFRAME_MISSING: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "`key` names a keyframe that the model does not have",
-    why: "The page silently starts from the default configuration",
+    why: "the page silently starts from the default configuration",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "key": ⟦1⟧}"#,
     ),
@@ -29,10 +29,10 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
             .why("the page then silently starts from the default configuration")
             .help(match model.nkey {
                 0 => {
-                    "the model has no keyframes: leave `key` out, or add <keyframe><key …/></keyframe> to it"
+                    "delete `key`, or add <keyframe><key …/></keyframe> to the model, which has no keyframes"
                         .to_string()
                 }
-                n => format!("its keyframes are 0 to {}", n - 1),
+                n => format!("use one of its keyframes, 0 to {}", n - 1),
             }),
     );
 }

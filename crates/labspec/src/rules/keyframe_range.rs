@@ -4,13 +4,13 @@ use crate::spec::Lab;
 use crate::spec::format::LAB;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A negative keyframe.
+/// `key` is negative.
 pub const KEYFRAME_RANGE: &Rule = &Rule {
     code: "keyframe-range",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "`key` is negative",
-    why: "keyframes are counted from 0; a negative one is silently ignored",
+    why: "keyframes are counted from 0; the page silently ignores a negative one",
     bad: Example::Lab(r#"{"model": "ball", "key": ⟦-1⟧}"#),
     good: Example::Lab(r#"{"model": "ball", "key": 0}"#),
 };
@@ -22,7 +22,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let message = format!("`key` is {}, but keyframes are counted from 0", key.value);
         findings.push(
             Finding::new(KEYFRAME_RANGE, key.span.clone(), message)
-                .help("write 0 for the first keyframe, or leave `key` out"),
+                .help("write 0 for the first keyframe, or delete `key`"),
         );
     }
 }

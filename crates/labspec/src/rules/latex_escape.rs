@@ -4,13 +4,13 @@ use crate::source::Text;
 use crate::spec::Lesson;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A command of LaTeX that begins with an escape of JSON.
+/// A LaTeX command in JSON is written with one backslash.
 pub const LATEX_ESCAPE: &Rule = &Rule {
     code: "latex-escape",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "a LaTeX command in JSON is written with one backslash",
-    why: "JSON reads `\\t`, `\\f`, `\\b`, `\\n` and `\\r` as invisible characters, so the formula loses its command",
+    why: "JSON reads `\\t`, `\\f`, `\\b`, `\\n` and `\\r` as control characters, so the formula loses its command",
     bad: Example::Lab(r#"{"model": "ball", "note": "the time constant $⟦\tau⟧$"}"#),
     good: Example::Lab(r#"{"model": "ball", "note": "the time constant $\\tau$"}"#),
 };

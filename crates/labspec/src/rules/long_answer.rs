@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The right option is by far the longest.
+/// The correct option is by far the longest.
 pub const LONG_ANSWER: &Rule = &Rule {
     code: "long-answer",
     severity: Severity::Note,
     layer: Layer::Structure,
-    summary: "the right option is by far the longest",
-    why: "who takes the longest option, and reads nothing, is right",
+    summary: "the correct option is by far the longest",
+    why: "a student who picks the longest option without reading is graded as correct",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "Does mass matter?", "options": ["yes", "no", "⟦no: a heavy ball is pulled harder, and is harder to move, by the same factor⟧"], "answer": 2}]}"#,
     ),
@@ -36,9 +36,9 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 LONG_ANSWER,
                 right.span(),
-                format!("the right option has {own} characters, the longest of the others {next}"),
+                format!("the correct option has {own} characters, the longest other option has {next}"),
             )
-            .help("move the reason into `explain`, or give the others theirs"),
+            .help("move the reason into `explain`, or give reasons in the other options too"),
         );
     }
 }

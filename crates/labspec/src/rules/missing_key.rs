@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A key that must be there.
+/// An object lacks a key that it needs.
 pub const MISSING_KEY: &Rule = &Rule {
     code: "missing-key",
     severity: Severity::Error,

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A mass or an inertia is changed without `mj_setConst`.
+/// A mass or an inertia changes without `mj_setConst`.
 pub const MISSING_SETCONST: &Rule = &Rule {
     code: "missing-setconst",
     severity: Severity::Warning,
     layer: Layer::Run,
-    summary: "a mass or an inertia is changed without `mj_setConst`",
-    why: "Constants that follow from it keep the old value, so contacts are as soft as for the old mass. The lab was run with and without: what differs is stated",
+    summary: "a mass or an inertia changes without `mj_setConst`",
+    why: "the constants that follow from it keep their old values, so contacts are as soft as for the old mass. The finding states what differs in a run with `mj_setConst`",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 1, "controls": [{"label": "mass (kg)", "set": "⟦model.body_mass[1]⟧", "min": 1, "max": 50, "value": 1}], "readouts": [{"label": "shown", "expr": "data.qpos[2]"}]}"#,
     ),

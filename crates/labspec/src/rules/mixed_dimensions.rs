@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Quantities of different dimensions are added or compared.
+/// An expression adds or compares quantities of different dimensions.
 pub const MIXED_DIMENSIONS: &Rule = &Rule {
     code: "mixed-dimensions",
     severity: Severity::Warning,
     layer: Layer::Program,
-    summary: "quantities of different dimensions are added or compared",
-    why: "A sum of metres and seconds means nothing: often an index is the next one, or a factor is forgotten. In statements it is a note, as a controller may have gains of 1. A factor that is a number of the text may have a unit, and so excuses the sum",
+    summary: "an expression adds or compares quantities of different dimensions",
+    why: "a sum of metres and seconds means nothing: often an index is off by one, or a factor is missing. In statements it is only a note, because a controller may have gains of 1. A literal factor may carry a unit, so a sum with one is not reported",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='left'><joint name='left' type='slide'/><geom size='.05'/></body><body name='right' pos='1 0 0'><joint name='right' type='slide'/><geom size='.05'/></body></worldbody></mujoco>", "setup": "data.qvel[0] = 0.1", "readouts": [{"label": "place", "expr": "⟦data.qpos[0] + data.qvel[0]⟧"}]}"#,
     ),

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The model of a lab has mistakes.
+/// The model of a lab is invalid.
 pub const MODEL_BROKEN: &Rule = &Rule {
     code: "model-broken",
     severity: Severity::Error,
     layer: Layer::Model,
-    summary: "the model of a lab has mistakes",
-    why: "The lab cannot run, and its expressions cannot be checked, until the model loads",
+    summary: "the model of a lab is invalid",
+    why: "until the model loads, the lab cannot run and its expressions cannot be checked",
     bad: Example::Files(&[
         ("lesson.md", "```lab simlab\n{\"model\": \"⟦ball⟧\"}\n```\n".as_bytes()),
         ("models/ball.xml", b"<mujoco><worldbody><gemo size='.1'/></worldbody></mujoco>"),

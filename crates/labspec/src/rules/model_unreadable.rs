@@ -6,7 +6,7 @@ pub const MODEL_UNREADABLE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "a model file cannot be read",
-    why: "The page would show an empty scene",
+    why: "the page shows an empty scene",
     bad: Example::Files(&[
         ("lesson.md", b"```lab simlab\n{\"model\": \"ball\"}\n```\n"),
         ("models/ball.xml", b"<mujoco><!-- \xb5 --></mujoco>"),

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A control that only the setup reads.
+/// Only the setup reads the value of a control, and the control does not reset.
 pub const NEEDS_RESET: &Rule = &Rule {
     code: "needs-reset",
     severity: Severity::Warning,
     layer: Layer::Run,
-    summary: "only the setup reads what a control chooses, and the control does not reset",
-    why: "nothing happens when a student moves it: the setup is run when the lab is loaded, and at a reset",
+    summary: "only the setup reads the value of a control, and the control does not reset",
+    why: "nothing happens when a student moves it: the setup runs only when the lab loads and at a reset",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "setup": "data.qpos[0] = ctx.start", "stopAt": 0.5, "controls": [{"label": "⟦start⟧", "param": "start", "min": 0, "max": 1, "value": 0.5}], "readouts": [{"label": "angle", "expr": "data.qpos[0]"}]}"#,
     ),

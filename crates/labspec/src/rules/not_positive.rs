@@ -6,13 +6,13 @@ use crate::spec::Lesson;
 use crate::spec::format::{FIND, LAB, Object, PLOT, RUN};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A number that must be greater than zero.
+/// A time, size or speed is zero or negative.
 pub const NOT_POSITIVE: &Rule = &Rule {
     code: "not-positive",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a time, size or speed is zero or negative",
-    why: "with nothing left to run or to draw, the lab shows nothing",
+    why: "there is nothing to run or to draw, so the lab shows nothing",
     bad: Example::Lab(r#"{"model": "ball", "stopAt": ⟦0⟧}"#),
     good: Example::Lab(r#"{"model": "ball", "stopAt": 1.5}"#),
 };
@@ -24,7 +24,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         if let Some(number) = number.filter(|n| !object.allows(name, n.value)) {
             let message = format!("`{name}` is {}, but it must be positive", number.value);
             findings.push(
-                Finding::new(NOT_POSITIVE, number.span.clone(), message).help(format!("it means: {means}")),
+                Finding::new(NOT_POSITIVE, number.span.clone(), message).help(format!("write a positive value: {means}")),
             );
         }
     };
@@ -33,7 +33,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         positive(&LAB, "height", lab.height.as_ref(), "pixels");
         positive(&LAB, "forceScale", lab.force_scale.as_ref(), "metres per newton");
         for speed in &lab.speeds {
-            positive(&LAB, "speeds", Some(speed), "how many times as fast as reality");
+            positive(&LAB, "speeds", Some(speed), "the playback speed relative to real time");
         }
         for plot in &lab.plots {
             positive(&PLOT, "window", plot.window.as_ref(), "seconds");
@@ -41,7 +41,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         }
     }
     for find in claims::all(lesson).flat_map(|claim| &claim.verify.find) {
-        positive(&FIND, "tol", Some(&find.tol), "how near the value is found");
+        positive(&FIND, "tol", Some(&find.tol), "the accuracy of the search");
     }
     for run in claims::all(lesson).flat_map(|claim| &claim.verify.runs) {
         positive(&RUN, "until", run.until.as_ref(), "the length of the run in seconds");

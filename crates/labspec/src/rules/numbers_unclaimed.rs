@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Numbers with units that nothing checks.
+/// The lesson states numbers with units that no `verify` quotes.
 pub const NUMBERS_UNCLAIMED: &Rule = &Rule {
     code: "numbers-unclaimed",
     severity: Severity::Note,
     layer: Layer::Claim,
-    summary: "the lesson states numbers with units that no `verify` claims",
-    why: "a number of the text that is quoted is computed with every check; one that is not may be wrong after a change of the model",
+    summary: "the lesson states numbers with units that no `verify` quotes",
+    why: "every check recomputes a quoted number; a number that is not quoted may become wrong when the model changes",
     bad: Example::Lesson(
         "It touches the floor after ⟦0.442 s⟧, at 4.43 m/s, and falls 1 m.\n\n```lab simlab\n{\"model\": \"ball\", \"readouts\": [{\"label\": \"height (m)\", \"expr\": \"data.qpos[2]\"}]}\n```\n",
     ),

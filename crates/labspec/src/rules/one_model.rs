@@ -3,12 +3,12 @@ use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Both `model` and `xml`, or neither.
+/// A lab has neither `model` nor `xml`, or has both.
 pub const ONE_MODEL: &Rule = &Rule {
     code: "one-model",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "a lab names no model, or has both `model` and `xml`",
+    summary: "a lab has neither `model` nor `xml`, or has both",
     why: "a lab simulates exactly one model",
     bad: Example::Lab(r#"⟦{⟧"title": "Falling", "readouts": [{"label": "t", "expr": "data.time"}]}"#),
     good: Example::Lab(
@@ -26,8 +26,8 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 .help("delete one of the two"),
         ),
         (None, None) => findings.push(
-            Finding::new(ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has no model").help(
-                "add \"model\": \"NAME\" for a model of the folder, or \"xml\": \"<mujoco>…</mujoco>\"",
+            Finding::new(ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has neither `model` nor `xml`").help(
+                "add \"model\": \"NAME\" for a model in the model folder, or \"xml\": \"<mujoco>…</mujoco>\"",
             ),
         ),
         _ => {}

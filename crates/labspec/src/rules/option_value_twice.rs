@@ -5,13 +5,13 @@ use crate::json::read::named;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two options of a select with one value.
+/// Two options of a select have the same value.
 pub const OPTION_VALUE_TWICE: &Rule = &Rule {
     code: "option-value-twice",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "two options of a select have one value",
-    why: "a student chooses the other one, and the lab is the same",
+    summary: "two options of a select have the same value",
+    why: "a student chooses the other option, and the lab stays the same",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", ⟦0⟧]], "value": 0}]}"#,
     ),
@@ -39,9 +39,9 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
         if let Some(first) = twin {
             let [a, b] = [first, option].map(|o| named(o.text.as_str()));
             findings.push(
-                Finding::new(OPTION_VALUE_TWICE, option.value.span(), format!("{a} and {b} have one value"))
-                    .related(first.value.span(), "the first of them")
-                    .help("write the value that belongs to the text, or leave one of them out"),
+                Finding::new(OPTION_VALUE_TWICE, option.value.span(), format!("{a} and {b} have the same value"))
+                    .related(first.value.span(), "the first one")
+                    .help("write the value that belongs to the text, or delete one of them"),
             );
         }
     }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A body passes through another one within a step.
+/// A body passes through another one.
 pub const PASSES_THROUGH: &Rule = &Rule {
     code: "passes-through",
     severity: Severity::Error,
     layer: Layer::Run,
     summary: "a body passes through another one",
-    why: "It moves by more than the other one's thickness in a step, and is behind it before a contact is found: a student sees walls that hold nothing",
+    why: "it moves farther in a step than the other body is thick, so no step finds a contact: a student sees walls that hold nothing",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><geom name='plate' type='box' size='1 1 .0005'/><body name='ball' pos='0 0 .3'><freejoint/><geom name='ball' size='.01' mass='.1'/></body></worldbody></mujoco>⟧", "setup": "data.qvel[2] = -3", "stopAt": 0.5, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),

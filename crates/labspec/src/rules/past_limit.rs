@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A joint is past its limit: a step took it there, or something holds it there.
+/// A joint exceeds its limit by a large part of its range.
 pub const PAST_LIMIT: &Rule = &Rule {
     code: "past-limit",
     severity: Severity::Error,
     layer: Layer::Run,
-    summary: "a joint is past its limit by a large part of its range",
-    why: "A step took it there before the limit could push, or something is stronger than the limit: a student sees a joint where it cannot be",
+    summary: "a joint exceeds its limit by a large part of its range",
+    why: "one step takes it past the limit, or something is stronger than the limit: a student sees the joint where it cannot be",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><body name='arm'><joint name='hinge' axis='0 1 0' range='-45 45'/><geom type='capsule' size='.03' mass='.5' fromto='0 0 0 .4 0 0'/></body></worldbody></mujoco>⟧", "setup": "data.qvel[0] = 1000", "stopAt": 1, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{ChoiceStyle, Lesson, Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Predictions that nothing checks.
+/// Predictions have no `verify`, so nothing checks their answers.
 pub const PREDICTION_UNCHECKED: &Rule = &Rule {
     code: "prediction-unchecked",
     severity: Severity::Note,
     layer: Layer::Structure,
-    summary: "predictions have no `verify`, so nothing says whether their answers are true",
-    why: "the lab that decides them is at hand: a `verify` is run with every check, and tells when a change of the model makes an answer false",
+    summary: "predictions have no `verify`, so nothing checks their answers",
+    why: "the lab that decides them is available: every check runs a `verify`, and reports when a change of the model makes an answer false",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [⟦{"kind": "predict", "q": "Does mass matter?", "options": ["yes", "no"], "answer": 1, "sim": {"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}}⟧, {"kind": "predict", "q": "Does height matter?", "options": ["yes", "no"], "answer": 0, "sim": {"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}}]}"#,
     ),
@@ -30,8 +30,8 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     // One alone is counted among the answers without a check, and not told.
     let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
     let (count, of) = (open.len(), predictions.len());
-    let message = format!("{count} of {of} predictions have no `verify`, this one first");
+    let message = format!("{count} of {of} predictions have no `verify`; this is the first one");
     findings.push(Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
-        "say under `verify` what is measured in the lab of the question, and one condition for each option",
+        "add a `verify` with what to measure in the lab of the question and one condition per option",
     ));
 }

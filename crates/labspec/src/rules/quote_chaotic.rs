@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The digits of a quoted number change with a start that is within rounding of the lesson's own.
+/// The digits of a quoted number change when the start changes by less than rounding.
 pub const QUOTE_CHAOTIC: &Rule = &Rule {
     code: "quote-chaotic",
     severity: Severity::Warning,
     layer: Layer::Claim,
-    summary: "the digits of a quoted number change with a start that is within rounding of the lesson's own",
-    why: "No reader can reproduce them, on no other computer and with no other version of the simulator",
+    summary: "the digits of a quoted number change when the start changes by less than rounding",
+    why: "no reader can reproduce them on another computer or with another version of the simulator",
     bad: Example::Lesson(
         r##"```lab simlab
 {"xml": "<mujoco><option integrator='RK4'/><worldbody><body pos='0 0 3'><joint name='a' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/><body pos='0 0 -1'><joint name='b' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></body></worldbody></mujoco>", "title": "Falling", "readouts": [{"label": "time (s)", "expr": "data.time"}]}

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A quote holds no number.
+/// A quote contains no number.
 pub const QUOTE_WITHOUT_NUMBER: &Rule = &Rule {
     code: "quote-without-number",
     severity: Severity::Error,
     layer: Layer::Claim,
-    summary: "a quote holds no number",
-    why: "There is nothing to compare",
+    summary: "a quote contains no number",
+    why: "there is nothing to compare",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "After 0.3 s it is lower.",
  "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"], "says": [["⟦it is lower⟧", "run.z"]]}}"##,

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A claim reads the simulation outside of what is taken over a run.
+/// A claim reads the simulation at no time of the run.
 pub const READ_OUTSIDE_RUN: &Rule = &Rule {
     code: "read-outside-run",
     severity: Severity::Error,
     layer: Layer::Claim,
     summary: "a claim reads the simulation at no time of the run",
-    why: "A run has many samples, and nothing says which of them is meant: the number would be that of the lab before it runs",
+    why: "a run has many samples, and the claim does not say which one it means: the number would be that of the lab before the run",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
  "verify": {"lab": "#1", "runs": {"run": {"until": 0.3}}, "options": ["⟦data.qpos[2] < 1⟧", "final(data.qpos[2]) > 1"]}}"##,

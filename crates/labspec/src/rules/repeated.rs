@@ -7,7 +7,7 @@ use labspec_finding::Rule;
 use std::collections::HashMap;
 
 /// What to do about labels that repeat.
-pub(crate) const DISTINCT: &str = "say in the label what makes it different";
+pub(crate) const DISTINCT: &str = "change one of the labels, so that they differ";
 
 /// Reports every text that stood there before.
 pub(crate) fn repeated<'a>(

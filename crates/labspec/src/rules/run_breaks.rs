@@ -6,7 +6,7 @@ pub const RUN_BREAKS: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Claim,
     summary: "a run of a `verify` object breaks",
-    why: "It met a bad number, went wrong without a word (energy from nothing, a body through another), or something in it threw: what it measures is evidence of nothing",
+    why: "it meets a bad number, goes wrong silently (energy from nothing, a body through another one), or an expression throws: its measures prove nothing",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
  "verify": {"lab": "#1", "runs": {"⟦run⟧": {"setup": "data.qpos[2] = 1e20", "until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,

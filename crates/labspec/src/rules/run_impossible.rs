@@ -6,7 +6,7 @@ pub const RUN_IMPOSSIBLE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Claim,
     summary: "a run cannot be made",
-    why: "It does what no student can do (a control that does not exist, a value that a slider cannot stand at, a press after the end), or it would take too many steps",
+    why: "it does something that no student can do (a missing control, a value off the steps of a slider, a press after the end), or takes too many steps",
     bad: Example::Question(
         r##"{"kind": "mcq", "q": "What happens to the ball?", "options": ["It falls", "It rises"], "answer": 0, "explain": "It has a weight.",
  "verify": {"lab": "#1", "runs": {"⟦run⟧": {"press": [["Kick", 0.1]], "until": 0.3}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["run.z < 1", "run.z > 1"]}}"##,

@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::Lesson;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A run with two lengths.
+/// A run has both `until` and `steps`.
 pub const RUN_LENGTH: &Rule = &Rule {
     code: "run-length",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a run has both `until` and `steps`",
-    why: "they may contradict each other",
+    why: "the two may contradict each other",
     bad: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": {"runs": {"drop": {"until": 2, "steps": ⟦500⟧}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),

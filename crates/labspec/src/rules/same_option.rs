@@ -7,13 +7,13 @@ use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 use std::collections::HashMap;
 
-/// Two options that differ in their wording only.
+/// Two options of a question differ only in capitals, punctuation or articles.
 pub const SAME_OPTION: &Rule = &Rule {
     code: "same-option",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "two options of a question differ in nothing but capitals, marks or articles",
-    why: "they say the same, and one of them is graded as wrong",
+    summary: "two options of a question differ only in capitals, punctuation or articles",
+    why: "they say the same thing, and one of them is graded as wrong",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "What falls faster?", "options": ["The heavy ball", "⟦heavy ball.⟧", "neither"], "answer": 2}]}"#,
     ),
@@ -35,7 +35,7 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
                 Finding::new(
                     SAME_OPTION,
                     option.span(),
-                    format!("another option says what {} says", named(option.as_str())),
+                    format!("another option says the same as {}", named(option.as_str())),
                 )
                 .related(before.span(), "the other one")
                 .help("change or delete one of them"),

@@ -4,13 +4,13 @@ use crate::json::read::named;
 use crate::spec::{Lab, Readout};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two readouts with one text.
+/// Two readouts have the same expression.
 pub const SAME_READOUT: &Rule = &Rule {
     code: "same-readout",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "two readouts have the same text",
-    why: "one of them is a copy whose text was not changed. More decimals under a label that has a word of the other are no copy",
+    summary: "two readouts have the same expression",
+    why: "one of them is a copy whose expression was not changed. The rule skips a readout with more decimals whose label shares a word with the other",
     bad: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}, {"label": "angle (rad)", "expr": "⟦data.qpos[2]⟧"}]}"#,
     ),
@@ -41,9 +41,9 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let [a, b] = [&first.label, &readout.label].map(|l| named(l.as_str()));
         findings.push(
             Finding::new(SAME_READOUT, readout.expr.span(), format!("{b} is the same number as {a}"))
-                .why("their texts are the same, so both print the same at any time")
+                .why("both use the same expression, so they always print the same number")
                 .related(first.expr.span(), "the first one")
-                .help("let it show what its label says, or leave it out"),
+                .help("change the expression to what the label says, or delete the readout"),
         );
     }
 }

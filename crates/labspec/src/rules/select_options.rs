@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Options that are not pairs, or none at all.
+/// The options of a select are not a list of pairs of text and value.
 pub const SELECT_OPTIONS: &Rule = &Rule {
     code: "select-options",
     severity: Severity::Error,

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A select that starts with none of its options.
+/// The start value of a select is not one of its options.
 pub const SELECT_VALUE: &Rule = &Rule {
     code: "select-value",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the start value of a select is none of its options",
-    why: "the page shows the first option, but the lab starts with the value that is written here",
+    summary: "the start value of a select is not one of its options",
+    why: "the page shows the first option, but the lab starts with the value written here",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"type": "select", "label": "integrator", "set": "model.opt.integrator", "options": [["Euler", 0], ["RK4", 1]], "value": ⟦3⟧}]}"#,
     ),
@@ -25,8 +25,8 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     if !options.is_empty() && !options.iter().any(|o| o.value.same(value)) {
         let all: Vec<String> = options.iter().take(8).map(|o| o.value.show()).collect();
         findings.push(
-            Finding::new(SELECT_VALUE, value.span(), format!("{} is none of the options", value.show()))
-                .help(format!("write one of their values: {}", all.join(", "))),
+            Finding::new(SELECT_VALUE, value.span(), format!("{} is not one of the options", value.show()))
+                .help(format!("use one of their values: {}", all.join(", "))),
         );
     }
 }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A geom changes its size or its place, and what follows from it stays.
+/// A program changes the size or the position of a geom but not the values that follow from it.
 pub const SHAPE_ALONE: &Rule = &Rule {
     code: "shape-alone",
     severity: Severity::Warning,
     layer: Layer::Run,
-    summary: "a program changes the size or the place of a geom, and leaves what follows from it",
-    why: "MuJoCo looks for contacts within the bounding radius, and turns a body by its inertia about its centre of mass: a geom that grows without the first goes through others, one that grows or moves without the others turns as if it had not. The lab was run with them corrected: what differs is stated",
+    summary: "a program changes the size or the position of a geom but not the values that follow from it",
+    why: "MuJoCo finds contacts within the bounding radius, and turns a body by its inertia about its centre of mass: without the first a larger geom passes through others, without the others the body turns as before. The finding states what differs in a run with these values corrected",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom type='plane' size='2 2 1'/><body pos='0 0 1'><freejoint/><geom size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 1, "controls": [{"label": "radius (m)", "apply": "⟦model.geom_size[3] = value⟧", "reset": true, "min": 0.05, "max": 0.3, "value": 0.05, "step": 0.05}], "readouts": [{"label": "height (m)", "expr": "data.qpos[2]"}]}"#,
     ),

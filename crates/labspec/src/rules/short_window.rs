@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A window shorter than a few pictures.
+/// The window of a plot is so short that its curve has only a few points.
 pub const SHORT_WINDOW: &Rule = &Rule {
     code: "short-window",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "a plot shows so little time that its curve is a few points",
-    why: "a page samples once for every picture that it draws",
+    summary: "the window of a plot is so short that its curve has only a few points",
+    why: "a page samples once per drawn frame",
     bad: Example::Lab(
         r#"{"model": "ball", "plots": [{"window": ⟦0.005⟧, "traces": [{"label": "height", "expr": "data.qpos[2]"}]}]}"#,
     ),
@@ -31,13 +31,13 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let points = window.value * FRAMES / slowest;
         if window.value > 0.0 && points < POINTS {
             let message = format!(
-                "this plot shows {} s, of which a page draws {points:.0} points at most",
+                "this plot shows {} s, so a page draws at most {points:.0} points",
                 window.value
             );
             findings.push(
                 Finding::new(SHORT_WINDOW, window.span.clone(), message)
-                    .why(format!("a page samples once for every picture, {FRAMES} times in a second; at the slowest speed, {slowest}, that is once in {:.4} s", slowest / FRAMES))
-                    .help(format!("let it show more, or offer a slower speed: \"speeds\": [{}, 1]", window.value / 2.0)),
+                    .why(format!("a page samples {FRAMES} times per second; at the slowest speed, {slowest}, that is once every {:.4} s", slowest / FRAMES))
+                    .help(format!("make the window longer, or offer a slower speed: \"speeds\": [{}, 1]", window.value / 2.0)),
             );
         }
     }

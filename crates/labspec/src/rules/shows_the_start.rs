@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A readout shows where a coordinate begins.
+/// A readout shows the initial value of a coordinate that moves.
 pub const SHOWS_THE_START: &Rule = &Rule {
     code: "shows-the-start",
     severity: Severity::Warning,
     layer: Layer::Run,
-    summary: "a readout shows where a coordinate begins, while it moves",
-    why: "`model.qpos0` is where things begin, and stays so; where they are is `data.qpos`. It is told where the coordinate moves in a run and the label does not say that the start is meant",
+    summary: "a readout shows the initial value of a coordinate that moves",
+    why: "`model.qpos0` holds the initial coordinates and never changes; `data.qpos` holds the current ones. The rule reports it if the coordinate moves in a run and the label does not mention the start",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 0.3, "readouts": [{"label": "height (m)", "expr": "⟦model.qpos0[2]⟧"}]}"#,
     ),

@@ -3,7 +3,7 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Fewer digits than the step has.
+/// A slider shows fewer decimals than its step has.
 pub const SLIDER_DIGITS: &Rule = &Rule {
     code: "slider-digits",
     severity: Severity::Warning,
@@ -48,9 +48,9 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     };
     let text = shown(a);
     findings.push(
-        Finding::new(SLIDER_DIGITS, digits.span.clone(), format!("{a} and {b} are both shown as {text}"))
-            .why("a student moves the slider by a step, and the number beside it stays")
+        Finding::new(SLIDER_DIGITS, digits.span.clone(), format!("{a} and {b} are both displayed as {text}"))
+            .why("a student moves the slider by one step, and the number beside it does not change")
             .related(step.span.clone(), "the step")
-            .help("show as many decimals as the step has"),
+            .help("display as many decimals as the step has"),
     );
 }

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A start value between two steps.
+/// The start value of a slider is between two of its steps.
 pub const SLIDER_GRID: &Rule = &Rule {
     code: "slider-grid",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the start value of a slider lies between two of its steps",
-    why: "the slider stands beside the value that the lab starts with, and a student who moves it cannot come back",
+    summary: "the start value of a slider is between two of its steps",
+    why: "the slider shows another value than the lab starts with, and a student who moves it cannot return",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": -1, "step": 1, "value": ⟦-9.81⟧}]}"#,
     ),
@@ -34,12 +34,12 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     }
     let near = [steps.floor(), steps.ceil()].map(|n| tidy(min.value + n * step.value));
     let [below, above] = near;
-    let message = format!("{} lies between two steps of the slider, {below} and {above}", value.value);
+    let message = format!("{} is between two steps of the slider, {below} and {above}", value.value);
     findings.push(
         Finding::new(SLIDER_GRID, value.span.clone(), message)
-            .why("the page shows one of the two while the lab starts with this value, and nobody can come back to it")
+            .why("the page shows one of the two while the lab starts with this value, and a student cannot return to it")
             .related(step.span.clone(), format!("steps count from {}", min.value))
-            .help(format!("write {below} or {above}, or a step that meets {}", value.value)),
+            .help(format!("write {below} or {above}, or choose a step that reaches {}", value.value)),
     );
 }
 

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A step that the range has no room for.
+/// The step of a slider is not positive, or larger than its range.
 pub const SLIDER_STEP: &Rule = &Rule {
     code: "slider-step",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "the step of a slider is not positive, or larger than its range",
-    why: "the slider cannot be moved",
+    why: "the slider cannot move",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "step": ⟦10⟧, "value": 1}]}"#,
     ),
@@ -24,10 +24,10 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), .. } = &control.kind else { return };
     let range = max.value - min.value;
     if range > 0.0 && (step.value <= 0.0 || step.value > range) {
-        let message = format!("a step of {} in a range from {} to {}", step.value, min.value, max.value);
+        let message = format!("the step {} does not fit the range from {} to {}", step.value, min.value, max.value);
         findings.push(
             Finding::new(SLIDER_STEP, step.span.clone(), message)
-                .help(format!("leave `step` out for a hundredth of the range, {}", range / 100.0)),
+                .help(format!("delete `step` for a hundredth of the range, {}", range / 100.0)),
         );
     }
 }

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A start value that the slider cannot show.
+/// The start value of a slider is outside its range.
 pub const SLIDER_VALUE: &Rule = &Rule {
     code: "slider-value",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "the start value of a slider lies outside of its range",
-    why: "the page moves the slider to the nearest end, but the lab starts with the value that is written here",
+    summary: "the start value of a slider is outside its range",
+    why: "the page moves the slider to the nearest end, but the lab starts with the value written here",
     bad: Example::Lab(
         r#"{"model": "ball", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": ⟦0.1⟧}]}"#,
     ),
@@ -30,7 +30,7 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
         findings.push(
             Finding::new(SLIDER_VALUE, value.span.clone(), message)
                 .related(end.span.clone(), "the nearest end")
-                .help("change the value, or widen the range so that it holds the value"),
+                .help("change the value, or widen the range to include it"),
         );
     }
 }

@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tolerance that takes a common slip.
+/// The tolerance of a numeric question accepts the most common slip, a factor of 2.
 pub const SLIP_ACCEPTED: &Rule = &Rule {
     code: "slip-accepted",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the tolerance of a numeric question takes the commonest slip, a factor of 2",
-    why: "who forgets the one half of an energy, or takes a diameter for a radius, has answered right",
+    summary: "the tolerance of a numeric question accepts the most common slip, a factor of 2",
+    why: "a student who forgets the half in an energy, or takes a diameter for a radius, is graded as correct",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦2.5⟧}]}"#,
     ),
@@ -36,9 +36,9 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let half = answer / 2.0;
     if tolerance >= size / 2.0 {
         findings.push(
-            Finding::new(SLIP_ACCEPTED, span, format!("{half} counts as right, and the answer is {answer}"))
+            Finding::new(SLIP_ACCEPTED, span, format!("the tolerance accepts {half}, but the answer is {answer}"))
                 .related(key.span.clone(), "the answer")
-                .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+                .help("write in `tol` how far an answer may be off, in its unit; delete it for 2 %"),
         );
     } else if (ROUND - 1.0) * size <= tolerance && plain(question.q.as_str()).contains("9.81") {
         let other = (answer * ROUND * 1e4).round() / 1e4;
@@ -46,11 +46,11 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 SLIP_ACCEPTED,
                 span,
-                format!("the question says 9.81, and {other}, which 10 gives, counts as right"),
+                format!("the question says 9.81, but the tolerance accepts {other}, the answer for g = 10"),
             )
             .severity(Severity::Note)
-            .why("an answer that goes with g may be off by 1.9 % when g is rounded")
-            .help("make `tol` smaller where that is not meant"),
+            .why("rounding g to 10 changes an answer that is proportional to g by 1.9 %")
+            .help("make `tol` smaller, unless g = 10 is allowed"),
         );
     }
 }

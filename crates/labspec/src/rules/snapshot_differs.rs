@@ -1,13 +1,13 @@
 use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// What a lab shows is not what its snapshot says.
+/// The output of a lab differs from its snapshot.
 pub const SNAPSHOT_DIFFERS: &Rule = &Rule {
     code: "snapshot-differs",
     severity: Severity::Error,
     layer: Layer::Run,
-    summary: "what a lab shows is not what is stored of it",
-    why: "The lab has become another one since somebody looked at it: a student sees other curves than were reviewed",
+    summary: "the output of a lab differs from its snapshot",
+    why: "the lab has changed since someone reviewed it: a student sees other curves than the reviewer",
     bad: Example::Files(&[
         (
             "fall.json",

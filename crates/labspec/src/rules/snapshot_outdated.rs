@@ -7,7 +7,7 @@ pub const SNAPSHOT_OUTDATED: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Run,
     summary: "a lab has changed since its snapshot was taken",
-    why: "Part of what is stored is no longer shown, or is shown and not stored: nobody has looked at it",
+    why: "some stored output is no longer shown, or some shown output is not stored: nobody has reviewed it",
     bad: Example::Files(&[
         (
             "fall.json",

@@ -7,7 +7,7 @@ pub const SNAPSHOT_UNREADABLE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Source,
     summary: "a snapshot cannot be read",
-    why: "Nothing that is stored in it was compared",
+    why: "nothing stored in it is compared",
     bad: Example::Files(&[
         (
             "fall.json",

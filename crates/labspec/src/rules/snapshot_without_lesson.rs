@@ -1,13 +1,13 @@
 use super::example::{FALL, STORED};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A snapshot is there, and its lesson is not.
+/// A snapshot has no lesson.
 pub const SNAPSHOT_WITHOUT_LESSON: &Rule = &Rule {
     code: "snapshot-without-lesson",
     severity: Severity::Error,
     layer: Layer::Source,
-    summary: "a snapshot is there, and its lesson is not",
-    why: "A lesson that was renamed or moved is no longer held against what is stored of it, and nobody is told",
+    summary: "a snapshot has no lesson",
+    why: "a renamed or moved lesson is no longer compared with its snapshot, and nobody notices",
     bad: Example::Files(&[(
         "gone.json.snap",
         r##"⟦⟧labspec snapshot 1

@@ -6,7 +6,7 @@ pub const STIFF_FOR_TIMESTEP: &Rule = &Rule {
     severity: Severity::Warning,
     layer: Layer::Run,
     summary: "a servo, a spring or a contact is too stiff for the timestep",
-    why: "Every step pushes farther than the last one missed, without a word from MuJoCo until a number is beyond 1e10",
+    why: "every step overshoots more than the one before, and MuJoCo gives no warning until a number exceeds 1e10",
     bad: Example::Lab(
         r#"{"xml": "⟦<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0' stiffness='1e6'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>⟧", "setup": "data.qpos[0] = 0.001", "stopAt": 0.004, "readouts": [{"label": "shown", "expr": "data.qpos[0]"}]}"#,
     ),

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Fewer than two options.
+/// A question has fewer than two options.
 pub const TOO_FEW_OPTIONS: &Rule = &Rule {
     code: "too-few-options",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a question has fewer than two options",
-    why: "there is nothing to choose",
+    why: "a student has nothing to choose",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"q": "⟦Does mass matter?⟧", "options": ["no"], "answer": 0}]}"#,
     ),
@@ -27,7 +27,7 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
         let message = format!("this question has {} option{plural}", options.len());
         findings.push(
             Finding::new(TOO_FEW_OPTIONS, question.q.span(), message)
-                .help("give at least two, or make it a question of kind numeric or open"),
+                .help("add options until there are at least two, or use the kind numeric or open"),
         );
     }
 }

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A readout prints decimals that the timestep decides.
+/// A readout prints more decimals than the integration supports.
 pub const TOO_MANY_DIGITS: &Rule = &Rule {
     code: "too-many-digits",
     severity: Severity::Note,
     layer: Layer::Run,
     summary: "a readout prints more decimals than the integration supports",
-    why: "Two decimals or more are those of the timestep and not of the scene: a student compares them with a formula, and takes the difference for physics",
+    why: "two or more decimals depend on the timestep: a student compares them with a formula, and takes the difference for physics",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='ball' pos='0 0 1'><freejoint/><geom name='ball' size='.05' mass='1'/></body></worldbody></mujoco>", "stopAt": 0.4, "readouts": [{"label": "height (m)", "expr": "⟦data.qpos[2]⟧", "digits": 6}]}"#,
     ),

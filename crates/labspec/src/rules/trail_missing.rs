@@ -11,7 +11,7 @@ pub const TRAIL_MISSING: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "`trail` names a site that the model does not have",
-    why: "The page silently draws no path",
+    why: "the page silently draws no path",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/><site name='tip' pos='0 0 -1'/></body></worldbody></mujoco>", "trail": "⟦tipp⟧"}"#,
     ),
@@ -45,8 +45,8 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     findings.push(match nearest(name, sites()) {
         Some(right) => found.help(format!("did you mean `{right}`?")).guess(trail.span(), encode(right)),
         None if listed.is_empty() => found
-            .help("the model has no site with a name: add <site name=\"…\"/> where the path is to be drawn"),
-        None => found.help(format!("its sites are {}{more}", listed.join(", "))),
+            .help("name a site in the model, which has none: add <site name=\"…\"/> where the path should be drawn"),
+        None => found.help(format!("use one of its sites: {}{more}", listed.join(", "))),
     });
 }
 
@@ -82,9 +82,9 @@ mod tests {
         assert_eq!((message.as_str(), help.as_str()), ("the model has no site `tpi`", "did you mean `tip`?"));
         let (message, help) = told("rod", tip);
         assert_eq!(message, "`rod` is a body of the model, but a trail follows a site");
-        assert_eq!(help, "its sites are tip, end");
+        assert_eq!(help, "use one of its sites: tip, end");
         let (message, help) = told("bar", "<site/>");
-        assert!(message.contains("a geom") && help.contains("has no site with a name"), "{message}: {help}");
+        assert!(message.contains("a geom") && help.contains("name a site in the model"), "{message}: {help}");
     }
 
     #[test]

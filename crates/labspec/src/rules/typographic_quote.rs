@@ -5,13 +5,13 @@ use crate::markdown::is_typographic;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A typographic quote in code.
+/// Code contains a typographic quote.
 pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     code: "typographic-quote",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "a typographic quote stands where a program needs a straight one",
-    why: "word processors replace straight quotes; programs read “ ” ‘ ’ as letters",
+    summary: "code contains a typographic quote",
+    why: "word processors replace straight quotes; a program reads “ ” ‘ ’ as letters",
     bad: Example::Lesson("```lab simlab\n{⟦“⟧model”: “ball”}\n```\n"),
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
 };
@@ -33,8 +33,8 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
         let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
         let shown = code.value.get(first.clone()).unwrap_or("");
         let message = match found.len() {
-            1 => format!("the typographic quote {shown} in an expression"),
-            n => format!("{n} typographic quotes in an expression, {shown} the first"),
+            1 => format!("an expression contains the typographic quote {shown}"),
+            n => format!("an expression contains {n} typographic quotes, {shown} is the first"),
         };
         let part = first.start..last.end;
         let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");

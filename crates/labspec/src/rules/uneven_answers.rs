@@ -3,13 +3,13 @@ use crate::finding::{Finding, InFile};
 use crate::spec::{Lesson, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Right answers stand at one place too often to be chance.
+/// The correct options of a course share one position so often that guessing pays.
 pub const UNEVEN_ANSWERS: &Rule = &Rule {
     code: "uneven-answers",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "the right options of a course stand at one place so often that guessing pays",
-    why: "who always takes that place gets the points of a student who has understood half of it",
+    summary: "the correct options of a course share one position so often that guessing pays",
+    why: "a student who always picks that position scores as if they had understood half of it",
     bad: Example::Json(
         r#"{"id": "fall", "questions": [{"q": "1?", "options": ["a", "b", "c", "d"], "answer": ⟦1⟧}, {"q": "2?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "3?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "4?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "5?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "6?", "options": ["a", "b", "c", "d"], "answer": 1}, {"q": "7?", "options": ["a", "b", "c", "d"], "answer": 1}]}"#,
     ),
@@ -57,17 +57,17 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
             UNEVEN_ANSWERS,
             span.clone(),
             format!(
-                "of {} right options of the course, {} stand at index {place}",
+                "of {} correct options in the course, {} have index {place}",
                 keys.len(),
                 stands(place)
             ),
         )
         .why(format!(
-            "by lot it would be {expected:.1}, and so many come once in {:.0} courses; all: {}",
+            "chance gives {expected:.1} on average, and this many in one of {:.0} courses; all: {}",
             1.0 / chance,
             counts.join(", ")
         ))
-        .help("put the right options of some questions elsewhere")
+        .help("move the correct options of some questions")
         .at(file),
     ]
 }

@@ -6,13 +6,13 @@ use crate::source::Text;
 use crate::spec::{ControlKind, Lab, Lesson};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A run that sets or presses a control that the lab does not have.
+/// A run sets or presses a control that the lab does not have.
 pub const UNKNOWN_CONTROL: &Rule = &Rule {
     code: "unknown-control",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a run sets or presses a control that the lab does not have",
-    why: "the run would not be the one that the text talks about",
+    why: "the run is not the one that the text describes",
     bad: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "controls": [{"label": "friction", "set": "model.geom_friction[0]", "min": 1, "max": 2, "value": 1}], "verify": {"runs": {"heavy": {"set": {"⟦fricton⟧": 2}}}, "says": [["0.10 m", "final(data.qpos[2])"]]}}"#,
     ),
@@ -52,7 +52,7 @@ fn missing(label: &Text, lab: &Lab, press: bool) -> Option<Finding> {
     let found = Finding::new(UNKNOWN_CONTROL, label.span(), message);
     Some(match nearest(label.as_str(), labels.iter().copied()) {
         Some(right) => found.help(format!("did you mean `{right}`?")).guess(label.span(), encode(right)),
-        None if labels.is_empty() => found.help(format!("the lab has no {what} at all")),
-        None => found.help(format!("it has {}", labels.join(", "))),
+        None if labels.is_empty() => found.help(format!("remove it: the lab has no {what}")),
+        None => found.help(format!("use one of: {}", labels.join(", "))),
     })
 }

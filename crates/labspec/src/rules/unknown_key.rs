@@ -1,6 +1,6 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A key that the format does not have.
+/// An object has a key that the format does not know.
 pub const UNKNOWN_KEY: &Rule = &Rule {
     code: "unknown-key",
     severity: Severity::Error,

@@ -5,7 +5,7 @@ use crate::json::read;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A lab that the lesson does not have.
+/// A `verify` object refers to a lab that the lesson does not have.
 pub const UNKNOWN_LAB: &Rule = &Rule {
     code: "unknown-lab",
     severity: Severity::Error,
@@ -27,11 +27,11 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson) {
         let Some((text, address)) = &claim.verify.uses else { continue };
         let message = match lesson.verify_at(address) {
-            None => format!("nothing at {} has a `verify`", read::named(text.as_str())),
+            None => format!("{} has no `verify`", read::named(text.as_str())),
             Some(used) if used.span == claim.verify.span => "this `verify` uses itself".to_string(),
             // Nothing of it could be read.
             Some(_) if std::ptr::eq(lesson.whole(claim.verify), claim.verify) => {
-                "more is used in this lesson than is read".to_string()
+                "the lesson uses other `verify` objects too often".to_string()
             }
             Some(_) => continue,
         };
@@ -48,12 +48,12 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
             continue;
         }
         let all: Vec<String> = lesson.addressed().iter().take(12).map(|(a, _)| a.to_string()).collect();
-        let message = format!("there is no lab {} in this lesson", read::named(text.as_str()));
+        let message = format!("the lesson has no lab {}", read::named(text.as_str()));
         let found = Finding::new(UNKNOWN_LAB, text.span(), message);
         findings.push(if all.is_empty() {
-            found.help("write a lab object here, or put a lab into the lesson")
+            found.help("write a lab object here, or add a lab to the lesson")
         } else {
-            found.help(format!("the lesson has {}", all.join(", ")))
+            found.help(format!("use one of: {}", all.join(", ")))
         });
     }
 }

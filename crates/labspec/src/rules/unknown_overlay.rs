@@ -5,13 +5,13 @@ use crate::spec::Lab;
 use crate::spec::format::{OVERLAYS, texts};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An overlay that does not exist.
+/// `overlays` or `toggles` names something that the page cannot draw.
 pub const UNKNOWN_OVERLAY: &Rule = &Rule {
     code: "unknown-overlay",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "`overlays` or `toggles` name something that cannot be drawn",
-    why: "nothing is drawn, or the checkbox does nothing",
+    summary: "`overlays` or `toggles` names something that the page cannot draw",
+    why: "the page draws nothing, or the checkbox does nothing",
     bad: Example::Lab(r#"{"model": "ball", "toggles": ["⟦contact⟧"]}"#),
     good: Example::Lab(r#"{"model": "ball", "toggles": ["contacts"]}"#),
 };
@@ -22,11 +22,11 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     let written = lab.toggles.iter().chain(lab.overlays.iter().map(|(name, _)| name));
     for name in written.filter(|name| texts(&OVERLAYS).all(|known| known != name.as_str())) {
         let found =
-            Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} cannot be drawn", named(name.as_str())));
+            Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} is not an overlay", named(name.as_str())));
         findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {
             Some(right) => found.help(format!("did you mean `{right}`?")).guess(name.span(), right),
             None => {
-                found.help(format!("what can be drawn: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", ")))
+                found.help(format!("use one of: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", ")))
             }
         });
     }

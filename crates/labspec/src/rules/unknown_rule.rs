@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An allowance of something that no rule is called.
+/// `allow` names an unknown rule.
 pub const UNKNOWN_RULE: &Rule = &Rule {
     code: "unknown-rule",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "something is allowed that no rule is called",
-    why: "nothing is allowed by it: what was meant is told all the same",
+    summary: "`allow` names an unknown rule",
+    why: "it suppresses nothing: the intended finding is still reported",
     bad: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}], "lint": {"allow": ["⟦duplicate-readouts⟧"], "why": "both are read"}}"#,
     ),

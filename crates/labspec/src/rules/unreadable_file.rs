@@ -6,7 +6,7 @@ pub const UNREADABLE_FILE: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Source,
     summary: "a file cannot be read",
-    why: "Nothing in it was checked",
+    why: "nothing in it is checked",
     bad: Example::Repeated("A ball falls.\n", 1300000),
     good: Example::Repeated("A ball falls.\n", 13),
 };

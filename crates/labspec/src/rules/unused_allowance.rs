@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An allowance of something that is not there.
+/// A suppression matches no finding.
 pub const UNUSED_ALLOWANCE: &Rule = &Rule {
     code: "unused-allowance",
     severity: Severity::Warning,
     layer: Layer::Structure,
-    summary: "something is allowed that is not found",
-    why: "it would hide the finding once it is true again, and nobody would have looked at it",
+    summary: "a suppression matches no finding",
+    why: "it would hide the finding if it came back, and nobody would review it",
     bad: Example::Lab(
         r#"{"model": "ball", "readouts": [{"label": "z", "expr": "data.qpos[2]"}], "lint": {"allow": ["⟦duplicate-readout⟧"], "why": "both are read"}}"#,
     ),

@@ -6,7 +6,7 @@ pub const VALUE_UNUSED: &Rule = &Rule {
     severity: Severity::Warning,
     layer: Layer::Program,
     summary: "the statements of a control never use `value`",
-    why: "Moving the control changes nothing",
+    why: "moving the control changes nothing",
     bad: Example::Lab(
         r#"{"xml": "<mujoco><worldbody><body name='rod'><joint name='hinge' axis='0 1 0'/><geom type='capsule' size='.02' fromto='0 0 0 0 0 -1'/></body></worldbody></mujoco>", "controls": [{"label": "push", "apply": "⟦data.qvel[0] = 1⟧", "min": 0, "max": 1, "value": 0}]}"#,
     ),

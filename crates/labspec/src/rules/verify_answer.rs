@@ -5,13 +5,13 @@ use crate::source::Text;
 use crate::spec::{Lesson, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Conditions that do not match the options, or a value where there is no number.
+/// `verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit.
 pub const VERIFY_ANSWER: &Rule = &Rule {
     code: "verify-answer",
     severity: Severity::Error,
     layer: Layer::Structure,
-    summary: "`verify` has no condition for each option, or a value where no number is asked, or none in a unit that is known",
-    why: "exactly the condition of the right option must hold, so every option needs one",
+    summary: "`verify` lacks a condition for an option, has a value where no number is asked, or uses an unknown unit",
+    why: "exactly one condition must be true, that of the correct option, so every option needs one",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "predict", "q": "What does it do?", "options": ["falls", "rises", "stays"], "answer": 0, "sim": {"model": "ball"}, "verify": {"runs": {"run": {"until": 0.4}}, "measure": {"z": "final(data.qpos[2])"}, "options": ["⟦z < 0.9⟧", "z > 1.1"]}}]}"#,
     ),
@@ -30,7 +30,7 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
                 Finding::new(
                     VERIFY_ANSWER,
                     label.span(),
-                    "`over` holds conditions to a range, and there are none",
+                    "`over` gives a range, but there are no conditions",
                 )
                 .help("write `options`, one condition for each option of the question"),
             );
@@ -41,9 +41,9 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
                     Finding::new(
                         VERIFY_ANSWER,
                         text.span(),
-                        "there is no question here whose answer this could be",
+                        "there is no question here that this could answer",
                     )
-                    .help("move it to the question, or say it as [quote, expression] under `says`"),
+                    .help("move it to the question, or write it as [quote, expression] under `says`"),
                 );
             }
             continue;
@@ -56,22 +56,22 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         if conditions > 0 && conditions != options {
             let span = verify.options.first().map_or(verify.span.clone(), Text::span);
             findings.push(
-                Finding::new(VERIFY_ANSWER, span, format!("{conditions} conditions for {options} options"))
+                Finding::new(VERIFY_ANSWER, span, format!("`options` has {conditions} conditions for {options} options"))
                     .help("write one condition per option, in their order"),
             );
         }
         if let Some(wrong) = verify.wrong.first().filter(|_| verify.value.is_none()) {
             findings.push(
-                Finding::new(VERIFY_ANSWER, wrong.span(), "nothing says what the right value is")
-                    .help("write it as `value`, on a question of kind numeric"),
+                Finding::new(VERIFY_ANSWER, wrong.span(), "`wrong` has no `value` beside it")
+                    .help("add `value`, on a question of kind numeric"),
             );
         }
         if let Some(value) = &verify.value
             && !matches!(question.kind, QuestionKind::Numeric { .. })
         {
             findings.push(
-                Finding::new(VERIFY_ANSWER, value.span(), "this question asks for no number")
-                    .help("`value` is for questions of kind numeric; use `options` or `says`"),
+                Finding::new(VERIFY_ANSWER, value.span(), "this question does not ask for a number")
+                    .help("use `options` or `says`: `value` is for questions of kind numeric"),
             );
         }
     }

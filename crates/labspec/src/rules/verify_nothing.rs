@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A `verify` object that claims nothing.
+/// A `verify` object claims nothing.
 pub const VERIFY_NOTHING: &Rule = &Rule {
     code: "verify-nothing",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "a `verify` object claims nothing",
-    why: "its runs are made, but nothing is compared with them",
+    why: "its runs are made, but the checker compares nothing with them",
     bad: Example::Lab(
         r#"{"model": "ball", "note": "It rests at 0.10 m.", "verify": ⟦{⟧"runs": {"drop": {"until": 2}}}}"#,
     ),

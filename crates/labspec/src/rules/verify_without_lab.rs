@@ -4,13 +4,13 @@ use crate::finding::Finding;
 use crate::spec::Lesson;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// No lab to run.
+/// A `verify` object has no lab to run.
 pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
     code: "verify-without-lab",
     severity: Severity::Error,
     layer: Layer::Structure,
     summary: "a `verify` object has no lab to run",
-    why: "the question has no `sim`, so `verify` must say which lab it is about. Formulas alone need none",
+    why: "the question has no `sim`, so `verify` must name the lab; formulas alone need no lab",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 3.924, "verify": ⟦{⟧"runs": {"run": {"until": 0.4}}, "value": "final(-data.qvel[2])"}}]}"#,
     ),
@@ -31,8 +31,8 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson).filter(without) {
         let start = claim.verify.span.start;
         findings.push(
-            Finding::new(VERIFY_WITHOUT_LAB, start..start + 1, "there is no lab that could run")
-                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object; formulas that read no `data` and no `model` need none"),
+            Finding::new(VERIFY_WITHOUT_LAB, start..start + 1, "this `verify` object has no lab to run")
+                .help("add \"lab\": \"#1\" for the first lab of the lesson, or a lab object; formulas without `data` and `model` need no lab"),
         );
     }
 }

@@ -3,13 +3,13 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A tolerance as large as the answer.
+/// The tolerance of a numeric question is as large as its answer.
 pub const WIDE_TOLERANCE: &Rule = &Rule {
     code: "wide-tolerance",
     severity: Severity::Warning,
     layer: Layer::Structure,
     summary: "the tolerance of a numeric question is as large as its answer",
-    why: "even 0 counts as right, so the question asks nothing",
+    why: "even 0 counts as right, so the question tests nothing",
     bad: Example::Quiz(
         r#"{"id": "fall", "questions": [{"kind": "numeric", "q": "How fast?", "answer": 4.43, "tol": ⟦10⟧}]}"#,
     ),
@@ -28,11 +28,11 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Finding::new(
                 WIDE_TOLERANCE,
                 tol.span.clone(),
-                format!("every answer from {low} to {high} counts as right"),
+                format!("the tolerance accepts every answer from {low} to {high}"),
             )
-            .why("0 is among them: who types it without a thought has answered")
+            .why("the range includes 0, so a student who types 0 without thinking is graded as correct")
             .related(answer.span.clone(), "the answer")
-            .help("`tol` is how far an answer may be off, in its unit; leave it out for 2 %"),
+            .help("write in `tol` how far an answer may be off, in its unit; delete it for 2 %"),
         );
     }
 }

@@ -3,7 +3,7 @@ use crate::finding::Finding;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// An answer of 0 with the default tolerance.
+/// A numeric question with the answer 0 states no tolerance.
 pub const ZERO_TOLERANCE: &Rule = &Rule {
     code: "zero-tolerance",
     severity: Severity::Error,
@@ -25,7 +25,7 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
         && answer.value == 0.0
     {
         findings.push(
-            Finding::new(ZERO_TOLERANCE, answer.span.clone(), "the answer is 0 and there is no `tol`")
+            Finding::new(ZERO_TOLERANCE, answer.span.clone(), "the answer is 0 and has no `tol`")
                 .help("add \"tol\": how far an answer may be off, in its unit"),
         );
     }

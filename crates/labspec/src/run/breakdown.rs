@@ -45,19 +45,15 @@ impl Breakdown {
             Shorter::No => instead.clone(),
             Shorter::Maybe(_) => format!("try a shorter timestep, or {instead}"),
             Shorter::Tried(h) => {
-                format!(
-                    "write a timestep of {} s (tried: this run is sound with it), or {instead}",
-                    two_digits(h)
-                )
+                format!("set the timestep to {} s (this run is fine with it), or {instead}", two_digits(h))
             }
-            Shorter::Useless => format!("use {instead}; none of the shorter timesteps that were tried helps"),
+            Shorter::Useless => format!("use {instead}; none of the tested shorter timesteps helps"),
         };
         cause + &advice
     }
 }
 
-const RESET: &str =
-    "MuJoCo then resets the data and goes on from time 0: a student sees the scene jump back without a word";
+const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
 
 /// Warnings that may follow from each other, the cause first: only the first of them is told.
 const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
@@ -99,7 +95,7 @@ impl Breakdown {
     fn by_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Breakdown {
         let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
         let at = format!("at t = {} s", time(stat.first_time));
-        let no_number = |what: String| format!("{what} is not a number or above 1e10 {at}");
+        let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {at}");
         let (rule, what, why, advice) = match warning {
             Warning::BadQpos => (
                 rules::SIMULATION_DIVERGES,
@@ -122,27 +118,30 @@ impl Breakdown {
             Warning::BadCtrl => (
                 rules::SIMULATION_DIVERGES,
                 no_number(format!("control {}", stat.lastinfo)),
-                "MuJoCo then takes all controls as 0: a student sees everything go limp without a word",
-                Advice::only("guard the expression that is written to `data.ctrl` with a condition"),
+                "MuJoCo then sets all controls to 0: a student sees everything go limp without an explanation",
+                Advice::only("guard the expression for `data.ctrl` with a condition"),
             ),
             Warning::Inertia => (
                 rules::ENGINE_WARNING,
-                format!("what {} moves has no inertia above zero {at}", joint(&model.jnt_dofadr, joint::nv)),
-                "a push then gives no acceleration that means anything: things do not move, move backwards or vanish",
+                format!(
+                    "the parts that {} moves have no positive inertia {at}",
+                    joint(&model.jnt_dofadr, joint::nv)
+                ),
+                "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
                 Advice::only(
-                    "give every body that moves a mass and inertia above 0: look at the model, and at what writes `body_mass`, `body_inertia` or `dof_armature`",
+                    "give every moving body a mass and an inertia above 0: check the model, and what writes `body_mass`, `body_inertia` or `dof_armature`",
                 ),
             ),
             Warning::ContactFull => (
                 rules::ENGINE_WARNING,
-                format!("there are more contacts than the {} that are kept {at}", stat.lastinfo),
-                "what is not kept does not push: bodies sink into each other without a word",
+                format!("there are more contacts than the {} that the engine keeps {at}", stat.lastinfo),
+                "the dropped contacts do not push: bodies silently sink into each other",
                 Advice::only("let fewer bodies touch, or move them apart at the start"),
             ),
             Warning::ConstraintFull => (
                 rules::ENGINE_WARNING,
-                format!("there are more contacts, limits and other constraints than are kept {at}"),
-                "what is not kept does not push or hold: bodies sink into each other, joints pass their limits without a word",
+                format!("there are more contacts, limits and other constraints than the engine keeps {at}"),
+                "the dropped constraints do not act: bodies silently sink into each other, and joints pass their limits",
                 Advice::only("let fewer bodies touch, or move them apart at the start"),
             ),
         };

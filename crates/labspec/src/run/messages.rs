@@ -11,7 +11,7 @@ pub fn threw(t: &Trouble, done: &str) -> Finding {
         t.text.span_of(t.span.clone()),
         format!("{} ({done}, at t = {} s)", t.message, t.time),
     )
-    .why("on the page an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
+    .why("on the page, an error in `setup` or `controller` freezes the lab, and one in a trace shows nan")
     .help("correct the statement, or guard it with a condition")
 }
 

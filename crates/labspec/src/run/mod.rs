@@ -101,7 +101,7 @@ pub fn count_steps(
                 text(timestep),
                 text(count)
             ),
-            false => format!("the timestep is {} s, with which time does not pass", text(timestep)),
+            false => format!("the timestep is {} s, so time does not advance", text(timestep)),
         }));
     }
     Ok(count as usize)
@@ -142,7 +142,7 @@ pub(crate) fn begin<'p>(
     let every = options.every.max(1);
     if (steps / every).saturating_mul(programs.probes.len() + 1) > MAX_CELLS {
         return Err(RunError(format!(
-            "{steps} steps give too large a table; sample less often with --every"
+            "{steps} steps make the table too large; sample less often with --every"
         )));
     }
 
@@ -150,7 +150,7 @@ pub(crate) fn begin<'p>(
     let (_, width) = Samples::new(programs, 0).columns();
     if (steps / every).saturating_mul(width) > 4 * MAX_CELLS {
         return Err(RunError(format!(
-            "{steps} steps of {width} numbers that the traces read are too many; sample less often with --every"
+            "{steps} steps of {width} numbers for the traces are too many; sample less often with --every"
         )));
     }
     let samples = Samples::new(programs, steps / every + 2);
@@ -176,7 +176,7 @@ pub(crate) fn finish(begun: Begun<'_>, made: usize) -> Result<Table, RunError> {
     let Begun { session, samples, timestep, .. } = begun;
     if samples.text() > MAX_TEXT {
         return Err(RunError(format!(
-            "the texts that the readouts show come to more than {} MB after {made} steps; show numbers or short texts, or sample less often with --every",
+            "the texts of the readouts exceed {} MB after {made} steps; display numbers or short texts, or sample less often with --every",
             MAX_TEXT >> 20
         )));
     }

@@ -65,7 +65,7 @@ pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
                 grid.holds(label, *x, value.value).map(|()| given.clone())
             }
             other => Err(RunError(format!(
-                "\"{label}\" is a slider: it takes a number from {} to {}, not {}",
+                "\"{label}\" is a slider: it needs a number from {} to {}, not {}",
                 number(min.value),
                 number(max.value),
                 shown(other)
@@ -105,7 +105,7 @@ pub fn presses(programs: &Programs, press: &[(String, f64)]) -> Result<Vec<(usiz
         }
         if !(time.is_finite() && *time >= 0.0) {
             return Err(RunError(format!(
-                "\"{label}\" cannot be pressed at {time} s: a run begins at 0 s; write a time from there on"
+                "\"{label}\" cannot be pressed at {time} s, because a run begins at 0 s; use a later time"
             )));
         }
     }
@@ -156,7 +156,7 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
         list.push(format!("and {} more", options.len() - MOST_LISTED));
     }
     Err(RunError(format!(
-        "{} is no option of \"{label}\"; its options are {}",
+        "{} is not an option of \"{label}\"; its options are {}",
         shown(given),
         list.join(", ")
     )))
@@ -197,7 +197,7 @@ impl Grid {
         }
         let [below, above] = [steps.floor(), steps.ceil()].map(|k| (min + k * step).min(max));
         Err(RunError(format!(
-            "\"{label}\" cannot stand at {}: it moves in steps of {} from {}; the nearest values are {} and {}",
+            "\"{label}\" cannot be set to {}: it moves in steps of {} from {}; the nearest values are {} and {}",
             number(x),
             number(step),
             number(min),
@@ -240,7 +240,7 @@ pub(crate) fn unknown(label: &str, programs: &Programs) -> RunError {
     };
     let hint = crate::json::nearest(label, labels)
         .map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
-    RunError(format!("there is no control \"{}\"{hint} ({known})", printable(label)))
+    RunError(format!("the lab has no control \"{}\"{hint} ({known})", printable(label)))
 }
 
 #[cfg(test)]
@@ -270,10 +270,10 @@ mod tests {
         assert_eq!(outcome(&select, Value::Number(4.0)), "ok 4");
         assert_eq!(
             outcome(&select, Value::Number(3.0)),
-            "3 is no option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")"
+            "3 is not an option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")"
         );
         assert!(outcome(&select, "Discrete".into()).starts_with("the text \"Discrete\" is no option"));
-        assert!(outcome(&select, Value::Boolean(true)).starts_with("true is no option"));
+        assert!(outcome(&select, Value::Boolean(true)).starts_with("true is not an option"));
     }
 
     #[test]
@@ -303,7 +303,7 @@ mod tests {
         }
         assert_eq!(
             outcome(&slider, Value::Number(0.35)),
-            "\"m\" cannot stand at 0.35: it moves in steps of 0.2 from 0.1; the nearest values are 0.3 and 0.5"
+            "\"m\" cannot be set to 0.35: it moves in steps of 0.2 from 0.1; the nearest values are 0.3 and 0.5"
         );
         assert!(outcome(&slider, Value::Number(4.95)).ends_with("the nearest values are 4.9 and 5"));
         let outside = "\"m\" goes from 0.1 to 5: 5.1 cannot be chosen";
@@ -312,7 +312,7 @@ mod tests {
             assert!(outcome(&slider, Value::Number(x)).contains("cannot be chosen"), "{x}");
         }
         for given in ["5".into(), Value::Boolean(true)] {
-            assert!(outcome(&slider, given).contains("it takes a number from 0.1 to 5, not"));
+            assert!(outcome(&slider, given).contains("it needs a number from 0.1 to 5, not"));
         }
     }
 

@@ -10,7 +10,7 @@ use crate::monitors::watch::Noticed;
 use crate::rules;
 use labspec_core::{Model, joint, solver};
 
-const GROWS: &str = "the steps make it, not physics: a student sees things leap or swing ever wider, without a word from MuJoCo";
+const GROWS: &str = "the steps create the energy, not the physics: a student sees things leap or swing ever wider, and MuJoCo gives no warning";
 
 /// Friction beyond which the edges of a pyramid have next to nothing left along the normal.
 const SLIPPERY: f64 = 3.0;
@@ -29,7 +29,7 @@ pub(super) fn first(model: &Model, noticed: &Noticed) -> Option<(f64, Breakdown)
 /// Energy that nothing gave, or that a damper gives.
 pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
     let numbers = format!(
-        "energy grows from t = {} s on: {} J that nothing put in, while the start held {} J; most of it moves {}",
+        "energy grows from t = {} s on: {} J without a source, while the start had {} J; most of it moves {}",
         time(g.time),
         two_digits(g.gain),
         two_digits(g.held),
@@ -39,7 +39,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
         Source::Steps => Advice::of(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
         Source::LongSteps(turn) => {
             let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));
-            let cause = format!("a step of {} s does not follow a turn that fast", model.opt.timestep);
+            let cause = format!("a step of {} s cannot follow a turn that fast", model.opt.timestep);
             let advice = Advice { cause: Some(cause), ..Advice::shorter("a slower start") };
             advice.breakdown(rules::ENERGY_GROWS, what, GROWS)
         }
@@ -47,14 +47,14 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
             let of = joint_of(model, dof, &model.jnt_dofadr, joint::nv);
             let damping = model.dof_damping.get(dof).copied().unwrap_or(0.0);
             let what = format!(
-                "the damping of {of} is {}, which is an input without end: it has put in {} J by t = {} s, while the start held {} J",
+                "the damping of {of} is {}, so it feeds energy in without end: it has added {} J by t = {} s, while the start had {} J",
                 two_digits(damping),
                 two_digits(g.gain),
                 time(g.time),
                 two_digits(g.held)
             );
-            let why = "a damper below zero pushes what moves, the harder the faster: a student sees a swing that grows for ever, and no motor";
-            Advice::only("write a `damping` of 0 or more; to drive the joint, write an actuator").breakdown(
+            let why = "the faster a part moves, the harder a negative damper pushes it: a student sees a swing that grows forever without a motor";
+            Advice::only("write a `damping` of 0 or more; use an actuator to drive the joint").breakdown(
                 rules::DAMPER_PUSHES,
                 what,
                 why,
@@ -70,50 +70,49 @@ fn past(model: &Model, p: Past) -> Breakdown {
     let (what, advice) = match p.step {
         Some(step) => (
             format!(
-                "{of} is {beyond} {unit} beyond its limit at t = {} s: one step moves it by {} {unit}, and its range is {range} {unit}",
+                "{of} is {beyond} {unit} beyond its limit at t = {} s: one step moves it by {} {unit}, but its range is {range} {unit}",
                 time(p.time),
                 two_digits(step)
             ),
             Advice {
-                cause: Some("a limit pushes only once a step ends beyond it".into()),
+                cause: Some("a limit pushes only after a step ends beyond it".into()),
                 ..Advice::shorter("a slower arrival at the limit")
             },
         ),
         None => (
             format!(
-                "{of} is pressed {beyond} {unit} beyond its limit from t = {} s on, where its range is {range} {unit}",
+                "{of} is pressed {beyond} {unit} beyond its limit from t = {} s on, and its range is {range} {unit}",
                 time(p.time)
             ),
             Advice::only(
-                "write a stiffer limit (a smaller first number of `solreflimit`), a weaker motor or load, or a range that the joint can keep",
+                "make the limit stiffer (a smaller first number of `solreflimit`), the motor or load weaker, or the range wider",
             ),
         ),
     };
-    let why =
-        "a limit does not hold it: a student sees a joint where it cannot be, without a word from MuJoCo";
+    let why = "the limit does not hold it: a student sees the joint where it cannot be, and MuJoCo gives no warning";
     advice.breakdown(rules::PAST_LIMIT, what, why)
 }
 
 fn through(model: &Model, t: Through) -> Breakdown {
     let [mover, wall] = t.geoms.map(|g| geom(model, g));
     let what = format!(
-        "{mover} passes through {wall} at t = {} s: a step moves it by {} m, and what it passes is {} m thick",
+        "{mover} passes through {wall} at t = {} s: a step moves it by {} m, but the wall is only {} m thick",
         time(t.time),
         two_digits(t.moved),
         two_digits(t.thickness)
     );
     let advice = Advice {
-        cause: Some("contacts are found only where bodies overlap at a step".into()),
+        cause: Some("the engine finds contacts only where bodies overlap at a step".into()),
         ..Advice::shorter("something thicker, or a lower speed")
     };
-    let why = "no step meets the two in contact from the right side: a student sees a wall that holds nothing, without a word from MuJoCo";
+    let why = "no step finds the two in contact from the right side: a student sees a wall that holds nothing, and MuJoCo gives no warning";
     advice.breakdown(rules::PASSES_THROUGH, what, why)
 }
 
 fn sunk(model: &Model, s: Sunk) -> Breakdown {
     let [a, b] = s.geoms.map(|g| geom(model, g));
     let what = format!(
-        "{a} and {b} are {} m deep in each other from t = {} s on, where the thinner one is {} m thick; the contact pushes with {} N",
+        "{a} and {b} overlap by {} m from t = {} s on, but the thinner one is only {} m thick; the contact pushes with {} N",
         two_digits(s.depth),
         time(s.time),
         two_digits(s.thickness),
@@ -123,13 +122,13 @@ fn sunk(model: &Model, s: Sunk) -> Breakdown {
     let most = s.geoms.map(friction).into_iter().fold(0.0, f64::max);
     let help = if model.opt.cone == 0 && most > SLIPPERY {
         format!(
-            "write `cone=\"elliptic\"`, or a friction of 1 instead of {}: with so much of it the edges of a pyramidal cone do not push along the normal",
+            "write `cone=\"elliptic\"`, or a friction of 1 instead of {}: with so much friction, the edges of a pyramidal cone do not push along the normal",
             two_digits(most)
         )
     } else {
-        "write a stiffer contact (a smaller first number of `solref`, with a shorter timestep), a heavier body below or a lighter one above, or a weaker pull".into()
+        "make the contact stiffer (a smaller first number of `solref`, with a shorter timestep), the body below heavier, the one above lighter, or the pull weaker".into()
     };
-    let why = "the contact is softer than the load needs: a student sees things sunk in each other that should rest on each other";
+    let why = "the contact is too soft for the load: a student sees bodies sunk into each other instead of resting on each other";
     Advice::only(help).breakdown(rules::SINKS_IN, what, why)
 }
 
@@ -137,17 +136,17 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
     let iterations =
         if u.iterations == 1 { "1 iteration".into() } else { format!("{} iterations", u.iterations) };
     let what = format!(
-        "the solver stops after {iterations}: from t = {} s on {} % of what contacts, limits and ties have to do is missing, most of it at {}",
+        "the solver stops after {iterations}: from t = {} s on, {} % of the force of contacts, limits and constraints is missing, most of it at {}",
         time(u.time),
         two_digits(100.0 * u.part),
         joint_of(model, u.dof, &model.jnt_dofadr, joint::nv)
     );
     let help = if model.opt.solver == solver::NEWTON {
-        "write `iterations=\"100\"`, as it is without a word in `option`, or milder ratios of masses"
+        "write `iterations=\"100\"`, the default, or use less extreme mass ratios"
     } else {
-        "write `solver=\"Newton\"` and `iterations=\"100\"`, as they are without a word in `option`"
+        "write `solver=\"Newton\"` and `iterations=\"100\"`, the defaults"
     };
-    let why = "forces that should hold things are missing, step after step: a student sees stacks collapse, without a word from MuJoCo";
+    let why = "forces that should hold things are missing, step after step: a student sees stacks collapse, and MuJoCo gives no warning";
     Advice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
 }
 

@@ -103,7 +103,7 @@ pub struct Table {
 
 /// What is said of programs and a model that do not belong together.
 const FOREIGN: &str =
-    "the programs were compiled for another model: nothing was run; compile the lab for this one";
+    "the programs belong to another model, so nothing was run; compile the lab for this one";
 
 impl Table {
     pub(crate) fn new(timestep: f64, probes: impl Iterator<Item = String>) -> Table {
@@ -126,7 +126,7 @@ impl Table {
         self.errors = session.troubles.iter().map(|t| format!("{}: {}", t.text.value, t.message)).collect();
         match session.ended() {
             Some(End::Budget { time }) => self.errors.push(format!(
-                "the run was stopped at t = {time} s: it does more work than a run may; simplify the scene or its programs"
+                "the run was stopped at t = {time} s: the work budget ran out; simplify the scene or its programs"
             )),
             Some(End::Interrupted) => {
                 let time = super::time(session.world.data.time());

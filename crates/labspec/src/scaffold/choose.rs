@@ -120,9 +120,11 @@ pub(super) fn choose<'t, 'l>(
     }
     best.ok_or_else(|| match relations.iter().flatten().count() {
         0 | 1 => {
-            "the words of its options say nothing that could be compared: write the conditions by hand".into()
+            "the words of its options state nothing that can be compared: write the conditions by hand".into()
         }
-        _ => "no measure of the lab tells the options apart in the runs that the question names".to_string(),
+        _ => {
+            "no measure of the lab distinguishes the options in the runs that the question names".to_string()
+        }
     })
 }
 

@@ -75,7 +75,9 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
             Some(verify) => {
                 ScaffoldOutcome::Proposed { verify, values: Vec::new(), undecided: Vec::new(), verdict: None }
             }
-            None => ScaffoldOutcome::Open("no number of the text comes from it: nothing to quote".into()),
+            None => ScaffoldOutcome::Open(
+                "no number of the text comes from this lab, so there is nothing to quote".into(),
+            ),
         };
         all.push(Scaffold { name: format!("lab {address}"), span: lab.span.clone(), found });
     }
@@ -90,7 +92,7 @@ pub fn scaffold(lesson: &Lesson, models: &Models, tell: &mut dyn FnMut(&str)) ->
             tell(&name);
             let found = match &question.verify {
                 Some(_) => ScaffoldOutcome::Open(
-                    "it has a `verify` already, without a condition for each option".into(),
+                    "it already has a `verify`, but without a condition for each option".into(),
                 ),
                 None => propose(lesson, question, &found, &stage),
             };
@@ -111,7 +113,7 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Sta
             let labs = labs(question, found);
             if labs.is_empty() {
                 return ScaffoldOutcome::Open(
-                    "there is no lab that it could be run in: write one under `verify`".into(),
+                    "there is no lab to run it in: write one under `verify`".into(),
                 );
             }
             let numbers: Vec<_> = found.numbers.iter().map(|n| n.stated.clone()).collect();
@@ -214,7 +216,7 @@ fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
         };
     }
     ScaffoldOutcome::Open(
-        "no run of the lesson's labs and no formula of the explanation has this value".into(),
+        "no run of the labs of the lesson, and no formula of the explanation, gives this value".into(),
     )
 }
 

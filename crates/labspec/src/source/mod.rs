@@ -180,7 +180,7 @@ pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> 
     String::from_utf8(bytes).map_err(|e| {
         let good = e.utf8_error().valid_up_to();
         let line = 1 + e.as_bytes().iter().take(good).filter(|&&b| b == b'\n').count();
-        format!("{shown}, line {line}: not UTF-8; save the file with the encoding UTF-8")
+        format!("{shown}, line {line}: not UTF-8; save the file as UTF-8")
     })
 }
 

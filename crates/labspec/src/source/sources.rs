@@ -142,7 +142,9 @@ impl Sources {
         match self {
             Sources::Given(texts) if texts.is_empty() => Err("only this lesson was given".into()),
             Sources::Given(texts) => match texts.get(&plain(path)) {
-                Some(text) if text.len() as u64 > most => Err(format!("{what} may have {most} bytes")),
+                Some(text) if text.len() as u64 > most => {
+                    Err(format!("{what} can have at most {most} bytes"))
+                }
                 Some(text) => Ok(text.clone()),
                 None => Err("that lesson was not given".into()),
             },

@@ -302,9 +302,11 @@ fn reported(session: &Session<'_>) -> Vec<Fault> {
     for warning in [Warning::Inertia, Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull] {
         let Some(stat) = warned(session, warning) else { continue };
         let (who, cause) = match warning {
-            Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "what it moves has no inertia above zero"),
-            Warning::BadCtrl => (format!("control {}", stat.lastinfo), "a program writes what is no number"),
-            _ => ("the whole scene".into(), "more bodies touch than contacts are kept"),
+            Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "the moving part has no positive inertia"),
+            Warning::BadCtrl => {
+                (format!("control {}", stat.lastinfo), "a program writes a value that is not a number")
+            }
+            _ => ("the whole scene".into(), "more bodies touch than the engine keeps contacts"),
         };
         list.push(Fault {
             kind: FaultKind::Warns,
@@ -345,7 +347,7 @@ fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
         let unit = if m.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
         let cause = match p.step {
             Some(_) => "one step takes it past its limit before the limit can push",
-            None => "what moves or presses it is stronger than its limit",
+            None => "a motor or load is stronger than its limit",
         };
         let mut evidence = vec![number("beyond", p.beyond, unit), number("range", p.range, unit)];
         evidence.extend(p.step.map(|step| number("way in one step", step, unit)));
@@ -358,7 +360,7 @@ fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
             number("way in one step", t.moved, "m"),
             number("thickness of what it passes", t.thickness, "m"),
         ];
-        let cause = "no step meets the two in contact from the right side";
+        let cause = "no step finds the two in contact from the right side";
         let size = t.moved / t.thickness;
         fault(FaultKind::Tunnels, t.time, format!("{mover} through {wall}"), cause, size, evidence)
     });
@@ -367,7 +369,7 @@ fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
             number("iterations", u.iterations as f64, ""),
             number("missing part of the forces", u.part, ""),
         ];
-        let cause = "the solver makes as many iterations as it may, and its forces do not hold yet";
+        let cause = "the solver reaches its iteration limit before its forces converge";
         fault(FaultKind::Unsolved, u.time, joint_of_dof(m, u.dof), cause, u.part, evidence)
     });
     let sunk = noticed.sunk.map(|s| {
@@ -377,7 +379,7 @@ fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
             number("thickness of the thinner one", s.thickness, "m"),
             number("force", s.force, "N"),
         ];
-        let cause = "the contact is softer than the load needs";
+        let cause = "the contact is too soft for the load";
         fault(FaultKind::Sinks, s.time, format!("{a} and {b}"), cause, s.depth / s.thickness, evidence)
     });
     [past, through, unsolved, sunk].into_iter().flatten().min_by(|a, b| a.time.total_cmp(&b.time))
@@ -387,7 +389,7 @@ fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
 pub(super) fn likely(m: &Model) -> Option<String> {
     let worst = stability::suspects(m).into_iter().next()?;
     Some(format!(
-        "{} is {} for a step of {} s: the largest that can follow it is {} s",
+        "{} is {} for a step of {} s: the largest step that works is {} s",
         run::owner(m, &worst),
         run::how_stiff(&worst),
         m.opt.timestep,

@@ -76,9 +76,9 @@ fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
 fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Fault {
     let own = thickness(m, g);
     let cause = if way > own {
-        "since it was last above the surface it moved farther than it is thick: no step saw it touch"
+        "since it was last above the surface it moved farther than it is thick, so no step found a contact"
     } else {
-        "the contact is too weak to hold it: it is pressed below the surface"
+        "the contact is too weak to hold it, so it is pressed below the surface"
     };
     Fault {
         kind: FaultKind::Tunnels,

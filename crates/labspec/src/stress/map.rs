@@ -101,9 +101,7 @@ fn values(case: &StressCase<'_>, label: &str) -> Result<(usize, Vec<Value>), Run
         }
         ControlKind::Select { options, .. } => options.iter().take(MOST).map(|o| scalar(&o.value)).collect(),
         ControlKind::Button { .. } => {
-            return Err(RunError(format!(
-                "\"{label}\" is a button: a map is drawn over sliders and selects"
-            )));
+            return Err(RunError(format!("\"{label}\" is a button: a map needs sliders and selects")));
         }
     };
     Ok((i, list))

@@ -169,7 +169,7 @@ fn search(
     let limit = limit.ok_or(if set {
         "which a program of the lab sets itself"
     } else {
-        "which takes more work than it may"
+        "which needs more work than allowed"
     })?;
     let start = case.start(&case.base, RUN).world.model;
     let bound = search::largest(raised.most, factor, |x| {

@@ -24,27 +24,27 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
         FaultKind::Silent => (
             rules::RUNS_AWAY,
             "runs away",
-            "no number is above what the engine takes, so nobody warns: a student sees something vanish from the picture",
+            "every number stays within the limits of the engine, so there is no warning: a student sees something leave the picture",
         ),
         FaultKind::Tunnels => (
             rules::PASSES_THROUGH,
             "pass",
-            "no step sees them touch in time: a student sees one go through the other",
+            "no step finds them in contact in time: a student sees one pass through the other",
         ),
         FaultKind::Penetrates => (
             rules::PRESSED_DEEP,
             "are pressed deep into each other",
-            "a student who finds this setting sees bodies inside each other; the text may speak of it, or it may be an accident",
+            "a student who finds this setting sees bodies inside each other; the text may intend it, or it may be an accident",
         ),
         FaultKind::Chatters => (
             rules::CHATTERS,
-            "touch and part again and again, while nothing moves",
-            "forces that jump from step to step are those of the timestep: a plot of them is noise",
+            "touch and separate again and again, while nothing moves",
+            "forces that jump from step to step come from the timestep, so a plot of them shows only noise",
         ),
         FaultKind::Drifts => (
             rules::CREEPS,
-            "creeps, though it seems to rest",
-            "a student who waits sees it slide, where the text may say that friction holds it",
+            "creeps, although it seems to rest",
+            "a student who waits sees the body slide, even if the text says that friction holds it",
         ),
         _ => return None,
     };
@@ -54,7 +54,7 @@ pub(crate) fn describe(fault: &Fault) -> Option<Breakdown> {
         why,
         cause: Some(fault.cause.clone()),
         shorter: Shorter::No,
-        instead: "`labspec stability` makes these runs longer, and tries what helps".into(),
+        instead: "run `labspec stability`, which makes these runs longer and tests remedies".into(),
     })
 }
 

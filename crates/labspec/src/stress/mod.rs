@@ -168,10 +168,9 @@ pub fn probe(
         work: 0,
     };
     if !case.jumps && bodies::pairs(model, watch::MOST_PAIRS).1 {
-        report.left_out.push(format!(
-            "tunnelling is watched between the first {} pairs of geoms only",
-            watch::MOST_PAIRS
-        ));
+        report
+            .left_out
+            .push(format!("only the first {} pairs of geoms are watched for tunnelling", watch::MOST_PAIRS));
     }
     let mut left = WORK;
     let mut own = f64::INFINITY;

@@ -207,7 +207,7 @@ fn on_grid(min: f64, step: f64, k: f64) -> f64 {
 }
 
 fn ends(control: &Control, last: f64) -> String {
-    format!("\"{}\" that goes no farther than {}", control.label.value, Value::Number(last))
+    format!("a smaller range of \"{}\", up to {}", control.label.value, Value::Number(last))
 }
 
 /// Whether a run shows nothing that breaks but what was there before besides the finding.

@@ -179,7 +179,7 @@ fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fa
         kind: FaultKind::Drifts,
         time: since,
         who,
-        cause: "friction is soft: what it holds creeps, slowly and for ever".into(),
+        cause: "friction is soft: what it holds creeps, slowly and forever".into(),
         evidence: vec![
             Evidence { name: "speed", value: way / time, unit: speed },
             Evidence { name: "way", value: way, unit },

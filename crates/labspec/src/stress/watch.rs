@@ -277,13 +277,13 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     let [thick, own] = [thickness(m, p), thickness(m, g)];
     let cause = if way > thick + own {
         format!(
-            "in one step of {} s it moves farther than both are thick: no step sees them touch",
+            "in one step of {} s it moves farther than both are thick, so no step finds a contact",
             crate::run::two_digits(h)
         )
     } else if way > thick {
         "in one step it moves farther than the other is thick, and is pushed out on the far side".to_string()
     } else {
-        "the contact is too weak to hold it: it is pressed to the other side".to_string()
+        "the contact is too weak to hold it, so it is pressed to the other side".to_string()
     };
     Fault {
         kind: FaultKind::Tunnels,
@@ -333,7 +333,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
 fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
     let [g, p] = t.geoms;
     let cause = super::case::likely(m).unwrap_or_else(|| {
-        format!("the contact is too hard or too little damped for a step of {} s", m.opt.timestep)
+        format!("the contact is too hard, or has too little damping, for a step of {} s", m.opt.timestep)
     });
     Fault {
         kind: FaultKind::Chatters,

@@ -102,7 +102,7 @@ impl Wild {
             time,
             who: super::case::joint_of_dof(m, dof),
             cause: super::case::likely(m)
-                .unwrap_or_else(|| "it grows exponentially, and nobody warned".into()),
+                .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![
                 Evidence { name: "speed", value: speed, unit },
                 Evidence { name: "sensible bound", value: bound, unit },

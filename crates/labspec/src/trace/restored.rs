@@ -16,7 +16,7 @@ pub(super) fn with(mut all: Vec<Trial>, lab: &Lab, model: &Model, programs: &Pro
     let Some(statements) = statements(lab, model, programs) else { return all };
     let again = |(at, trial): (usize, &Trial)| {
         (at == 0 || !trial.press.is_empty()).then(|| Trial {
-            words: format!("{}, with the model as its file has it", trial.words),
+            words: format!("{}, with the model as in its file", trial.words),
             restored: Some(statements.clone()),
             ..trial.clone()
         })

@@ -200,10 +200,10 @@ fn options(
     let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) =
         (question.right_option(), &question.kind)
     else {
-        return Answer::failed("the question has no right option");
+        return Answer::failed("the question has no correct option");
     };
     if verify.options.len() != options.len() {
-        return Answer::failed("there is not one condition per option");
+        return Answer::failed("the number of conditions differs from the number of options");
     }
     let found = match conditions(bound, &outcomes.nominal, verify, true, findings) {
         Ok(found) => found,
@@ -222,32 +222,34 @@ fn options(
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
 
     if open.contains(&answer) {
-        return done(Verdict::Failed, format!("answer {} is the one that is not decided", name(answer)));
+        return done(Verdict::Failed, format!("answer {} is not decided by this evidence", name(answer)));
     }
     if !held.contains(&answer) {
         let message = format!("the simulation refutes answer {}", name(answer));
         let mut f = Finding::error(rules::ANSWER_REFUTED, keyed.span.clone(), message.clone())
-            .why("a student who predicts right is told that they are wrong")
+            .why("a student who predicts the simulation correctly is graded as wrong")
             .related(condition(answer), format!("this condition {}", words(answer)));
         f = match held.as_slice() {
-            [] => f.help("no condition holds: correct the conditions, or the model that they are about"),
+            [] => f.help("correct the conditions, or the model: no condition holds"),
             [one] => f
-                .help(format!("what holds is answer {}", name(*one)))
-                .related(condition(*one), format!("this one {}", words(*one)))
+                .help(format!("correct the answer or the conditions: the true option is {}", name(*one)))
+                .related(condition(*one), format!("this condition {}", words(*one)))
                 .guess(keyed.span.clone(), one.to_string()),
-            all => f.help(format!("what holds is {}", names(all))),
+            all => {
+                f.help(format!("correct the answer or the conditions: the true options are {}", names(all)))
+            }
         };
         findings.push(f);
         return done(Verdict::Refuted, message);
     }
     if held.len() > 1 {
         let others: Vec<usize> = held.iter().copied().filter(|&i| i != answer).collect();
-        let message = format!("besides answer {}, {} holds too", name(answer), names(&others));
+        let message = format!("besides answer {}, {} is also true", name(answer), names(&others));
         let mut f = Finding::error(rules::ANSWER_AMBIGUOUS, keyed.span.clone(), message.clone())
-            .why("a student who chooses the other one is right and is told otherwise")
-            .help("word the options, or write their conditions, so that exactly one can hold");
+            .why("a student who picks the other true option is graded as wrong")
+            .help("rewrite the options or their conditions, so that exactly one can hold");
         for i in others {
-            f = f.related(condition(i), format!("this condition {} too", words(i)));
+            f = f.related(condition(i), format!("this condition also {}", words(i)));
         }
         findings.push(f);
         return done(Verdict::Ambiguous, message);
@@ -258,7 +260,7 @@ fn options(
         return done(Verdict::Failed, reason);
     }
     if open.len() + 1 == weights.len() {
-        return done(Verdict::Failed, "none of the other options is decided".to_string());
+        return done(Verdict::Failed, "no other option is decided".to_string());
     }
     let mut weights = weights.clone();
     let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
@@ -275,7 +277,7 @@ fn options(
                 (i, format!("then the condition of {} {}", name(i), now.describe()))
             }
         };
-        let now = format!("with the lesson's own numerics this {}", words(i));
+        let now = format!("with the numerics of the lesson, this {}", words(i));
         Some(fragile(keyed.span.clone(), how, &what).related(condition(i), now))
     };
     if let Err((verdict, reason)) =
@@ -381,7 +383,7 @@ fn survives(
             }
             _ => {
                 findings.push(too_much(place.clone(), how));
-                Err((Verdict::Failed, format!("the work of a check is spent before it is tried {how}")))
+                Err((Verdict::Failed, format!("the work budget ran out before testing it {how}")))
             }
         }
     };
@@ -412,7 +414,7 @@ fn value(
     let (Some((answer, tol)), QuestionKind::Numeric { answer: Some(keyed), .. }) =
         (question.numeric(), &question.kind)
     else {
-        return Answer::failed("the question asks for no number");
+        return Answer::failed("the question does not ask for a number");
     };
     let found = match decided(bound, &outcomes.nominal, text, findings) {
         Ok(found) => found,
@@ -434,18 +436,17 @@ fn value(
     let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
     let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
     if let quote::AnswerUnit::Unread(asked_in, gives) = &unit {
-        let message =
-            format!("\"{asked_in}\" is no unit that is known here, and the expression gives {gives}");
+        let message = format!("\"{asked_in}\" is not a known unit, but the expression gives {gives}");
         findings.push(
             Finding::error(rules::VERIFY_ANSWER, keyed.span.clone(), message.clone())
-                .why("whether the answer is in this unit was compared with nothing")
+                .why("the unit of the answer could not be compared")
                 .help("write the unit by its symbol: `s`, `mm`, `m/s^2`")
                 .related(text.span(), format!("this is in {gives}")),
         );
         return Answer::failed(message);
     }
     if let quote::AnswerUnit::Wrong(asked_in, gives) = &unit {
-        let message = format!("the question asks in {asked_in}, the expression gives {gives}");
+        let message = format!("the question asks in {asked_in}, but the expression gives {gives}");
         findings.push(wrong_unit(keyed.span.clone(), text, &message));
         return Answer { verdict: Verdict::Refuted, reason: message, weights: Vec::new() };
     }
@@ -464,15 +465,15 @@ fn value(
     }];
     let done = |verdict, reason: String| Answer { verdict, reason, weights: weights.clone() };
     if !right(computed) {
-        let message = format!("the answer is {answer}, the simulation gives {}", significant(computed));
+        let message = format!("the answer is {answer}, but the simulation gives {}", significant(computed));
         findings.push(
             Finding::error(rules::ANSWER_REFUTED, keyed.span.clone(), message.clone())
                 .why(format!(
-                    "they differ by {}, the tolerance is {}",
+                    "they differ by {}, but the tolerance is {}",
                     significant((computed - answer).abs()),
                     significant(tol)
                 ))
-                .help("correct the answer, or the expression that it is compared with")
+                .help("correct the answer, or its expression")
                 .related(text.span(), format!("this is {}", significant(computed))),
         );
         return done(Verdict::Refuted, message);
@@ -484,19 +485,16 @@ fn value(
     for mistake in wrong {
         let taken = match taken(bound, &outcomes.nominal, mistake, findings) {
             Ok(taken) => taken,
-            Err(reason) => return done(Verdict::Failed, format!("a wrong value is not known: {reason}")),
+            Err(reason) => return done(Verdict::Failed, format!("a value of `wrong` is unknown: {reason}")),
         };
         let taken = unit.factor() * taken;
         if right(taken) {
-            let message = format!(
-                "the tolerance takes {} for right, which is what a mistake gives",
-                significant(taken)
-            );
+            let message = format!("the tolerance accepts {}, which a mistake gives", significant(taken));
             findings.push(
                 Finding::error(rules::ANSWER_AMBIGUOUS, mistake.span(), message.clone())
-                    .why("a student who makes this mistake is told that they are right")
+                    .why("a student who makes this mistake is graded as correct")
                     .help(format!(
-                        "a tolerance below {} tells them apart",
+                        "make the tolerance smaller than {} to reject it",
                         significant((taken - answer).abs())
                     ))
                     .related(keyed.span.clone(), "this is the answer"),
@@ -513,9 +511,9 @@ fn value(
                 weights.iter_mut().for_each(|w| w.widen(Some(margin(x))));
                 return None;
             }
-            Ok(x) => format!("then it is {}, and the tolerance is {}", significant(x), significant(tol)),
+            Ok(x) => format!("then it is {}, but the tolerance is {}", significant(x), significant(tol)),
         };
-        let own = format!("with the lesson's own numerics this is {}", significant(computed));
+        let own = format!("with the numerics of the lesson, this is {}", significant(computed));
         Some(fragile(keyed.span.clone(), how, &what).related(text.span(), own))
     };
     if let Err((verdict, reason)) =
@@ -531,7 +529,7 @@ fn value(
 }
 
 /// Of a right number whose unit is held to nothing.
-const UNIT_OPEN: &str = "its unit was compared with nothing: what the expression measures is not certain";
+const UNIT_OPEN: &str = "its unit could not be compared, because the unit of the expression is uncertain";
 
 /// What a mistake gives, by an expression under `wrong`.
 fn taken(
@@ -568,25 +566,25 @@ fn no_quantity(text: &Text, value: &Value) -> Finding {
     Finding::error(
         rules::CLAIM_WITHOUT_NUMBER,
         text.span(),
-        format!("this expression is {what}, and a number is asked for"),
+        format!("this expression is {what}, but a number is needed"),
     )
-    .why("a condition counts as 1 or 0: an answer of 1 would be right whenever it holds")
-    .help("write the number that the answer states: `final(speed)`")
+    .why("a condition counts as 1 or 0: an answer of 1 would be correct whenever it holds")
+    .help("write the number of the answer: `final(speed)`")
 }
 
 /// The unit of a question that is not that of its value.
 fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
     Finding::error(rules::ANSWER_REFUTED, span, message)
-        .why("a student who answers in this unit is told that they are wrong")
+        .why("a student who answers in this unit is graded as wrong")
         .help("correct the unit of the question, or convert the expression to it")
         .related(text.span(), "the expression")
 }
 
 /// An expression that gives no number where one is claimed.
 fn no_value(text: &Text, x: f64) -> Finding {
-    let message = format!("this expression gives {}, which is no number to compare with", shown(x));
+    let message = format!("this expression gives {}, which is not a number", shown(x));
     Finding::error(rules::CLAIM_WITHOUT_NUMBER, text.span(), message)
-        .why("nothing can be compared with it: its event may never happen in the run, or something is divided by zero")
+        .why("there is no number to compare with: its event may never happen in the run, or it divides by zero")
         .help("make the run longer, or correct the expression")
 }
 
@@ -596,16 +594,14 @@ fn shown(x: f64) -> &'static str {
 
 /// The work of a check was spent before an answer was put to all numerics.
 pub(super) fn too_much(span: Range<usize>, how: &str) -> Finding {
-    let what = format!(
-        "whether the answer holds {how} was not tried: the runs of this lesson take more work than a check may do"
-    );
+    let what = format!("the work budget ran out before testing whether the answer holds {how}");
     Finding::error(rules::RUN_BREAKS, span, what)
-        .why("an answer that holds under one numerics alone is no answer")
-        .help("make the runs shorter, or fewer of them in one lesson")
+        .why("an answer that holds only under one choice of numerics is not an answer")
+        .help("make the runs shorter, or use fewer of them in one lesson")
 }
 
 fn fragile(span: Range<usize>, how: &str, what: &str) -> Finding {
     Finding::warning(rules::ANSWER_FRAGILE, span, format!("the answer holds, but not {how}: {what}"))
-        .why("it depends on numerics that the question does not mention: a student with another setting sees something else")
-        .help("state the setting in the question and `set` it in the run, or ask about what does not depend on it")
+        .why("it depends on numerics that the question does not mention: a student with other settings sees something else")
+        .help("state the setting in the question and `set` it in the run, or ask about something that does not depend on it")
 }

@@ -343,8 +343,8 @@ impl<'a> BoundVerify<'a> {
             stop.and_then(|t| keep(t, Compiler::new(&names(Scope::Measure), globals).expression(&t.value)));
         if let Some(stop) = stop.as_ref().filter(|stop| !stop.program.aggregates().is_empty()) {
             findings.push(
-                Finding::error(rules::RUN_IMPOSSIBLE, stop.text.span(), "`stop` looks at one sample, not at a whole run")
-                    .why("what becomes of all samples is known only when the run is over")
+                Finding::error(rules::RUN_IMPOSSIBLE, stop.text.span(), "`stop` must look at one sample, not at a whole run")
+                    .why("a value over all samples is known only after the run")
                     .help("write the condition itself: `contact('ball', 'floor')`, not `first(contact('ball', 'floor'))`"),
             );
             good = false;
@@ -459,12 +459,8 @@ impl<'a> BoundVerify<'a> {
         let (Some(run), None) = (runs.next(), runs.next()) else {
             let place = find.run.as_ref().unwrap_or(&find.name).span();
             findings.push(
-                Finding::error(
-                    rules::RUN_IMPOSSIBLE,
-                    place,
-                    "a search is made in one run, which is none of a sweep",
-                )
-                .help("name the run: \"run\": \"coarse\""),
+                Finding::error(rules::RUN_IMPOSSIBLE, place, "a search needs a single run, not a sweep")
+                    .help("name the run: \"run\": \"coarse\""),
             );
             return None;
         };

@@ -19,7 +19,7 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
     let stage = court.bound.stage();
     stage.spend(LOOK * court.shown.cells() as u64);
     if stage.left() == 0 {
-        let spent = "the work of a check was spent before this column";
+        let spent = "the work budget ran out before this column";
         let told = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
             .why("nothing was compared")
             .help("make the runs shorter, or claim fewer columns in one lesson");
@@ -29,7 +29,7 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
         Ok(cells) => cells,
         Err([message, help]) => {
             let told = Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message)
-                .why("nothing was compared: the text was changed, or says it in other words")
+                .why("nothing was compared: the text has changed, or uses other words")
                 .help(help);
             return vec![refused(&claim.column, told, findings)];
         }
@@ -66,13 +66,13 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
         let member = values.iter().position(|x| is_key(*x));
         let Some(member) = member else {
             let other = unit_of_key.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
-                format!(": the column is in {}, and the values are in another unit", unit.text)
+                format!(": the column is in {}, but the values are in another unit", unit.text)
             });
-            let message = format!("nothing was run for the row \"{}\"{other}", key.value);
+            let message = format!("no run covers the row \"{}\"{other}", key.value);
             let told = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
                 .why("the number in this row was compared with nothing")
-                .help("run the sweep with this value, too, or correct the row")
-                .related(list.span(), "these are the values");
+                .help("add this value to the sweep, or correct the row")
+                .related(list.span(), "the values of the sweep");
             all.push(refused(&text, told, findings));
             continue;
         };
@@ -104,24 +104,25 @@ fn cell(
         }
     };
     let Some((_, expr)) = words.iter().find(|(word, _)| quote::same(word.as_str(), text.as_str())) else {
-        let message = format!("nothing says when \"{}\" is right", text.value);
+        let message = format!("no condition belongs to \"{}\"", text.value);
         let known: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
         let told = Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("this cell was compared with nothing")
-            .help(format!("write one of {}, or a condition for this word", known.join(", ")));
+            .help(format!("write one of {}, or add a condition for this word", known.join(", ")));
         return refused(text, told, findings);
     };
     if words.len() > MOST_WORDS {
-        let message = format!("a column has {} words, and at most {MOST_WORDS} are read", words.len());
+        let message =
+            format!("a column has {} different words, but at most {MOST_WORDS} are allowed", words.len());
         let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("nothing was compared")
             .help("claim its cells one by one, with `row`");
         return refused(text, told, findings);
     }
     if !quote::parts(text.as_str(), 0).is_empty() {
-        let message = format!("\"{}\" holds a number, which no condition checks", text.value);
+        let message = format!("\"{}\" contains a number that no condition checks", text.value);
         let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
-            .why("whatever the number says, the cell would be called right")
+            .why("the cell would count as right whatever its number")
             .help("quote it under `says`: an expression for its number, and a condition for its words");
         return refused(text, told, findings);
     }
@@ -131,7 +132,7 @@ fn cell(
         Err(reason) => return Quote::unclear(text, &reason),
     };
     if !given.is_condition_of(court, &expr, findings) {
-        return Quote::unclear(text, "what decides about the word is no condition");
+        return Quote::unclear(text, "the expression for the word is not a condition");
     }
     if given.holds() {
         for (word, other) in words.iter().filter(|(word, _)| !quote::same(word.as_str(), text.as_str())) {
@@ -139,9 +140,9 @@ fn cell(
             if Given::of(court, &other, findings).is_ok_and(|given| !given.holds()) {
                 continue;
             }
-            let message = format!("\"{}\" may be right in this row, too", word.value);
+            let message = format!("\"{}\" may also be right in this row", word.value);
             let told = Finding::error(rules::QUOTE_UNCLEAR, other.span(), message)
-                .why("one of several words can be right only where the others are not")
+                .why("one of several words can be right only if the others are wrong")
                 .help("write conditions that exclude each other")
                 .related(text.span(), "the row");
             return refused(text, told, findings);

@@ -124,10 +124,10 @@ fn hold(
                     Finding::error(
                         rules::CLOSED_FORM_UNTRIED,
                         claim.form.span(),
-                        format!("the closed form cannot be tried: {reason}"),
+                        format!("the closed form cannot be tested: {reason}"),
                     )
-                    .why("nothing says whether the trace follows it")
-                    .help("mend the run, or the expression"),
+                    .why("nothing shows whether the trace follows it")
+                    .help("fix the run or the expression"),
                 );
                 return unchecked(&reason);
             }
@@ -148,13 +148,13 @@ fn hold(
             Finding::error(
                 rules::CLOSED_FORM_UNDECIDED,
                 claim.form.span(),
-                format!("the runs do not tell whether this is \"{}\": {remark}", claim.trace.value),
+                format!("the runs do not decide whether the trace follows \"{}\": {remark}", claim.trace.value),
             )
             .why(match &claim.tol {
-                None => "the difference between trace and formula neither vanishes nor stays as the timestep shrinks",
-                Some(_) => "a claim that nothing could refute says nothing of the simulation",
+                None => "the difference between the trace and the formula neither vanishes nor settles as the timestep shrinks",
+                Some(_) => "a claim that nothing could refute says nothing about the simulation",
             })
-            .help("state how far they may be apart: {\"is\": \"…\", \"tol\": 0.001}"),
+            .help("state the allowed difference: {\"is\": \"…\", \"tol\": 0.001}"),
         );
     }
     ClosedForm { trace: claim.trace.value.clone(), span: claim.trace.span(), state, remark }
@@ -180,10 +180,10 @@ pub(super) fn bind<'b>(
     findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &claim.form)));
     let form = compiled.program.map(|program| Bound { text: claim.form.clone(), program });
     let traces: Option<Vec<&Bound>> = probes.into_iter().collect();
-    let (traces, form) = traces.zip(form).ok_or("the trace or its closed form has mistakes")?;
+    let (traces, form) = traces.zip(form).ok_or("the trace or its closed form has errors")?;
     if let Some(what) = reads_the_run(&form.program, programs) {
         findings.push(no_formula(claim, &what));
-        return Err("the closed form reads what the simulation computes");
+        return Err("the closed form reads computed values of the simulation");
     }
     Ok((traces, form))
 }
@@ -201,7 +201,7 @@ fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
     }
     if effects.reads_everything || effects.calls_values || effects.calls.iter().any(|f| functions::reads(*f))
     {
-        return Some("a function that looks at the simulation".to_string());
+        return Some("a function that reads the simulation".to_string());
     }
     // What the lab keeps in `ctx` or in the model while it runs may be anything.
     let running = programs
@@ -230,7 +230,7 @@ fn is_time(access: &Access) -> bool {
 fn no_formula(claim: &Exact, what: &str) -> Finding {
     let message = format!("this closed form reads {what}");
     Finding::error(rules::CLOSED_FORM_UNTRIED, claim.form.span(), message)
-        .why("a trace that is compared with what the same run computes follows it whatever happens")
+        .why("the trace would follow it in every run, because the same run computes both")
         .help("write a formula of `data.time` and parameters of the lab")
 }
 
@@ -238,11 +238,11 @@ fn no_such_trace(claim: &Exact, lab: &Lab) -> Finding {
     let labels: Vec<&str> = lab.traces().map(|t| t.label.as_str()).collect();
     let message = format!("the lab has no trace \"{}\"", claim.trace.value);
     let finding = Finding::error(rules::UNKNOWN_TRACE, claim.trace.span(), message)
-        .why("a closed form belongs to a trace; this one is held to nothing");
+        .why("the closed form has no trace to compare with");
     match nearest(&claim.trace.value, labels.iter().copied()) {
         Some(right) => finding.help(format!("did you mean \"{right}\"?")),
         None if labels.is_empty() => finding.help("add a plot with a trace of this label"),
-        None => finding.help(format!("its traces are \"{}\"", labels.join("\", \""))),
+        None => finding.help(format!("use one of its traces: \"{}\"", labels.join("\", \""))),
     }
 }
 
@@ -257,7 +257,7 @@ struct Wrong {
 impl Wrong {
     fn finding(&self, claim: &Exact) -> Finding {
         let message = format!(
-            "\"{}\" is not this: at t = {} s it is {}, and the formula gives {}",
+            "\"{}\" does not follow this: at t = {} s it is {}, but the formula gives {}",
             claim.trace.value,
             significant(self.time),
             significant(self.trace),
@@ -275,12 +275,12 @@ type Judged = (State, String, Option<Wrong>);
 fn within(tol: f64, run: &Differences) -> Judged {
     let (i, worst) = largest(run.times.len(), |i| run.difference(i));
     let apart =
-        format!("they are at most {} apart, the tolerance is {}", significant(worst), significant(tol));
+        format!("they differ by at most {}, the tolerance is {}", significant(worst), significant(tol));
     // Of noise about zero nothing is large.
     let noise = worst <= NOISE;
     if worst <= tol && tol > WIDE * run.size() && !noise {
         let how = format!(
-            "a tolerance of {} takes whatever happens for right, where nothing is larger than {}",
+            "a tolerance of {} accepts everything, because no value exceeds {}",
             significant(tol),
             significant(run.size())
         );
@@ -304,7 +304,7 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     let list = errors.map(significant).join(", ");
     let shrinks = format!("{list} apart at the lab's timestep, half and a quarter of it");
     if errors.iter().all(|e| *e <= rounding) {
-        return (State::True(Evidence::Simulated), "the same but for rounding".into(), None);
+        return (State::True(Evidence::Simulated), "equal except for rounding".into(), None);
     }
     let (i, left) = largest(n, |i| extrapolated(half, quarter, i));
     let (_, unsure) = largest(n, |i| extrapolated(half, quarter, i) - extrapolated(h, half, i));
@@ -314,7 +314,7 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
         // What cannot be told apart within a hundredth of what the trace does is not called the same, and a formula of which
         // the lab itself is far off is not what it shows.
         if unsure > UNSURE * range + rounding {
-            let how = format!("{shrinks}, so that the formula is known to {} only", significant(unsure));
+            let how = format!("{shrinks}, so the formula is confirmed only to {}", significant(unsure));
             return (State::Unchecked, how, None);
         }
         if errors[0] > FAR * range + rounding {
@@ -325,7 +325,7 @@ fn converges(order: i32, h: &Differences, half: &Differences, quarter: &Differen
     }
     if left > 3.0 * unsure + rounding {
         let how = format!(
-            "as the timestep shrinks the difference does not vanish, {} remains of it: the two are {shrinks}",
+            "the difference does not vanish as the timestep shrinks, {} remains: the two are {shrinks}",
             significant(left)
         );
         let difference = extrapolated(half, quarter, i);
@@ -392,20 +392,17 @@ impl ClosedFormRuns<'_> {
         stage.note(session.left_behind());
         if let Some(time) = gap {
             let time = significant(time);
-            return Err(format!("at t = {time} s the trace or the formula is no number"));
+            return Err(format!("at t = {time} s the trace or the formula is not a number"));
         }
         if let Some(End::Budget { time }) = session.ended() {
-            return Err(format!(
-                "the run takes more work than a check may do, and ends at t = {} s",
-                run::time(*time)
-            ));
+            return Err(format!("the work budget ran out at t = {} s", run::time(*time)));
         }
         if let Some(trouble) = session.troubles.first() {
             return Err(trouble.message.clone());
         }
         match (Breakdown::of(&session), session.ended()) {
             (Some(breakdown), _) => Err(format!("the run breaks: {}", breakdown.what)),
-            (None, Some(_)) => Err("the run ends before its time".to_string()),
+            (None, Some(_)) => Err("the run ends early".to_string()),
             (None, None) => Ok(found),
         }
     }

@@ -121,7 +121,7 @@ impl BoundVerify<'_> {
             let name = crate::json::read::named(&run.title());
             match &run.broke {
                 Some(how) if !(expected || excused(place)) => Some(format!("the run {name} breaks: {how}")),
-                None if expected => Some(format!("the run {name} is expected to break, and does not")),
+                None if expected => Some(format!("the run {name} is expected to break, but it does not")),
                 _ => None,
             }
         })
@@ -285,8 +285,8 @@ pub(super) fn outside(text: &Text) -> Finding {
         text.span(),
         format!("`{written}` reads the simulation at no time of the run"),
     )
-    .why("a run has many samples, and nothing says which of them is meant: the number would be that of the lab before it runs")
-    .help("say which sample: `final(…)` at the end, `initial(…)` at the start, `max(…)`, `mean(…)`, or `at(condition, …)`")
+    .why("a run has many samples, and this does not say which one it means: the number would be that of the lab before the run")
+    .help("choose a sample: `final(…)` at the end, `initial(…)` at the start, `max(…)`, `mean(…)`, or `at(condition, …)`")
 }
 
 /// What an expression throws.
@@ -303,8 +303,8 @@ fn no_condition(text: &Text, value: &Value) -> Finding {
         Value::String(_) => "a text".to_string(),
         other => format!("`{other}`"),
     };
-    let message = format!("`{}` gives {what}, and a condition is needed", super::shorten(text.value.trim()));
+    let message = format!("`{}` gives {what}, but a condition is needed", super::shorten(text.value.trim()));
     Finding::error(rules::CONSTANT_CLAIM, text.span(), message)
-        .why("every number but 0 counts as true: it would hold whatever the number says")
+        .why("every number but 0 counts as true, so the claim would hold whatever the number is")
         .help("compare it: `lands < 0.5`, `abs(speed - 2.4) < 0.1`")
 }

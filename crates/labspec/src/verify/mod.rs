@@ -287,8 +287,8 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
         if run.broke.is_some() && !expected {
             findings.push(
                 Finding::error(rules::RUN_BREAKS, span.clone(), format!("the run {} breaks: {broke}", crate::json::read::named(name)))
-                    .why("what it measures is evidence of nothing")
-                    .help("mend the run; if the lesson is about this, write \"expect\": \"breaks\" in the run, or a condition that reads its `warnings`"),
+                    .why("its measures prove nothing")
+                    .help("fix the run; if the lesson is about the break, write \"expect\": \"breaks\" in the run, or a condition that reads its `warnings`"),
             );
         }
         if run.broke.is_none() && expected {
@@ -296,10 +296,13 @@ fn runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>)
                 Finding::error(
                     rules::DOES_NOT_BREAK,
                     span.clone(),
-                    format!("the run {} is expected to break, and does not", crate::json::read::named(name)),
+                    format!(
+                        "the run {} is expected to break, but it does not",
+                        crate::json::read::named(name)
+                    ),
                 )
-                .why("the lesson shows something else than it says")
-                .help("remove \"expect\": \"breaks\", or set the run up so that it breaks"),
+                .why("the lesson does not show what it says")
+                .help("delete \"expect\": \"breaks\", or change the run so that it breaks"),
             );
         }
         all.push(RunReport { name: name.to_string(), span, broke: run.broke.clone(), expected });
@@ -341,10 +344,10 @@ fn decided(
     findings: &mut Vec<Finding>,
 ) -> Result<found::MeasuredValue, String> {
     if condition::is_bare_constant(&text.value) {
-        let message = format!("`{}` is a bare constant: evidence of nothing", text.value.trim());
+        let message = format!("`{}` is a constant and proves nothing", text.value.trim());
         findings.push(
             Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
-                .why("it is the same whatever the simulation does, so nothing is checked by it")
+                .why("it gives the same result whatever the simulation does, so it checks nothing")
                 .help("compare something that a run measures, or write the formula that gives the number"),
         );
         return Err(message);
@@ -361,12 +364,14 @@ fn decided(
 
 /// An expression whose value is the same whatever was measured.
 fn empty(text: &Text, findings: &mut Vec<Finding>) -> String {
-    let message =
-        format!("`{}` is the same whatever the runs give: evidence of nothing", shorten(text.value.trim()));
+    let message = format!(
+        "`{}` gives the same result whatever the runs give, so it proves nothing",
+        shorten(text.value.trim())
+    );
     findings.push(
         Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
-            .why("other values were tried in place of what was measured, and none of them changed it")
-            .help("compare what a run measures with something that it could fail to reach"),
+            .why("other values in place of the measured ones did not change it")
+            .help("compare a measure of a run with something that it could miss"),
     );
     message
 }
@@ -375,11 +380,11 @@ fn empty(text: &Text, findings: &mut Vec<Finding>) -> String {
 fn undecided_by_nan(text: &Text, undecided: &found::Undecided, findings: &mut Vec<Finding>) -> String {
     let part = &undecided.part;
     let because = undecided.because.as_deref();
-    let why = because.unwrap_or("a measure is NaN when its event never happens in the run").to_string();
+    let why = because.unwrap_or("a measure is NaN if its event never happens in the run").to_string();
     findings.push(
         Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares NaN"))
-            .why(format!("what follows from NaN says nothing about the claim: {why}"))
-            .help("make the run longer, correct the measure, or ask for it: `isNaN(x)`"),
+            .why(format!("a comparison with NaN says nothing about the claim: {why}"))
+            .help("make the run longer, correct the measure, or test for it with `isNaN(x)`"),
     );
     format!("`{part}` compares NaN")
 }

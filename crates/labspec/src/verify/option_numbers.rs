@@ -39,7 +39,7 @@ pub(super) fn check(
         };
         findings.push(
             Finding::error(rules::QUOTE_WRONG, option.span(), message.clone())
-                .why("the option says one number, and what decides about it asks for another")
+                .why("the option states one number, but its condition asks for another")
                 .help("correct the number in the option, or its condition")
                 .related(condition.span(), "the condition of this option"),
         );
@@ -90,7 +90,7 @@ fn contradiction(
     let slack = 1e-9 * said.low.abs().max(said.high.abs()).min(f64::MAX);
     let slack = if slack.is_finite() { slack } else { 0.0 };
     if said.high < low - slack || said.low > high + slack {
-        return Some(format!("the option says {}, and its condition {}", said.text, range(low, high)));
+        return Some(format!("the option says {}, but its condition {}", said.text, range(low, high)));
     }
     // A number that the condition itself compares with is what the option means.
     let named = |x: f64| x.is_finite() && said.low <= x && x <= said.high;
@@ -99,9 +99,7 @@ fn contradiction(
     }
     let x = bound.find(outcome, &text, &mut Vec::new())?.value.to_number() * factor;
     let off = x.is_finite() && (x < said.low - slack || x > said.high + slack);
-    off.then(|| {
-        format!("the option says {}, and what its condition compares is {}", said.text, significant(x))
-    })
+    off.then(|| format!("the option says {}, but its condition compares {}", said.text, significant(x)))
 }
 
 /// Of an option that states a ratio, and a condition that asks for another one.
@@ -110,7 +108,7 @@ fn no_such_ratio(option: &Text, asked: &Asked) -> Option<String> {
     let slack = 0.05 * asked.low.abs().max(asked.high.abs());
     let fits = |x: &f64| asked.low - slack <= *x && *x <= asked.high + slack;
     let none = !said.may_be.iter().any(fits);
-    none.then(|| format!("the option says {}, and its condition {}", said.text, range(asked.low, asked.high)))
+    none.then(|| format!("the option says {}, but its condition {}", said.text, range(asked.low, asked.high)))
 }
 
 /// `asks for 1.13 to 1.33`

@@ -51,7 +51,7 @@ pub(super) fn hold(
     findings: &mut Vec<Finding>,
 ) {
     let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else {
-        *answer = Answer::failed("there is no lab with the sliders that it is claimed over");
+        *answer = Answer::failed("the lab does not have the sliders of `over`");
         return;
     };
     let axes: Result<Vec<Axis<'_>>, Box<Finding>> =
@@ -60,7 +60,7 @@ pub(super) fn hold(
         Ok(axes) => axes,
         Err(wrong) => {
             findings.push(*wrong);
-            *answer = Answer::failed("the space that it is claimed over cannot be tried");
+            *answer = Answer::failed("the range of `over` cannot be tested");
             return;
         }
     };
@@ -77,14 +77,14 @@ pub(super) fn hold(
                 rules::RUN_IMPOSSIBLE,
                 label.span(),
                 format!(
-                    "every run that the conditions read sets \"{}\" itself, so that no other value is tried",
+                    "every run that the conditions read sets \"{}\" itself, so no other value is tested",
                     label.value
                 ),
             )
-            .why("a run keeps what it sets, and the answer would be claimed over values that nobody has seen")
-            .help("leave it out of `set` in the runs that it is to be tried in"),
+            .why("a run keeps what it sets, so the answer would be claimed for values that were never tested")
+            .help("remove it from the `set` of the runs that should test it"),
         );
-        *answer = Answer::failed("the space that it is claimed over is not tried");
+        *answer = Answer::failed("the range of `over` was not tested");
         return;
     }
     let mut space = Space {
@@ -96,13 +96,13 @@ pub(super) fn hold(
         seen: BTreeSet::new(),
     };
     match space.search(findings) {
-        None => *answer = Answer::failed("a run of the space that it is claimed over cannot be made"),
+        None => *answer = Answer::failed("a run in the range of `over` cannot be made"),
         Some(Some((setting, how))) => {
-            let message = format!("the answer does not hold with {setting}: {how}");
+            let message = format!("the answer is false with {setting}: {how}");
             findings.push(
                 Finding::error(rules::COUNTEREXAMPLE, place, message.clone())
-                    .why("a student can set the lab so, and sees something else than the question says")
-                    .help("narrow the range under `over`, or ask about what holds everywhere in it"),
+                    .why("a student can set the lab like this, and sees something different from the keyed answer")
+                    .help("narrow the range under `over`, or ask about something that holds everywhere in it"),
             );
             (answer.verdict, answer.reason) = (Verdict::Refuted, message);
         }
@@ -118,15 +118,15 @@ pub(super) fn hold(
                         axis.label.span(),
                         format!("\"{label}\" changes nothing in the runs that the conditions read"),
                     )
-                    .why("the answer would be claimed over a range that makes no difference to what is measured")
-                    .help("name a slider that these runs depend on, or leave it out of `over`"),
+                    .why("the answer would be claimed over a range that does not affect the measures")
+                    .help("name a slider that these runs depend on, or remove it from `over`"),
                 );
-                *answer = Answer::failed("the range that it is claimed over is not that of what was read");
+                *answer = Answer::failed("the conditions do not read the range of `over`");
                 return;
             }
             let same =
-                if space.seen.len() == 1 { ", and what it reads is the same in all of them" } else { "" };
-            let also = format!("it holds in {count} settings over its range as well{same}");
+                if space.seen.len() == 1 { ", and the measures are the same in all of them" } else { "" };
+            let also = format!("it also holds in {count} settings over its range{same}");
             answer.reason = match answer.reason.as_str() {
                 "" => also,
                 reason => format!("{reason}; {also}"),
@@ -139,13 +139,13 @@ pub(super) fn hold(
 fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<Finding>> {
     let wrong = |what: String| {
         let told = Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
-            .why("only what a student can do is tried")
-            .help("name a slider of the lab, and ends that it reaches");
+            .why("the checker tests only what a student can do")
+            .help("name a slider of the lab, and ends that it can reach");
         Box::new(told)
     };
     let control = lab.control(&label.value);
     let Some(Control { kind: ControlKind::Slider { min, max, .. }, .. }) = control else {
-        return Err(wrong(format!("\"{}\" is no slider of the lab", label.value)));
+        return Err(wrong(format!("\"{}\" is not a slider of the lab", label.value)));
     };
     let step = control.and_then(Control::step).filter(|s| *s > 0.0).unwrap_or((ends[1] - ends[0]) / 1000.0);
     let slack = 1e-9 * step;
@@ -156,7 +156,7 @@ fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<
     let can = |x: &f64| control.is_some_and(|c| settings::value(c, &Value::Number(*x)).is_ok());
     if !reached || !values.iter().all(can) {
         return Err(wrong(format!(
-            "the slider \"{}\" goes from {} to {} in steps of {}: it has no two values from {} to {}",
+            "the slider \"{}\" goes from {} to {} in steps of {}, and has no two values from {} to {}",
             label.value,
             significant(min.value),
             significant(max.value),
@@ -267,10 +267,10 @@ impl Space<'_, '_, '_> {
                     Finding::error(
                         rules::RUN_IMPOSSIBLE,
                         self.verify.span.clone(),
-                        format!("whether the answer holds with {setting} is not known: {why}"),
+                        format!("it is undecided whether the answer holds with {setting}: {why}"),
                     )
-                    .why("it is claimed over a range, and nothing decides it here")
-                    .help("narrow the range under `over`, or measure what has a value everywhere in it"),
+                    .why("the answer is claimed over a range, but nothing decides it here")
+                    .help("narrow the range under `over`, or measure something that has a value everywhere in it"),
                 );
                 None
             }

@@ -208,7 +208,7 @@ impl<'a> Stage<'a> {
         let good = controller.is_none() || lab.controller.is_none() || programs.controller.is_some();
         if !good {
             if findings.len() == before {
-                findings.extend(controller.map(|c| cannot(c.span(), "its controller has mistakes".into())));
+                findings.extend(controller.map(|c| cannot(c.span(), "its controller has errors".into())));
             }
             return None;
         }
@@ -265,7 +265,7 @@ fn keyframe(model: &Model, key: &Scalar, findings: &mut Vec<Finding>) -> Option<
             None => format!("the model has no keyframe {}", named(&t.value)),
         },
         Scalar::Number(n) => format!("the model has no keyframe {}", n.value),
-        Scalar::Bool(..) => "a keyframe is a name or an index".to_string(),
+        Scalar::Bool(..) => "a keyframe must be a name or an index".to_string(),
     };
     let finding = cannot(key.span(), message);
     let near = match key {
@@ -275,11 +275,9 @@ fn keyframe(model: &Model, key: &Scalar, findings: &mut Vec<Finding>) -> Option<
     let list: Vec<&str> = names().take(12).collect();
     findings.push(match (near, model.nkey) {
         (Some(right), _) => finding.help(format!("did you mean `{right}`?")),
-        (None, 0) => finding.help("the model has no keyframes"),
-        (None, n) if list.is_empty() => {
-            finding.help(format!("its keyframes have the indexes 0 to {}", n - 1))
-        }
-        (None, _) => finding.help(format!("its keyframes are {}", list.join(", "))),
+        (None, 0) => finding.help("add a keyframe: the model has none"),
+        (None, n) if list.is_empty() => finding.help(format!("use one of its keyframes, 0 to {}", n - 1)),
+        (None, _) => finding.help(format!("use one of its keyframes: {}", list.join(", "))),
     });
     None
 }

@@ -134,7 +134,7 @@ pub(super) fn ready<'r>(
     // A shorter timestep takes more of them; the work is limited besides.
     if count as f64 * numerics.timestep > MAX_VERIFY_STEPS as f64 {
         refuse(RunError(format!(
-            "it takes {count} steps; a verified run may take {MAX_VERIFY_STEPS}, so that a check ends"
+            "it takes {count} steps, but a verified run may take at most {MAX_VERIFY_STEPS}"
         )));
         return None;
     }
@@ -263,10 +263,9 @@ fn broke(session: &Session<'_>) -> Option<String> {
             End::Threw => "an error froze it".to_string(),
             End::Interrupted => "it was interrupted".to_string(),
             End::Foreign => "its programs belong to another model".to_string(),
-            End::Budget { time } => format!(
-                "the runs of this lesson take more work than a check may do, and this one ends at t = {} s",
-                run::time(*time)
-            ),
+            End::Budget { time } => {
+                format!("the work budget ran out, so this run ends at t = {} s", run::time(*time))
+            }
         }),
     }
 }

@@ -100,11 +100,13 @@ fn line(
         _ => quote::parts(said.quote.as_str(), numbers),
     };
     if parts.len() != numbers {
-        let message = format!("the quote holds {} numbers, and {numbers} expressions give one", parts.len());
+        let message = format!("the quote has {} numbers, but {numbers} expressions give one", parts.len());
         findings.push(
             Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), message.clone())
-                .why("nothing was compared: it is not known which number is meant by which expression")
-                .help("give one expression for each number, in their order; conditions for words may stand between them"),
+                .why("nothing was compared, because it is unclear which expression belongs to which number")
+                .help(
+                    "give one expression for each number, in order; conditions for words can be between them",
+                ),
         );
         return vec![Quote::unclear(&said.quote, &message)];
     }

@@ -82,11 +82,11 @@ pub(super) fn search(
     let found = halve(find, &mut try_at);
     let count = tried.len();
     let [from, to] = find.range.map(significant);
-    let looked = format!("`{}` was looked for at {count} values from {from} to {to}", find.name.value);
+    let looked = format!("`{}` was searched at {count} values from {from} to {to}", find.name.value);
     let mut none = |message: String, help: &str| {
         findings.push(
             Finding::error(rules::CLAIM_WITHOUT_NUMBER, find.holds.span(), message)
-                .why(format!("the search has no value, and what reads it cannot be checked: {looked}"))
+                .why(format!("the search has no result, so what reads it cannot be checked: {looked}"))
                 .help(help),
         );
     };
@@ -98,8 +98,8 @@ pub(super) fn search(
         }
         (None, Some((x, part))) => {
             let message =
-                format!("with {} nothing decides whether this holds: `{part}` compares NaN", significant(x));
-            none(message, "search where the measure has a value, or ask for it: `isNaN(x)`");
+                format!("with {} the condition is undecided: `{part}` compares NaN", significant(x));
+            none(message, "search where the measure has a value, or test for it with `isNaN(x)`");
             Some(Limit { value: f64::NAN, looked })
         }
         (None, None) => {
@@ -176,7 +176,7 @@ fn several(changes: &[[f64; 2]]) -> NoLimit {
     let place = |[a, b]: &[f64; 2]| format!("{} and {}", significant(*a), significant(*b));
     let places: Vec<String> = changes.iter().map(place).collect();
     let message = format!("this changes more than once: between {}", places.join(", between "));
-    (message, "there is no one limit: search where it changes once")
+    (message, "search where the condition changes only once")
 }
 
 /// Looks between three neighbours for the place where the condition is nearest to turning over, where that lies between them.
@@ -216,20 +216,20 @@ fn no_limit(find: &Find, ends: [bool; 2]) -> Option<NoLimit> {
     match (ends, find.largest) {
         ([true, true], _) => {
             let message = format!("this holds over the whole range from {from} to {to}");
-            Some((message, "search further, or ask for something that ends"))
+            Some((message, "widen the range, or ask for something that has a limit"))
         }
         ([false, false], _) => {
             let message = format!("this holds at neither end of the range from {from} to {to}");
-            Some((message, "begin, or end, where it holds"))
+            Some((message, "start or end the range where it holds"))
         }
         ([false, true], true) => {
             let message =
-                format!("this holds at {to} and not at {from}: it has a smallest value, and no largest");
+                format!("this holds at {to} but not at {from}: it has a smallest value, but no largest");
             Some((message, "write \"smallest\""))
         }
         ([true, false], false) => {
             let message =
-                format!("this holds at {from} and not at {to}: it has a largest value, and no smallest");
+                format!("this holds at {from} but not at {to}: it has a largest value, but no smallest");
             Some((message, "write \"largest\""))
         }
         _ => None,

@@ -105,7 +105,7 @@ impl Check<'_, '_> {
                 Some(j) if scalar(j) => (j.limited, j.range),
                 _ => {
                     self.error("inheritrange", "has `inheritrange` and acts on a free or ball joint")
-                        .why("their coordinates are no range from a lower to an upper number");
+                        .why("their coordinates do not have a lower and an upper limit");
                     return;
                 }
             },
@@ -117,7 +117,7 @@ impl Check<'_, '_> {
             }
         };
         if !limited && lower == upper {
-            self.error("inheritrange", "has `inheritrange`, but what it acts on has no `range`")
+            self.error("inheritrange", "has `inheritrange`, but its target has no `range`")
                 .help("give the joint or tendon a `range`, or write `ctrlrange`");
             return;
         }
@@ -131,7 +131,7 @@ impl Check<'_, '_> {
     fn family(&mut self, a: &ActuatorSpec) {
         let so3 = [a.gaintype == gaintype::SO3, a.biastype == biastype::SO3];
         if so3[0] != so3[1] {
-            self.error("gaintype", "has a `gaintype` or a `biastype` of so3 alone")
+            self.error("gaintype", "has a `gaintype` or a `biastype` of so3, but not both")
                 .why("an orientation servo needs both")
                 .help("use `orientation`");
         } else if so3[0] {
@@ -147,8 +147,8 @@ impl Check<'_, '_> {
         }
         let takes = matches!(a.gaintype, gaintype::SO3 | gaintype::PID | gaintype::DCMOTOR);
         if a.ctrlspec != 0 && !takes {
-            self.error("input", "has `input`, but takes one control")
-                .why("only `orientation`, `pid` and `dcmotor` choose what their controls are");
+            self.error("input", "has `input`, but takes a single control")
+                .why("only `orientation`, `pid` and `dcmotor` let `input` choose their controls");
         }
         if a.gaintype == gaintype::MUSCLE {
             self.muscle(&a.gainprm);
@@ -160,10 +160,10 @@ impl Check<'_, '_> {
 
     fn so3(&mut self, a: &ActuatorSpec) {
         if a.transmission.is_some_and(|t| t.kind != trntype::SO3) {
-            self.error("joint", "turns something, but acts on neither a ball joint nor a site");
+            self.error("joint", "sets an orientation, but acts on neither a ball joint nor a site");
         }
         if a.gainprm[0] != -a.biasprm[1] {
-            self.error("biasprm", "has a bias that is not that of its gain")
+            self.error("biasprm", "has a bias that does not match its gain")
                 .help("write `biasprm=\"0 -KP -KV\"` with the same KP as in `gainprm`");
         }
         if !matches!(a.dyntype, dyntype::NONE | dyntype::INTEGRATOR) {
@@ -176,7 +176,7 @@ impl Check<'_, '_> {
         }
         if a.force.flag == 1 && a.force.range[0] != 0.0 {
             self.error("forcerange", "has a forcerange that does not begin at zero")
-                .why("the range is that of the length of its torque");
+                .why("the range limits the magnitude of its torque");
         }
     }
 
@@ -196,7 +196,7 @@ impl Check<'_, '_> {
             self.error("input", "has inputs other than pos, vel and ff");
         }
         if a.dyntype == dyntype::PID && a.ctrlspec != 0 && a.ctrlspec & inputs::POS == 0 {
-            self.error("input", "has a state of its position setpoint, but takes none")
+            self.error("input", "has a state for its position setpoint, but takes no setpoint")
                 .why("`ki` integrates the error of the position, and `slewmax` limits its setpoint")
                 .help("add `pos` to `input`");
         }
@@ -222,11 +222,11 @@ impl Check<'_, '_> {
             self.error("controller", "has controller gains, but takes no setpoint")
                 .help("write `input` with some of `pos vel ff`");
         } else if a.gainprm[5] > 0.0 && !has(inputs::POS) {
-            self.error("controller", "integrates the error of a position, but takes none")
+            self.error("controller", "integrates a position error, but takes no position")
                 .help("add `pos` to `input`, or write 0 as the second number of `controller`");
         }
         if a.dynprm[7] > 0.0 && !controller {
-            self.error("controller", "limits how fast its setpoint moves, but takes none")
+            self.error("controller", "limits the speed of its setpoint, but takes no setpoint")
                 .help("write `input` with some of `pos vel ff`");
         }
     }
@@ -250,7 +250,8 @@ impl Check<'_, '_> {
     /// Delay, reflected inertia and damping.
     fn numbers(&mut self, a: &ActuatorSpec) {
         if a.nsample < 0 {
-            let message = format!("{} keeps a negative number of samples: none", self.node.shown());
+            let message =
+                format!("{} keeps a negative number of samples, so it keeps none", self.node.shown());
             let span = self.node.attribute("nsample").map_or(self.node.span.clone(), |a| a.span.clone());
             self.cx.report.warning(rules::NO_EFFECT, span, message).help("remove `nsample`");
         }
@@ -262,7 +263,7 @@ impl Check<'_, '_> {
                 );
         }
         if a.delay < 0.0 {
-            self.error("delay", "has a negative delay").why("it would act before it is given");
+            self.error("delay", "has a negative delay").why("it would act before the control is given");
         }
         let reflected = a.armature != 0.0 || a.damping != [0.0; 3];
         let target = a.transmission.map(|t| t.kind);
@@ -286,7 +287,7 @@ impl Check<'_, '_> {
         };
         if a.actdim >= 0 && a.actdim != needed {
             let message = format!("has an `actdim` of {}, but its dynamics have {needed}", a.actdim);
-            self.error("actdim", &message).help("remove `actdim`: the number follows from `dyntype`");
+            self.error("actdim", &message).help("remove `actdim`: `dyntype` determines the number");
         }
         if a.dyntype == dyntype::PID && pid != 1 {
             self.error("slewmax", "has states that are neither an integral nor a limited setpoint")

@@ -34,7 +34,7 @@ pub(crate) fn count(list: &[ActuatorSpec], report: &mut Report) -> Counts {
         n.nhistory = n.nhistory.saturating_add(history::size(samples(a), nu));
     }
     let span = list.iter().find(|a| a.nsample > 0).map_or(0..0, |a| a.span.clone());
-    if !report.take(n.nhistory, span, "what all actuators remember, by their `nsample`,") {
+    if !report.take(n.nhistory, span, "the history of all actuators, by their `nsample`,") {
         n.nhistory = 0;
     }
     n
@@ -118,7 +118,7 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
     // Where limits act, the cost of a step grows with the cube of the number of degrees of freedom.
     let nv = m.nv.max(1) as f64;
     if pulled as f64 * search.steps(m) * nv * (1.0 + (nv / 64.0).powi(2)) > MAX_SEARCH {
-        let message = format!("the ranges of lengths of {pulled} actuators take too many steps to find");
+        let message = format!("the length ranges of {pulled} actuators take too many steps to find");
         report.error(rules::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
         return;
     }
@@ -127,18 +127,18 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
         let Some(spec) = list.get(i) else { continue };
         let wrong = match lengthrange::length_range(m, &mut d, i, search) {
             Ok(()) => continue,
-            _ if !lengthrange::has_length(m, i) => "what it acts on gives it no length".to_string(),
+            _ if !lengthrange::has_length(m, i) => "its target gives it no length".to_string(),
             Err(Failure::NoRange([lower, upper])) => {
                 format!("pulling it either way gives {lower:.4} and {upper:.4}")
             }
             Err(Failure::NotSettled([lower, upper])) => {
-                format!("pulled for as long as it may take, it still moves between {lower:.4} and {upper:.4}")
+                format!("pulled for the maximum time, it still moves between {lower:.4} and {upper:.4}")
             }
         };
-        let message = format!("no range of lengths is found for {}: {wrong}", spec.shown);
+        let message = format!("no length range is found for {}: {wrong}", spec.shown);
         report
             .error(rules::ACTUATOR, spec.span.clone(), message)
-            .why("the force of a muscle depends on its length in the range that it can have")
+            .why("the force of a muscle depends on its length within its possible range")
             .help("write `lengthrange`, or limit the joints that it moves");
     }
 }

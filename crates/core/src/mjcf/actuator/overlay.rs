@@ -25,7 +25,7 @@ impl Overlay<'_> {
         let x = self.p.real(attribute)?;
         if x < 0.0 {
             let owner = self.node.shown();
-            self.error(attribute, format!("`{attribute}` of {owner} is {x}, it must be zero or more"));
+            self.error(attribute, format!("`{attribute}` of {owner} is {x}, but it must be zero or more"));
         }
         Some(x)
     }

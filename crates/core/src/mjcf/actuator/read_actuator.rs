@@ -144,10 +144,10 @@ fn transmission(
     let owner = node.shown();
     let given: Vec<_> = listed(TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()));
     if let [.., (first, ..), (last, ..)] = given.as_slice() {
-        let message = format!("{owner} has both `{first}` and `{last}`: it acts on the latter alone");
+        let message = format!("{owner} has both `{first}` and `{last}`, and acts only on the latter");
         report
             .warning(rules::NO_EFFECT, node.span.clone(), message)
-            .why("an actuator acts on one thing; of several, MuJoCo takes the last of joint, jointinparent, tendon, cranksite, site, body")
+            .why("an actuator acts on one object; of several, MuJoCo takes the last of joint, jointinparent, tendon, cranksite, site, body")
             .help("remove one of them, or write two actuators");
     }
     let named = |name: &str| node.text(name).is_some();
@@ -177,10 +177,10 @@ fn transmission(
                 .error(
                     rules::ACTUATOR,
                     a.span.clone(),
-                    format!("{owner} has `{name}` and acts on a {object}"),
+                    format!("{owner} has `{name}` but acts on a {object}"),
                 )
                 .help(format!(
-                    "`{name}` belongs to `{needs}`: remove it, or write `{needs}` in place of `{attribute}`"
+                    "remove `{name}`, which belongs to `{needs}`, or write `{needs}` instead of `{attribute}`"
                 ));
         }
     }
@@ -196,12 +196,12 @@ fn transmission(
         if !joint && second < 0 {
             report
                 .error(rules::ACTUATOR, node.span.clone(), format!("{owner} has no `refsite`"))
-                .why("an orientation is that of one site relative to another")
+                .why("an orientation is relative to another site")
                 .help("write `refsite` with a site of the world for an orientation in space");
         }
         if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::kinds::joint::BALL) {
             report
-                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is no ball joint"))
+                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is not a ball joint"))
                 .why("an orientation has three degrees of freedom")
                 .help("use `position` for a hinge, and `site` with `refsite` for the orientation of a free body");
         }

@@ -46,7 +46,7 @@ const SHORTCUTS: [(&str, Set); 12] = [
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::AFFINE, biastype::NONE, dyntype::NONE);
         a.gainprm = [0.0; 10];
         a.gainprm[2] = -kv;
-        one_way(a, e, "a damper that is driven backwards would push instead of resisting");
+        one_way(a, e, "a damper with a negative control would push instead of resisting");
     }),
     ("cylinder", |a, e| {
         (a.gaintype, a.biastype, a.dyntype) = (gaintype::FIXED, biastype::AFFINE, dyntype::FILTER);
@@ -97,7 +97,7 @@ fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
     if kv.is_some() && ratio.is_some() {
         let owner = e.node.shown();
         e.error("dampratio", format!("{owner} has both `kv` and `dampratio`"))
-            .why("`dampratio` is one way to give `kv`: 1 is critical damping")
+            .why("`dampratio` is another way to give `kv`: 1 is critical damping")
             .help("remove one of them");
     }
     a.biasprm[2] = match (kv, ratio) {
@@ -108,7 +108,7 @@ fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
     if a.biasprm[2] > 0.0 && a.biasprm[1] > 0.0 && ratio.is_some() {
         let owner = e.node.shown();
         e.error("dampratio", format!("{owner} has `dampratio` and a negative `kp`"))
-            .why("critical damping is that of a spring with stiffness `kp`: a negative one has none")
+            .why("critical damping belongs to a spring with stiffness `kp`, which cannot be negative")
             .help("write a positive `kp`, or `kv`");
     }
 }
@@ -118,7 +118,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
     if inheritrange > 0.0 && range != [0.0; 2] {
         let owner = e.node.shown();
         e.error("inheritrange", format!("{owner} has both `{attribute}` and `inheritrange`"))
-            .why(format!("`inheritrange` is another way to give `{attribute}`: that of the target"))
+            .why(format!("`inheritrange` is another way to give `{attribute}`: the range of the target"))
             .help("remove one of them");
     }
 }
@@ -131,7 +131,7 @@ fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
         let [lower, upper] = a.ctrl.range;
         e.error(
             "ctrlrange",
-            format!("the ctrlrange of {owner} is {lower} to {upper}, it must not be negative"),
+            format!("the ctrlrange of {owner} is {lower} to {upper}, but it must not be negative"),
         )
         .why(why)
         .help("write for example `ctrlrange=\"0 1\"`");

@@ -89,7 +89,7 @@ fn thermal(a: &mut ActuatorSpec, e: &mut Overlay) {
     if resistance <= 0.0 || capacity <= 0.0 {
         let owner = e.node.shown();
         e.error("thermal", format!("`thermal` of {owner} lacks a resistance or a capacity"))
-            .why("the temperature follows from the heat that is made, kept and lost")
+            .why("the temperature depends on the generated, stored and dissipated heat")
             .help("the order is resistance (K/W), capacity (J/K), time constant (s): two of these three give the third");
     }
     a.dynprm[2..5].copy_from_slice(&[resistance, capacity, ambient]);

@@ -42,7 +42,7 @@ impl HField {
             return Err(Problem::new(
                 "size",
                 format!("has {x} in its `size`"),
-                "a ground without extent, height or base has nothing to stand on",
+                "a height field needs an extent, a height and a base",
                 "write four numbers larger than zero",
             ));
         }
@@ -52,7 +52,7 @@ impl HField {
                 "file",
                 format!("has a sample {i} that is not finite"),
                 "",
-                "correct it",
+                "write a finite number",
             ));
         }
         let lowest = data.iter().fold(f64::INFINITY, |s, &x| s.min(x));
@@ -135,8 +135,8 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
         _ => Err(Problem::new(
             "content_type",
             format!("has a file of the kind {}", shown(kind)),
-            "heights can be read from a picture or from MuJoCo's own format",
-            "write `content_type=\"image/png\"`, or leave it out",
+            "heights come from an image or from MuJoCo's own format",
+            "write `content_type=\"image/png\"`, or delete it",
         )),
     }
 }
@@ -146,8 +146,8 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
 fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
     let bad = |what: &str| {
         Problem::file(
-            format!("has a file that cannot be read as a PNG picture: {what}"),
-            "export the picture again",
+            format!("has a file that cannot be read as a PNG image: {what}"),
+            "export the image again",
         )
     };
     let mut rest = bytes;
@@ -163,7 +163,7 @@ fn picture(bytes: &[u8]) -> Result<Samples, Problem> {
 #[cfg(not(feature = "pictures"))]
 fn picture(_: &[u8]) -> Result<Samples, Problem> {
     Err(Problem::file(
-        "has a picture, and this program was built without reading pictures".to_string(),
+        "has an image, but this program was built without image support".to_string(),
         "write the heights into the model, as `elevation`, or ship the compiled model",
     ))
 }
@@ -172,8 +172,8 @@ fn picture(_: &[u8]) -> Result<Samples, Problem> {
 fn own(bytes: &[u8]) -> Result<Samples, Problem> {
     if bytes.starts_with(b"\x89PNG") {
         return Err(Problem::file(
-            "has a PNG picture as its file, and nothing says so",
-            "let the name end in .png, or write `content_type=\"image/png\"`",
+            "has a PNG image as its file, but neither its name nor its type says so",
+            "use a file name that ends in .png, or write `content_type=\"image/png\"`",
         ));
     }
     let mut numbers = Bytes(bytes);
@@ -187,11 +187,11 @@ fn own(bytes: &[u8]) -> Result<Samples, Problem> {
     if numbers.0.len() != 4 * nrow * ncol {
         return Err(Problem::file(
             format!(
-                "has a file of {} bytes, but {nrow} rows of {ncol} columns take {}",
+                "has a file of {} bytes, but {nrow} rows of {ncol} columns need {}",
                 bytes.len(),
                 8 + 4 * nrow * ncol
             ),
-            "write the file again: it is cut off or of another kind",
+            "write the file again: it is truncated or has another format",
         ));
     }
     Ok(Samples { nrow, ncol, data: listed((0..nrow * ncol).map_while(|_| numbers.real())) })

@@ -79,14 +79,14 @@ type Chunk<'b> = ([u8; 4], &'b [u8]);
 
 /// The next chunk, taken off the front. What cannot be left out must be whole.
 fn chunk<'b>(bytes: &mut &'b [u8]) -> Result<Chunk<'b>, &'static str> {
-    let cut = "it is cut off";
+    let cut = "it is truncated";
     let (length, rest) = bytes.split_first_chunk().ok_or(cut)?;
     let (body, rest) =
         rest.split_at_checked((u32::from_be_bytes(*length) as usize).saturating_add(4)).ok_or(cut)?;
     let (sum, rest) = rest.split_first_chunk().ok_or(cut)?;
     let (kind, data) = body.split_first_chunk().ok_or(cut)?;
     if is_critical(kind) && crc(body) != u32::from_be_bytes(*sum) {
-        return Err("it is damaged: a check sum is wrong");
+        return Err("it is damaged: a checksum is wrong");
     }
     *bytes = rest;
     Ok((*kind, data))
@@ -105,10 +105,10 @@ fn crc(bytes: &[u8]) -> u32 {
 
 /// Reads the header; `bytes` are then what follows.
 pub(super) fn header(bytes: &mut &[u8]) -> Result<Header, &'static str> {
-    *bytes = bytes.strip_prefix(SIGNATURE).ok_or("it does not begin as one")?;
+    *bytes = bytes.strip_prefix(SIGNATURE).ok_or("it has no PNG signature")?;
     let (kind, data) = chunk(bytes)?;
     let (b"IHDR", &[a, b, c, d, e, f, g, h, depth, color, 0, 0, interlaced @ (0 | 1)]) = (&kind, data) else {
-        return Err("its header is wrong");
+        return Err("its header is invalid");
     };
     let (width, height) = (u32::from_be_bytes([a, b, c, d]), u32::from_be_bytes([e, f, g, h]));
     let samples = match (color, depth) {
@@ -116,7 +116,7 @@ pub(super) fn header(bytes: &mut &[u8]) -> Result<Header, &'static str> {
         (4, 8 | 16) => 2,
         (2, 8 | 16) => 3,
         (6, 8 | 16) => 4,
-        _ => return Err("its kind of colour is unknown"),
+        _ => return Err("its colour type is unknown"),
     };
     Ok(Header { width, height, depth, color, samples, interlaced: interlaced == 1 })
 }
@@ -130,7 +130,7 @@ pub(super) fn first_colors(of: &Header, mut bytes: &[u8]) -> Result<Vec<u8>, &'s
         match chunk(&mut bytes)? {
             (kind, data) if kind == *b"IDAT" => packed.extend(data),
             (kind, data) if kind == *b"PLTE" => palette = data,
-            (kind, _) if is_critical(&kind) => return Err("it has a part that is unknown"),
+            (kind, _) if is_critical(&kind) => return Err("it has an unknown chunk"),
             _ => {}
         }
     }
@@ -170,11 +170,11 @@ fn unpacked(packed: &[u8], size: usize) -> Result<Vec<u8>, &'static str> {
     let flags = TINFL_FLAG_PARSE_ZLIB_HEADER | TINFL_FLAG_USING_NON_WRAPPING_OUTPUT_BUF;
     let (status, _, n) = decompress(&mut Box::<DecompressorOxide>::default(), packed, &mut all, 0, flags);
     match status {
-        TINFLStatus::Adler32Mismatch => Err("it is damaged: a check sum is wrong"),
+        TINFLStatus::Adler32Mismatch => Err("it is damaged: a checksum is wrong"),
         // All of the picture is there: what follows, or should, is nobody's loss.
         _ if n == size => Ok(all),
-        TINFLStatus::Done | TINFLStatus::FailedCannotMakeProgress => Err("it is cut off"),
-        _ => Err("it is damaged: what is compressed cannot be read"),
+        TINFLStatus::Done | TINFLStatus::FailedCannotMakeProgress => Err("it is truncated"),
+        _ => Err("it is damaged: its compressed data cannot be read"),
     }
 }
 
@@ -190,7 +190,7 @@ fn unfilter(filter: u8, row: &mut [u8], above: &[u8], step: usize) -> Result<(),
             2 => b,
             3 => a.midpoint(b),
             4 => nearest(a, b, c),
-            _ => return Err("it has a filter that is unknown"),
+            _ => return Err("it has an unknown filter"),
         };
         row[i] = row[i].wrapping_add(foretold);
     }

@@ -142,8 +142,8 @@ impl Assets {
                 let message = format!("the bone {} has become part of its parent", shown(&bone.body));
                 report
                     .error(rules::SKIN, span, message)
-                    .why("`fusestatic` removes bodies without joints that nothing in the text refers to")
-                    .help("refer to the body in the text, or leave `fusestatic` out");
+                    .why("`fusestatic` removes bodies without joints unless the text refers to them")
+                    .help("refer to the body in the text, or delete `fusestatic`");
             }
         }
     }
@@ -206,14 +206,14 @@ impl Reader<'_> {
             Problem::new(
                 "refquat",
                 "has a `refquat` of zero",
-                "it turns nowhere",
-                "write `1 0 0 0` for no turn",
+                "it does not describe a rotation",
+                "write `1 0 0 0` for no rotation",
             )
         } else if maxhullvert != -1 && maxhullvert < FEWEST_CORNERS {
             Problem::new(
                 "maxhullvert",
                 format!("has a hull of at most {maxhullvert} corners"),
-                "the smallest body has four corners",
+                "the smallest solid has four corners",
                 "write 4 or more, or -1 for no limit",
             )
         } else {
@@ -274,7 +274,7 @@ impl Reader<'_> {
             }
             None => Err(Problem::new(
                 "",
-                "is one too many",
+                "exceeds the size limit",
                 "all meshes and height fields together are larger than a lesson can need",
                 "simplify them",
             )),
@@ -322,7 +322,7 @@ impl Reader<'_> {
                     let message = format!("{} has {rows} and {columns}", node.shown());
                     self.report
                         .warning(rules::NO_EFFECT, node.span.clone(), message)
-                        .why("the surface is stretched between neighbouring rows and columns: without two of each there is none, and everything falls through, in MuJoCo too")
+                        .why("the surface spans neighbouring rows and columns: without two of each there is no surface, and bodies fall through, in MuJoCo too")
                         .help("give it at least two rows and two columns, or use a plane");
                 }
                 Some(field)
@@ -351,8 +351,8 @@ impl Reader<'_> {
             if written.is_some() || !own.is_empty() {
                 Err(Problem::new(
                     written.unwrap_or("file"),
-                    "has both a file and data of its own",
-                    "the file holds vertices, triangles and bones",
+                    "has both a file and inline data",
+                    "the file contains vertices, triangles and bones",
                     "keep one of them",
                 ))
             } else {

@@ -72,8 +72,8 @@ impl Skin {
             return Err(Problem::new(
                 "face",
                 format!("has a triangle with vertex {id}, of {n} vertices"),
-                "what draws it would read beyond the end",
-                "vertices count from 0",
+                "a renderer would read past the end",
+                "count vertices from 0",
             ));
         }
         let mut total = vec![0.0; n];
@@ -84,7 +84,7 @@ impl Skin {
                     "",
                     format!("has a bone of {ids} vertices with {weights} weights"),
                     "",
-                    "write one weight for each vertex of the bone, and one vertex at least",
+                    "write one weight for each vertex of the bone, and at least one vertex",
                 ));
             }
             for (id, weight) in bone.vertid.iter().zip(&bone.vertweight) {
@@ -93,7 +93,7 @@ impl Skin {
                         "",
                         format!("has a bone with vertex {id}, of {n} vertices"),
                         "",
-                        "vertices count from 0",
+                        "count vertices from 0",
                     ));
                 };
                 *sum += weight;
@@ -103,7 +103,7 @@ impl Skin {
             return Err(Problem::new(
                 "",
                 format!("has a vertex {i} that no bone carries"),
-                "the weights of a vertex say which share each body has of it, and must add up to something positive",
+                "the weights of a vertex give the share of each body, and their sum must be positive",
                 "give the vertex to a bone, with a positive weight",
             ));
         }
@@ -132,7 +132,7 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
     }
     let damaged = || {
         Problem::file(
-            "has an SKN file that is shorter than what it lists",
+            "has an SKN file that is shorter than its header says",
             "the file is damaged: export it again",
         )
     };
@@ -170,13 +170,16 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
         skin.bones.push(Bone { body, bindpos, bindquat, vertid, vertweight, file: Some(span.clone()) });
     }
     if !numbers.0.is_empty() {
-        let message = format!("has an SKN file with {} bytes more than what it lists", numbers.0.len());
+        let message = format!("has an SKN file with {} bytes more than its header says", numbers.0.len());
         return Err(Problem::file(message, "the file is damaged: export it again"));
     }
     let numbers = skin.vert.as_flattened().iter().chain(skin.texcoord.as_flattened());
     let of_bones = skin.bones.iter().flat_map(|b| b.bindpos.iter().chain(&b.bindquat).chain(&b.vertweight));
     if numbers.chain(of_bones).any(|x| !x.is_finite()) {
-        return Err(Problem::file("has an SKN file with a number that is not finite", "correct it"));
+        return Err(Problem::file(
+            "has an SKN file with a number that is not finite",
+            "write finite numbers",
+        ));
     }
     Ok(skin)
 }

@@ -166,7 +166,7 @@ fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, r
             body.inertial_span.clone().unwrap_or(body.span.clone()),
             format!("the principal moments of inertia of {} are {a}, {b}, {c}", shown(body)),
         )
-        .why("no moment can be larger than the sum of the other two: no body has such an inertia")
+        .why("no moment can exceed the sum of the other two")
         .help("correct `diaginertia`, or write `<compiler balanceinertia=\"true\"/>` to replace them by their mean");
 }
 

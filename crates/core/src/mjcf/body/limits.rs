@@ -44,7 +44,7 @@ pub(crate) fn decide(
                 let message = format!("the {range} of {owner} is {lower} to {upper}, which limits nothing");
                 cx.report
                     .warning(rules::NO_EFFECT, span.clone(), message)
-                    .why("the lower limit must be smaller than the upper; what does not grow is taken for no limit")
+                    .why("the lower limit must be smaller than the upper one; otherwise there is no limit")
                     .help(match lower > upper {
                         true => format!("write `{range}=\"{upper} {lower}\"`, or remove it"),
                         false => format!("write `{range}=\"LOWER UPPER\"`, or remove it"),
@@ -54,7 +54,7 @@ pub(crate) fn decide(
         }
         _ => {
             if given {
-                let message = format!("{owner} has a {range}, but nothing says that it holds");
+                let message = format!("{owner} has a {range}, but it is not switched on");
                 cx.report
                     .error(code, span.clone(), message)
                     .why(format!("`autolimits` of compiler is false, so a {range} alone has no effect"))

@@ -33,7 +33,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
         let span = p.span(form).unwrap_or(node.span.clone());
         report
             .error(rules::ORIENTATION, span, format!("`{form}` of {}: {what}", node.shown()))
-            .why("there is no rotation that it describes");
+            .why("it does not describe a rotation");
         IDENTITY
     })
 }
@@ -48,8 +48,8 @@ pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
         let message = format!("{} has both `{first}` and `{second}`", node.shown());
         report.error(rules::CONFLICT, span.clone(), message).help(
             match *first == "fullinertia" || *second == "fullinertia" {
-                true => "`fullinertia` finds its own axes: remove the other",
-                false => "an orientation is given once: remove one of them",
+                true => "remove the other one: `fullinertia` finds its own axes",
+                false => "remove one of them: an orientation is given once",
             },
         );
     }

@@ -112,16 +112,16 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: Place, body: &mut Body
     let (frame, class) = (place.frame, place.childclass);
     if place.body == 0 && matches!(node.element.name, "inertial" | "joint" | "freejoint") {
         // Directly in `worldbody` the schema refuses them; here a frame stands between.
-        let message = format!("`{}` cannot stand in the world", node.element.name);
+        let message = format!("`{}` is not allowed in the world", node.element.name);
         cx.report
             .error(rules::MISPLACED_ELEMENT, node.span.clone(), message)
-            .help("a frame only places what it holds: write a `body` around it");
+            .help("write a `body` around it: a frame only places its contents");
         return;
     }
     match node.element.name {
         "inertial" => {
             if body.inertial_span.replace(node.span.clone()).is_some() {
-                let message = "a second `inertial` in the same body";
+                let message = "the body has a second `inertial`";
                 cx.report.error(rules::REPEATED_ELEMENT, node.span.clone(), message);
             }
             body.inertial = inertial(cx, node).map(|mut inertia| {
@@ -170,7 +170,8 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: Place, body: &mut Body
 fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
     let p = Props::own(node);
     let mut complete = true;
-    for (name, why) in [("pos", "it places the centre of mass"), ("mass", "a body without mass cannot move")]
+    for (name, why) in
+        [("pos", "it is the position of the centre of mass"), ("mass", "a body without mass cannot move")]
     {
         if !p.has(name) {
             complete = false;
@@ -199,7 +200,7 @@ fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
                     "`fullinertia` of inertial is not the inertia of a body",
                 )
                 .why("its principal moments must all be larger than zero")
-                .help("the order is xx yy zz xy xz yz");
+                .help("write the numbers in the order xx yy zz xy xz yz");
         }
         return complete.then_some(Inertia { pos, quat, mass, moments });
     }

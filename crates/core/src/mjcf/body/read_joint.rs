@@ -85,7 +85,7 @@ fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2
         let span = p.span("range").unwrap_or(node.span.clone());
         cx.report
             .error(rules::JOINT, span, format!("the range of {} begins at {lower}", node.shown()))
-            .why("a ball joint's range limits the angle of its rotation, which is never negative")
+            .why("the range of a ball joint limits its rotation angle, which is never negative")
             .help(format!("write `range=\"0 {upper}\"`"));
     }
     let angle = |x: f64| if kind == joint::SLIDE { x } else { cx.compiler.angle(x) };

@@ -16,8 +16,8 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         if carried || body.joints.is_empty() {
             let what = if carried { "is carried by a moving body" } else { "cannot move" };
             report
-                .error(rules::JOINT, body.span.clone(), format!("`sleep` of {}, which {what}", shown(body)))
-                .why("a tree falls asleep as a whole; its first moving body decides")
+                .error(rules::JOINT, body.span.clone(), format!("{} has `sleep`, but it {what}", shown(body)))
+                .why("a tree falls asleep as a whole, and its first moving body decides")
                 .help("move `sleep` to that body");
         }
     }

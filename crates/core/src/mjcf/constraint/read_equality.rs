@@ -34,7 +34,7 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
     if obj1 == obj2 {
         report
             .error(rules::EQUALITY, node.span.clone(), format!("{} ties an object to itself", node.shown()))
-            .help("name two different objects; without the second, a body is tied to the world");
+            .help("name two different objects; to tie a body to the world, leave out the second");
     }
     Some(EqualitySpec {
         name: name(node),
@@ -64,7 +64,7 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
                     node.span.clone(),
                     format!("{} has sites and `{other}`", node.shown()),
                 )
-                .why("two sites say everything: they are held together")
+                .why("two sites define the constraint completely")
                 .help(format!("remove `{other}`, or tie bodies instead of sites"));
         }
         let site1 = refs.required("site", node, "site1", report);
@@ -80,7 +80,7 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
     if connect && !given("anchor") {
         report
             .error(rules::MISSING_ATTRIBUTE, node.span.clone(), format!("{} has no `anchor`", node.shown()))
-            .why("it is the point, in the frame of `body1`, at which both bodies are held together");
+            .why("it is the point, in the frame of `body1`, where both bodies are held together");
     }
     data[..3].copy_from_slice(&p.reals("anchor", [0.0; 3]));
     // Without a quaternion the relative pose is that of the default configuration.
@@ -105,7 +105,7 @@ fn coupled(refs: References, p: &Props, node: &Node, objtype: Obj, report: &mut 
             let span = node.attribute(attribute).map_or(node.span.clone(), |a| a.span.clone());
             report
                 .error(rules::EQUALITY, span, format!("{} ties a free or ball joint", node.shown()))
-                .why("it is an equation between coordinates, and such a joint has more than one")
+                .why("the constraint is an equation between coordinates, and such a joint has several")
                 .help("use slide or hinge joints, or `weld` or `connect` for bodies");
         }
     }

@@ -81,9 +81,9 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
         if e.is_too_large() {
             let span = e.nodes.get(at).map_or(0..0, |n| n.span.clone());
             report
-                .error(rules::LIMIT, span, "the copies are too many or too large")
-                .why(format!("a model may have {MAX_ELEMENTS} elements, copies included"))
-                .help("lower `count`, also of what stands around it");
+                .error(rules::LIMIT, span, "there are too many copies, or they are too large")
+                .why(format!("a model can have {MAX_ELEMENTS} elements, including copies"))
+                .help("lower `count`, also in the elements around it");
             break;
         }
     }
@@ -258,9 +258,9 @@ impl Expander {
                 .error(
                     rules::COPY,
                     node.span.clone(),
-                    format!("{} ties what is replicated to something that is not", node.shown()),
+                    format!("{} connects a replicated object to one that is not replicated", node.shown()),
                 )
-                .why("MuJoCo copies it only when all that it names is copied, and else leaves it out without a word")
+                .why("MuJoCo copies it only if all its objects are copied, and otherwise drops it silently")
                 .help("write the copies out instead of using `replicate`");
         }
     }
@@ -289,7 +289,7 @@ impl Expander {
         let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
             report
                 .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach has no `prefix`")
-                .why("it goes before every name of the copy, so that names stay unique")
+                .why("it comes before every name of the copy, so that names stay unique")
                 .help("write `prefix=\"left_\"`");
             return None;
         };
@@ -297,7 +297,7 @@ impl Expander {
             (Some(_), Some(_)) => {
                 report
                     .error(rules::CONFLICT, node.span.clone(), "attach has both `body` and `frame`")
-                    .help("name what is attached once: remove one of them");
+                    .help("keep one of them: only one object is attached");
                 return None;
             }
             (Some(name), None) => Some(("body", name)),
@@ -331,7 +331,7 @@ impl Expander {
     ) -> Option<()> {
         let Some((kind, name)) = part else {
             report
-                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach says neither which model nor which body")
+                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach names neither a model nor a body")
                 .help("write `model=\"…\"` for a model of the assets, or `body=\"…\"` for a copy of a body of this model");
             return None;
         };
@@ -346,15 +346,15 @@ impl Expander {
                 .error(
                     rules::COPY,
                     span,
-                    format!("{kind} {} stands after the `attach` that copies it", shown(name)),
+                    format!("{kind} {} comes after the `attach` that copies it", shown(name)),
                 )
-                .help("move the `attach` behind it");
+                .help("move the `attach` after it");
             return None;
         }
         if self.holds(original, at) {
             report
-                .error(rules::COPY, span, format!("{kind} {} is attached inside of itself", shown(name)))
-                .why("the copy would hold a copy of itself without end");
+                .error(rules::COPY, span, format!("{kind} {} is attached inside itself", shown(name)))
+                .why("the copy would contain itself without end");
             return None;
         }
         let rename = Rename { prefix, suffix: "", other_model: None };
@@ -535,7 +535,7 @@ fn count(node: &Node, report: &mut Report) -> Option<i32> {
     };
     let count = node.int("count")?;
     if count < 0 {
-        let message = format!("`count` of replicate is {count}, it must be zero or more");
+        let message = format!("`count` of replicate is {count}, but it must be zero or more");
         report.error(rules::VALUE, attribute.span.clone(), message);
         return None;
     }

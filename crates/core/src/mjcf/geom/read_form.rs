@@ -73,8 +73,8 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
             let message = format!("{} is a {} with a `mesh`", node.shown(), shape.name);
             cx.report
                 .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
-                .why("a shape that stands for a mesh must have an inside")
-                .help("write `type=\"mesh\"` for the mesh itself, or `type=\"box\"` for a box in its place");
+                .why("a shape that replaces a mesh must have a volume")
+                .help("write `type=\"mesh\"` for the mesh itself, or `type=\"box\"` for a box instead");
             None
         }
     }
@@ -92,8 +92,8 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
     if let Some(asset) = needs.filter(|asset| p.text(asset).is_none()) {
         cx.report
             .error(rules::GEOM, span("type"), format!("{owner} has no `{asset}`"))
-            .why(format!("its shape is that of the asset: `{asset}` names it"))
-            .help(format!("write `{asset}=\"…\"` with the name that it has in `asset`"));
+            .why(format!("the asset that `{asset}` names defines its shape"))
+            .help(format!("write `{asset}=\"…\"` with its name in `asset`"));
         return false;
     }
     let what = |kind: i32| shapes::of(kind).map_or("shape", |s| s.name);
@@ -101,16 +101,16 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
         let message = format!("{owner} is a {} with an `hfield`", what(kind));
         cx.report
             .error(rules::GEOM, span("hfield"), message)
-            .help("write `type=\"hfield\"` for a height field, or leave `hfield` out");
+            .help("write `type=\"hfield\"` for a height field, or delete `hfield`");
     } else if p.text("mesh").is_some() && p.has("fromto") {
         cx.report
             .error(rules::CONFLICT, span("fromto"), format!("{owner} has both `mesh` and `fromto`"))
-            .why("the mesh gives its place and size")
+            .why("the mesh defines its position and size")
             .help("remove one of them");
     } else if kind == geom::MESH && p.word("shellinertia") == Some(1) {
         cx.report
             .error(rules::CONFLICT, span("shellinertia"), format!("{owner} is a mesh with `shellinertia`"))
-            .why("a mesh has the same inertia wherever it is used")
+            .why("a mesh has the same inertia everywhere")
             .help("write `inertia=\"shell\"` in the mesh");
     } else {
         return true;

@@ -113,7 +113,7 @@ pub(crate) fn fromto(
     let span = p.span("fromto").unwrap_or(node.span.clone());
     cx.report
         .error(rules::GEOM, span, problem)
-        .why("`fromto` gives the ends of a capsule, cylinder, ellipsoid or box, and so its place");
+        .why("`fromto` gives the ends of a capsule, cylinder, ellipsoid or box, and so its position");
     None
 }
 
@@ -133,13 +133,13 @@ fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec
     let spans = p.has("fromto");
     let given = if spans && p.has("size") { 3 } else { p.list("size").map_or(0, <[f64]>::len) };
     let span = p.span("size").unwrap_or(node.span.clone());
-    let help = format!("a {} is written as `size=\"{}\"`", shape.name, shape.example);
+    let help = format!("write `size=\"{1}\"` for a {0}", shape.name, shape.example);
     for (k, (rule, &x)) in shape.sizes.iter().zip(&size).enumerate() {
         let what = if k >= given {
             format!("`size` of {} lacks the {}", node.shown(), rule.name)
         } else if x < 0.0 || x == 0.0 && !rule.zero {
             let bound = if rule.zero { "zero or more" } else { "larger than zero" };
-            format!("`size` of {}: the {} is {x}, it must be {bound}", node.shown(), rule.name)
+            format!("`size` of {}: the {} is {x}, but it must be {bound}", node.shown(), rule.name)
         } else {
             continue;
         };
@@ -157,7 +157,7 @@ fn form_is_of_asset(p: &Props, shape: &Shape) -> bool {
 fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
     if let Some((rule, _)) = shape.sizes.iter().zip(size).find(|&(_, x)| x <= 0.0) {
         let message =
-            format!("{} takes the place of its mesh with a {} of zero or less", node.shown(), rule.name);
+            format!("{} replaces its mesh with a {} of zero or negative size", node.shown(), rule.name);
         cx.report
             .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
             .why(format!("the mesh is too flat or too long for a {}", shape.name))
@@ -176,7 +176,7 @@ fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) ->
     let mass = given.unwrap_or(density * form.amount);
     let moments = if mass > 0.0 { scale(form.moments, mass) } else { [0.0; 3] };
     if !mass.is_finite() || moments.iter().any(|x| !x.is_finite()) {
-        let message = format!("the mass or inertia of {owner} is larger than a 64-bit number can be");
+        let message = format!("the mass or inertia of {owner} exceeds a 64-bit number");
         cx.report.error(rules::GEOM, p.span("size").unwrap_or(node.span.clone()), message);
     }
     (mass, moments)

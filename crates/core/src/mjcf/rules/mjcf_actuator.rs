@@ -6,7 +6,7 @@ pub const ACTUATOR: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "the parts of an actuator do not fit together, or its numbers are out of range",
-    why: "the model does not load: the scene stays empty",
+    why: "the model does not load, so the scene stays empty",
     bad: Example::Model(
         "<mujoco><worldbody><body><joint name='hinge'/><geom size='.1'/></body></worldbody><actuator><⟦motor⟧ joint='hinge' ctrllimited='true'/></actuator></mujoco>",
     ),

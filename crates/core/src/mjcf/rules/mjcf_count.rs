@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// There are too many or too few numbers.
+/// An attribute has too many or too few numbers.
 pub const COUNT: &Rule = &Rule {
     code: "mjcf-count",
     severity: Severity::Error,
     layer: Layer::Model,
-    summary: "there are too many or too few numbers",
-    why: "the model does not load: the scene stays empty",
+    summary: "an attribute has too many or too few numbers",
+    why: "the model does not load, so the scene stays empty",
     bad: Example::Model("<mujoco><worldbody><geom size='.1' pos='⟦0 0⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1' pos='0 0 0'/></worldbody></mujoco>"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// Two objects of one kind have the same name.
+/// Two objects of the same kind have the same name.
 pub const DUPLICATE_NAME: &Rule = &Rule {
     code: "mjcf-duplicate-name",
     severity: Severity::Error,
     layer: Layer::Model,
-    summary: "two objects of one kind have the same name",
-    why: "which of the two is meant cannot be known",
+    summary: "two objects of the same kind have the same name",
+    why: "the loader cannot know which of the two is meant",
     bad: Example::Model(
         "<mujoco><worldbody><geom name='a' size='.1'/><geom name='⟦a⟧' size='.2'/></worldbody></mujoco>",
     ),

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The equality constraint does not say what it ties.
+/// An equality constraint does not say what it connects.
 pub const EQUALITY: &Rule = &Rule {
     code: "mjcf-equality",
     severity: Severity::Error,
     layer: Layer::Model,
-    summary: "the equality constraint does not say what it ties",
-    why: "the model does not load: the scene stays empty",
+    summary: "an equality constraint does not say what it connects",
+    why: "the model does not load, so the scene stays empty",
     bad: Example::Model(
         "<mujoco><worldbody><body name='ball'><freejoint name='ball'/><geom size='.1'/></body></worldbody><equality><joint joint1='⟦ball⟧'/></equality></mujoco>",
     ),

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A file that the model names cannot be read, or may not be.
+/// A file that the model names cannot be read or must not be read.
 pub const FILE: &Rule = &Rule {
     code: "mjcf-file",
     severity: Severity::Error,
     layer: Layer::Model,
-    summary: "a file that the model names cannot be read, or may not be",
-    why: "the page loads the model alone, so that the scene stays empty",
+    summary: "a file that the model names cannot be read or must not be read",
+    why: "the page loads only the model, so the scene stays empty",
     bad: Example::Model(
         "<mujoco><asset><mesh name='m' file='⟦missing.obj⟧'/></asset><worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>",
     ),

@@ -6,7 +6,7 @@ pub const JOINT: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "the joints of a body do not fit together",
-    why: "the model does not load: the scene stays empty",
+    why: "the model does not load, so the scene stays empty",
     bad: Example::Model(
         "<mujoco><worldbody><body><freejoint/><⟦joint⟧/><geom size='.1'/></body></worldbody></mujoco>",
     ),

@@ -6,7 +6,7 @@ pub const LIMIT: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "the model is larger or more deeply nested than the limits allow",
-    why: "limits keep a checker responsive whatever it is given",
+    why: "limits keep the checker responsive for any input",
     bad: Example::LongModel("<mujoco><worldbody>", "<body>", 1100, ""),
     good: Example::Model("<mujoco><worldbody><body><geom size='.1'/></body></worldbody></mujoco>"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The value is not a number, or not a finite one.
+/// The value is not a finite number.
 pub const NUMBER: &Rule = &Rule {
     code: "mjcf-number",
     severity: Severity::Error,
     layer: Layer::Model,
-    summary: "the value is not a number, or not a finite one",
-    why: "the model does not load: the scene stays empty",
+    summary: "the value is not a finite number",
+    why: "the model does not load, so the scene stays empty",
     bad: Example::Model("<mujoco><worldbody><geom size='⟦0,1⟧'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='0.1'/></worldbody></mujoco>"),
 };

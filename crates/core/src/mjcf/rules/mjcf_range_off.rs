@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A range beside a flag that switches it off.
+/// An element gives a range and switches it off.
 pub const RANGE_OFF: &Rule = &Rule {
     code: "mjcf-range-off",
     severity: Severity::Note,
     layer: Layer::Model,
-    summary: "a range is given and switched off in one element",
-    why: "the number looks as if it held",
+    summary: "an element gives a range and switches it off",
+    why: "a reader believes that the range applies",
     bad: Example::Model(
         "<mujoco><worldbody><body><joint range='⟦-1 1⟧' limited='false'/><geom size='.1'/></body></worldbody></mujoco>",
     ),

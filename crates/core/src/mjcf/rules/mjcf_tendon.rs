@@ -6,7 +6,7 @@ pub const TENDON: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Model,
     summary: "the path of a tendon is incomplete, or its numbers are out of range",
-    why: "the model does not load: the scene stays empty",
+    why: "the model does not load, so the scene stays empty",
     bad: Example::Model(
         "<mujoco><worldbody><site name='a'/></worldbody><tendon><spatial><⟦site⟧ site='a'/></spatial></tendon></mujoco>",
     ),

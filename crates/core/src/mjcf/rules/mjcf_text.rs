@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// There is text where only elements belong.
+/// An element contains text where only elements are allowed.
 pub const TEXT: &Rule = &Rule {
     code: "mjcf-text",
     severity: Severity::Warning,
     layer: Layer::Model,
-    summary: "there is text where only elements belong",
-    why: "nobody reads it: it may be what is left of a tag",
+    summary: "an element contains text where only elements are allowed",
+    why: "the loader does not read this text: it may be the rest of a broken tag",
     bad: Example::Model("<mujoco><worldbody>⟦>⟧ <geom size='.1'/></worldbody></mujoco>"),
     good: Example::Model("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
 };

@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A hinge that turns next to nothing.
+/// A hinge turns a very small inertia.
 pub const TINY_INERTIA: &Rule = &Rule {
     code: "mjcf-tiny-inertia",
     severity: Severity::Note,
     layer: Layer::Model,
-    summary: "a hinge turns an inertia that is next to nothing",
-    why: "the smallest torque makes it faster than any timestep follows",
+    summary: "a hinge turns a very small inertia",
+    why: "the smallest torque makes it faster than any timestep can follow",
     bad: Example::Model(
         "<mujoco><worldbody><body><⟦joint⟧ name='hinge'/><geom size='.001' mass='1e-4'/></body></worldbody></mujoco>",
     ),

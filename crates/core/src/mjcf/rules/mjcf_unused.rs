@@ -1,12 +1,12 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// A class or an asset that nothing uses.
+/// Nothing uses a default class or an asset.
 pub const UNUSED: &Rule = &Rule {
     code: "mjcf-unused",
     severity: Severity::Note,
     layer: Layer::Model,
-    summary: "a default class or an asset that nothing uses",
-    why: "what it says holds for nothing: often a `class` or a `material` is forgotten",
+    summary: "nothing uses a default class or an asset",
+    why: "its values apply to nothing: often a `class` or a `material` attribute is missing",
     bad: Example::Model(
         "<mujoco><default><default class='⟦thin⟧'><geom size='.01'/></default></default><worldbody><geom size='.1'/></worldbody></mujoco>",
     ),

@@ -55,7 +55,7 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
             let plural = if given.len() == 1 { "" } else { "s" };
             let owner = node.shown();
             let message =
-                format!("`{name}` of {owner} has {} number{plural}, the model needs {n}", given.len());
+                format!("`{name}` of {owner} has {} number{plural}, but the model needs {n}", given.len());
             report.error(rules::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);
             return None;
         }

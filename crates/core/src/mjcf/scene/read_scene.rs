@@ -41,7 +41,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     }
     let needed = shape.map_or(0, |s| s.sizes.len());
     if let Some(x) = size.iter().take(needed).find(|&&x| x <= 0.0) {
-        let message = format!("`size` of {} has {x}, it must be larger than zero", node.shown());
+        let message = format!("`size` of {} has {x}, but it must be larger than zero", node.shown());
         cx.report.error(rules::VALUE, p.span("size").unwrap_or(node.span.clone()), message);
     }
     SiteSpec {
@@ -64,10 +64,10 @@ fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     if kind == geom::MESH {
         return read_form::check(cx, p, node, kind);
     }
-    let message = format!("{} names a mesh but is not one", node.shown());
+    let message = format!("{} names a mesh but has another type", node.shown());
     cx.report
         .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
-        .help("write `type=\"mesh\"`, or leave `mesh` out");
+        .help("write `type=\"mesh\"`, or delete `mesh`");
     false
 }
 
@@ -106,7 +106,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.shown());
         cx.report
             .error(rules::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
-            .why("the field of view follows from both, and MuJoCo refuses one without the other")
+            .why("the field of view depends on both, and MuJoCo refuses one without the other")
             .help("write the width and height of the sensor in metres, or write `fovy` instead");
     }
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
@@ -120,7 +120,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         false => p.real("fovy").unwrap_or(45.0),
     };
     if sensorsize[1] <= 0.0 && fovy >= 180.0 {
-        let message = format!("`fovy` of {} is {fovy}, it must be less than 180", node.shown());
+        let message = format!("`fovy` of {} is {fovy}, but it must be less than 180", node.shown());
         cx.report
             .error(rules::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
             .why("it is an angle in degrees, from the lower to the upper edge of the picture");
@@ -153,7 +153,7 @@ fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
             None => {
                 let span = p.span("output").unwrap_or(node.span.clone());
                 cx.report
-                    .error(rules::VALUE, span, format!("`{word}` is no image that a camera makes"))
+                    .error(rules::VALUE, span, format!("`{word}` is not an image type of a camera"))
                     .help(format!("write some of {}", IMAGES.join(", ")));
             }
         }
@@ -338,7 +338,7 @@ fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &
     let (kind, object) = (p.text("objtype").unwrap_or(""), p.text("objname").unwrap_or(""));
     let Some(&(word, number)) = KINDS.iter().find(|(word, _)| *word == kind) else {
         let span = p.span("objtype").unwrap_or(node.span.clone());
-        let message = format!("`{kind}` is no kind of object that a tuple can hold");
+        let message = format!("a tuple cannot contain objects of the kind `{kind}`");
         cx.report
             .error(rules::VALUE, span, message)
             .help("write body, joint, geom, site, tendon or actuator");

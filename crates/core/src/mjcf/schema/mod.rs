@@ -206,7 +206,7 @@ const fn not_yet(text: &'static str, value: i32) -> Word {
 /// What shows only in pictures.
 const LOOK: Status = Status::Ignored("appearance");
 /// What acts only together with something that is refused where it stands.
-const MOOT: Status = Status::Ignored("acts only with elements that are refused themselves");
+const MOOT: Status = Status::Ignored("acts only with elements that are themselves refused");
 const USER: Status = Status::Ignored("data for programs; the engine does not read it");
 
 /// The five ways to give an orientation.

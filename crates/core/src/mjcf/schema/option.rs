@@ -78,7 +78,7 @@ static FLAGS: Element = Element::new(
     &[attributes! {
         SWITCH => constraint equality frictionloss limit contact spring damper gravity clampctrl warmstart
             filterparent actuation refsafe sensor midphase eulerdamp autoreset island multiccd;
-        SWITCH => nativeccd [Ignored("convex shapes have one search here; the library's older one is not imitated")];
+        SWITCH => nativeccd [Ignored("this engine has its own search for convex shapes; the older one of the library is not reproduced")];
         SWITCH => override energy fwdinv invdiscrete sleep diagexact;
         SWITCH => ipc [MOOT];
     }],

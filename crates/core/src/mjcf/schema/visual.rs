@@ -180,6 +180,6 @@ static MODEL: Element = Element::new(
     &[attributes! {
         Kind::Name("model") => name;
         TEXT => file;
-        TEXT => content_type [super::Status::Ignored("a model is MJCF, whatever it says; MuJoCo ignores it, too")];
+        TEXT => content_type [super::Status::Ignored("a model is MJCF, whatever it says; MuJoCo ignores it too")];
     }],
 );

@@ -53,7 +53,7 @@ pub(crate) fn sensors(
                         node.span.clone(),
                         format!("the sensors have more than {MAX_VALUES} values"),
                     )
-                    .why("every step would compute and keep them all")
+                    .why("every step would compute and store them all")
                     .help("lower `num`, `nsample`, `dim` or the camera's `resolution`");
                 return list;
             }
@@ -76,7 +76,7 @@ impl Context<'_> {
         if cutoff > 0.0 && unit && kind.senses != Senses::Pair {
             let what = if datatype == Datatype::Axis { "an axis" } else { "a quaternion" };
             self.error_at("cutoff", rules::SENSOR, format!("{} has a cutoff", self.node.shown()))
-                .why(format!("clamping the numbers of {what} would leave no rotation"))
+                .why(format!("clamping the numbers of {what} would not leave a rotation"))
                 .help("remove `cutoff`");
         }
         Some(SensorSpec {
@@ -126,20 +126,22 @@ impl Context<'_> {
                 .warning(
                     rules::NO_EFFECT,
                     span,
-                    format!("`nsample` of {owner} is negative, which keeps no values"),
+                    format!("`nsample` of {owner} is negative, so it keeps no values"),
                 )
-                .help("it is the number of values that are kept: write 0, or remove it");
+                .help("write 0, or remove it: it is the number of stored values");
         }
         if timing.delay > 0.0 && timing.nsample <= 0 {
             self.error_at("delay", rules::CONFLICT, format!("{owner} has a delay but keeps no values"))
-                .why("a delayed value is read from the past ones")
+                .why("a delayed value is read from past values")
                 .help("write `nsample`: at least the delay divided by the timestep, rounded up");
         }
         let in_range = period > 0.0 && phase > -period || period == 0.0;
         if !in_range || phase > 0.0 {
             self.error_at("interval", rules::VALUE, format!("`interval` of {owner} is out of range"))
                 .why("it is a period, s, and the time of the first reading before the start")
-                .help("the period is zero or more, the second number between minus the period and zero");
+                .help(
+                    "write a period of zero or more, and a second number between minus the period and zero",
+                );
         }
         timing
     }
@@ -148,7 +150,7 @@ impl Context<'_> {
     fn missing<T>(&mut self, attributes: &[&str]) -> Option<T> {
         let list: Vec<String> = listed(attributes.iter().map(|a| format!("`{a}`")));
         let message = format!("{} has no {}", self.node.shown(), list.join(" or "));
-        self.error_at("", rules::MISSING_ATTRIBUTE, message).why("it says what the sensor reads");
+        self.error_at("", rules::MISSING_ATTRIBUTE, message).why("it is the object that the sensor reads");
         None
     }
 
@@ -309,7 +311,7 @@ impl Context<'_> {
         let is = ["free", "ball", "slide", "hinge"].get(is as usize).copied().unwrap_or("");
         let joint = shown(self.node.text("joint").unwrap_or(""));
         self.error_at("joint", rules::SENSOR, format!("`{}` reads joint {joint}, a {is} joint", kind.name))
-            .help(format!("it needs {needs}; `framepos` and `framequat` read the pose of any body"));
+            .help(format!("use {needs}; `framepos` and `framequat` read the pose of any body"));
     }
 
     fn has_no_limits(&mut self, what: &'static str) {
@@ -319,7 +321,7 @@ impl Context<'_> {
             shown(self.node.text(what).unwrap_or(""))
         );
         self.error_at(what, rules::SENSOR, message)
-            .why("the sensor would be zero for ever")
+            .why("the sensor would always read zero")
             .help(format!("give the {what} a `range`, or remove the sensor"));
     }
 
@@ -342,7 +344,7 @@ impl Context<'_> {
                 let num = self.p.int("num").unwrap_or(1);
                 if num <= 0 {
                     self.error_at("num", rules::VALUE, format!("`num` of {} is {num}", self.node.shown()))
-                        .help("it is the number of contacts that the sensor shows, one or more");
+                        .help("write the number of contacts to report, one or more");
                     return None;
                 }
                 let dim = self.dim(num as usize, data_size(&CONTACT_DATA, mask))?;
@@ -384,14 +386,14 @@ impl Context<'_> {
         for word in text.split_ascii_whitespace() {
             let Some(at) = fields.iter().position(|(name, _)| *name == word) else {
                 let message = format!("`data` of {} lists {}", self.node.shown(), shown(word));
-                self.error_at("data", rules::KEYWORD, message).help(format!("it can list: {all}"));
+                self.error_at("data", rules::KEYWORD, message).help(format!("use only these: {all}"));
                 return None;
             };
             if last.is_some_and(|last| at <= last) {
                 let message = format!("`data` of {} lists its fields out of order", self.node.shown());
                 self.error_at("data", rules::KEYWORD, message)
-                    .why("values always come in one order, and each field once")
-                    .help(format!("the order is: {all}"));
+                    .why("values always have the same order, and each field appears once")
+                    .help(format!("use the order {all}"));
                 return None;
             }
             last = Some(at);
@@ -417,7 +419,7 @@ impl Context<'_> {
             _ => dim,
         };
         if dim != needed {
-            let message = format!("`dim` of {} is {dim}, its `datatype` has {needed}", self.node.shown());
+            let message = format!("`dim` of {} is {dim}, but its `datatype` has {needed}", self.node.shown());
             self.error_at("dim", rules::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
         }
         (datatype, self.p.word("needstage").unwrap_or(When::Acceleration as i32))

@@ -77,6 +77,6 @@ pub(crate) fn pattern(m: &mut Model, list: &[TendonSpec], report: &mut Report) -
         return report.take(2 * m.nJten, span, "the Jacobians of all tendons").then_some(());
     }
     let message = format!("the Jacobians of all tendons have more than {MAX_JACOBIAN} entries");
-    report.error(rules::LIMIT, span, message).help("leave out what the lesson does not need");
+    report.error(rules::LIMIT, span, message).help("remove what the lesson does not need");
     None
 }

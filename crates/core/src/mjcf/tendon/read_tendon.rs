@@ -30,7 +30,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
         cx.report
             .error(rules::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.shown()))
             .why(
-                "the forces of its actuators are scaled until their sum is in the range, and nothing scales a sum of zero",
+                "the actuator forces are scaled until their sum is in the range, but a sum of zero cannot be scaled",
             );
     }
     let path = path(cx, refs, i, node);
@@ -44,7 +44,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
                 format!("{owner} has armature and wraps around a geom"),
             )
             .why(NO_SECOND_DERIVATIVE)
-            .help("remove `armature`, or lead the tendon through sites only");
+            .help("remove `armature`, or route the tendon through sites only");
     }
     let width = if spatial {
         checked(&p, "width", &owner, |x| x > 0.0, "larger than zero", cx.report)
@@ -77,7 +77,7 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
 }
 
 const NO_SECOND_DERIVATIVE: &str =
-    "the inertia of a tendon needs the second derivative of its length, which is not known for wrapping";
+    "the inertia of a tendon needs the second derivative of its length, which is unknown for wrapping";
 
 fn wraps_geoms(path: &[WrapSpec]) -> bool {
     path.iter().any(|w| matches!(w.kind, wraptype::SPHERE | wraptype::CYLINDER))
@@ -95,7 +95,7 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
             report
                 .error(rules::TENDON, a.span.clone(), message)
                 .why(NO_SECOND_DERIVATIVE)
-                .help("remove `armature`, or lead the tendon through sites only");
+                .help("remove `armature`, or route the tendon through sites only");
         }
     }
 }
@@ -111,7 +111,7 @@ fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
         let span = p.span("springlength").unwrap_or(node.span.clone());
         cx.report
             .error(rules::TENDON, span, format!("the springlength of {} is {lower} to {upper}", node.shown()))
-            .why("between both lengths the spring is relaxed, so the first must be the smaller one")
+            .why("the spring is relaxed between both lengths, so the first must be the smaller one")
             .help(format!("write `springlength=\"{upper} {lower}\"`"));
     }
     [lower, upper]
@@ -172,8 +172,8 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
                 _ => {
                     let span = node.attribute("geom").map_or(node.span.clone(), |a| a.span.clone());
                     report
-                        .error(rules::TENDON, span, "a tendon goes around spheres and cylinders only")
-                        .help("put a sphere or cylinder there; with `contype=\"0\" conaffinity=\"0\"` it touches nothing");
+                        .error(rules::TENDON, span, "a tendon can wrap only around spheres and cylinders")
+                        .help("put a sphere or cylinder there; with `contype=\"0\" conaffinity=\"0\"` it makes no contacts");
                     return None;
                 }
             };
@@ -188,7 +188,7 @@ fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> 
                     .error(
                         rules::TENDON,
                         span,
-                        format!("`divisor` of a pulley is {divisor}, it must be larger than zero"),
+                        format!("`divisor` of a pulley is {divisor}, but it must be larger than zero"),
                     )
                     .why("the length of the branch after the pulley is divided by it");
                 return None;
@@ -205,19 +205,19 @@ fn check_path(nodes: &[&Node], path: &[WrapSpec], report: &mut Report) {
         let (before, after) = (if i == 0 { wraptype::PULLEY } else { kind(i - 1) }, kind(i + 1));
         let (message, help) = match wrap.kind {
             wraptype::PULLEY if i > 0 && before == wraptype::PULLEY => {
-                ("a pulley directly after another", "put the sites of a branch between them")
+                ("a pulley directly follows another", "put the sites of a branch between them")
             }
             wraptype::PULLEY if i + 1 == path.len() => {
-                ("the path ends with a pulley", "let the branch after it run through at least two sites")
+                ("the path ends with a pulley", "continue the branch after it through at least two sites")
             }
             wraptype::SITE if before == wraptype::PULLEY && after == wraptype::PULLEY => {
-                ("a single site has no length", "a branch runs through at least two sites")
+                ("a branch has a single site and no length", "route the branch through at least two sites")
             }
             wraptype::SITE if after == wraptype::SITE && path.get(i + 1).is_some_and(|w| w.id == wrap.id) => {
-                ("the same site twice in a row", "remove one of them")
+                ("the same site appears twice in a row", "remove one of them")
             }
             wraptype::SPHERE | wraptype::CYLINDER if before != wraptype::SITE || after != wraptype::SITE => {
-                ("a geom that is not between two sites", "put a site before and after it")
+                ("a geom is not between two sites", "put a site before and after it")
             }
             _ => continue,
         };

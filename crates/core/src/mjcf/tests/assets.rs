@@ -171,8 +171,8 @@ fn skins_that_do_not_fit() {
         (vertex.into(), bone.replace("'1 1 1'", "'1 1 -1'"), "a vertex 2 that no bone carries"),
         (vertex.into(), bone.replace("bindpos='0 0 0'", ""), "has no `bindpos`"),
         (vertex.into(), bone.replace("body='ball'", ""), "has no `body`"),
-        ("file='a.skn' face='0 1 2'".into(), String::new(), "both a file and data"),
-        ("file='a.skn'".into(), bone.into(), "both a file and data"),
+        ("file='a.skn' face='0 1 2'".into(), String::new(), "both a file and inline data"),
+        ("file='a.skn'".into(), bone.into(), "both a file and inline data"),
         ("file='a.txt'".into(), String::new(), "does not end in .skn"),
         ("file='b.skn'".into(), String::new(), "b.skn"),
     ];

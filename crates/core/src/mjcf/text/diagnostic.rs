@@ -190,10 +190,10 @@ impl Report {
         }
         if !self.list.iter().any(|d| d.code == rules::LIMIT) {
             let message =
-                format!("{what} would take {numbers} numbers, a model may hold {MAX_NUMBERS} in all");
+                format!("{what} would take {numbers} numbers, but a model can have at most {MAX_NUMBERS}");
             self.error(rules::LIMIT, span, message)
-                .why("a short text could ask for more memory than a computer has")
-                .help("ask for fewer here, or elsewhere in the model");
+                .why("a short text could otherwise request more memory than a computer has")
+                .help("use fewer here, or elsewhere in the model");
         }
         false
     }

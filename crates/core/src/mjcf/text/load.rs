@@ -137,8 +137,8 @@ impl<'f> Loader<'f> {
         let span = element.span.clone();
         if !element.children.is_empty() {
             report
-                .error(rules::FILE, span, "`include` holds elements")
-                .help("write `<include file=\"…\"/>`: what the file holds takes its place");
+                .error(rules::FILE, span, "`include` contains elements")
+                .help("write `<include file=\"…\"/>`: the contents of the file replace it");
             return Vec::new();
         }
         let Some(file) = element.attribute("file") else {
@@ -152,7 +152,7 @@ impl<'f> Loader<'f> {
         if !included.insert(path.clone()) {
             report
                 .error(rules::FILE, span, format!("the file {} is included twice", shown(&path)))
-                .why("its elements would all be there twice, or a file would include itself without end")
+                .why("its elements would appear twice, or a file would include itself without end")
                 .help("include it once; `replicate` and `attach` make copies");
             return Vec::new();
         }
@@ -160,7 +160,7 @@ impl<'f> Loader<'f> {
         let root = self.parse(&text, base, list, report).and_then(|root| list.get(root));
         let children = root.map_or(Vec::new(), |r| r.children.clone());
         if root.is_some() && children.is_empty() {
-            report.error(rules::FILE, span, format!("the included file {} holds no elements", shown(&path)));
+            report.error(rules::FILE, span, format!("the included file {} has no elements", shown(&path)));
         }
         children
     }
@@ -180,18 +180,22 @@ impl<'f> Loader<'f> {
             let Some((path, text)) = self.text(written, folder, &file.span, report) else { continue };
             if self.open.contains(&path) || self.open.len() > MAX_NESTED {
                 report
-                    .error(rules::FILE, file.span.clone(), format!("the model {} holds itself", shown(&path)))
-                    .why("a model that attaches a model that attaches it again has no end");
+                    .error(
+                        rules::FILE,
+                        file.span.clone(),
+                        format!("the model {} contains itself", shown(&path)),
+                    )
+                    .why("a model that attaches itself through another model has no end");
                 continue;
             }
             let Some(model) = self.model(text, Some(&path), report) else { continue };
             let own = model.tree.nodes.first().and_then(|root| root.text("model"));
             let name = node.text("name").or(own).unwrap_or("MuJoCo Model").to_string();
             if models.contains_key(&name) {
-                let message = format!("a second model is named {}", shown(&name));
-                report.error(rules::DUPLICATE_NAME, node.span.clone(), message).help(
-                    "a model without `name` has the name that stands in its file: give one of them another",
-                );
+                let message = format!("a second model has the name {}", shown(&name));
+                report
+                    .error(rules::DUPLICATE_NAME, node.span.clone(), message)
+                    .help("rename one of them: a model without `name` takes the name in its file");
             }
             models.insert(name, model);
         }
@@ -240,10 +244,10 @@ pub(crate) fn read(
             .error(
                 rules::FILE,
                 span.clone(),
-                format!("{} is not a path from the folder of the model", shown(written)),
+                format!("{} is not a path relative to the folder of the model", shown(written)),
             )
-            .why("a path that begins at the top of a disk is right on one computer only")
-            .help("write the path as it is seen from the folder of the model");
+            .why("an absolute path is valid on one computer only")
+            .help("write the path relative to the folder of the model");
         return None;
     };
     let name = shown(&path);
@@ -253,26 +257,26 @@ pub(crate) fn read(
             .error(
                 rules::FILE,
                 span.clone(),
-                format!("the file {name} is not read: this model is given as text"),
+                format!("the file {name} is not read, because this model is given as text"),
             )
-            .why("a text has no folder in which files could be found")
-            .help("save the model as a file and load that, or write here what the file holds"),
+            .why("a text has no folder in which to look for files")
+            .help("save the model as a file and load that, or write the contents of the file here"),
         Err(FileProblem::Missing) => report
-            .error(rules::FILE, span.clone(), format!("there is no file {name}"))
-            .why("paths are seen from the folder of the model, also those in included files"),
+            .error(rules::FILE, span.clone(), format!("the file {name} does not exist"))
+            .why("paths are relative to the folder of the model, also in included files"),
         Err(FileProblem::Outside) => report
             .error(
                 rules::OUTSIDE,
                 span.clone(),
-                format!("the file {name} lies outside of what may be opened"),
+                format!("the file {name} is outside the allowed folder"),
             )
             .why(
-                "a model may read only what lies under one root, links resolved: it may come from a stranger",
+                "a model can read only files under one root, after resolving links: it may come from a stranger",
             )
             .help("put the file into the folder of the model, or choose a root that holds both"),
         Err(FileProblem::TooLarge) => report
             .error(rules::LIMIT, span.clone(), format!("the file {name} is too large"))
-            .why("all texts of a model together have a limit, and so has every other file"),
+            .why("all texts of a model together have a size limit, and so does every other file"),
         Err(FileProblem::Unreadable(what)) => {
             report.error(rules::FILE, span.clone(), format!("the file {name} cannot be read: {what}"))
         }

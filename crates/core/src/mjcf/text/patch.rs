@@ -58,7 +58,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
         }
         _ => {
             return refuse(
-                format!("`{}` is no attribute of an element", patch.path),
+                format!("`{}` is not an attribute of an element", patch.path),
                 "write kind, name and attribute, as in \"geom ball friction\", or \"option timestep\"",
             );
         }
@@ -88,7 +88,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
             return refuse(format!("the model has no {kind} `{name}`"), &help);
         }
         (None, None) => {
-            let help = format!("say which one: {}", near("", names, "give it a name"));
+            let help = format!("name one of them: {}", near("", names, "give it a name"));
             return refuse(format!("the model has {} elements `{kind}`", of_kind.len()), &help);
         }
     };
@@ -100,7 +100,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
     match found.schema.attribute(attribute) {
         Some(attr) if matches!(attr.kind, Kind::Name(_)) => refuse(
             format!("the name of a {kind} cannot be changed"),
-            "everything is found by it; change what it has",
+            "change one of its attributes: objects are found by their names",
         ),
         Some(_) => {
             set(list, found.at, attribute, &patch.value);
@@ -166,7 +166,7 @@ fn mass_of(list: &[Element], body: Seen, seen: &[Seen], name: &str) -> Result<Se
                 geoms.iter().filter_map(|s| list.get(s.at)?.attribute("name").map(|a| a.value.as_str()));
             let names: Vec<&str> = listed(names);
             Err(Refusal {
-                message: format!("the mass of the body `{name}` is that of its {} geoms", geoms.len()),
+                message: format!("the mass of the body `{name}` is the sum of its {} geoms", geoms.len()),
                 help: format!("change the mass of one of them: {}", names.join(", ")),
             })
         }
@@ -248,10 +248,10 @@ mod tests {
             ("geom irn mass", "1", "no geom `irn`; did you mean `iron`?"),
             ("geom iron mas", "1", "no attribute `mas`; did you mean `mass`?"),
             ("goem iron mass", "1", "no element `goem`; did you mean `geom`?"),
-            ("geom mass", "1", "4 elements `geom`; say which one: floor"),
+            ("geom mass", "1", "4 elements `geom`; name one of them: floor"),
             ("body rod mass", "1", "its 2 geoms; change the mass of one of them: one, two"),
             ("geom iron name", "gold", "cannot be changed"),
-            ("mass", "1", "no attribute of an element"),
+            ("mass", "1", "not an attribute of an element"),
             ("geom iron mass", "heavy", "`mass` of geom"),
         ] {
             match patched(path, value) {

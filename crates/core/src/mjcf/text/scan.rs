@@ -107,10 +107,10 @@ fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
         .warning(
             rules::TEXT,
             base + start..base + start + first.len(),
-            "this text stands between elements, where it has no effect",
+            "this text between elements has no effect",
         )
-        .why("MuJoCo passes over it, too; a tag that lost its `<`, or a `>` too many, looks like this")
-        .help("begin a tag with `<`; write a remark as a comment, <!-- … -->; remove the rest");
+        .why("MuJoCo ignores it too; it is often a tag that lost its `<`, or an extra `>`")
+        .help("begin a tag with `<`, write a remark as a comment, <!-- … -->, or remove the text");
 }
 
 /// Whether the limits hold. What must change is added to `changes`.
@@ -123,7 +123,7 @@ fn within_limits(
 ) -> bool {
     let size = report.bytes();
     if size > MAX_TEXT {
-        let message = format!("the model has {size} bytes, at most {MAX_TEXT} are read");
+        let message = format!("the model has {size} bytes, but the limit is {MAX_TEXT}");
         report.error(rules::LIMIT, base..base, message);
         return false;
     }
@@ -150,7 +150,7 @@ fn within_limits(
                 .error(
                     rules::XML,
                     base + open..base + open + 2,
-                    "a document type or entity is declared, which a model has no use for",
+                    "the model declares a document type or an entity",
                 )
                 .why("entities could make a small file expand without bound")
                 .help("remove the `<!…>` declaration");
@@ -164,7 +164,7 @@ fn within_limits(
             counts.elements += 1;
             for &at in &tag.joined {
                 report
-                    .warning(rules::TEXT, base + at..base + at, "a blank is missing between two attributes")
+                    .warning(rules::TEXT, base + at..base + at, "a space is missing between two attributes")
                     .help("put a space here");
             }
             changes.inserted.extend(&tag.joined);
@@ -180,11 +180,7 @@ fn within_limits(
             }
             if let Some(at) = tag.namespace {
                 report
-                    .error(
-                        rules::XML,
-                        base + at..base + at + 5,
-                        "an XML namespace is declared, which a model has no use for",
-                    )
+                    .error(rules::XML, base + at..base + at + 5, "the model declares an XML namespace")
                     .help("remove the `xmlns` attribute");
                 return false;
             }
@@ -195,7 +191,7 @@ fn within_limits(
             if depth > MAX_DEPTH {
                 report
                     .error(rules::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
-                    .help("a kinematic chain this long can be cut into several trees");
+                    .help("split the kinematic chain into several trees");
                 return false;
             }
             if counts.elements > MAX_ELEMENTS {

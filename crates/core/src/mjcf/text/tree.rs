@@ -109,7 +109,7 @@ pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tr
         let span = list.get(root).map_or(0..0, |r| r.span.clone());
         report
             .error(rules::UNKNOWN_ELEMENT, span, format!("the root element is {}, not `mujoco`", shown(name)))
-            .help("a model is written as `<mujoco> … </mujoco>`");
+            .help("write a model as `<mujoco> … </mujoco>`");
         return None;
     }
 
@@ -189,16 +189,12 @@ fn children(
             report.incomplete = true;
             report
                 .error(rules::NOT_SUPPORTED, span, format!("`{name}` is not supported yet"))
-                .why("leaving it out silently would change what the model computes");
+                .why("ignoring it silently would change what the model computes");
             continue;
         }
         if known.once && seen.contains(&known.name) {
             report
-                .error(
-                    rules::REPEATED_ELEMENT,
-                    span,
-                    format!("a second `{name}` in the same `{}`", element.name),
-                )
+                .error(rules::REPEATED_ELEMENT, span, format!("`{}` has a second `{name}`", element.name))
                 .help("merge its attributes into the first");
             continue;
         }
@@ -216,14 +212,14 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
     if !places.is_empty() {
         let list: Vec<_> = listed(places.iter().map(|p| format!("`{p}`")));
         report
-            .error(rules::MISPLACED_ELEMENT, span, format!("`{name}` cannot stand in `{}`", element.name))
-            .help(format!("it belongs into {}", list.join(" or ")));
+            .error(rules::MISPLACED_ELEMENT, span, format!("`{name}` is not allowed in `{}`", element.name))
+            .help(format!("move it into {}", list.join(" or ")));
         return;
     }
     let error = report.error(
         rules::UNKNOWN_ELEMENT,
         span,
-        format!("there is no element {} in `{}`", shown(name), element.name),
+        format!("MJCF has no element {} in `{}`", shown(name), element.name),
     );
     if let Some(near) = nearest(name, element.children.iter().map(|c| c.name)) {
         error.help(format!("did you mean `{near}`?"));
@@ -243,7 +239,7 @@ fn attributes(xml: &Xml, element: &'static Element, report: &mut Report) -> Vec<
         };
         let span = a.value_span.clone();
         if a.value.trim().is_empty() && attr.kind.counts() && !needs_number(element.name, attr.name) {
-            let message = format!("`{}` of {} is empty, which counts as not given", attr.name, element.name);
+            let message = format!("`{}` of {} is empty, so it has no effect", attr.name, element.name);
             report.warning(rules::NO_EFFECT, span.clone(), message).help("write its numbers, or remove it");
             if counts_empty(element.name, attr.name) {
                 list.push(Attribute { attr, value: Value::Bad, span });
@@ -328,7 +324,7 @@ fn exclusive(list: &[Attribute], element: &Element, report: &mut Report) {
             let message = format!("{} has both `{first}` and `{second}`", element.name);
             report
                 .error(rules::CONFLICT, other.span.clone(), message)
-                .why("each of them decides the same, and MuJoCo refuses a model that gives both")
+                .why("both set the same value, and MuJoCo refuses a model with both")
                 .help("keep one of them");
         }
     }

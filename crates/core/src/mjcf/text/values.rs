@@ -58,7 +58,7 @@ pub(crate) fn parse(kind: Kind, text: &str) -> Result<Value, Problem> {
         Kind::Words(words) => keyword(words, text),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class if text.len() > LONGEST_NAME => Err(Problem::new(
             rules::LIMIT,
-            format!("is too long: {} bytes, a name may have at most {LONGEST_NAME}", text.len()),
+            format!("is too long: {} bytes, but a name can have at most {LONGEST_NAME}", text.len()),
         )),
         Kind::Name(_) | Kind::Ref(_) | Kind::Class | Kind::Text => Ok(Value::Text(text.to_string())),
     }
@@ -75,7 +75,7 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
         return Err(problem);
     }
     let mut problem =
-        Problem::new(rules::KEYWORD, format!("is {}, which is not one of its keywords", shown(text)));
+        Problem::new(rules::KEYWORD, format!("is {}, which is not an allowed keyword", shown(text)));
     problem.help = Some(match nearest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
         None => format!("write one of: {}", known(words)),
@@ -113,11 +113,10 @@ fn real(word: &str) -> Result<f64, Problem> {
     let plain = word.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E'));
     match word.parse::<f64>() {
         Ok(x) if plain && x.is_finite() => Ok(x),
-        Ok(_) if plain => Err(Problem::new(
-            rules::NUMBER,
-            format!("has {}, which is larger than a 64-bit number can be", shown(word)),
-        )),
-        Ok(_) => Err(Problem::new(rules::NUMBER, format!("has {}: numbers must be finite", shown(word)))),
+        Ok(_) if plain => {
+            Err(Problem::new(rules::NUMBER, format!("has {}, which exceeds a 64-bit number", shown(word))))
+        }
+        Ok(_) => Err(Problem::new(rules::NUMBER, format!("has {}, but numbers must be finite", shown(word)))),
         Err(_) => Err(not_a_number(word, "number")),
     }
 }
@@ -164,7 +163,7 @@ fn check_count(n: usize, min: usize, max: usize, noun: &str) -> Result<(), Probl
         (_, b) if n > b => format!("at most {b}"),
         (a, _) => format!("at least {a}"),
     };
-    Err(Problem::new(rules::COUNT, format!("{has}, it takes {needs}")))
+    Err(Problem::new(rules::COUNT, format!("{has}, but needs {needs}")))
 }
 
 #[cfg(test)]
@@ -191,6 +190,6 @@ mod tests {
         let problem = parse(Kind::Reals(3, 3), "1  x2 3").unwrap_err();
         assert_eq!(problem.at, Some(3..5));
         assert_eq!(parse(Kind::Ints(1, 1), "99999999999").unwrap_err().code, rules::NUMBER);
-        assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, it takes at least 2");
+        assert_eq!(parse(Kind::Reals(2, 3), "1").unwrap_err().message, "has 1 number, but needs at least 2");
     }
 }

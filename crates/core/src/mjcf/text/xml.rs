@@ -160,16 +160,17 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report)
             "every `<name>` needs a `</name>`; an element without content ends with `/>`".into(),
         ),
         Error::NoRootNode => {
-            ("the text holds no element".into(), "a model is written as `<mujoco> … </mujoco>`".into())
+            ("the text has no element".into(), "write a model as `<mujoco> … </mujoco>`".into())
         }
         Error::DuplicatedAttribute(name, _) => {
-            (format!("the attribute {} stands twice in one tag", shown(name)), "keep one of them".into())
+            (format!("the attribute {} appears twice in one tag", shown(name)), "keep one of them".into())
         }
-        Error::InvalidAttributeValue(_) => {
-            ("a `<` inside an attribute's value".into(), "close the quotes of the attribute before it".into())
-        }
+        Error::InvalidAttributeValue(_) => (
+            "the value of an attribute contains a `<`".into(),
+            "close the quotes of the attribute before it".into(),
+        ),
         Error::UnknownEntityReference(..) | Error::MalformedEntityReference(_) => (
-            "a `&` that does not begin `&amp;`, `&lt;`, `&gt;`, `&quot;` or `&apos;`".into(),
+            "a `&` does not begin `&amp;`, `&lt;`, `&gt;`, `&quot;` or `&apos;`".into(),
             "write `&amp;` for the character itself".into(),
         ),
         Error::InvalidChar2("a whitespace", ..) => (
@@ -177,7 +178,7 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report)
             "close the quotes of the value before it, or put a space between two attributes".into(),
         ),
         Error::InvalidComment(_) => {
-            ("`--` inside a comment".into(), "a comment may not hold two hyphens in a row".into())
+            ("a comment contains `--`".into(), "remove the two hyphens in a row".into())
         }
         Error::UnexpectedEndOfStream => {
             ("the text ends inside a tag, a value or a comment".into(), "complete the last tag".into())

@@ -39,12 +39,10 @@ fn switched_off(tree: &Tree, report: &mut Report) {
                 && matches!(&range.value, Value::Reals(r) if r.iter().any(|x| *x != 0.0))
             {
                 let message = format!(
-                    "`{}` is given, and `{}` beside it is false: it limits nothing",
+                    "`{}` is given, but `{}` beside it is false, so it limits nothing",
                     range.attr.name, flag.attr.name
                 );
-                report
-                    .note(rules::RANGE_OFF, range.span.clone(), message)
-                    .help("remove the one or the other");
+                report.note(rules::RANGE_OFF, range.span.clone(), message).help("remove one of them");
             }
         }
     }
@@ -71,7 +69,7 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
                 let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
                 let key = shown("key", own_name(node).unwrap_or(""), k);
                 let message = format!(
-                    "{key} puts {} at {}, and its range is {} to {}",
+                    "{key} puts {} at {}, but its range is {} to {}",
                     shown("joint", name, j),
                     digits(*x),
                     digits(*low),
@@ -79,8 +77,8 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
                 );
                 report
                     .warning(rules::KEY_BEYOND, qpos.span.clone(), message)
-                    .why("the limit pushes it back from the first step on: the scene does not begin at rest")
-                    .help("put it within the range, or widen the range");
+                    .why("the limit pushes the joint back from the first step on, so the scene does not begin at rest")
+                    .help("move it into the range, or widen the range");
             }
         }
     }
@@ -109,6 +107,6 @@ fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     };
     report
         .note(rules::FREE_SERVO, span, message)
-        .why("whatever a slider or a controller writes is followed, with as much force as it takes")
+        .why("it follows any target of a slider or a controller with as much force as it takes")
         .help("give it the range of its joint");
 }

@@ -27,7 +27,7 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     let Some(([a, b], depth)) = deep.max_by(|x, y| x.1.total_cmp(&y.1)) else { return };
     let name = |g: usize| m.names.of(Obj::Geom).get(g).map_or("", String::as_str);
     let message = format!(
-        "{} begins {} mm inside of {}",
+        "{} begins {} mm inside {}",
         shown("geom", name(b), b),
         digits(1000.0 * depth),
         shown("geom", name(a), a)
@@ -35,7 +35,7 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     report
         .note(rules::OVERLAP, place(tree, &["geom"], name(b)), message)
         .why("a lab that begins here, without a keyframe or a setup, throws the two apart")
-        .help("let them touch at most, or leave the pair out of contact");
+        .help("move them until they only touch, or exclude the pair from contact");
 }
 
 /// Everything at its place; nothing where that is too much.

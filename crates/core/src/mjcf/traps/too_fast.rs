@@ -94,7 +94,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
         };
         let by = if a.servo { ", with its servo," } else { "" };
         let message = format!(
-            "{}{by} is {what} with a time constant of {} s, and the timestep is {} s",
+            "{}{by} is {what} with a time constant of {} s, but the timestep is {} s",
             shown("joint", name, j),
             digits(time),
             digits(h)
@@ -102,10 +102,10 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
         report
             .note(rules::TOO_FAST, place(tree, &["joint"], name), message)
             .why(format!(
-                "on an inertia of {} the integrator makes it grow from step to step, where nothing else holds it",
+                "on an inertia of {}, the integrator makes it grow from step to step, unless something else limits it",
                 digits(mass)
             ))
-            .help("a shorter timestep, a softer spring or gain, or more inertia or `armature`");
+            .help("use a shorter timestep, a softer spring or gain, or more inertia or `armature`");
     }
 }
 
@@ -122,15 +122,15 @@ fn constraints(tree: &Tree, m: &Model, report: &mut Report) {
                 continue;
             };
             let message = format!(
-                "`{}` asks for {} s, and gets {} s: two timesteps",
+                "`{}` requests {} s but gets {} s, two timesteps",
                 a.attr.name,
                 digits(*time),
                 digits(least)
             );
             report
                 .warning(rules::SOFTENED, a.span.clone(), message)
-                .why("the flag `refsafe` makes constraints no harder than the timestep follows")
-                .help("write what it gets, or shorten the timestep");
+                .why("the flag `refsafe` makes constraints no stiffer than the timestep allows")
+                .help("write the value that it gets, or shorten the timestep");
         }
     }
 }

@@ -58,7 +58,7 @@ pub(super) fn tell(tree: &Tree, report: &mut Report) {
         };
         report
             .note(rules::UNUSED, span.clone(), format!("nothing uses the {kind} {}{more}", shown(first)))
-            .help("name it where it is meant to be, or remove it");
+            .help("use it, or remove it");
     }
 }
 

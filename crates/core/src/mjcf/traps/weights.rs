@@ -23,7 +23,7 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
         let ratio = own.max(below) / own.min(below);
         if parent > 0 && moves(parent) && apart_from(b) && own > 0.0 && below > 0.0 && ratio > APART {
             let message = format!(
-                "{} has {} kg, and {} beside it {} kg",
+                "{} has {} kg, but its neighbour {} has {} kg",
                 shown("body", body(b), b),
                 digits(own),
                 shown("body", body(parent), parent),
@@ -32,10 +32,10 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
             report
                 .note(rules::MASSES_APART, place(tree, &["body"], body(b)), message)
                 .why(format!(
-                    "a ratio of {}: the solver needs many more steps, and joints between the two give way",
+                    "at a ratio of {}, the solver needs many more steps, and joints between the two give way",
                     digits(ratio)
                 ))
-                .help("look at the units: grams for kilograms, millimetres for metres");
+                .help("check the units: grams for kilograms, millimetres for metres");
         }
     }
     for j in 0..m.njnt {
@@ -47,8 +47,8 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
                 format!("{} turns an inertia of {} kg m²", shown("joint", name, j), digits(1.0 / inverse));
             report
                 .note(rules::TINY_INERTIA, place(tree, &["joint"], name), message)
-                .why("the smallest torque makes it faster than any timestep follows")
-                .help("look at the units of its sizes, or give it `armature`");
+                .why("the smallest torque makes it faster than any timestep can follow")
+                .help("check the units of its sizes, or give it `armature`");
         }
     }
 }

@@ -47,7 +47,7 @@ impl Look<'_> {
             Some(what) => format!("{what}, {}", advice.what),
             None => advice.what.to_owned(),
         };
-        let message = format!("`{}` is no angle, and {needs}", self.text(span));
+        let message = format!("`{}` is not an angle, but {needs}", self.text(span));
         self.found.push(
             Finding::warning(advice.rule, span, message)
                 .why(format!("it is {what}: {}", advice.why))
@@ -66,7 +66,7 @@ impl Look<'_> {
     fn degrees(&mut self, span: Span, what: &str) {
         let meant = format!("{} * Math.PI / 180", self.text(span));
         self.found.push(
-            Finding::warning(rules::DEGREES, span, format!("{what}, and this looks like degrees"))
+            Finding::warning(rules::DEGREES, span, format!("{what}, but this looks like degrees"))
                 .why("a full turn is 2π, about 6.28 radians")
                 .help(format!("write `{meant}`"))
                 .guess(span, meant),

@@ -43,7 +43,7 @@ impl Look<'_> {
         let meant = format!("{text} && {middle} {last}");
         self.found.push(
             Finding::warning(rules::CHAINED_COMPARISON, span, "comparisons do not chain")
-                .why(format!("`{text}` is true or false, and that is what is compared next, as 1 or 0"))
+                .why(format!("`{text}` is true or false, and the next comparison uses that as 1 or 0"))
                 .help(format!("write `{meant}`"))
                 .guess(span, meant),
         );

@@ -24,10 +24,10 @@ impl Look<'_> {
                     Finding::warning(
                         rules::UNUSED_RESULT,
                         expr.span,
-                        "the value of this statement is dropped",
+                        "the value of this statement is discarded",
                     )
-                    .why("it is computed, and nothing takes it")
-                    .help("assign it; a comparison `==` before a `?` may be meant for `=`"),
+                    .why("nothing uses the computed value")
+                    .help("assign it; `==` before a `?` may be meant as `=`"),
                 );
                 return;
             }
@@ -35,7 +35,7 @@ impl Look<'_> {
             _ => {}
         }
         let report = Finding::warning(rules::UNUSED_RESULT, expr.span, "this statement changes nothing")
-            .why("its value is computed and dropped");
+            .why("its value is computed and discarded");
         let equality = |op: &BinaryOp| matches!(op, BinaryOp::Equal | BinaryOp::StrictEqual);
         self.found.push(match &expr.kind {
             ExprKind::Binary { op, left, right } if equality(op) => {
@@ -55,7 +55,7 @@ impl Look<'_> {
         }
         let text = self.text(left.span);
         self.found.push(
-            Finding::warning(rules::UNUSED_RESULT, span, "the value behind `??` is never used")
+            Finding::warning(rules::UNUSED_RESULT, span, "the value after `??` is never used")
                 .why(format!("`{text}` is {}, never `undefined` or `null`", shape.ty.describe()))
                 .help(format!("write `{text}` alone")),
         );
@@ -68,7 +68,7 @@ impl Look<'_> {
         if let Some(dead) = statements.iter().skip(at + 1).find(own) {
             self.found.push(
                 Finding::warning(rules::UNREACHABLE, dead.span, "this is never reached")
-                    .why("the statement before it leaves for good")
+                    .why("the statement before it always leaves")
                     .help("remove it, or put what comes before under a condition"),
             );
         }

@@ -31,12 +31,12 @@ impl Look<'_> {
         let Some(shape) = self.typed.shape(operand.span).filter(|shape| shape.ty == Type::String) else {
             return;
         };
-        let message = format!("`{symbol}` needs a number, this is a string");
+        let message = format!("`{symbol}` needs a number, but this is a string");
         self.found.push(instead(
             Finding::warning(rules::STRING_AS_NUMBER, operand.span, message),
             shape,
             [
-                "JavaScript turns it into NaN",
+                "JavaScript converts it to NaN",
                 "JavaScript reads the number in it",
                 "JavaScript reads the number in it, or gives NaN when there is none",
             ],
@@ -48,7 +48,7 @@ impl Look<'_> {
         if shape.ty != Type::String {
             return;
         }
-        let message = "a string is stored where a number belongs";
+        let message = "a string is stored where a number is needed";
         self.found.push(instead(
             Finding::warning(rules::STRING_AS_NUMBER, span, message),
             shape,
@@ -63,7 +63,7 @@ impl Look<'_> {
     /// A text that a function of numbers gets.
     pub(super) fn text_for_number(&mut self, span: Span, by: &str, shape: &Shape) {
         if shape.ty == Type::String {
-            let message = format!("`{by}` needs a number, this is a string");
+            let message = format!("`{by}` needs a number, but this is a string");
             self.found.push(
                 Finding::warning(rules::STRING_AS_NUMBER, span, message)
                     .why("JavaScript reads the number in it, or gives NaN when there is none")
@@ -82,6 +82,6 @@ fn instead(report: Finding, shape: &Shape, [none, number, unknown]: [&str; 3]) -
             let meant = crate::number::to_text(x);
             report.why(number).help(format!("write `{meant}`")).fix(span, meant)
         }
-        None => report.why(unknown).help("write `+text` if that is meant"),
+        None => report.why(unknown).help("write `+text` to convert it deliberately"),
     }
 }

@@ -43,10 +43,10 @@ impl Look<'_> {
                     Finding::warning(
                         rules::STORED_TWICE,
                         first.span,
-                        format!("`{one}` is stored, and at once stored again"),
+                        format!("`{one}` is stored twice in a row"),
                     )
-                    .why("what the first statement stores is lost before anything reads it")
-                    .help("look at the index: one of the two is meant for another element"),
+                    .why("the value of the first statement is lost before anything reads it")
+                    .help("check the index: one of the two probably belongs to another element"),
                 );
                 // The first says it; the others may follow from it.
                 return;
@@ -71,8 +71,8 @@ impl Look<'_> {
                         arg.span,
                         format!("`{text}` is an argument twice"),
                     )
-                    .why("the largest or the smallest of both is the same, and a length counts it double")
-                    .help("look at the index: one of the two is meant for another element"),
+                    .why("a maximum or minimum of both is the same, and a length counts it twice")
+                    .help("check the index: one of the two probably belongs to another element"),
                 );
                 return;
             }

@@ -330,7 +330,7 @@ impl<'a> Walk<'a, '_> {
             Finding::error(
                 rules::COMPUTED_NAME,
                 arg.span,
-                format!("the name of a {} stands in quotes", schema.noun(id)),
+                format!("the name of a {} must be in quotes", schema.noun(id)),
             )
             .why("without quotes it is the name of a variable")
             .help(format!("write `\"{word}\"`"))
@@ -455,7 +455,7 @@ impl<'a> Walk<'a, '_> {
                 Finding::error(
                     rules::TOO_LONG,
                     function.span,
-                    format!("more than {MAX_FUNCTIONS} functions in one text"),
+                    format!("the text has more than {MAX_FUNCTIONS} functions"),
                 )
                 .help("split the text"),
             );

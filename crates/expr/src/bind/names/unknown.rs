@@ -44,26 +44,27 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
     let Words { lab, lesson, .. } = words;
     let (why, help) = match name {
         _ if PAGE.contains(&name) => (
-            format!("a {lesson} runs without a page: in a browser, on a command line, in a notebook"),
-            format!("use the names of the {lab}: {}", words.names),
+            format!("a {lesson} must run without a page: in a browser, on a command line, in a notebook"),
+            format!("use a name of the {lab}: {}", words.names),
         ),
         _ if PRINT.contains(&name) => {
-            ("there is nowhere to print".into(), format!("show the value in {}", words.shown))
+            ("there is no console".into(), format!("show the value in {}", words.shown))
         }
-        _ if OUTSIDE.contains(&name) => {
-            (format!("a {lesson} reaches nothing outside itself"), format!("put the data into the {lab}"))
-        }
+        _ if OUTSIDE.contains(&name) => (
+            format!("a {lesson} cannot access anything outside itself"),
+            format!("put the data into the {lab}"),
+        ),
         _ if CODE.contains(&name) => (
-            "text that becomes code while running could not be checked before the run".into(),
+            "code that is generated at run time cannot be checked before the run".into(),
             "write the expression itself".into(),
         ),
         _ if CLOCK.contains(&name) => {
-            ("the clock of the wall would make every run different".into(), words.clock.into())
+            ("the wall clock would make every run different".into(), words.clock.into())
         }
         _ if MORE.contains(&name) => (
-            format!("a {lesson} works on numbers; lists and records are all it needs"),
+            format!("a {lesson} works on numbers, and needs only lists and records"),
             format!(
-                "keep values in variables of the {lab}, as `ctx.peak`, in lists `[0, 1]` or in records `{{a: 1}}`"
+                "store values in variables of the {lab}, as `ctx.peak`, in lists `[0, 1]` or in records `{{a: 1}}`"
             ),
         ),
         _ => return None,
@@ -79,7 +80,7 @@ impl Walk<'_, '_> {
     pub(super) fn unknown(&self, name: &str, span: Span, used: Use) -> Finding {
         let words = self.words();
         if name == "value" {
-            return Finding::error(rules::NO_VALUE_HERE, span, "there is no `value` here")
+            return Finding::error(rules::NO_VALUE_HERE, span, "`value` is not defined here")
                 .why(words.input.0)
                 .help(words.input.1);
         }
@@ -101,11 +102,9 @@ impl Walk<'_, '_> {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
                 let own = match used {
-                    Use::Callee => {
-                        "to make a function of your own, write `const f = (x) => …` before".to_owned()
-                    }
+                    Use::Callee => "to define your own function, write `const f = (x) => …` first".to_owned(),
                     _ => {
-                        format!("to keep a number of your own, write `ctx.{name} = …` or `const {name} = …`")
+                        format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
                     }
                 };
                 let mut known = self.root_names();
@@ -126,7 +125,7 @@ impl Walk<'_, '_> {
 
     pub(super) fn undeclared(&self, name: &str, span: Span) -> Finding {
         let report = Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` is not declared"))
-            .why("an assignment without a declaration would make a variable of all texts");
+            .why("an assignment without a declaration would create a global variable");
         match self.nearest(name) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => report.help(format!(
@@ -150,9 +149,9 @@ impl Walk<'_, '_> {
 
 /// The finding for a second declaration, or one of a name that means something already.
 pub(super) fn taken(name: &Name, here: bool) -> Finding {
-    let why = if here { "it is declared above" } else { "it already means something in every text" };
+    let why = if here { "it is declared above" } else { "it already has a meaning in every text" };
     Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
-        .why(format!("{why}; JavaScript refuses a second declaration"))
+        .why(format!("{why}; JavaScript rejects a second declaration"))
         .help(if here {
             "assign it without `const` or `let`, or choose another name"
         } else {
@@ -178,11 +177,9 @@ pub(super) fn constant(name: &str, span: Span) -> Finding {
 pub(super) fn not_assignable(name: &str, span: Span) -> Finding {
     let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
     match name {
-        "ctx" => {
-            report.why("it holds the variables of all texts").help("assign a variable, as `ctx.peak = 0`")
-        }
-        "value" => report.why("it is given from outside").help("use another name, as `const x = value / 2`"),
-        _ => report.why("it means the same everywhere").help("use another name"),
+        "ctx" => report.why("it holds the global variables").help("assign a variable, as `ctx.peak = 0`"),
+        "value" => report.why("it is set from outside").help("use another name, as `const x = value / 2`"),
+        _ => report.why("it has the same meaning everywhere").help("use another name"),
     }
 }
 

@@ -161,9 +161,9 @@ impl<'a> Binder<'a> {
                 Finding::error(
                     rules::NOT_INDEXABLE,
                     span,
-                    format!("`{}` is one number, not an array", field.path),
+                    format!("`{}` is a single number, not an array", field.path),
                 )
-                .why("an index chooses an element of an array; of a number it gives `undefined`")
+                .why("an index selects an element of an array; on a number it gives `undefined`")
                 .help(format!("write `{object}`"))
                 .fix(span, object),
             );
@@ -190,10 +190,10 @@ impl<'a> Binder<'a> {
                 ));
                 report = match ir.known() {
                     Some(Value::String(_)) => report.help(format!(
-                        "for an object by its name, write `{}` or its like",
+                        "to select an object by its name, write `{}` or similar",
                         self.words().choice
                     )),
-                    _ => report.help("write a whole number"),
+                    _ => report.help("write an integer"),
                 };
                 self.refuse(report)
             }
@@ -205,8 +205,8 @@ impl<'a> Binder<'a> {
         let shown = number::to_text(x);
         if x < 0.0 {
             let mut report =
-                Finding::error(rules::INDEX_NEGATIVE, span, format!("index {shown} is below zero")).why(
-                    "indexes start at 0; JavaScript gives `undefined` here, it does not count from the end",
+                Finding::error(rules::INDEX_NEGATIVE, span, format!("index {shown} is negative")).why(
+                    "indexes start at 0; JavaScript gives `undefined` here and does not count from the end",
                 );
             report = match field.len() {
                 Some(n) if n as f64 + x >= 0.0 && x.fract() == 0.0 => {
@@ -218,9 +218,9 @@ impl<'a> Binder<'a> {
         }
         if x.fract() != 0.0 || !x.is_finite() {
             return self.refuse(
-                Finding::error(rules::INDEX_FRACTION, span, format!("index {shown} is not a whole number"))
-                    .why("there is no element between two elements; JavaScript gives `undefined` here")
-                    .help("round it, as `Math.floor(x)`, or write the whole number"),
+                Finding::error(rules::INDEX_FRACTION, span, format!("index {shown} is not an integer"))
+                    .why("an element has an integer index; JavaScript gives `undefined` here")
+                    .help("round it, as `Math.floor(x)`, or write an integer"),
             );
         }
         // Whole numbers beyond usize become usize::MAX, which is out of every range.
@@ -244,18 +244,18 @@ impl<'a> Binder<'a> {
                 self.collection_needs_call(*id, object.span, name.map(|n| (n, span)))
             }
             (Thing::Object(_) | Thing::Math, Some(name)) => {
-                error(format!("members of `{text}` are not chosen in brackets"))
-                    .why("names are resolved before the run, so they are written with a point")
+                error(format!("members of `{text}` are not selected with brackets"))
+                    .why("names are resolved before the run, so they need a point")
                     .help(format!("write `{text}.{name}`"))
                     .fix(span, format!("{text}.{name}"))
             }
             (Thing::Object(id), None) => {
                 error(format!("{} is not an array", quoted(&self.schema.describe(*id))))
-                    .help("choose a field first, with a point")
+                    .help("select a field first, with a point")
             }
             (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => {
-                error(format!("`{text}` is already one number"))
-                    .why("arrays are flat: one index chooses one number, and rows follow each other")
+                error(format!("`{text}` is already a single number"))
+                    .why("arrays are flat: one index selects one number, and the rows follow each other")
                     .help(format!(
                         "write one index, as `{}[3 * i + k]` for row i, column k",
                         self.words().matrix
@@ -273,7 +273,7 @@ impl<'a> Binder<'a> {
                 _,
             ) => self.not_called(thing, object.span),
             _ => error(format!("`{text}` is not an array"))
-                .help(format!("choose a field with a point, as `{}`", self.words().array)),
+                .help(format!("select a field with a point, as `{}`", self.words().array)),
         }
     }
 
@@ -281,19 +281,22 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn whole_array(&self, field: &Field, span: Span) -> Finding {
         let text = self.text(span);
-        let report =
-            Finding::error(rules::WHOLE_ARRAY, span, format!("`{}` is an array, not one number", field.path));
+        let report = Finding::error(
+            rules::WHOLE_ARRAY,
+            span,
+            format!("`{}` is an array, not a single number", field.path),
+        );
         match field.len() {
             Some(1) => report
-                .why("even an array of one element is not its element")
+                .why("an array with one element is still an array")
                 .help(format!("write `{text}[0]`"))
                 .fix(span.after(), "[0]"),
             Some(n) => report
-                .why(format!("{}a computation needs one of them", owner(field, n)))
-                .help(format!("choose an element, as `{text}[0]`")),
+                .why(format!("{}a computation needs a single element", owner(field, n)))
+                .help(format!("select an element, as `{text}[0]`")),
             None => report
-                .why("its length changes while running, and a computation needs one element")
-                .help(format!("choose an element, as `{text}[0]`")),
+                .why("its length changes during the run, and a computation needs a single element")
+                .help(format!("select an element, as `{text}[0]`")),
         }
     }
 
@@ -317,7 +320,7 @@ impl<'a> Binder<'a> {
                 Some(first) => report(object).help(format!("write `{text}(\"{first}\")`")),
                 None => report(object)
                     .why(format!("no {noun} has a name here"))
-                    .help(format!("name the {noun} in the {}", self.words().model)),
+                    .help(format!("give the {noun} a name in the {}", self.words().model)),
             },
         }
     }
@@ -371,9 +374,9 @@ impl<'a> Binder<'a> {
                     Finding::error(
                         rules::ARGUMENT_TYPE,
                         arg.span,
-                        format!("a {noun} is chosen by its name, not by {}", ir.ty.describe()),
+                        format!("a {noun} must be selected by its name, not by {}", ir.ty.describe()),
                     )
-                    .why(format!("numbers of objects change when the {} changes", self.words().model))
+                    .why(format!("the indexes of objects change when the {} changes", self.words().model))
                     .help(format!("write the name in quotes{shown}")),
                 );
             }
@@ -447,9 +450,9 @@ pub(super) fn past_the_end(field: &Field, span: Span, what: String, words: &Word
     match n {
         0 => report
             .why(why)
-            .help(format!("add to the {} what you want to use, or use another field", words.model)),
+            .help(format!("add the missing object to the {}, or use another field", words.model)),
         _ => report
-            .why(format!("{why}, and reading past them gives `undefined`"))
+            .why(format!("{why}, and reading past the end gives `undefined`"))
             .help(format!("indexes are{}", range(field))),
     }
 }

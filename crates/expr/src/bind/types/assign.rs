@@ -118,10 +118,10 @@ impl<'a> Binder<'a> {
             Finding::error(
                 rules::WHOLE_ARRAY,
                 value.span,
-                format!("`{text}` is an array of the {}; `ctx` keeps values", self.words().world),
+                format!("`{text}` is an array of the {}, but `ctx` stores values", self.words().world),
             )
-            .why("what is kept would go on changing, which is hardly ever meant")
-            .help(format!("keep a copy, as `{text}.slice()`, or one element, as `{text}[0]`"))
+            .why("the stored array would keep changing, which is rarely intended")
+            .help(format!("store a copy, as `{text}.slice()`, or a single element, as `{text}[0]`"))
             .guess(value.span.after(), ".slice()"),
         )
     }
@@ -185,7 +185,7 @@ impl<'a> Binder<'a> {
             return Ok(Place::Member(ir, name.text.as_str().into()));
         }
         let message =
-            format!("`{}` is {}; it has no members to assign", self.text(ir.span), ir.ty.describe());
+            format!("`{}` is {}, so it has no members to assign", self.text(ir.span), ir.ty.describe());
         self.refuse(
             Finding::error(rules::NOT_ASSIGNABLE, span, message)
                 .help("assign a member of a record, or a variable, as `ctx.peak`"),
@@ -225,7 +225,7 @@ impl<'a> Binder<'a> {
                 let text = self.text(target.span).to_owned();
                 self.refuse(
                     Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
-                        .why(format!("its elements are the memory of the {}; an assignment to the name would change none of them", self.words().world))
+                        .why(format!("its elements are the memory of the {}; assigning the name would change none of them", self.words().world))
                         .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
                 )
             }
@@ -245,10 +245,10 @@ impl<'a> Binder<'a> {
                 .why("it is a fixed value")
                 .help("write the field on the left of `=` and the value on the right"),
             ExprKind::Call { .. } => report
-                .why("a call gives a value; it is not a place to store one")
+                .why("a call returns a value; it is not a place to store one")
                 .help("assign a field or a `ctx` variable"),
             ExprKind::Logical { .. } | ExprKind::Conditional { .. } => report
-                .why("`=` binds less tightly than what stands before it")
+                .why("`=` binds less tightly than the operators before it")
                 .help("to compare, write `===`; to assign, put the assignment into a statement of its own"),
             ExprKind::Binary { .. } | ExprKind::Unary { .. } => report
                 .why("it is a computation")
@@ -272,7 +272,7 @@ impl<'a> Binder<'a> {
                     span,
                     format!("`{}` is fixed with the {}", field.path, self.words().model),
                 )
-                .why(format!("it is {}; the other fields are found by it", doc(field)))
+                .why(format!("it is {}; the positions of other fields depend on it", doc(field)))
                 .help(format!("change the {} itself", self.words().model)),
             ),
             FieldKind::Derived { by } => {
@@ -281,14 +281,14 @@ impl<'a> Binder<'a> {
                 let report = Finding::error(
                     rules::ASSIGN_DERIVED,
                     span,
-                    format!("`{}` is {computed}; it cannot be set", field.path),
+                    format!("`{}` is {computed}, so it cannot be set", field.path),
                 )
-                .why("whatever is stored there is overwritten by the next computation");
+                .why("the next computation overwrites a stored value");
                 self.refuse(match self.schema.refresh() {
                     Some(refresh) => {
-                        report.help(format!("set the state that it follows from, then call `{refresh}`"))
+                        report.help(format!("set the state that it depends on, then call `{refresh}`"))
                     }
-                    None => report.help("set what it is computed from"),
+                    None => report.help("set the values that it is computed from"),
                 })
             }
         }
@@ -308,7 +308,7 @@ impl<'a> Binder<'a> {
 
 fn array_in_element(span: Span) -> Finding {
     Finding::error(rules::ASSIGN_ARRAY, span, "an array cannot be stored in one element")
-        .why("an element is one number")
+        .why("an element is a single number")
         .help("store several numbers with `.set([…], offset)`")
 }
 

@@ -48,7 +48,7 @@ impl<'a> Binder<'a> {
                             callee.span,
                             format!("`{name}(…)` is not in this language"),
                         )
-                        .why("it would make an object of JavaScript around the value")
+                        .why("it would create a JavaScript object around the value")
                         .help("write a list `[0, 0]` or a record `{a: 1}`"),
                     )
                 }
@@ -117,11 +117,11 @@ impl<'a> Binder<'a> {
         let report = Finding::error(rules::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
         match thing {
             Thing::Field(field) if !field.is_scalar() => report
-                .why("round brackets call a function")
-                .help(format!("elements are chosen with square brackets, as `{text}[0]`")),
+                .why("parentheses call a function")
+                .help(format!("select elements with square brackets, as `{text}[0]`")),
             _ => report
-                .why("brackets behind a name call a function")
-                .help("if a product is meant, write `*` before the bracket"),
+                .why("parentheses after a name call a function")
+                .help("write `*` before the bracket for a product"),
         }
     }
 
@@ -137,7 +137,7 @@ impl<'a> Binder<'a> {
             _ => format!("{text}(…)"),
         };
         Finding::error(rules::NOT_CALLED, span, format!("`{text}` is a function, but it is not called"))
-            .why("without arguments in brackets nothing happens, and a function is not a value here")
+            .why("a function without parentheses does nothing, and is not a value here")
             .help(format!("write `{call}`"))
     }
 
@@ -152,10 +152,10 @@ impl<'a> Binder<'a> {
             let report = Finding::error(
                 rules::ARGUMENT_TYPE,
                 span,
-                format!("`{path}` would get the index and the whole list as well"),
+                format!("`{path}` would also receive the index and the whole list"),
             )
-            .why(format!("`{called}` hands these over behind the element, and of a list JavaScript makes NaN"))
-            .help(format!("write `(a, b) => {path}(a, b)` in place of `{path}`; of all elements of a list it is `{path}(...list)`"));
+            .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
+            .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"));
             return self.refuse(report);
         }
         self.explain(span, || Help {
@@ -183,16 +183,16 @@ impl<'a> Binder<'a> {
             let message = format!("`{path}` needs {}", count(least, "argument"));
             return self.refuse(
                 Finding::error(rules::ARGUMENT_COUNT, span, message)
-                    .why("what is missing is `undefined`, and of that JavaScript makes NaN")
+                    .why("a missing argument is `undefined`, which JavaScript converts to NaN")
                     .help(format!("write `{path}({})`", if least == 2 { "a, b" } else { "x" })),
             );
         }
         if let Some(most) = most.filter(|most| args.len() > *most) {
             let first = args.get(most).map_or(span, |a| a.span);
             let last = args.last().map_or(span, |a| a.span);
-            let message = format!("`{path}` takes {}, this is ignored", count(most, "argument"));
-            let report = Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message)
-                .why("JavaScript computes without it");
+            let message = format!("`{path}` takes {}, so this argument is ignored", count(most, "argument"));
+            let report =
+                Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message).why("JavaScript ignores it");
             self.report(if path == "Math.round" {
                 let rounding = self.words().rounding;
                 report.help(format!("to round to decimals, write `Math.round(100 * x) / 100`{rounding}"))
@@ -254,7 +254,7 @@ impl<'a> Binder<'a> {
                 spread.span,
                 format!("the arguments of `{}` cannot be spread", info.name),
             )
-            .why("they are checked before the run, one by one")
+            .why("they are checked one by one before the run")
             .help(format!("write `{}`", self.signature(&info)));
             return self.refuse(report);
         }
@@ -296,7 +296,7 @@ impl<'a> Binder<'a> {
         };
         let message = format!("`{}` takes {wanted}, not {}", info.name, args.len());
         let report =
-            Finding::error(rules::ARGUMENT_COUNT, span, message).why(format!("what it does: {}", info.doc));
+            Finding::error(rules::ARGUMENT_COUNT, span, message).why(format!("it does this: {}", info.doc));
         let only_objects =
             !info.params.is_empty() && info.params.iter().all(|p| matches!(p, Param::Object(_)));
         if let Some(callee) = callee.filter(|_| only_objects) {
@@ -330,7 +330,7 @@ impl<'a> Binder<'a> {
                 let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
                 self.refuse(
                     Finding::error(rules::ARGUMENT_TYPE, span, message)
-                        .why("there is only one of it, and it stands in this place")
+                        .why("there is only one such object, and it belongs in this position")
                         .help(format!("write `{}`", self.signature(info))),
                 )
             }

@@ -206,7 +206,7 @@ impl<'a> Binder<'a> {
                     format!("`{name}` gets {} of {needed} arguments", args.len()),
                 )
                 .why("the missing ones are `undefined`, and a computation with them gives NaN")
-                .help("write all arguments, or give the parameters a value, as `(x, k = 1) => …`"),
+                .help("pass all arguments, or give the parameters a default value, as `(x, k = 1) => …`"),
             );
         }
         if failed {

@@ -51,7 +51,7 @@ impl<'a> Binder<'a> {
         let report = Finding::error(
             rules::NO_PARTS,
             value.span,
-            format!("`{text}` is {}; it has no elements to go through", value.ty.describe()),
+            format!("`{text}` is {}, so it has no elements to iterate over", value.ty.describe()),
         )
         .why("JavaScript stops the text here");
         self.refuse(match value.ty {

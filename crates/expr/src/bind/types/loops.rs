@@ -75,7 +75,7 @@ impl<'a> Binder<'a> {
             if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
                     Finding::error(rules::BUDGET, test.span, "this loop never ends")
-                        .why("its condition always holds, and nothing in it leaves the loop: it would run forever")
+                        .why("its condition is always true, and nothing in it leaves the loop")
                         .help("write a condition that becomes false, or leave the loop with `break`"),
                 );
             }
@@ -271,8 +271,10 @@ impl<'a> Binder<'a> {
         if most >= n as f64 {
             let shown = number::to_text(most);
             let text = self.text(index.span);
-            let message =
-                format!("in the last turn of the loop `{text}` is {shown}: past the end of `{}`", field.path);
+            let message = format!(
+                "in the last iteration of the loop, `{text}` is {shown}: past the end of `{}`",
+                field.path
+            );
             return self.refuse(past_the_end(field, index.span, message, self.words()));
         }
         if least < 0.0 {
@@ -281,7 +283,7 @@ impl<'a> Binder<'a> {
                 Finding::error(
                     rules::INDEX_NEGATIVE,
                     index.span,
-                    format!("in the loop `{}` becomes {shown}, below zero", self.text(index.span)),
+                    format!("in the loop, `{}` becomes {shown}, which is negative", self.text(index.span)),
                 )
                 .why("indexes start at 0; JavaScript gives `undefined` here")
                 .help(format!(

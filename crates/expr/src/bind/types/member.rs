@@ -184,7 +184,7 @@ impl<'a> Binder<'a> {
             return self.refuse(
                 Finding::error(rules::NOT_RANDOM, span, "random numbers are not in this language")
                     .why(format!(
-                        "the same {} must give the same numbers every time, or its answers cannot be checked",
+                        "the same {} must give the same numbers every time, so that its answers can be checked",
                         self.words().lesson
                     ))
                     .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.words().number)),
@@ -196,7 +196,7 @@ impl<'a> Binder<'a> {
             Some(meant) => report.help(format!("did you mean `Math.{meant}`?")).guess(name.span, meant),
             None => report
                 .why("`Math` has the functions and constants of JavaScript")
-                .help("write it with `+ - * / % **` and the functions there are"),
+                .help("write it with `+ - * / % **` and the available functions"),
         };
         self.refuse(report)
     }
@@ -216,13 +216,13 @@ impl<'a> Binder<'a> {
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
-                    .why(format!("`{text}` changes the number of elements of a list; this array is the memory of the {}", self.words().world))
-                    .help(format!("store elements, as `{}[0] = 1`, or copy it into a list of your own: `const list = [...{}]`", field.path, field.path)),
+                    .why(format!("`{text}` changes the number of elements of a list, but this array is the memory of the {}", self.words().world))
+                    .help(format!("store elements, as `{}[0] = 1`, or copy it into your own list: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
             text if array && self.is_method(text, Type::List) => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has no method `{text}`", field.path))
-                    .why(format!("it is a typed array in JavaScript, and lists alone have `{text}`"))
+                    .why(format!("it is a typed array in JavaScript, and only lists have `{text}`"))
                     .help(format!("call it on a list of its elements, as `[...{}].{text}(…)`", field.path)),
             ),
             text if array => {
@@ -231,7 +231,7 @@ impl<'a> Binder<'a> {
                     name.span,
                     format!("`{}` has no member `{text}`", field.path),
                 )
-                .why("it is an array of numbers: its elements are chosen by index");
+                .why("it is an array of numbers, and an index selects its elements");
                 let report = match text {
                     "x" | "y" | "z" if field.len() == Some(3) => {
                         let index = ["x", "y", "z"].iter().position(|n| *n == text).unwrap_or(0);
@@ -248,7 +248,7 @@ impl<'a> Binder<'a> {
                     name.span,
                     format!("`{}` has no member `{text}`", field.path),
                 )
-                .why("it is one number");
+                .why("it is a single number");
                 let methods = self.method_names(Type::Number);
                 self.refuse(match nearest(text, methods) {
                     Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
@@ -284,14 +284,14 @@ impl<'a> Binder<'a> {
             (here, Some((cost, path))) if here.is_none_or(|(c, _)| cost < c) => {
                 let (holder, meant) = path.rsplit_once('.').unwrap_or(("", &path));
                 let how =
-                    if meant == name.text { "a field of this name" } else { "a field with a name like it" };
+                    if meant == name.text { "a field of this name" } else { "a field with a similar name" };
                 report
                     .why(format!("`{holder}` has {how}"))
                     .help(format!("did you mean `{path}`?"))
                     .fix(span, path)
             }
             (Some((_, meant)), _) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
-            (None, _) if names.is_empty() => report.why("it has no fields at all"),
+            (None, _) if names.is_empty() => report.why("it has no fields"),
             (None, _) => report.why(format!("its fields are {}", list(&names))),
         }
     }
@@ -338,9 +338,9 @@ pub(super) fn field_help(field: &Field, words: &Words) -> Help {
 /// What assigning means.
 fn kind_in_words(kind: &FieldKind, words: &Words) -> String {
     match kind {
-        FieldKind::State => "state: evolves in time, may be set".into(),
+        FieldKind::State => "state: evolves in time, can be set".into(),
         FieldKind::Input => "input: set from outside".into(),
-        FieldKind::Constant => "constant: may be changed".into(),
+        FieldKind::Constant => "constant: can be changed".into(),
         FieldKind::Inertial => format!("constant: a change needs {}", words.recompute),
         FieldKind::Structure => format!("fixed with the {}", words.model),
         FieldKind::Derived { by } if by.is_empty() => "computed".into(),
@@ -360,7 +360,7 @@ fn from_entry(entry: Entry, span: Span) -> Thing {
 
 pub(super) fn machinery(name: &str, span: Span) -> Finding {
     Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
-        .why("it leads behind the values, into JavaScript itself; that this is closed keeps a text harmless")
+        .why("it gives access to JavaScript internals, which the language excludes to keep a text harmless")
         .help("use another name")
 }
 

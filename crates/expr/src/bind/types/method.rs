@@ -182,9 +182,9 @@ impl<'a> Binder<'a> {
                                 let report = Finding::error(
                                     rules::ARGUMENT_TYPE,
                                     offset.span,
-                                    "the second argument of `.set` must be a whole number from 0 on",
+                                    "the second argument of `.set` must be an integer from 0 on",
                                 )
-                                .why("it is the index of the first element that is stored")
+                                .why("it is the index of the first stored element")
                                 .help("write the number, as `.set([0, 0, 1], 7)`");
                                 return self.refuse(report);
                             }

@@ -290,7 +290,7 @@ impl<'a> Binder<'a> {
     /// A part as it is called in a message.
     fn shown(&self, span: Span) -> String {
         match self.site {
-            Some(site) => format!("what the function of `{}` gives", site.called()),
+            Some(site) => format!("the result of the function of `{}`", site.called()),
             None => format!("`{}`", self.text(span)),
         }
     }
@@ -322,8 +322,8 @@ impl<'a> Binder<'a> {
     /// The finding for a function without a result where a value must stand.
     fn no_result(&self, span: Span) -> Finding {
         let name = self.text(span).split('(').next().unwrap_or("");
-        Finding::error(rules::NO_RESULT, span, format!("`{name}` gives nothing back"))
-            .why("it is called for what it does; there is no value to go on with")
-            .help(format!("call it as a statement of its own, in {}", self.words().statements))
+        Finding::error(rules::NO_RESULT, span, format!("`{name}` returns nothing"))
+            .why("it is called for its effect, so it has no value")
+            .help(format!("call it as a statement, in {}", self.words().statements))
     }
 }

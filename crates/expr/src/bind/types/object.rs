@@ -84,14 +84,14 @@ impl<'a> Binder<'a> {
         let message = if what == ty.describe() {
             format!("`{what}` has no member `{text}`")
         } else {
-            format!("`{what}` is {}; it has no member `{text}`", ty.describe())
+            format!("`{what}` is {}, so it has no member `{text}`", ty.describe())
         };
         let report = Finding::error(rules::UNKNOWN_FIELD, name.span, message);
         let xyz = ["x", "y", "z"].iter().position(|n| *n == text);
         match (ty, xyz) {
             (Type::List | Type::View, Some(i)) => {
                 let meant = format!("{what}[{i}]");
-                report.why("elements are chosen by index").help(format!("write `{meant}`")).fix(span, meant)
+                report.why("an index selects elements").help(format!("write `{meant}`")).fix(span, meant)
             }
             _ => match nearest(text, self.method_names(ty)) {
                 Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),

@@ -185,8 +185,8 @@ impl<'a> Binder<'a> {
                 Some(variable) => Ok(Some(variable.clone())),
                 None => self.refuse(
                     Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here"))
-                        .why("what is computed over a whole run knows nothing of the names around it")
-                        .help("write what it stands for"),
+                        .why("a measure over a whole run cannot use the local names around it")
+                        .help("write its value or expression instead"),
                 ),
             },
         }

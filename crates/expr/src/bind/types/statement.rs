@@ -53,8 +53,8 @@ impl<'a> Binder<'a> {
                 let word = if statement.kind == StmtKind::Break { "break" } else { "continue" };
                 if self.loops == 0 {
                     self.report(
-                        Finding::error(rules::OUTSIDE_LOOP, span, format!("`{word}` outside of a loop"))
-                            .why("there is no loop here that it could leave or go on with")
+                        Finding::error(rules::OUTSIDE_LOOP, span, format!("`{word}` is outside a loop"))
+                            .why("there is no loop to leave or to continue")
                             .help("remove it, or leave a function with `return`"),
                     );
                     return;
@@ -209,12 +209,12 @@ impl<'a> Binder<'a> {
                     rules::NOT_A_VALUE,
                     value.span,
                     format!(
-                        "`{}` is not a value that `{}` can hold and change",
+                        "`{}` is not a value that `{}` can store and change",
                         self.text(value.span),
                         name.text
                     ),
                 )
-                .why(format!("a name for a part of the {} means that part for good", self.words().world))
+                .why(format!("a name for a part of the {} always means that part", self.words().world))
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }

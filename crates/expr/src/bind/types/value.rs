@@ -68,12 +68,12 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn not_single(&self, ir: &Ir) -> Finding {
         let text = self.text(ir.span);
-        let message = format!("{} is {}, not one value", self.shown(ir.span), ir.ty.describe());
+        let message = format!("{} is {}, not a single value", self.shown(ir.span), ir.ty.describe());
         let code =
             if matches!(ir.ty, Type::List | Type::View) { rules::WHOLE_ARRAY } else { rules::NOT_A_VALUE };
         let report = Finding::error(code, ir.span, message);
         if self.site.is_some() {
-            return report.why("a computation needs a number").help("let the function give one");
+            return report.why("a computation needs a number").help("return a number from the function");
         }
         match ir.ty {
             Type::Function => report.why("it is not called").help(format!("write `{text}(…)`")),
@@ -88,7 +88,7 @@ impl<'a> Binder<'a> {
                     .help(format!("write one of them, as `{text}.{member}`"))
             }
             _ => report.why("a computation needs one of its elements").help(format!(
-                "choose an element, as `{text}[0]`, or make one value of them, as `Math.hypot(...{text})`"
+                "select an element, as `{text}[0]`, or combine them into one value, as `Math.hypot(...{text})`"
             )),
         }
     }
@@ -203,11 +203,11 @@ impl<'a> Binder<'a> {
             ExprKind::Update { increment, .. } => {
                 let symbol = if *increment { "++" } else { "--" };
                 Finding::error(rules::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"))
-                    .why("this text only reads a value")
+                    .why("this text can only read a value")
                     .help(format!("change the variable in {}", self.words().keeper))
             }
-            _ => Finding::error(rules::MISPLACED, span, "this has no place inside an expression")
-                .help("write one value"),
+            _ => Finding::error(rules::MISPLACED, span, "this is not allowed inside an expression")
+                .help("write a single value"),
         }
     }
 
@@ -224,20 +224,18 @@ impl<'a> Binder<'a> {
             return Finding::error(
                 rules::EXPRESSION_ONLY,
                 op_span,
-                "an assignment where only a value is read",
+                "an assignment is used where only a value is read",
             )
-            .why("this text is an expression: it gives a value and changes nothing")
-            .help(format!("assign in {}, and show the variable here", self.words().statements));
+            .why("this text is an expression, which returns a value and changes nothing")
+            .help(format!("assign in {}, and read the variable here", self.words().statements));
         }
         let symbol = self.text(op_span);
         let report =
             Finding::error(rules::ASSIGN_INSIDE, op_span, format!("`{symbol}` assigns; it does not compare"));
         let report = match self.mode {
-            Mode::Statements => {
-                report.why("inside an expression the value would be changed where a test was probably meant")
-            }
+            Mode::Statements => report.why("it would change the value, although a test was probably meant"),
             _ => report
-                .why(format!("this text only reads a value, and `{}` would change one", self.text(span))),
+                .why(format!("this text can only read a value, but `{}` would change one", self.text(span))),
         };
         match op {
             None => report.help("write `===` to compare").guess(op_span, "==="),

@@ -97,7 +97,7 @@ fn near_its_limit(tour: &LabRunState<'_>) -> Option<Finding> {
     let fault = outcome.faults.iter().find(breaks)?;
     let h = tour.ready.model.opt.timestep;
     let message = format!(
-        "at twice its timestep of {} s this lab breaks: {}, {}, at t = {} s",
+        "this lab breaks at twice its timestep of {} s: {}, {}, at t = {} s",
         run::two_digits(h),
         fault.who,
         fault.kind.description(),
@@ -105,8 +105,8 @@ fn near_its_limit(tour: &LabRunState<'_>) -> Option<Finding> {
     );
     Some(
         Finding::plain(rules::NEAR_ITS_LIMIT, tour.ready.lab.place(), message)
-            .why(format!("as it stands its {} were sound, but a model a little stiffer, or a page that takes longer steps, breaks it", runs(tour)))
-            .help(format!("{}; `labspec stability --margins` finds how far everything may be raised", fault.cause)),
+            .why(format!("at its own timestep its {} were fine, but a slightly stiffer model or a page with longer steps breaks it", runs(tour)))
+            .help(format!("{}; `labspec stability --margins` finds how far every value can be raised", fault.cause)),
     )
 }
 

@@ -302,11 +302,11 @@ fn too_stiff(model: &Model, place: Range<usize>, covered: f64) -> Option<Finding
     Some(
         Finding::warning(rules::STIFF_FOR_TIMESTEP, place, format!("{owner} is {how} for its timestep"))
             .why(format!(
-                "nothing goes wrong in the {} s that were run, but once it is pushed, every step pushes back farther than the last one missed: it swings ever wider, without a word from MuJoCo until a number is beyond 1e10",
+                "nothing goes wrong in the {} s of the run, but after a push every step overshoots more than the one before: it swings ever wider, and MuJoCo gives no warning until a number exceeds 1e10",
                 seconds(covered)
             ))
             .help(format!(
-                "write a timestep of {} s, or {}",
+                "set the timestep to {} s, or {}",
                 run::two_digits(0.9 * worst.timestep.min(model.opt.timestep)),
                 run::softer(&worst)
             )),

@@ -157,10 +157,10 @@ impl<'a> Seen<'a> {
                     s.bound.text.span(),
                     format!("{} shows nan in every run", s.name),
                 )
-                .why("a student sees nan, or no curve at all, whatever they do")
+                .why("a student sees nan, or no curve at all, at every setting")
                 .help(match s.says_gap {
-                    true => "this text is a gap and nothing else: write what is to be shown",
-                    false => "it reads a variable that is never stored: look at what is to store it",
+                    true => "write an expression to display: this one is only a gap",
+                    false => "store the variable that it reads: nothing ever does",
                 })
             })
         };
@@ -197,7 +197,7 @@ impl Shown<'_> {
     fn finding(&self, kind: Kind, value: &Value, time: f64, done: &str) -> Finding {
         let (name, at) = (&self.name, format!("{done}, at t = {} s", crate::run::time(time)));
         let [sees, what] = if self.trace {
-            ["the curve has a gap there, and nothing says why", "trace"]
+            ["the curve has a gap there, and nothing explains it", "trace"]
         } else {
             ["a student cannot tell whether the lab or the physics is broken", "readout"]
         };
@@ -206,19 +206,21 @@ impl Shown<'_> {
                 rules::SHOWS_NAN,
                 format!("{name} shows nan ({at})"),
                 sees,
-                format!("0 / 0, the root of a negative number or an element that does not exist gives nan: guard it with a condition, or write `NaN` for a gap that is meant, as `data.ncon > 0 ? … : NaN` in this {what}"),
+                format!(
+                    "guard it with a condition, or write `NaN` for an intended gap, as `data.ncon > 0 ? … : NaN` in this {what}: 0 / 0, the root of a negative number or a missing element gives nan"
+                ),
             ),
             Kind::Infinite => (
                 rules::SHOWS_INFINITE,
                 format!("{name} shows {} ({at})", if value.to_number() > 0.0 { "inf" } else { "-inf" }),
                 sees,
-                "a number is divided by 0 there: guard it with a condition, or write `NaN` for a gap that is meant".to_owned(),
+                "guard the division by 0 with a condition, or write `NaN` for an intended gap".to_owned(),
             ),
             Kind::Text => (
                 rules::TEXT_IN_PLOT,
-                format!("{name} is a text, \"{}\" ({at})", shortened(value)),
-                "a plot draws numbers: the curve is missing, or drawn from what the page makes of the text",
-                "leave out what makes it a text, as `.toFixed(…)`, or show it as a readout".to_owned(),
+                format!("{name} is a string, \"{}\" ({at})", shortened(value)),
+                "a plot draws numbers: the curve is missing, or shows what the page makes of the string",
+                "remove what makes it a string, such as `.toFixed(…)`, or display it as a readout".to_owned(),
             ),
         };
         Finding::warning(rule, self.bound.text.span(), message).why(why).help(help)

@@ -54,10 +54,10 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::warning(
                 rules::GOES_ON,
                 control.label.span(),
-                format!("\"{label}\" does not start the lab again, and the note says so"),
+                format!("\"{label}\" does not restart the lab, but the note says that it does"),
             )
             .why(format!(
-                "moved to {value} after {STEPS} steps, the run goes on from t = {} s",
+                "moved to {value} after {STEPS} steps, the run continues from t = {} s",
                 digits(time, 3)
             ))
             .related(note.span(), "the note")

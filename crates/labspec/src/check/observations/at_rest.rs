@@ -36,9 +36,9 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     if let Some((i, far)) = moved.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, far)| *far > SETTLES) {
         let [far, time] = [far, session.world.data.time()].map(|x| digits(x, 3));
         findings.push(
-            Finding::new(rules::NOT_AT_REST, text.span(), "this lab is said to be at rest, and moves")
+            Finding::new(rules::NOT_AT_REST, text.span(), "this lab is described as at rest, but it moves")
                 .why(format!("from keyframe {key}, data.qpos[{i}] moves by {far} in {time} s"))
-                .help("correct the keyframe, or what is said of it"),
+                .help("correct the keyframe or the description"),
         );
     }
 }

@@ -54,12 +54,16 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::warning(
                 rules::SHOWS_THE_START,
                 readout.expr.span(),
-                format!("\"{}\" shows where it begins, and not where it is", readout.label.as_str()),
+                format!(
+                    "\"{}\" shows the initial value of a coordinate, not the current one",
+                    readout.label.as_str()
+                ),
             )
-            .why(format!(
-                "it is {shown} in every run, while {done} `data.qpos[{at}]` goes from {from} to {to}"
-            ))
-            .help(format!("`model.{}` is where things begin; where they are is `data.qpos`", field.name)),
+            .why(format!("it is {shown} in every run, but {done} `data.qpos[{at}]` goes from {from} to {to}"))
+            .help(format!(
+                "read `data.qpos` for the current value: `model.{}` holds the initial one",
+                field.name
+            )),
         );
     }
 }

@@ -10,7 +10,7 @@ use crate::run::Cell;
 const KINDS: [(&str, &str, &str); 9] = [
     ("nq", "model.nq", "a number of coordinates"),
     ("nv", "model.nv", "a number of degrees of freedom"),
-    ("time", "data.time", "time that has passed"),
+    ("time", "data.time", "elapsed time"),
     ("contacts", "data.ncon", "a number of contacts"),
     ("rows", "data.nefc", "a number of rows"),
     ("kinetic energy", "kinetic", "a kinetic energy"),
@@ -50,13 +50,13 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
                 Finding::warning(
                     rules::BELOW_ZERO,
                     expr.span(),
-                    format!("\"{label}\" is never above zero, and {what} is never below"),
+                    format!("\"{label}\" is never above zero, but {what} is never negative"),
                 )
                 .why(format!(
                     "in {} it is 0 or negative at every sample: {low} at t = {time} s",
                     looked.runs()
                 ))
-                .help("look at the sign, or say in the label what is subtracted"),
+                .help("check the sign, or say in the label what is subtracted"),
             );
         }
     }

@@ -59,12 +59,18 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
                 let twin = twin.and_then(|other| plot.traces.get(other - columns.start));
                 twin.map(|other| {
                     Told {
-                        message: format!("\"{}\" and \"{}\" are one curve", other.label.value, trace.label.value),
-                        why: format!("they are the same to the last bit in {}, and from other states of the scene, too", looked.runs()),
-                        help: "let it show what its label says, or leave it out".into(),
+                        message: format!(
+                            "\"{}\" and \"{}\" are the same curve",
+                            other.label.value, trace.label.value
+                        ),
+                        why: format!(
+                            "they agree to the last bit in {}, and also from other states of the scene",
+                            looked.runs()
+                        ),
+                        help: "change the expression to what the label says, or delete the trace".into(),
                     }
                     .at_trace(&trace.expr, rules::SAME_CURVE)
-                    .related(other.expr.span(), "the curve that it lies on")
+                    .related(other.expr.span(), "the curve that it covers")
                 })
             };
             match told {
@@ -107,14 +113,17 @@ fn frozen(looked: &mut Looked<'_>, c: usize, others: bool) -> Option<Told> {
         return None;
     }
     let help = match place.filter(|_| !data) {
-        Some((name, live)) => format!("`model.{name}` is where things begin; where they are is `{live}`"),
-        None => "look at the name and the index that it reads; for a line that is meant there is `refLines`"
-            .into(),
+        Some((name, live)) => {
+            format!("read `{live}` for the current value: `model.{name}` holds the initial one")
+        }
+        None => {
+            "check the name and the index that it reads; use `refLines` for an intended constant line".into()
+        }
     };
     Some(Told {
-        message: format!("this trace is {}, whatever happens", digits(shown.number(), 6)),
+        message: format!("this trace is always {}", digits(shown.number(), 6)),
         why: format!(
-            "it was the same to the last bit in {}, and from other states of the scene, too",
+            "it is the same to the last bit in {}, and also from other states of the scene",
             looked.runs()
         ),
         help,
@@ -164,13 +173,13 @@ fn outside(looked: &Looked<'_>, plot: &Plot, c: usize) -> Option<Told> {
     let [least, largest] = [least, largest].map(|x| digits(x, 4));
     let ends = format!("from {low} to {high}");
     Some(Told {
-        message: format!("this curve lies outside of its plot, which goes {ends}"),
+        message: format!("this curve is outside its plot, which goes {ends}"),
         why: format!(
-            "as the lab stands it goes from {least} to {largest}, and is inside for {:.0} % of the time; in {} it is never inside for more than {:.0} %",
+            "as the lab stands it goes from {least} to {largest}, and is inside for {:.0} % of the time; in {} it is inside for at most {:.0} %",
             100.0 * own,
             looked.runs(),
             100.0 * most
         ),
-        help: "let `ymin` and `ymax` hold the curve, or leave them out: the plot then follows it".into(),
+        help: "widen `ymin` and `ymax` to include the curve, or delete them: the plot then follows it".into(),
     })
 }

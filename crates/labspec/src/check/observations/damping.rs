@@ -39,9 +39,9 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         Finding::warning(
             rules::DAMPING_BELOW_ZERO,
             place.unwrap_or(lab.place()),
-            format!("a damper is below zero: `model.dof_damping[{dof}]` is {damping}"),
+            format!("the damping `model.dof_damping[{dof}]` is negative: {damping}"),
         )
-        .why(format!("{done} it gives {power} W at t = {time} s, where a damper would take them"))
+        .why(format!("{done} it adds {power} W at t = {time} s, where a damper removes energy"))
         .help("write a damping of 0 or more; to drive the joint, write an actuator"),
     );
 }

@@ -24,11 +24,11 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         findings.push(
             Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
                 .why(format!(
-                    "`stopAt` is {} s, and a step is {} s long",
+                    "`stopAt` is {} s, and one step takes {} s",
                     digits(stop.value, 4),
                     digits(timestep, 4)
                 ))
-                .help("let it run longer; for one step that is meant, write the length of a step"),
+                .help("make `stopAt` larger; for a single intended step, write the length of a step"),
         );
         return;
     }
@@ -55,9 +55,9 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     if seen && shortest.is_finite() && run < DOT * shortest {
         let [run, shortest] = [run, shortest].map(|x| digits(x, 3));
         findings.push(
-            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops when its curves have hardly begun")
-                .why(format!("it runs for {run} s, and its shortest plot is {shortest} s wide: a student sees a dot at its edge"))
-                .help("let it run longer, or narrow the `window` of the plot"),
+            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops when its curves have barely begun")
+                .why(format!("it runs for {run} s, but its shortest plot is {shortest} s wide: a student sees a dot at the edge"))
+                .help("make `stopAt` larger, or the `window` of the plot smaller"),
         );
         return;
     }
@@ -68,15 +68,15 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         Finding::warning(
             rules::STOPS_EARLY,
             stop.span.clone(),
-            "the lab stops before anything that it shows has changed",
+            "the lab stops before anything that it shows changes",
         )
         .why(format!(
-            "it runs for {steps} step{} of {} s; run on, the first thing that changes is {what}, at t = {} s",
+            "it runs for {steps} step{} of {} s; in a longer run, the first thing that changes is {what}, at t = {} s",
             if steps == 1 { "" } else { "s" },
             digits(timestep, 4),
             digits(time, 3)
         ))
-        .help("let it run longer, or leave `stopAt` out"),
+        .help("make `stopAt` larger, or delete it"),
     );
 }
 

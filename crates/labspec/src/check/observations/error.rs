@@ -62,16 +62,16 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::new(
                 rules::TOO_MANY_DIGITS,
                 readout.expr.span(),
-                format!("{} decimals, and the timestep decides all but {good}", readout.digits()),
+                format!("{} decimals are printed, but the timestep decides all but {good}", readout.digits()),
             )
             .why(format!(
-                "at t = {} s it is {}, and {} in the same run at half the timestep",
+                "at t = {} s it is {}, but {} in the same run at half the timestep",
                 digits(time, 4),
                 shown(&own),
                 shown(&fine)
             ))
             .help(format!(
-                "write \"digits\": {good}, or a shorter timestep; `labspec precision` tells which"
+                "write \"digits\": {good}, or use a shorter timestep; `labspec precision` shows how short"
             )),
         );
     }

@@ -57,15 +57,15 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::warning(
                 rules::IDLE_RANGE,
                 control.label.span(),
-                format!("from {low} to {high}, \"{label}\" sets one and the same"),
+                format!("from {low} to {high}, \"{label}\" always sets the same value"),
             )
             .why(format!(
-                "{} values were tried, and all that these {} write is the same to the last bit",
+                "{} values were tested, and everything that these {} write is the same to the last bit",
                 sets.len(),
                 flat.len()
             ))
-            .help("look at what cuts the value off, or let the slider end where it does")
-            .related(bound.text.span(), "what it sets"),
+            .help("check what clamps the value, or end the slider there")
+            .related(bound.text.span(), "this is what it sets"),
         );
         looked.reported.push(index);
     }

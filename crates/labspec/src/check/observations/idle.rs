@@ -271,7 +271,7 @@ fn finding(
         _ => "pressed or not".into(),
     };
     let others =
-        if looked.bench.ready.lab.controls.len() > 1 { ", with every other control moved, too" } else { "" };
+        if looked.bench.ready.lab.controls.len() > 1 { ", with every other control moved too" } else { "" };
     let why = format!(
         "{at}, before the run and in the middle of it{others} ({} runs of {} s): every curve, number and position is the same to the last bit",
         looked.bench.runs - before,
@@ -281,22 +281,22 @@ fn finding(
         return Finding::warning(
             rules::NEEDS_RESET,
             control.label.span(),
-            format!("\"{label}\" acts only after a reset"),
+            format!("\"{label}\" takes effect only after a reset"),
         )
-        .why(format!("only the setup reads {slot}, and it is run at a reset. {why}"))
+        .why(format!("only the setup reads {slot}, and the setup runs only at a reset. {why}"))
         .help("add \"reset\": true");
     }
     let help = match written(looked, index) {
         Some(what) => format!(
-            "it sets {what}: look whether this is the right one, what uses it, and what sets it again"
+            "check {what}, which it sets: whether it is the right one, what uses it, and what overwrites it"
         ),
-        None => "look at what reads what it stores, and at what overwrites it".into(),
+        None => "check what reads the stored value, and what overwrites it".into(),
     };
     let (rule, message) = match (whole, shown.first(), shown.last()) {
         (false, Some(low), Some(high)) => {
-            (rules::IDLE_RANGE, format!("from {low} to {high}, \"{label}\" changes nothing that can be seen"))
+            (rules::IDLE_RANGE, format!("from {low} to {high}, \"{label}\" changes nothing visible"))
         }
-        _ => (rules::IDLE_CONTROL, format!("\"{label}\" changes nothing that can be seen")),
+        _ => (rules::IDLE_CONTROL, format!("\"{label}\" changes nothing visible")),
     };
     Finding::warning(rule, control.label.span(), message).why(why).help(help)
 }
@@ -332,5 +332,5 @@ fn for_the_setup(looked: &Looked<'_>, index: usize) -> Option<String> {
     let reads = |effects: &labspec_expr::Effects| slots.iter().any(|s| effects.ctx_reads.contains(s));
     let setup = programs.setup.as_ref().is_some_and(|b| reads(b.program.effects()));
     let writes = action.run.as_ref().is_some_and(|b| !b.program.own_writes().is_empty());
-    (setup && !action.reset && !writes).then(|| "what it chooses".to_string())
+    (setup && !action.reset && !writes).then(|| "its value".to_string())
 }

@@ -57,9 +57,9 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         let of = name.map_or(String::new(), |n| format!(" of joint \"{n}\""));
         let [a, b, time] = [a, b, session.world.data.time()].map(|x| digits(x, 4));
         findings.push(
-            Finding::warning(rules::SETCONST_JUMPS, bound.text.span(), format!("the scene jumps when \"{label}\" is moved"))
+            Finding::warning(rules::SETCONST_JUMPS, bound.text.span(), format!("the scene jumps when \"{label}\" moves"))
                 .why(format!(
-                    "mj_setConst puts the coordinates back to the model's own: at t = {time} s, data.qpos[{i}]{of} goes from {a} to {b}"
+                    "mj_setConst restores the coordinates of the model: at t = {time} s, data.qpos[{i}]{of} goes from {a} to {b}"
                 ))
                 .help("add \"reset\": true, or keep the coordinates: const q = data.qpos.slice(); …; data.qpos.set(q)"),
         );

@@ -25,12 +25,12 @@ struct Mixed {
 const MIXED: [Mixed; 2] = [
     Mixed {
         field: "geom_friction",
-        how: "the larger of the two counts",
+        how: "the contact uses the larger of the two",
         of: |m, g| m.geom_friction.get(3 * g).copied(),
     },
     Mixed {
         field: "geom_solref",
-        how: "the two are averaged, weighted by `solmix`",
+        how: "the contact uses their mean, weighted by `solmix`",
         of: |m, g| m.geom_solref.get(2 * g).copied(),
     },
 ];
@@ -62,17 +62,17 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
                 Finding::warning(
                     rules::MIXED_AWAY,
                     bound.text.span(),
-                    format!("what \"{}\" sets is not what the contact has", control.label.value),
+                    format!("the contact does not use what \"{}\" sets", control.label.value),
                 )
                 .why(format!(
-                    "at {value}, {} has {}, and its contact with {} has {}: {}",
+                    "at {value}, {} has {}, but its contact with {} has {}: {}",
                     name(own),
                     digits(written, 4),
                     name(other),
                     digits(has, 4),
                     what.how
                 ))
-                .help("set it on both geoms, or give the one a higher `priority`"),
+                .help("set it on both geoms, or give this geom a higher `priority`"),
             );
         }
     }

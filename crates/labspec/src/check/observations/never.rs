@@ -22,9 +22,9 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         Finding::warning(
             rules::STOP_UNREACHED,
             stop.span.clone(),
-            format!("the lab never comes to {stop_at} s"),
+            format!("the lab never reaches {stop_at} s"),
         )
-        .why(format!("in the run, time goes from {before} s back to {after} s, and is {last} s at most"))
-        .help("look for what resets the simulation while it runs, or stop earlier"),
+        .why(format!("in the run, time goes from {before} s back to {after} s, and never exceeds {last} s"))
+        .help("find what resets the simulation while it runs, or stop earlier"),
     );
 }

@@ -35,8 +35,8 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let Some((rows, time)) = found else { return };
     let time = crate::check::setconst::digits(time, 3);
     findings.push(
-        Finding::warning(rules::SOLVER_STOPS_EARLY, own.unwrap_or(ready.lab.place()), "the solver may not iterate: `opt.iterations` is 0")
-            .why(format!("at t = {time} s there are {rows} rows of contacts, limits or ties, and nothing looks for their forces"))
+        Finding::warning(rules::SOLVER_STOPS_EARLY, own.unwrap_or(ready.lab.place()), "`opt.iterations` is 0, so the solver never iterates")
+            .why(format!("at t = {time} s there are {rows} constraint rows of contacts, limits or equalities, but nothing computes their forces"))
             .help("leave `iterations` at its default of 100"),
     );
 }

@@ -77,9 +77,9 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         let Some(elements) = elements(bound) else { continue };
         let label = &control.label.value;
         let told = if let Some(why) = otherwise(looked, index, own, &elements) {
-            Finding::warning(rules::OVERRULED, bound.text.span(), format!("the lab does not begin with what \"{label}\" says"))
+            Finding::warning(rules::OVERRULED, bound.text.span(), format!("the lab does not start with the value of \"{label}\""))
                 .why(why)
-                .help("leave out what sets it behind the control, in the setup or in another control, or let it use the control's value")
+                .help("delete the code after the control that overwrites it, in the setup or in another control, or let it use the control's value")
         } else if let Some(why) = overwritten(looked, index, control, &elements) {
             Finding::warning(
                 rules::OVERRULED,
@@ -118,7 +118,7 @@ fn otherwise(looked: &Looked<'_>, index: usize, own: &Value, elements: &[Element
     let at = begins.iter().zip(&says).position(apart)?;
     let [begins, says] = [begins.get(at)?, says.get(at)?].map(|x| digits(*x, 6));
     Some(format!(
-        "it shows {own}, for which {} is {says}, and the lab begins with {begins}",
+        "it displays {own}, for which {} is {says}, but the lab starts with {begins}",
         elements.get(at)?.name()
     ))
 }
@@ -154,7 +154,7 @@ fn overwritten(
             if let (Some(i), None) = (set.iter().zip(&then).position(|(a, b)| a != b), &said) {
                 let [a, b] = [set.get(i)?, then.get(i)?].map(|x| digits(*x, 6));
                 said = Some(format!(
-                    "with it at {value}, {} is {a}, and {b} after the next step",
+                    "with it at {value}, {} is {a}, but {b} after the next step",
                     elements.get(i)?.name()
                 ));
             }
@@ -162,7 +162,7 @@ fn overwritten(
         }
     }
     Some(format!(
-        "{}: the same whatever it is set to, at the start and later, with every other control moved, too ({runs} runs)",
+        "{}: the same at every value, at the start and later, with every other control moved too ({runs} runs)",
         said?
     ))
 }

@@ -26,15 +26,15 @@ fn text_with_unit<'c>(
     let Cell::Text(first) = cells.next()? else { return None };
     let words = first.chars().filter(|c| c.is_alphabetic()).count() > 1;
     (words && cells.all(|c| matches!(c, Cell::Text(_)))).then(|| {
-        let message = format!("the label says {unit}, and a text is shown");
+        let message = format!("the label says {unit}, but the value is a string");
         Finding::warning(rules::LABEL_UNIT, readout.label.span(), message)
             .why(format!(
-                "it is a text at every sample of {}: \"{}\" at first",
+                "it is a string at every sample of {}: \"{}\" at first",
                 looked.runs(),
                 crate::json::read::shorten(first)
             ))
-            .related(readout.expr.span(), "this is a text")
-            .help("show the number that the label names; two labels may have been exchanged")
+            .related(readout.expr.span(), "this is a string")
+            .help("display the number that the label names; two labels may be exchanged")
     })
 }
 
@@ -74,12 +74,12 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         findings.push(
             Finding::warning(rules::TOO_FEW_DIGITS, readout.expr.span(), message)
                 .why(format!(
-                    "its value goes from {low} to {high} in {}, and what is printed is {}",
+                    "its value goes from {low} to {high} in {}, but it prints {}",
                     looked.runs(),
-                    if few { texts } else { "within two units of its last decimal".into() }
+                    if few { texts } else { "numbers within two units of the last decimal".into() }
                 ))
                 .related(place, "decimals")
-                .help("print more decimals: `digits`"),
+                .help("increase `digits`"),
         );
     }
 }

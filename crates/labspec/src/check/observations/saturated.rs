@@ -47,12 +47,12 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         let name = ready.model.names.of(Obj::Actuator).get(i).filter(|n| !n.is_empty());
         let who = name.map_or_else(|| format!("data.ctrl[{i}]"), |n| format!("the input of \"{n}\""));
         findings.push(
-            Finding::warning(rules::ALWAYS_SATURATED, ready.lab.place(), format!("{who} is beyond its range all the time"))
+            Finding::warning(rules::ALWAYS_SATURATED, ready.lab.place(), format!("{who} is outside its range all the time"))
                 .why(format!(
-                    "it is {} in the run as the lab stands, its `ctrlrange` goes from {low} to {high}, and it is beyond it at every sample of {}: the engine takes the end of the range",
+                    "it is {} in the run as the lab stands, its `ctrlrange` goes from {low} to {high}, and it is outside at every sample of {}: the engine clamps it",
                     digits(*value, 4), looked.runs()
                 ))
-                .help("look at the unit and the gain of what computes it, or widen `ctrlrange`"),
+                .help("check the unit and the gain of what computes it, or widen `ctrlrange`"),
         );
     }
 }

@@ -47,10 +47,10 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
                 Finding::warning(
                     rules::STALE_READ,
                     bound.text.span(),
-                    "this reads what follows from the state before that is computed anew",
+                    "this reads a value that still belongs to the old state",
                 )
                 .why(said)
-                .help(format!("call `{FORWARD}` between the write and the reading; tried")),
+                .help(format!("call `{FORWARD}` between the write and the read; a test run confirms it")),
             );
         }
     }
@@ -183,7 +183,7 @@ fn shows(looked: &mut Looked<'_>, place: ProgramSite, amended: &Programs) -> Opt
                 let name = probe.name.splitn(3, '/').last().unwrap_or("");
                 let [a, b] = [a, b].map(|x| setconst::digits(x.number(), 5));
                 return Some(format!(
-                    "{said}, \"{name}\" is {a} at t = {} s, and {b} with `{FORWARD}` behind the write",
+                    "{said}, \"{name}\" is {a} at t = {} s, but {b} with `{FORWARD}` after the write",
                     setconst::digits(time.number(), 4)
                 ));
             }

@@ -36,9 +36,9 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let [a, b] = pair.map(name);
     let [depth, time] = [1000.0 * depth, time].map(|x| digits(x, 3));
     findings.push(
-        Finding::warning(rules::STARTS_INSIDE, ready.lab.place(), format!("{b} begins {depth} mm inside of {a}"))
-            .why(format!("the contact throws it out: after {time} s, half of that is gone, and the speed of it is no physics of the scene"))
-            .help("let it begin where the two touch: move it in the model, in the keyframe or in the setup"),
+        Finding::warning(rules::STARTS_INSIDE, ready.lab.place(), format!("{b} begins {depth} mm inside {a}"))
+            .why(format!("the contact throws it out: half of that depth is gone after {time} s, and its speed is not physical"))
+            .help("move it in the model, in the keyframe or in the setup, so that the two only touch"),
     );
 }
 

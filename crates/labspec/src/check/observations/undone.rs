@@ -41,12 +41,12 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::warning(
                 rules::UNDONE_BY_RESET,
                 bound.text.span(),
-                format!("\"{label}\" resets what it has just done"),
+                format!("\"{label}\" resets what it has just set"),
             )
             .why(format!(
-                "pressed after {STEPS} steps, {name} becomes {set}, and the reset behind it makes it {left}"
+                "pressed after {STEPS} steps, {name} becomes {set}, and then the reset makes it {left}"
             ))
-            .help("reset first, and set behind the reset what the button is to set"),
+            .help("reset first, then set the values after the reset"),
         );
         looked.reported.push(index);
     }

@@ -43,7 +43,7 @@ impl Candidate<'_> {
     fn left(&self) -> String {
         let mut partners: Vec<&str> = self.pairs.pairs().map(|(_, pair)| pair.left).collect();
         partners.dedup();
-        format!("{} leaves {} as it was", self.who, partners.join(" and "))
+        format!("{} does not update {}", self.who, partners.join(" and "))
     }
 }
 

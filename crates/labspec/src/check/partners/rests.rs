@@ -43,7 +43,7 @@ impl Rests {
         findings: &mut Vec<Finding>,
     ) {
         let holds = |state: State| matches!(state, State::True(_));
-        let also = format!("it also holds with {} (`{}` at {})", self.corrected, self.codes, self.who);
+        let also = format!("it is also true with {} (`{}` at {})", self.corrected, self.codes, self.who);
         let add = |reason: &mut String| {
             let between = if reason.is_empty() { "" } else { "; " };
             *reason = format!("{reason}{between}{also}");
@@ -92,14 +92,14 @@ impl Rests {
     }
 
     fn finding(&self, place: Range<usize>, what: &str) -> Finding {
-        let message = format!("{what} holds only because {}", self.left);
+        let message = format!("{what} is true only because {}", self.left);
         let why = match self.evidence.as_str() {
-            "" => format!("with {} it does not hold", self.corrected),
-            evidence => format!("{evidence} with {}: with that it does not hold", self.corrected),
+            "" => format!("with {} it is false", self.corrected),
+            evidence => format!("{evidence} with {}: it is then false", self.corrected),
         };
         Finding::error(rules::CLAIM_OF_MISMATCH, place, message)
             .why(why)
-            .help(format!("correct the program (`{}` says how), then what is claimed of it", self.codes))
+            .help(format!("correct the program (see `{}`), then the claim about it", self.codes))
     }
 }
 
@@ -116,7 +116,7 @@ fn evidence(first: &Judgement, second: &Judgement) -> String {
         (None, [run]) => format!("in the run {}, ", named(&run.name)),
         (None, _) => String::new(),
     };
-    format!("{run}`{}` is {}, and {}", a.name, significant(a.value), significant(b.value))
+    format!("{run}`{}` is {}, but {}", a.name, significant(a.value), significant(b.value))
 }
 
 fn corrected_words(causes: &[Candidate<'_>]) -> String {

@@ -298,7 +298,7 @@ impl<'a> Bench<'a> {
             ControlFlow::Continue(())
         });
         if too_long {
-            return Err("it would take too long".to_string());
+            return Err("it takes too long".to_string());
         }
         let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
         if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
@@ -306,7 +306,7 @@ impl<'a> Bench<'a> {
         }
         match (Breakdown::of(&session), session.ended()) {
             (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
-            (None, Some(_)) => Err("it ends before its time".to_string()),
+            (None, Some(_)) => Err("it ends early".to_string()),
             (None, None) => Ok(Performed { rows, left_behind: session.left_behind() }),
         }
     }

@@ -100,7 +100,7 @@ impl Bench<'_> {
             let own = columns.difference(&r.as_is, &r.anew)?;
             let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, r.corrected())? };
             let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
-            Some(shown.describe(&r.trial.description, &format!("the constants computed anew{and}")))
+            Some(shown.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
         let repair = Repair::of(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
         let both = [Advice::Plain, Advice::Keep];
@@ -188,7 +188,7 @@ impl Bench<'_> {
             matter = if alone.is_empty() { s.pairs } else { alone };
         }
         let trial = match refreshed {
-            Some(_) => format!("{} and the constants computed anew", runs.trial.description),
+            Some(_) => format!("{} and the constants recomputed", runs.trial.description),
             None => runs.trial.description.clone(),
         };
         let with: Vec<&str> = matter.pairs().map(|(_, pair)| pair.corrected).collect();

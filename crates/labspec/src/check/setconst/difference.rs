@@ -28,7 +28,7 @@ impl Difference {
             }
             (x, y) => (x.shown(4), y.shown(4)),
         };
-        format!("{trial}, {} is {x} at t = {} s, and {y} with {anew}", self.name, digits(self.time, 6))
+        format!("{trial}, {} is {x} at t = {} s, but {y} with {anew}", self.name, digits(self.time, 6))
     }
 }
 

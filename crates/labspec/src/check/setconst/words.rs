@@ -9,7 +9,7 @@ use crate::finding::{Applicability, Finding, Fix, Severity};
 use crate::rules::{self, Rule};
 
 const CONSTANTS: &str =
-    "constants that follow from it (subtree masses, inverse weights of contacts) keep the old value";
+    "the constants that follow from it (subtree masses, inverse weights of contacts) keep their old values";
 
 impl Bench<'_> {
     /// The findings, unless nothing visible differs.
@@ -31,7 +31,7 @@ impl Bench<'_> {
         let (evidence, pairs, severity) = match (&compared.partners, &compared.untried) {
             (Some((evidence, pairs)), _) => (evidence.clone(), *pairs, Severity::Warning),
             (None, Some(reason)) => {
-                let why = format!("what that changes could not be tried: {reason}");
+                let why = format!("the effect could not be tested: {reason}");
                 (why, s.pairs, Severity::Note)
             }
             (None, None) => return Vec::new(),
@@ -52,7 +52,7 @@ impl Bench<'_> {
             let with: Vec<&str> = pairs.iter().map(|p| p.corrected).collect();
             finding = match (&compared.repaired, severity) {
                 (Some(text), Severity::Warning) => finding.help(format!(
-                    "{}; tried, the lab then runs with {}",
+                    "{}; in a test run, the lab then uses {}",
                     instead(s, text),
                     with.join(" and ")
                 )),
@@ -98,7 +98,7 @@ pub(in crate::check) fn left(
         }
     }
     let [parameters, partners] = [parameters, partners].map(|list| list.join(" and "));
-    let message = format!("{who} changes {parameters} and leaves {partners}");
+    let message = format!("{who} changes {parameters} but not {partners}");
     Finding::plain(rule, span, message).severity(severity).help(help.join("; "))
 }
 
@@ -137,7 +137,7 @@ fn about_constants(s: &Suspect<'_>) -> Option<Finding> {
     Some(Finding::warning(
         rules::MISSING_SETCONST,
         s.bound.text.span(),
-        format!("`model.{}` is changed {when} `mj.mj_setConst(model, data)`", field.info().name),
+        format!("`model.{}` changes {when} `mj.mj_setConst(model, data)`", field.info().name),
     ))
 }
 
@@ -146,9 +146,9 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
     let evidence = compared.constants.as_ref()?;
     let finding = about_constants(s)?.why(format!("{CONSTANTS}: {evidence}"));
     let reason = match compared.advice {
-        Advice::Plain => "; tried, the lab then runs with the right constants",
+        Advice::Plain => "; in a test run, the lab then uses the right constants",
         Advice::Keep => {
-            "; tried. `mj_setConst` alone would also put qpos back to the model's own, so qpos is kept around it"
+            "; a test run confirms it. `mj_setConst` alone would also restore qpos from the model, so the code keeps qpos"
         }
     };
     let pairs = compared.partners.as_ref().map_or(PairSet::NONE, |(_, pairs)| *pairs);
@@ -161,7 +161,7 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
         let help: Vec<&str> = pairs.pairs().map(|(_, pair)| pair.help).collect();
         let advised = behind(s, Advice::Keep);
         return Some(finding.help(format!(
-            "{advised}; that computes constants alone, and the partner still is the old one: {}",
+            "{advised}; this updates only the constants, and the related parameter keeps its old value: {}",
             help.join("; ")
         )));
     }
@@ -181,7 +181,7 @@ fn untried(s: &Suspect<'_>, reason: &str) -> Option<Finding> {
         about_constants(s)?
             .why(format!("{CONSTANTS}: a heavier ball then sinks deeper into the floor than any real one"))
             .help(format!(
-                "{}, which keeps qpos; whether it shows in this lab could not be tried: {reason}",
+                "{}, which keeps qpos; its effect in this lab could not be tested: {reason}",
                 behind(s, Advice::Keep)
             )),
     )

@@ -150,7 +150,7 @@ pub(super) fn check(
     let labs = match stored {
         Ok(labs) => labs,
         Err(message) => {
-            let help = "take back what was done to the file, or write it anew: labspec snapshot --accept";
+            let help = "restore the file, or write it again: labspec snapshot --accept";
             findings.push(Finding::new(rules::SNAPSHOT_UNREADABLE, 0..0, message).help(help));
             return all(State::Unchecked, "its snapshot cannot be read");
         }
@@ -158,7 +158,7 @@ pub(super) fn check(
     let taken = runs::take(lesson, ready);
     let mut list: Vec<Kept> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
     for kept in gone(&labs, &taken) {
-        let message = format!("the lab {} is in the snapshot, and not in the lesson", printable(&kept.lab));
+        let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&kept.lab));
         findings.push(outdated(0..0, message, lesson));
         list.push(kept);
     }
@@ -210,7 +210,7 @@ fn hold(now: &TakenLab<'_, '_>, labs: &[StoredLab], lesson: &Lesson, findings: &
     let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
     if let Some((d, probe)) = &first {
         let message = format!(
-            "\"{}\" is not as stored: {} it is {} at t = {} s, and {file} has {}",
+            "\"{}\" differs from the snapshot: {} it is {} at t = {} s, but {file} has {}",
             printable(&d.trace),
             d.run,
             d.now,
@@ -222,11 +222,11 @@ fn hold(now: &TakenLab<'_, '_>, labs: &[StoredLab], lesson: &Lesson, findings: &
         let place = label.map_or(place.clone(), |label| label.span());
         let mut finding = Finding::new(rules::SNAPSHOT_DIFFERS, place, message).help(review(lesson));
         if !changes.is_empty() {
-            finding = finding.why(format!("what else changed: {}", changes.join("; ")));
+            finding = finding.why(format!("other changes: {}", changes.join("; ")));
         }
         findings.push(finding);
     } else if !changes.is_empty() {
-        let message = format!("the lab is not as stored: {}", changes.join("; "));
+        let message = format!("the lab differs from the snapshot: {}", changes.join("; "));
         findings.push(outdated(place, message, lesson));
     }
     let good = first.is_none() && changes.is_empty();
@@ -241,7 +241,7 @@ fn outdated(place: Range<usize>, message: String, lesson: &Lesson) -> Finding {
 
 fn review(lesson: &Lesson) -> String {
     let path = printable(lesson.file.path());
-    format!("mend the lab; or, where it is meant, accept it: labspec snapshot --review {path}")
+    format!("fix the lab, or accept an intended change: labspec snapshot --review {path}")
 }
 
 /// What would be stored of a lesson now, beside what is.

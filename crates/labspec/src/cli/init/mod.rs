@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Arguments of `init`.
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
-    /// The folder; it is made where it is not there
+    /// The folder; it is created if it does not exist
     #[arg(default_value = ".", value_name = "DIR")]
     folder: PathBuf,
 }
@@ -26,7 +26,7 @@ pub(super) fn init(a: &Arguments) -> Result<Outcome, Failure> {
     // Nothing is written where something is there already.
     if let Some((path, _)) = places.iter().find(|(path, _)| path.symlink_metadata().is_ok()) {
         return Err(format!(
-            "{} is there already; name an empty folder: labspec init FOLDER. Nothing was written",
+            "{} already exists, so nothing was written; name an empty folder: labspec init FOLDER",
             printable_path(path)
         ));
     }

@@ -29,16 +29,16 @@ pub(super) struct Arguments {
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
-    /// Only this integrator, or `all`, with those that MuJoCo does not have [default: MuJoCo's five]
+    /// Test only this integrator, or `all`, including those that MuJoCo does not have [default: MuJoCo's five]
     #[arg(long, value_name = "NAME")]
     integrator: Vec<String>,
     /// Vary a setting of the constraint solver as well
     #[arg(long, value_enum, value_name = "SETTING")]
     vary: Vec<Vary>,
-    /// Another program's runs of the same lab, to stand beside ours
+    /// Runs of the same lab by another program, for comparison
     #[arg(long, value_name = "FILE")]
     beside: Option<PathBuf>,
-    /// How to print
+    /// Output format
     #[arg(long, value_enum, default_value = "human")]
     format: Format,
     /// Write all errors as comma-separated values
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
     /// Write the chart of the first trace
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// The same in pixels
+    /// Write the chart as PNG
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
 }
@@ -88,7 +88,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
     drop(progress);
     if let Some(f) = findings.first() {
         return Err(format!(
-            "a closed form has a mistake: {}; `labspec check` shows where",
+            "a closed form has an error: {}; `labspec check` shows where",
             printable(&f.message)
         ));
     }
@@ -140,9 +140,8 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     }
     let known = || INTEGRATORS.map(|i| i.name).join(", ");
     let one = |name: &String| {
-        Integrator::named(name).ok_or_else(|| {
-            format!("--integrator {name}: there is none of this name; there are {}, and all", known())
-        })
+        Integrator::named(name)
+            .ok_or_else(|| format!("--integrator {name}: unknown name; use one of {}, or all", known()))
     };
     names.iter().map(one).collect()
 }
@@ -152,8 +151,8 @@ fn human(report: &Report) -> String {
     match &report.reference {
         None => {
             let why = match report.rows.iter().any(|r| r.fate == Fate::Good) {
-                true => "the methods of high order take more work than a run may do; shorten it with --until",
-                false => "no method comes through this lab",
+                true => "the methods of high order need more work than a run allows; shorten it with --until",
+                false => "no method completes this lab",
             };
             let _ = writeln!(text, "Nothing can be compared: {why}.");
             fates(report, &mut text);
@@ -161,7 +160,7 @@ fn human(report: &Report) -> String {
         Some(how) => {
             let _ = writeln!(
                 text,
-                "Over {} s, {}. Where there is no closed form the reference is {how}.",
+                "Over {} s, {}. Without a closed form, the reference is {how}.",
                 significant(report.length),
                 compared_at(report)
             );
@@ -172,20 +171,19 @@ fn human(report: &Report) -> String {
         others(report, beside, &mut text);
     }
     for out in &report.left_out {
-        let _ = writeln!(text, "Not compared: {}, as {}.", printable(&out.label), out.reason);
+        let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
     }
     if let Some(nearby) = &report.nearby {
         let _ = match nearby.until {
             Some(t) => writeln!(
                 text,
-                "Two starts that are {:e} apart show the same until {} s: what comes later cannot be predicted, by any method.",
+                "Two starts that are {:e} apart agree until {} s: no method can predict what comes later.",
                 nearby.apart,
                 significant(t)
             ),
             None => writeln!(
                 text,
-                "Two starts that are {:e} apart show the same to the end, yet the methods do not come closer with the step: \
-                 this is not chaos; forces that jump, as at an impact, are likely.",
+                "Two starts that are {:e} apart agree to the end, but the methods do not converge with the step: this is not chaos; forces that jump, as at an impact, are likely.",
                 nearby.apart
             ),
         };
@@ -194,7 +192,7 @@ fn human(report: &Report) -> String {
         let _ = writeln!(text, "{}", printable(&advice.text));
     }
     if interrupted() {
-        text.push_str("stopped by Ctrl-C: the runs above are those that were finished\n");
+        text.push_str("stopped by Ctrl-C: the runs above are the finished ones\n");
     }
     text
 }

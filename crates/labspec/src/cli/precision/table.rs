@@ -54,9 +54,7 @@ pub(super) fn table(report: &Report, text: &mut String) {
         }
     }
     text.push_str(
-        "\n* as the lab has it; ‹ no other is both closer and cheaper; ≤ at most: as exact as the reference is known\n\
-         work: of the whole run, per simulated second, as the engine counts it, in units of about a microsecond; it decides\n\
-         time: of that run, on this machine, with the spread of the middle half of its repeats\n",
+        "\n* the setting of the lab; ‹ no other is both closer and cheaper; ≤ at most: the reference is no more exact\nwork: of the whole run, per simulated second, as the engine counts it, in units of about a microsecond; it decides\ntime: of that run, on this machine, with the spread of the middle half of its repeats\n",
     );
 }
 
@@ -146,7 +144,7 @@ fn about(target: &Compared) -> String {
         false => format!("the reference (± {:.0e}{unit})", target.uncertain),
     };
     let until = target.until.map_or(String::new(), |t| {
-        format!("; compared until {} s, as the reference is not known beyond", significant(t))
+        format!("; compared until {} s, because the reference is unknown beyond", significant(t))
     });
     format!(
         "{}: largest error{of} against {against}; {} {}{unit}{until}",

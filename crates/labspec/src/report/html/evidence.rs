@@ -157,5 +157,5 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
         Some(all) => format!("Runs <span class=\"soft settings\">all with {all}</span>"),
         None => "Runs".to_string(),
     };
-    table(&title, &["run", "", "what is done", "settings", "what broke"], &rows)
+    table(&title, &["run", "", "what it does", "settings", "what broke"], &rows)
 }

@@ -146,7 +146,7 @@ pub(super) fn write(part: &LessonPage<'_>) -> String {
     if !allowed.is_empty() {
         let _ = writeln!(
             out,
-            "<details><summary>{} allowed by the lesson</summary>\n<ul>",
+            "<details><summary>{} suppressed by the lesson</summary>\n<ul>",
             many(allowed.len(), "finding")
         );
         for a in allowed {

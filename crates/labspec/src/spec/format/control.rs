@@ -7,7 +7,7 @@ use crate::spec::Form;
 static TYPES: [Word; 3] = [
     Word { text: "slider", doc: "a number between two ends" },
     Word { text: "select", doc: "one of several values" },
-    Word { text: "button", doc: "statements that run at a press" },
+    Word { text: "button", doc: "statements that run when a student presses it" },
 ];
 
 /// A slider, a select or a button.
@@ -22,9 +22,13 @@ pub static CONTROL: Family = Family {
 
 const TYPE: Key = key("type", Type::Words(&TYPES), "which control it is", r#""select""#);
 
-const LABEL: Key =
-    key("label", Type::Text, "the name that a student reads; runs address the control by it", r#""gravity""#)
-        .must("the label is what the student reads, and how runs address the control");
+const LABEL: Key = key(
+    "label",
+    Type::Text,
+    "the name that a student reads; runs refer to the control by it",
+    r#""gravity""#,
+)
+.must("the student reads the label, and runs refer to the control by it");
 
 const SET: Key =
     key("set", Type::Code(Form::Target), "the field that gets the value", r#""model.opt.gravity[2]""#);
@@ -46,11 +50,11 @@ const PARAM: Key = key(
 const INIT: Key = key(
     "init",
     Type::Flag,
-    "whether the value is applied again after every reset; needed where it is written into `data`, which a reset clears",
+    "whether every reset applies the value again; needed if it is written into `data`, which a reset clears",
     "true",
 );
 
-const RESET: Key = key("reset", Type::Flag, "whether a change is followed by a reset", "true");
+const RESET: Key = key("reset", Type::Flag, "whether a change also resets the simulation", "true");
 
 /// What a slider and a select ask for.
 const EFFECT: &[Together] =
@@ -66,19 +70,19 @@ pub static SLIDER: Object = Object {
     keys: &[
         Key { example: r#""slider""#, absent: Absent::Text("slider"), ..TYPE },
         LABEL,
-        key("unit", Type::Text, "the unit, shown behind the value", r#""m/s^2""#),
+        key("unit", Type::Text, "the unit, displayed after the value", r#""m/s^2""#),
         key("min", Type::Number, "the lower end; below `max`", "-20").must("a slider needs two ends"),
         key("max", Type::Number, "the upper end", "0").must("a slider needs two ends"),
         key(
             "step",
             Type::Number,
-            "the values that the slider can take begin at `min` and are this far apart",
+            "the distance between the values of the slider, which start at `min`",
             "0.01",
         )
         .positive()
         .or(Absent::Said("a hundredth of the range")),
-        key("value", Type::Number, "the value at the start, between the two ends", "-9.81")
-            .must("without it the slider starts as NaN, and NaN is what gets assigned"),
+        key("value", Type::Number, "the initial value, between the two ends", "-9.81")
+            .must("without it the slider starts as NaN, and the page assigns NaN"),
         DIGITS,
         SET,
         APPLY,
@@ -90,7 +94,7 @@ pub static SLIDER: Object = Object {
 };
 
 static CHOICE_PARTS: [PairHalf; 2] = [
-    PairHalf { what: "the text that is shown", of: Type::Text },
+    PairHalf { what: "the displayed text", of: Type::Text },
     PairHalf { what: "the value", of: Type::Scalar },
 ];
 static CHOICE: Type = Type::Pair(&CHOICE_PARTS);
@@ -108,12 +112,12 @@ pub static SELECT: Object = Object {
         key(
             "options",
             Type::List(&CHOICE),
-            "what can be chosen: for each choice the text that is shown, and the value",
+            "the choices: for each one the displayed text and the value",
             r#"[["Euler", 0], ["RK4", 1], ["implicit", 2]]"#,
         )
         .items(1)
         .must("a select offers a list of [text, value] pairs"),
-        key("value", Type::Scalar, "the value at the start, one of those in `options`", "1")
+        key("value", Type::Scalar, "the initial value, one of those in `options`", "1")
             .must("without it the select starts with no value"),
         Key { example: r#""model.opt.integrator""#, ..SET },
         Key { example: r#""model.opt.timestep = 0.002 / (1 + value)""#, ..APPLY },
@@ -128,7 +132,7 @@ pub static SELECT: Object = Object {
 pub static BUTTON: Object = Object {
     name: "button",
     what: "a button",
-    doc: "Statements that run whenever a student presses it. Nothing is reset; `mj_forward` follows.",
+    doc: "Statements that run whenever a student presses it. The simulation is not reset; `mj_forward` follows.",
     tag: Some(("type", "button")),
     minimal: r#"{"type": "button", "label": "Push", "run": "data.joint('ball').qvel[0] = 1"}"#,
     keys: &[
@@ -137,7 +141,7 @@ pub static BUTTON: Object = Object {
         key(
             "run",
             Type::Code(Form::Statements),
-            "what a press does: it may set the state (a velocity is a kick), forces, fields of the model, or names of `ctx` that `controller` reads",
+            "what a press does: it can set the state (a velocity is a kick), forces, fields of the model, or names of `ctx` that `controller` reads",
             r#""data.joint('ball').qvel[0] = 1""#,
         )
         .must("without statements the button does nothing"),

@@ -22,12 +22,12 @@ pub(super) fn takes(key: &Key) -> String {
 fn kind(of: &Type) -> String {
     match of {
         Type::Text | Type::Name(_) => "text".into(),
-        Type::Html => "text, may hold HTML".into(),
+        Type::Html => "text, can contain HTML".into(),
         Type::Code(Form::Expression) => "code: an expression".into(),
         Type::Code(Form::Statements) => "code: statements".into(),
-        Type::Code(Form::Target) => "code: a field that can be assigned to".into(),
+        Type::Code(Form::Target) => "code: an assignable field".into(),
         Type::Number => "number".into(),
-        Type::Whole => "whole number".into(),
+        Type::Whole => "integer".into(),
         Type::Flag => "true or false".into(),
         Type::Scalar => "number, text, true or false".into(),
         Type::Words(words) => {
@@ -48,7 +48,7 @@ fn kind(of: &Type) -> String {
 fn plural(of: &Type) -> String {
     match of {
         Type::Text | Type::Name(_) => "texts".into(),
-        Type::Html => "texts, may hold HTML".into(),
+        Type::Html => "texts, can contain HTML".into(),
         Type::Code(Form::Expression) => "expressions".into(),
         Type::Number => "numbers".into(),
         Type::Object(object) => format!("{} objects", object.name),

@@ -9,7 +9,7 @@ pub static OVERLAYS: [Word; 8] = [
     Word { text: "frames", doc: "coordinate frames" },
     Word { text: "joints", doc: "joints" },
     Word { text: "contacts", doc: "the points of contact" },
-    Word { text: "forces", doc: "the forces of contacts; `forceScale` says how long" },
+    Word { text: "forces", doc: "the contact forces; `forceScale` sets their length" },
     Word { text: "com", doc: "centres of mass" },
     Word { text: "sites", doc: "sites" },
     Word { text: "cameras", doc: "cameras" },
@@ -25,7 +25,7 @@ static NUMBER: Type = Type::Number;
 /// What a lab can be expected to do.
 static EXPECTED: [Word; 1] = [Word {
     text: "breaks",
-    doc: "the simulation meets a bad number or gains energy from nothing, and that is the lesson",
+    doc: "the simulation meets a bad number or gains energy without a source, and the lab shows this on purpose",
 }];
 
 /// `verify`, on a lab and on a question. (A function: a constant may not lead back to itself.)
@@ -33,7 +33,7 @@ pub(super) const fn verify_key() -> Key {
     key(
         "verify",
         Type::Object(&VERIFY),
-        "how a machine can check what the text claims; the page does not read it",
+        "how the checker tests the claims of the text; the page does not read it",
         r##"{"lab": "#1", "measure": {"speed": "final(-data.joint('ball').qvel[2])"}, "says": [["9.81 m/s", "speed"]]}"##,
     )
 }
@@ -42,30 +42,30 @@ pub(super) const fn verify_key() -> Key {
 pub static LAB: Object = Object {
     name: "lab",
     what: "a lab",
-    doc: "A model, what a student can change, and what is shown of it.",
+    doc: "A model, the controls for a student, and what the page displays of it.",
     tag: None,
     minimal: r#"{"model": "fall"}"#,
     keys: &[
         key(
             "model",
             Type::Name(Named::Model),
-            "the name of a model in the folder of models, without path and ending",
+            "the name of a model in the model folder, without path and extension",
             r#""fall""#,
         ),
         key(
             "xml",
             Type::Text,
-            "a model (MJCF) written here, in the place of `model`",
+            "a model (MJCF) written here instead of `model`",
             r#""<mujoco><worldbody><body name='ball'><freejoint name='ball'/><geom size='0.1'/></body></worldbody></mujoco>""#,
         ),
         key(
             "key",
             Type::Whole,
-            "the keyframe of the model from which the lab starts and to which a reset returns, counted from 0",
+            "the keyframe from which the lab starts and to which a reset returns, counted from 0",
             "0",
         )
         .at_least(0.0)
-        .or(Absent::Said("the model's own start")),
+        .or(Absent::Said("the initial state of the model")),
         key("title", Type::Text, "the title of the lab", r#""A fall""#).or(Absent::Text("")),
         key("kind", Type::Text, "the word above the title", r#""Experiment""#).or(Absent::Text("Lab")),
         key(
@@ -79,42 +79,42 @@ pub static LAB: Object = Object {
             .positive()
             .or(Absent::Number(300.0)),
         key("dock", Type::Flag, "whether the lab is docked beside the text", "true"),
-        key("autoplay", Type::Flag, "whether the lab plays as soon as it is shown", "true"),
+        key("autoplay", Type::Flag, "whether the lab plays as soon as it appears", "true"),
         key(
             "camera",
             Type::Object(&CAMERA),
-            "from where the scene is seen",
+            "the view of the scene",
             r#"{"azimuth": -90, "elevation": 0, "distance": 3, "target": [0, 0, 1]}"#,
         )
         .or(Absent::Empty),
         key(
             "overlays",
             Type::Switches(&OVERLAYS),
-            "what is drawn over the scene at the start",
+            "what the page draws over the scene at the start",
             r#"{"frames": true}"#,
         )
         .or(Absent::Empty),
         key(
             "toggles",
             Type::List(&OVERLAY),
-            "overlays that get a checkbox, with which a student draws or hides them",
+            "overlays with a checkbox, with which a student shows or hides them",
             r#"["contacts", "forces"]"#,
         )
         .or(Absent::Empty),
-        key("forceScale", Type::Number, "how long a drawn force of 1 N is", "0.05")
+        key("forceScale", Type::Number, "the length of a drawn force of 1 N", "0.05")
             .unit("m/N")
             .positive()
             .or(Absent::Number(0.02)),
         key(
             "trail",
             Type::Name(Named::Site),
-            "the name of a site of the model; the path that it takes is drawn as a line",
+            "the name of a site of the model; the page draws its path as a line",
             r#""tip""#,
         ),
         key(
             "speeds",
             Type::List(&NUMBER),
-            "the speeds of playback that a student can choose; 1 is as fast as reality, 0.1 slow motion",
+            "the playback speeds that a student can choose; 1 is real time, 0.1 is slow motion",
             "[0.25, 1]",
         )
         .positive()
@@ -122,16 +122,16 @@ pub static LAB: Object = Object {
         key(
             "stopAt",
             Type::Number,
-            "the lab pauses once the simulation reaches this time; a check runs the lab this long, or 2 s",
+            "the lab pauses once the simulation reaches this time; a check runs the lab for this long, or for 2 s",
             "1",
         )
         .unit("s")
         .positive()
-        .or(Absent::Said("the lab plays on")),
+        .or(Absent::Said("the lab never pauses")),
         key(
             "setup",
             Type::Code(Form::Statements),
-            "runs after the load and after every reset, behind the values of the controls",
+            "runs after loading and after every reset, after the values of the controls are applied",
             r#""data.joint('ball').qvel[2] = 1""#,
         ),
         key(
@@ -143,21 +143,21 @@ pub static LAB: Object = Object {
         key(
             "controls",
             Type::List(&ONE_CONTROL),
-            "sliders, selects and buttons, in the order shown",
+            "sliders, selects and buttons, in display order",
             r#"[{"label": "gravity", "set": "model.opt.gravity[2]", "min": -20, "max": 0, "value": -9.81}]"#,
         )
         .or(Absent::Empty),
         key(
             "plots",
             Type::List(&ONE_PLOT),
-            "plots over time, in the order shown",
+            "plots over time, in display order",
             r#"[{"traces": [{"label": "height (m)", "expr": "data.joint('ball').qpos[2]"}]}]"#,
         )
         .or(Absent::Empty),
         key(
             "readouts",
             Type::List(&ONE_READOUT),
-            "values shown as text, in the order shown",
+            "values displayed as text, in display order",
             r#"[{"label": "time (s)", "expr": "data.time"}]"#,
         )
         .or(Absent::Empty),
@@ -166,10 +166,10 @@ pub static LAB: Object = Object {
         key(
             "expect",
             Type::Words(&EXPECTED),
-            "what the lab is meant to do; then nothing is said when a run does it, and it is an error when none does",
+            "the intended result of the lab; a run with this result is not reported, and it is an error if no run has it",
             r#""breaks""#,
         )
-        .or(Absent::Said("every run goes well")),
+        .or(Absent::Said("every run must go well")),
     ],
     together: &[Together::ExactlyOne(&["model", "xml"])],
 };
@@ -178,7 +178,7 @@ pub static LAB: Object = Object {
 pub static CAMERA: Object = Object {
     name: "camera",
     what: "a camera",
-    doc: "From where the scene is seen. It looks at the target from a distance, in a direction given by two angles.",
+    doc: "The view of the scene. The camera looks at the target from a distance, in a direction given by two angles.",
     tag: None,
     minimal: "{}",
     keys: &[
@@ -200,12 +200,12 @@ pub static CAMERA: Object = Object {
 
 /// The order in which things happen in a lab.
 pub static EVENTS: [&str; 8] = [
-    "The model loads, its data are made, and `mj_forward` computes what follows. With `key`, the data are set to that keyframe.",
-    "Each control in its order: its `value` is stored as `ctx.<param>`, then `set` or `apply` runs with it. There is no reset in between.",
+    "The model is compiled, its data are made, and `mj_forward` computes the derived fields. With `key`, the data are set to that keyframe.",
+    "Each control, in order: its `value` is stored as `ctx.<param>`, then `set` or `apply` runs with it. There is no reset in between.",
     "`setup` runs, then each control with `init` is applied again, in order, then `mj_forward`.",
     "Each step: first `controller`, then `mj_step`. Traces and readouts are evaluated between two steps: at the start, and after every step.",
     "A student moves a control: its value is stored and `set` or `apply` runs, as in 2. With `reset` a whole reset follows, else `mj_forward`.",
     "A student presses a button: its `run`, then `mj_forward`.",
-    "A reset: the data go back to the start or to the keyframe, `mj_forward`, then 3 again. The model and `ctx` keep what was written: a reset restores data, never the model.",
-    "Once the time reaches `stopAt`, the lab pauses. A step that meets a bad number warns and starts the data anew, with the time 0; plots begin again whenever the time goes back.",
+    "A reset: the data return to the initial state or to the keyframe, `mj_forward`, then 3 again. The model and `ctx` keep what was written: a reset restores data, never the model.",
+    "Once the time reaches `stopAt`, the lab pauses. A step that meets a bad number warns and resets the data to time 0; plots start again whenever the time goes back.",
 ];

@@ -9,7 +9,7 @@ pub(super) const fn lint_key() -> Key {
     key(
         "lint",
         Type::Object(&LINT),
-        "findings that the author has looked at and does not want to hear of again; the page does not read it",
+        "findings that the author has reviewed and suppresses; the page does not read it",
         r#"{"allow": ["duplicate-readout"], "why": "both are read in the text"}"#,
     )
 }
@@ -18,20 +18,19 @@ pub(super) const fn lint_key() -> Key {
 pub static LINT: Object = Object {
     name: "lint",
     what: "a lint object",
-    doc: "Findings that are not told of the object that carries it. What is wrong (an error) is told all the same. \
-          In prose the same is said by a comment before a block: `<!-- labspec allow CODE: reason -->`.",
+    doc: "Findings to suppress for the object that carries it. Errors cannot be suppressed. In prose, a comment before a block does the same: `<!-- labspec allow CODE: reason -->`.",
     tag: None,
     minimal: r#"{"allow": ["duplicate-readout"], "why": "both are read in the text"}"#,
     keys: &[
         key("allow", Type::List(&CODE), "the codes of the findings", r#"["duplicate-readout"]"#)
-            .must("it says which findings are meant"),
+            .must("it names the suppressed findings"),
         key(
             "why",
             Type::Text,
-            "the reason, for those who read the lesson later",
+            "the reason, for later readers of the lesson",
             r#""both are read in the text""#,
         )
-        .must("whoever reads the lesson later has to know why"),
+        .must("a later reader of the lesson needs the reason"),
     ],
     together: &[],
 };

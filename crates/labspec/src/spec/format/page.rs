@@ -8,12 +8,7 @@ use std::fmt::Write;
 /// The reference page of the format, as Markdown.
 pub fn page() -> String {
     let mut text = String::from(
-        "# Format\n\nEvery object of labs, quizzes and checks, with all its keys. The guide is [lessons.md](../lessons.md); \
-         code is explained in [language.md](language.md). An editor that knows JSON Schema takes the same from \
-         [lab.json](../schema/lab.json) and [quiz.json](../schema/quiz.json), which `labspec schema` prints; one that embeds \
-         labspec asks `labspec::spec::format::completions`.\n\n\
-         A key that does not stand here is an error where it is written. \
-         Examples are of `specs/models/fall.xml`: one ball, 2 m above nothing.\n\nAll keys are there since version ",
+        "# Format\n\nEvery object of labs, quizzes and checks, with all its keys. The guide is [lessons.md](../lessons.md); [language.md](language.md) explains the code. An editor that knows JSON Schema uses [lab.json](../schema/lab.json) and [quiz.json](../schema/quiz.json), which `labspec schema` prints; a program that embeds labspec calls `labspec::spec::format::completions`.\n\nA key that is not listed here is an error. Examples refer to `specs/models/fall.xml`: one ball, 2 m above nothing.\n\nAll keys exist since version ",
     );
     let _ = writeln!(text, "{FIRST}, unless a line says otherwise.");
     for object in OBJECTS {
@@ -36,7 +31,7 @@ fn family(text: &mut String, family: &Family) {
     let first = family.words.first().map_or("", |w| w.text);
     let _ = write!(
         text,
-        "\n## {}\n\n{} `{}` tells which one it is; without it, it is `{first}`.\n",
+        "\n## {}\n\n{} `{}` selects the kind; without it, the kind is `{first}`.\n",
         capital(family.name),
         family.doc,
         family.key
@@ -49,10 +44,10 @@ fn section(text: &mut String, object: &Object) {
     let _ = write!(text, "\n{level} {}\n\n{}", heading(object), object.doc);
     for rule in object.together {
         let (count, names, rule) = match rule {
-            Together::ExactlyOne(names) => ("Exactly one", *names, "must stand"),
-            Together::AtLeastOne(names) => ("At least one", *names, "must stand"),
-            Together::OneAdvised(names) => ("At least one", *names, "should stand"),
-            Together::AtMostOne(names) => ("Only one", names.as_slice(), "may stand"),
+            Together::ExactlyOne(names) => ("Exactly one", *names, "must be present"),
+            Together::AtLeastOne(names) => ("At least one", *names, "must be present"),
+            Together::OneAdvised(names) => ("At least one", *names, "should be present"),
+            Together::AtMostOne(names) => ("Only one", names.as_slice(), "can be present"),
             Together::FirstCounts(names) => ("Only the first", names.as_slice(), "counts"),
         };
         let names: Vec<String> = names.iter().map(|n| format!("`{n}`")).collect();
@@ -61,7 +56,7 @@ fn section(text: &mut String, object: &Object) {
     if object.minimal != "{}" {
         let _ = write!(text, "\n\n```json\n{}\n```", object.minimal);
     }
-    text.push_str("\n\n| key | what it takes | left out | meaning | example |\n|---|---|---|---|---|\n");
+    text.push_str("\n\n| key | type | default | meaning | example |\n|---|---|---|---|---|\n");
     for key in object.keys {
         let since = if key.since == FIRST { String::new() } else { format!(" (since {})", key.since) };
         let _ = writeln!(
@@ -122,7 +117,7 @@ fn spaced(value: &serde_json::Value) -> String {
 }
 
 fn words(text: &mut String, title: &str, words: &[Word]) {
-    let _ = write!(text, "\n### {title}\n\nWords of `overlays` and `toggles`.\n");
+    let _ = write!(text, "\n### {title}\n\nWords for `overlays` and `toggles`.\n");
     table(text, "word", words);
 }
 
@@ -134,7 +129,7 @@ fn table(text: &mut String, head: &str, words: &[Word]) {
 }
 
 fn events(text: &mut String) {
-    text.push_str("\n### What happens when\n\n");
+    text.push_str("\n### Order of events\n\n");
     for (i, event) in EVENTS.iter().enumerate() {
         let _ = writeln!(text, "{}. {event}", i + 1);
     }

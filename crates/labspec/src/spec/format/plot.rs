@@ -7,7 +7,7 @@ use crate::spec::Form;
 pub const MAX_DIGITS: u32 = 17;
 
 /// `digits`, of a slider and of a readout.
-pub(super) const DIGITS: Key = key("digits", Type::Whole, "the number of decimals shown", "2")
+pub(super) const DIGITS: Key = key("digits", Type::Whole, "the number of decimals displayed", "2")
     .between(0.0, MAX_DIGITS as f64)
     .or(Absent::Number(3.0));
 
@@ -32,7 +32,7 @@ pub static PLOT: Object = Object {
         key("ylabel", Type::Text, "what the vertical axis shows, with its unit", r#""height (m)""#),
         key("xlabel", Type::Text, "what the horizontal axis shows", r#""t (s)""#)
             .or(Absent::Text("time (s)")),
-        key("window", Type::Number, "how much time the horizontal axis shows", "1.5")
+        key("window", Type::Number, "the time span of the horizontal axis", "1.5")
             .unit("s")
             .positive()
             .or(Absent::Number(5.0)),
@@ -47,7 +47,7 @@ pub static PLOT: Object = Object {
         key(
             "refLines",
             Type::List(&ONE_REF_LINE),
-            "horizontal lines that the curves are compared with: a set point, a limit, an expected value",
+            "horizontal lines to compare the curves with: a set point, a limit, an expected value",
             r#"[{"y": 2, "label": "start"}]"#,
         )
         .or(Absent::Empty),
@@ -66,17 +66,17 @@ pub static TRACE: Object = Object {
         key(
             "label",
             Type::Text,
-            "its name in the legend and in written tables; `exact` addresses it by this name",
+            "its name in the legend and in written tables; `exact` refers to it by this name",
             r#""height (m)""#,
         )
-        .must("the legend and the written table name the curve by it"),
+        .must("the legend and the written table use it as the name of the curve"),
         key(
             "expr",
             Type::Code(Form::Expression),
-            "what is drawn: a number, evaluated after every step",
+            "what the curve shows: a number, evaluated after every step",
             r#""data.joint('ball').qpos[2]""#,
         )
-        .must("it is the expression that is drawn"),
+        .must("it is the expression of the curve"),
         key("dash", Type::Flag, "whether the curve is dashed", "true"),
     ],
     together: &[],
@@ -101,19 +101,19 @@ pub static REF_LINE: Object = Object {
 pub static READOUT: Object = Object {
     name: "readout",
     what: "a readout",
-    doc: "A value shown as text.",
+    doc: "A value displayed as text.",
     tag: None,
     minimal: r#"{"label": "time (s)", "expr": "data.time"}"#,
     keys: &[
         key("label", Type::Text, "its name, with the unit", r#""time (s)""#)
-            .must("a number without a name tells nothing"),
+            .must("a number without a name means nothing to a reader"),
         key(
             "expr",
             Type::Code(Form::Expression),
-            "what is shown: a number, a text, true or false",
+            "the displayed value: a number, a text, true or false",
             r#""data.time""#,
         )
-        .must("it is the expression that is shown"),
+        .must("it is the displayed expression"),
         DIGITS,
     ],
     together: &[],

@@ -6,9 +6,9 @@ use super::{Absent, Family, Key, LAB, Object, Type, Word, key};
 
 static KINDS: [Word; 6] = [
     Word { text: "mcq", doc: "one of several options" },
-    Word { text: "debug", doc: "the same, about something that is wrong and has to be found" },
-    Word { text: "predict", doc: "the same, before a simulation shows who was right" },
-    Word { text: "numeric", doc: "a number, right within a tolerance" },
+    Word { text: "debug", doc: "the same, about a mistake that the student must find" },
+    Word { text: "predict", doc: "the same, before a simulation shows the correct answer" },
+    Word { text: "numeric", doc: "a number, correct within a tolerance" },
     Word { text: "open", doc: "a text, which is not graded" },
     Word { text: "code", doc: "a program, which is not graded" },
 ];
@@ -41,7 +41,7 @@ pub static QUIZ: Object = Object {
         key(
             "questions",
             Type::List(&ONE_QUESTION),
-            "the questions, in the order shown",
+            "the questions, in display order",
             r#"[{"q": "Does mass matter?", "options": ["yes", "no"], "answer": 1}]"#,
         )
         .items(1)
@@ -56,29 +56,33 @@ const KIND: Key = key("kind", Type::Words(&KINDS), "how the question is answered
 const Q: Key = key("q", Type::Html, "the question", r#""How fast is the ball after 1 s?""#)
     .must("it is the text of the question");
 
-const EXPLAIN: Key =
-    key("explain", Type::Html, "shown after the answer", r#""<p>It gains 9.81 m/s in every second.</p>""#);
+const EXPLAIN: Key = key(
+    "explain",
+    Type::Html,
+    "displayed after the answer",
+    r#""<p>It gains 9.81 m/s in every second.</p>""#,
+);
 
 const NAME: Key = key("label", Type::Text, "a short name above the question", r#""Fall""#);
 
 const OPTIONS: Key = key(
     "options",
     Type::List(&HTML),
-    "what a student can choose from, in the order shown",
+    "the choices for the student, in display order",
     r#"["about 5 m/s", "about 10 m/s", "about 20 m/s"]"#,
 )
 .items(2)
 .must("the student chooses one of them");
 
-const ANSWER: Key = key("answer", Type::Whole, "the index of the right option, counted from 0", "1")
+const ANSWER: Key = key("answer", Type::Whole, "the index of the correct option, counted from 0", "1")
     .at_least(0.0)
-    .must("it is the index of the right option, from 0");
+    .must("it is the index of the correct option, from 0");
 
 /// A question with options.
 pub static MCQ: Object = Object {
     name: "mcq",
     what: "a question of kind mcq",
-    doc: "The student chooses one of several options, and has one try.",
+    doc: "The student chooses one of several options and has one try.",
     tag: Some(("kind", "mcq")),
     minimal: r#"{"q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s", "about 20 m/s"], "answer": 1}"#,
     keys: &[
@@ -98,7 +102,7 @@ pub static MCQ: Object = Object {
 pub static DEBUG: Object = Object {
     name: "debug",
     what: "a question of kind debug",
-    doc: "As `mcq`, about something that is wrong: a listing, a model or a plot, of which the student finds the fault.",
+    doc: "As `mcq`, about a mistake: a listing, a model or a plot in which the student finds the fault.",
     tag: Some(("kind", "debug")),
     minimal: r#"{"kind": "debug", "q": "The ball rises. What is wrong?", "options": ["gravity is positive", "the mass is too large"], "answer": 0}"#,
     keys: &[
@@ -118,7 +122,7 @@ pub static DEBUG: Object = Object {
 pub static PREDICT: Object = Object {
     name: "predict",
     what: "a question of kind predict",
-    doc: "As `mcq`; once the student has chosen, a lab shows what happens.",
+    doc: "As `mcq`; after the student chooses, a lab shows what happens.",
     tag: Some(("kind", "predict")),
     minimal: r#"{"kind": "predict", "q": "How fast is the ball after 1 s?", "options": ["about 5 m/s", "about 10 m/s"], "answer": 1, "sim": {"model": "fall"}}"#,
     keys: &[
@@ -131,10 +135,10 @@ pub static PREDICT: Object = Object {
         key(
             "sim",
             Type::Object(&LAB),
-            "the lab that is shown after the choice",
+            "the lab displayed after the choice",
             r#"{"model": "fall", "readouts": [{"label": "speed (m/s)", "expr": "-data.joint('ball').qvel[2]"}]}"#,
         )
-        .advised("a prediction is followed by the simulation that settles it; without one, use kind mcq"),
+        .advised("a prediction needs a simulation that decides it; without one, use kind mcq"),
         verify_key(),
         lint_key(),
     ],
@@ -148,7 +152,7 @@ pub const TOLERANCE: f64 = 0.02;
 pub static NUMERIC: Object = Object {
     name: "numeric",
     what: "a question of kind numeric",
-    doc: "The student types a number, and may try again.",
+    doc: "The student types a number and can try again.",
     tag: Some(("kind", "numeric")),
     minimal: r#"{"kind": "numeric", "q": "How fast is the ball after 1 s, in m/s?", "answer": 9.81}"#,
     keys: &[
@@ -156,16 +160,17 @@ pub static NUMERIC: Object = Object {
         Key { example: r#""How fast is the ball after 1 s, in m/s?""#, ..Q },
         EXPLAIN,
         NAME,
-        key("answer", Type::Number, "the right number", "9.81").must("without it no answer is right"),
+        key("answer", Type::Number, "the correct number", "9.81")
+            .must("without it no answer is graded as correct"),
         key(
             "tol",
             Type::Number,
-            "how far an answer may be off, in its unit: it is right when |given - answer| is no larger",
+            "how far an answer may be off, in its unit: it is correct if |given - answer| is at most this",
             "0.1",
         )
         .at_least(0.0)
-        .or(Absent::Said("2 % of the answer; an answer of 0 needs one")),
-        key("unit", Type::Text, "the unit, shown behind the box", r#""m/s""#),
+        .or(Absent::Said("2 % of the answer; an answer of 0 needs a tolerance")),
+        key("unit", Type::Text, "the unit, displayed after the box", r#""m/s""#),
         verify_key(),
         lint_key(),
     ],
@@ -175,7 +180,7 @@ pub static NUMERIC: Object = Object {
 const REFERENCE: Key = key(
     "reference",
     Type::Html,
-    "an answer to compare with, shown after the student's own",
+    "a sample answer, displayed after the student's own",
     r#""<p>Because weight and inertia both grow with mass.</p>""#,
 );
 
@@ -183,7 +188,7 @@ const REFERENCE: Key = key(
 pub static OPEN: Object = Object {
     name: "open",
     what: "an open question",
-    doc: "The student writes a text, and compares it with the reference. It is not graded.",
+    doc: "The student writes a text and compares it with the reference. It is not graded.",
     tag: Some(("kind", "open")),
     minimal: r#"{"kind": "open", "q": "Why does mass not matter?"}"#,
     keys: &[
@@ -202,7 +207,7 @@ pub static OPEN: Object = Object {
 pub static CODE: Object = Object {
     name: "code",
     what: "a question of kind code",
-    doc: "As `open`, with a program in the place of the text.",
+    doc: "As `open`, with a program instead of the text.",
     tag: Some(("kind", "code")),
     minimal: r#"{"kind": "code", "q": "Print the height of the ball after every step."}"#,
     keys: &[

@@ -219,7 +219,7 @@ fn every_example_runs() {
             ("span", _) => Some("`height`"),
             ("column", _) | ("verify", "table") => Some("no table has the columns"),
             ("verify", "use") => Some("`verify`"),
-            ("find", "smallest") => Some("it has a largest value, and no smallest"),
+            ("find", "smallest") => Some("it has a largest value, but no smallest"),
             _ => None,
         };
         if let Some(words) = absent {

@@ -26,7 +26,7 @@ static SWEPT: Map = Map {
 };
 static FOUND: Map = Map { names: "the name of a value", of: Type::Object(&FIND) };
 static KEYED: [PairHalf; 2] = [
-    PairHalf { what: "the heading of the column that tells the rows apart", of: Type::Text },
+    PairHalf { what: "the heading of the column that distinguishes the rows", of: Type::Text },
     PairHalf { what: "the list of its numbers", of: Type::Code(Form::Expression) },
 ];
 static A_COLUMN: Type = Type::Object(&COLUMN);
@@ -41,7 +41,7 @@ static QUOTE: [PairHalf; 2] = [
     },
 ];
 static EXPRESSIONS: Type = Type::List(&EXPRESSION);
-static IN_WORDS: Map = Map { names: "what stands in a cell", of: Type::Code(Form::Expression) };
+static IN_WORDS: Map = Map { names: "the text of a cell", of: Type::Code(Form::Expression) };
 static WORDED: Type = Type::Map(&IN_WORDS);
 static SAID: Type = Type::Pair(&QUOTE);
 
@@ -55,7 +55,7 @@ static PRESS: Type = Type::Pair(&PRESSED);
 pub static VERIFY: Object = Object {
     name: "verify",
     what: "a verify object",
-    doc: "How a machine can check what the text claims: runs of a lab, measures taken in every run, and what must hold. It may also stand in a comment before a block of the text, `<!-- labspec verify {…} -->`, and is then about this block. The guide is [verify.md](../verify.md).",
+    doc: "How the checker tests the claims of the text: runs of a lab, measures of every run, and conditions that must hold. It can also be in a comment before a block of the text, `<!-- labspec verify {…} -->`, and then it is about this block. The guide is [verify.md](../verify.md).",
     tag: None,
     minimal: r##"{"lab": "#1", "measure": {"speed": "final(-data.joint('ball').qvel[2])"}, "says": [["9.81 m/s", "speed"]]}"##,
     keys: &[
@@ -69,7 +69,7 @@ pub static VERIFY: Object = Object {
         key(
             "use",
             Type::Text,
-            "the lab (`#1`) or the question (`#quiz-id.2`) whose `verify` has runs, measures and searches that this one uses, too; what both name is as it is here",
+            "the lab (`#1`) or the question (`#quiz-id.2`) whose `verify` provides further runs, measures and searches; a name that is also defined here keeps its meaning here",
             r##""#1""##,
         ),
         key(
@@ -82,28 +82,28 @@ pub static VERIFY: Object = Object {
         key(
             "measure",
             Type::Map(&MEASURES),
-            "expressions by name, taken in every run; see [measures](functions.md)",
+            "expressions by name, evaluated in every run; see [measures](functions.md)",
             r#"{"speed": "final(-data.joint('ball').qvel[2])"}"#,
         )
         .or(Absent::Empty),
         key(
             "find",
             Type::Map(&FOUND),
-            "values that are searched for by running: the largest or the smallest value of a control, or of an attribute of the model, with which a condition holds; each is read by its name, like a measure",
+            "values found by a search over runs: the largest or the smallest value of a control, or of an attribute of the model, for which a condition holds; each is read by its name, like a measure",
             r#"{"limit": {"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-3}}"#,
         )
         .or(Absent::Empty),
         key(
             "options",
             Type::List(&EXPRESSION),
-            "on a question with options: one condition for each, in their order; that of the right option alone must hold; `undecided` for an option that this evidence says nothing about",
+            "on a question with options: one condition for each, in order; only that of the correct option may hold; `undecided` for an option that this evidence does not decide",
             r#"["speed < 7", "speed > 7 && speed < 15", "speed > 15"]"#,
         )
         .or(Absent::Empty),
         key(
             "over",
             Type::Map(&SPACE),
-            "on a question with options: sliders and the smallest and largest value of each, over which the answer must hold as well; corners, a covering design, and a search for a counterexample are run, at values that a student can reach",
+            "on a question with options: sliders with the smallest and largest value of each, over which the answer must hold as well; the checker runs the corners, a covering design and a search for a counterexample, at values that a student can reach",
             r#"{"gravity": [-12, -8]}"#,
         )
         .or(Absent::Empty),
@@ -116,28 +116,28 @@ pub static VERIFY: Object = Object {
         key(
             "wrong",
             Type::List(&EXPRESSION),
-            "on a numeric question: values that a mistake leads to, which the tolerance must not take for right",
+            "on a numeric question: values that a mistake leads to, which the tolerance must not accept",
             r#"["2 * speed"]"#,
         )
         .or(Absent::Empty),
         key(
             "says",
             Type::List(&SAID),
-            "numbers that the text states: what a reader sees, and the expression whose value it is",
+            "numbers that the text states: what a reader sees, and the expression for its value",
             r#"[["9.81 m/s", "speed"]]"#,
         )
         .or(Absent::Empty),
         key(
             "table",
             Type::List(&A_COLUMN),
-            "columns of tables of the text, and single cells: what stands in each cell must be what was measured",
+            "columns of tables of the text, and single cells: each cell must match what was measured",
             r#"[{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}]"#,
         )
         .or(Absent::Empty),
         key(
             "exact",
             Type::Map(&FORMS),
-            "closed forms that traces must follow, by the label of the trace; an object states how far they may be off",
+            "closed forms that traces must follow, by the label of the trace; an object states the allowed difference",
             r#"{"height": "2 - 0.5 * 9.81 * data.time ** 2"}"#,
         )
         .or(Absent::Empty),
@@ -146,79 +146,79 @@ pub static VERIFY: Object = Object {
 };
 
 static EXPECTED: [Word; 1] =
-    [Word { text: "breaks", doc: "the lesson shows this run breaking, and then it must" }];
+    [Word { text: "breaks", doc: "the lesson shows this run breaking, and then it must break" }];
 
 /// A run.
 pub static RUN: Object = Object {
     name: "run",
     what: "a run",
-    doc: "One run of the lab, with what a student does in it, or a reader is told to change.",
+    doc: "One run of the lab, with what a student does in it, or a change that the text asks for.",
     tag: None,
     minimal: r#"{"until": 1}"#,
     keys: &[
         key(
             "lab",
             Type::Either(&TEXT, &INLINE),
-            "the lab that this run is of, written as the `lab` of the object; a measure that has no meaning in it is not taken there",
+            "the lab of this run, written as the `lab` of the object; a measure without a meaning in it is skipped",
             r##""#1""##,
         )
         .or(Absent::Said("the lab of the object")),
         key(
             "model",
             Type::Map(&CHANGES),
-            "attributes of the model that are changed before it is compiled: `geom ball friction`, or `option timestep` where an element has no name; the mass of a body with one geom is `body ball mass`",
+            "attributes of the model to change before it is compiled: `geom ball friction`, or `option timestep` for an element without a name; the mass of a body with one geom is `body ball mass`",
             r#"{"body ball mass": 5, "option timestep": 0.01}"#,
         )
         .or(Absent::Empty),
         key("key", Type::Scalar, "the keyframe to start from, by its name or its index", "0")
-            .or(Absent::Said("the lab's own")),
+            .or(Absent::Said("that of the lab")),
         key(
             "controller",
             Type::Code(Form::Statements),
-            "runs before every step instead of the lab's own `controller`; empty for none",
+            "runs before every step instead of the `controller` of the lab; empty for none",
             r#""data.qfrc_applied[0] = -data.qvel[0]""#,
         )
-        .or(Absent::Said("the lab's own")),
+        .or(Absent::Said("that of the lab")),
         key(
             "set",
             Type::Map(&SETTINGS),
-            "values that controls are set to before the run, by their labels; a slider takes only what a student can reach",
+            "values of controls before the run, by their labels; a slider accepts only values that a student can reach",
             r#"{"gravity": -9.81}"#,
         )
         .or(Absent::Empty),
         key(
             "press",
             Type::List(&PRESS),
-            "buttons that are pressed, each with the time at which it is",
+            "buttons to press, each with the time of the press",
             r#"[["Push", 0.5]]"#,
         )
         .or(Absent::Empty),
         key(
             "setup",
             Type::Code(Form::Statements),
-            "runs after the lab's own `setup`",
+            "runs after the `setup` of the lab",
             r#""model.opt.timestep = 0.001""#,
         ),
-        key("until", Type::Number, "how long the run is", "1")
+        key("until", Type::Number, "the length of the run", "1")
             .unit("s")
             .positive()
-            .or(Absent::Said("`steps`, else the lab's `stopAt`, else 2 s")),
-        key("steps", Type::Whole, "how long the run is, in steps", "500").positive(),
+            .or(Absent::Said("`steps`, else the `stopAt` of the lab, else 2 s")),
+        key("steps", Type::Whole, "the length of the run, in steps", "500").positive(),
         key(
             "stop",
             Type::Code(Form::Expression),
-            "the run ends at the first sample at which this holds; `until` or `steps` is its end at the latest",
+            "the run ends at the first sample where this holds, and at the latest after `until` or `steps`",
             r#""data.time >= 1""#,
         )
         .or(Absent::Said("the run goes on to its end")),
         key(
             "sweep",
             Type::Map(&SWEPT),
-            "makes a run for each of these values of one control, or of one attribute of the model; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` are the values",
+            "makes a run for each of these values of one control, or of one attribute of the model; a measure of such a run is a list: `run.measure[0]`, `slope(run.measure)`, and `run.value` holds the values",
             r#"{"option timestep": [0.002, 0.005, 0.01]}"#,
         ),
-        key("expect", Type::Words(&EXPECTED), "what the run is meant to do", r#""breaks""#)
-            .or(Absent::Said("the run goes well")),
+        key("expect", Type::Words(&EXPECTED), "the intended result of the run", r#""breaks""#)
+            .or(Absent::Said("the run must go well")),
     ],
     together: &[Together::AtMostOne(&["until", "steps"])],
 };
@@ -227,22 +227,22 @@ pub static RUN: Object = Object {
 pub static COLUMN: Object = Object {
     name: "column",
     what: "a column of a table",
-    doc: "Where the numbers in a column of a table of the text come from, or the number in one cell.",
+    doc: "The origin of the numbers in a column of a table of the text, or of the number in one cell.",
     tag: None,
     minimal: r#"{"column": "touchdown (s)", "by": ["height (m)", "fall.value"], "is": "fall.touch"}"#,
     keys: &[
         key("column", Type::Text, "the heading of the column, as a reader sees it", r#""touchdown (s)""#)
-            .must("without it nobody knows which numbers are meant"),
+            .must("without it the column is unknown"),
         key(
             "by",
             Type::Pair(&KEYED),
-            "how the rows are told apart: the heading of another column, and the list of the values that stand in it",
+            "how to distinguish the rows: the heading of another column, and the list of its values",
             r#"["height (m)", "fall.value"]"#,
         ),
         key(
             "row",
             Type::Text,
-            "instead of `by`: what stands in the first cell of the one row that is meant",
+            "instead of `by`: the text in the first cell of the row",
             r#""0.65""#,
         ),
         key(
@@ -251,7 +251,7 @@ pub static COLUMN: Object = Object {
             "what the cells state: a list in the order of the values, or one number for one cell; for words an object with a list of conditions for each, as `{\"stable\": \"fall.depth.map(d => d < 1)\", …}`",
             r#""fall.touch""#,
         )
-        .must("without it there is nothing that the cells are compared with"),
+        .must("without it there is nothing to compare the cells with"),
     ],
     together: &[Together::ExactlyOne(&["by", "row"])],
 };
@@ -260,33 +260,33 @@ pub static COLUMN: Object = Object {
 pub static FIND: Object = Object {
     name: "find",
     what: "a search",
-    doc: "The largest or the smallest value with which a condition holds, found by running and halving.",
+    doc: "The largest or the smallest value for which a condition holds, found by bisection over runs.",
     tag: None,
     minimal: r#"{"largest": "timestep", "from": 0.001, "to": 0.05, "while": "final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1", "tol": 1e-3}"#,
     keys: &[
         key(
             "largest",
             Type::Text,
-            "the largest value of this is wanted: the label of a control, an attribute of the model as in `model`, or `timestep`",
+            "what to maximize: the label of a control, an attribute of the model as in `model`, or `timestep`",
             r#""timestep""#,
         ),
-        key("smallest", Type::Text, "the smallest value of this is wanted", r#""timestep""#),
-        key("from", Type::Number, "the smallest value that is tried", "0.001")
-            .must("without it nobody knows where to search"),
-        key("to", Type::Number, "the largest value that is tried", "0.05")
-            .must("without it nobody knows where to search"),
-        key("run", Type::Text, "the run in which it is tried", r#""run""#)
+        key("smallest", Type::Text, "what to minimize, as in `largest`", r#""timestep""#),
+        key("from", Type::Number, "the smallest value to test", "0.001")
+            .must("without it the range of the search is unknown"),
+        key("to", Type::Number, "the largest value to test", "0.05")
+            .must("without it the range of the search is unknown"),
+        key("run", Type::Text, "the run to test it in", r#""run""#)
             .or(Absent::Said("the only run")),
         key(
             "while",
             Type::Code(Form::Expression),
-            "what holds up to the limit: a condition on measures of the run, by their own names, or written as a measure",
+            "the condition that holds up to the limit, on measures of the run, by their own names, or written as a measure",
             r#""final(data.qpos[2] + 4.905 * data.time ** 2) > initial(data.qpos[2]) - 0.1""#,
         )
         .must("without it there is no limit"),
-        key("tol", Type::Number, "how near the limit is found", "1e-3")
+        key("tol", Type::Number, "the accuracy of the limit", "1e-3")
             .positive()
-            .must("without it nobody knows how near is near enough"),
+            .must("without it the accuracy of the search is unknown"),
     ],
     together: &[Together::ExactlyOne(&["largest", "smallest"])],
 };
@@ -302,7 +302,7 @@ pub static SPAN: Object = Object {
         key("from", Type::Number, "the first value", "0.2").must("without it there is no first value"),
         key("to", Type::Number, "the last value", "2").must("without it there is no last value"),
         key("count", Type::Whole, "how many values there are", "5")
-            .must("without it nobody knows how many runs are meant"),
+            .must("without it the number of runs is unknown"),
     ],
     together: &[],
 };
@@ -311,7 +311,7 @@ pub static SPAN: Object = Object {
 pub static CLOSED_FORM: Object = Object {
     name: "closedForm",
     what: "a closed form",
-    doc: "A formula that a trace must follow, with the distance that is allowed.",
+    doc: "A formula that a trace must follow, with the allowed difference.",
     tag: None,
     minimal: r#"{"is": "2 - 0.5 * 9.81 * data.time ** 2", "tol": 0.01}"#,
     keys: &[
@@ -321,9 +321,14 @@ pub static CLOSED_FORM: Object = Object {
             "the formula, in the language of the lab",
             r#""2 - 0.5 * 9.81 * data.time ** 2""#,
         )
-        .must("without it there is nothing that the trace is held to"),
-        key("tol", Type::Number, "how far the trace may be from it at most, in the trace's unit", "0.01")
-            .or(Absent::Said("the convergence of the lab itself decides")),
+        .must("without it there is nothing to compare the trace with"),
+        key(
+            "tol",
+            Type::Number,
+            "the largest allowed difference between the trace and the formula, in the unit of the trace",
+            "0.01",
+        )
+        .or(Absent::Said("decided by the convergence of the lab")),
     ],
     together: &[],
 };

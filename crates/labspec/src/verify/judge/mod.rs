@@ -85,11 +85,11 @@ pub(crate) fn judge(
             Finding::new(
                 rules::ENGINE_DEPENDENT,
                 place,
-                format!("{what} depends on the engine: {before} here, {after} with {}", witness.engine),
+                format!("{what} depends on the engine: {before} here, but {after} with {}", witness.engine),
             )
             .why(format!("{values}: a student whose page has another version sees something else"))
             .help(
-                "ask about what does not depend on it, quote fewer digits, or name the version in the text",
+                "ask about something that does not depend on it, quote fewer digits, or name the version in the text",
             ),
         );
     };
@@ -98,7 +98,7 @@ pub(crate) fn judge(
         .iter()
         .take(3)
         .map(|(name, ours, theirs)| {
-            format!("`{name}` is {} here and {} there", shown_as(*ours), shown_as(*theirs))
+            format!("`{name}` is {} here but {} there", shown_as(*ours), shown_as(*theirs))
         })
         .collect();
     let values = if most.is_empty() { "a run breaks in one of them".to_string() } else { most.join(", ") };
@@ -114,7 +114,7 @@ pub(crate) fn judge(
         judged.claims += 1;
         if ours.state != now.state {
             let numbers =
-                format!("it is {} here and {} there", shown_as(ours.computed), shown_as(now.computed));
+                format!("it is {} here but {} there", shown_as(ours.computed), shown_as(now.computed));
             turn(ours.span.clone(), &format!("\"{}\"", ours.text), ours.verdict(), now.verdict(), numbers);
         }
     }

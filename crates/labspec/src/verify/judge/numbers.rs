@@ -20,7 +20,7 @@ pub(super) fn replaced(
     judged: &mut Judged,
 ) -> Outcome {
     let mut theirs = nominal.clone();
-    let unknown = || Err("nothing is recorded of its run".to_string());
+    let unknown = || Err("its run is not recorded".to_string());
     for (i, run) in theirs.runs.iter_mut().enumerate() {
         let title = run.title();
         let taken = match witness.runs.get(i).cloned().unwrap_or_else(unknown) {
@@ -35,7 +35,7 @@ pub(super) fn replaced(
             match taken.values.get(name) {
                 Some(value) => *x = *value,
                 None => {
-                    let why = taken.refused.get(name).map_or("nothing is recorded of it", String::as_str);
+                    let why = taken.refused.get(name).map_or("it is not recorded", String::as_str);
                     judged.unjudged.push((format!("{title}.{name}"), why.to_string()));
                 }
             }
@@ -51,7 +51,7 @@ pub(super) fn replaced(
             Some(x) => theirs.elsewhere.push((text.value.clone(), *x)),
             None => {
                 let why = taken.and_then(|t| t.refused.get(&text.value));
-                let why = why.map_or("nothing is recorded of it", String::as_str);
+                let why = why.map_or("it is not recorded", String::as_str);
                 judged.unjudged.push((text.value.clone(), why.to_string()));
             }
         }

@@ -68,7 +68,7 @@ fn a_number_far_from_everything_that_comes_out_is_wrong() {
 fn fewer_digits_are_advised_where_all_runs_agree_on_them() {
     let (_, findings) = checked("1.4237 s", 1.4237, &[], &[1.4241, 1.4239]);
     assert!(
-        told(&findings).1.contains("print fewer digits: 1.424 is what all of these runs give"),
+        told(&findings).1.contains("print fewer digits, 1.424, which all of these runs give"),
         "{findings:#?}"
     );
     let (_, findings) = checked("0.012 m", 0.012, &[], &[0.034]);
@@ -104,7 +104,7 @@ fn every_place_is_reported_and_what_was_read_is_said() {
     let (outcome, findings) = checked("$L^2 = 2.4 \\times 10^{-4}$", 3e-4, &[], &[]);
     let (code, words) = told(&findings);
     assert_eq!((outcome.state, code, outcome.places.len()), (QuoteState::Wrong, "quote-wrong", 2));
-    assert!(words.contains("(read as 2.4×10^-4), the simulation gives 3.0×10^-4"), "{words}");
+    assert!(words.contains("(read as 2.4×10^-4), but the simulation gives 3.0×10^-4"), "{words}");
     assert_eq!(findings[0].related[0].span, outcome.places[1]);
     assert_eq!(outcome.read.unwrap().to_string(), "2.4×10^-4");
     assert!(outcome.reason.contains("the simulation gives 3.0×10^-4"), "{}", outcome.reason);

@@ -6,11 +6,11 @@ use super::denial::is_denied;
 use super::numeral::{Chars, fraction};
 use labspec_bind::units::{self, is_wide};
 
-pub(super) const BOUND: &str = "a bound and not a number";
+pub(super) const BOUND: &str = "a bound, not a number";
 const FORMULA: &str = "a formula";
 const DIFFERENCE: &str = "a difference or a range";
-const ODD: &str = "a number with something before it that is not understood";
-const LETTERS: &str = "a number with letters behind it";
+const ODD: &str = "a number after a prefix that is not understood";
+const LETTERS: &str = "a number followed by letters";
 
 /// Characters that are looked at on either side.
 const NEAR: usize = 40;
@@ -208,8 +208,8 @@ pub(super) fn before(chars: Chars<'_>, start: usize) -> Option<&'static str> {
         '<' | '>' if matches!(previous, Some('-' | '=')) && c == '>' => None,
         '<' | '>' | '≤' | '≥' | '≪' | '≫' | '≲' | '≳' => Some(BOUND),
         '=' if matches!(previous, Some('<' | '>' | '!' | '≠' | '+' | '-' | '*' | '/')) => Some(BOUND),
-        '±' | '∓' => Some("a plus-minus without its number"),
-        '/' if previous == Some('+') => Some("a plus-minus without its number"),
+        '±' | '∓' => Some("a plus-minus sign without its number"),
+        '/' if previous == Some('+') => Some("a plus-minus sign without its number"),
         '-' | '–' => Some(DIFFERENCE),
         '√' | '×' | '·' | '*' | '/' | '+' | '÷' | '^' | '_' | '∙' | '∕' | '⁄' | '|' | '\\' | '∝' | '≠'
         | '¬' | '#' | '@' | '!'
@@ -266,7 +266,7 @@ fn words_before(chars: Chars<'_>, at: usize) -> Option<&'static str> {
         || line.ends_with("% of")
         || line.ends_with("½ of")
     {
-        return Some("a number that the words before it change");
+        return Some("a number that the words before it modify");
     }
     let last = line.rsplit(' ').next().unwrap_or("");
     // `3 0.5 s`: two numbers without a word between them.
@@ -377,7 +377,7 @@ pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'st
         // A mark behind the whole of it, as in a list of what is done.
         '\u{2600}'..='\u{27bf}' | '\u{1f000}'..='\u{1faff}' if has_unit => None,
         c if c.is_ascii() && !matches!(c, '$' | '#' | '@' | '&') || PUNCTUATION.contains(c) => None,
-        _ => Some("a number with something behind it that is not understood"),
+        _ => Some("a number followed by something that is not understood"),
     }
 }
 
@@ -477,8 +477,8 @@ const PARTS: [&str; 18] = [
     "pairs",
 ];
 
-const BESIDE: &str = "a number with another one right behind it";
-const ODD_BEHIND: &str = "a number that the words behind it change";
+const BESIDE: &str = "a number directly followed by another one";
+const ODD_BEHIND: &str = "a number that the words after it modify";
 
 fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
     let near = chars.text(at, at + NEAR);

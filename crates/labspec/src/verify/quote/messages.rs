@@ -29,16 +29,16 @@ pub(super) fn shown(said: &Claim<'_>) -> String {
 }
 
 pub(super) fn no_number(said: &Claim<'_>) -> Finding {
-    Finding::error(rules::QUOTE_WITHOUT_NUMBER, said.quote.span(), "there is no number in this quote")
-        .why("nothing was compared: digits of names, indexes and exponents, as in t2, x_1 or L^2, are no numbers")
+    Finding::error(rules::QUOTE_WITHOUT_NUMBER, said.quote.span(), "this quote contains no number")
+        .why("nothing was compared: digits of names, indexes and exponents, as in t2, x_1 or L^2, are not numbers")
         .help("quote the number as the text prints it, such as \"0.442 s\"")
 }
 
 pub(super) fn unread(said: &Claim<'_>, form: &str) -> Finding {
-    Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), format!("\"{}\" is {form}, which is not read", shown(said)))
-        .why("nothing was compared: it is better to say so than to guess which number is meant")
+    Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), format!("\"{}\" is {form}, which the checker cannot read", shown(said)))
+        .why("nothing was compared, because the checker does not guess which number is meant")
         .help(match form {
-            "a bound and not a number" => "quote the number alone, or state the bound as a condition under `options`",
+            "a bound, not a number" => "quote only the number, or state the bound as a condition under `options`",
             _ => "quote only the number that the expression gives, as in \"0.442 s\", \"1.5×10^3\", \"0.44 ± 0.01 s\" or \"0.4 to 0.5 s\"",
         })
 }
@@ -47,13 +47,13 @@ pub(super) fn not_found(said: &Claim<'_>, hidden: Option<Range<usize>>) -> Findi
     let found = Finding::warning(
         rules::QUOTE_NOT_FOUND,
         said.quote.span(),
-        format!("no reader sees \"{}\" as a number of its own", shown(said)),
+        format!("the text \"{}\" does not appear in the rendered lesson as a separate number", shown(said)),
     )
-    .why("nothing was compared: the text was changed, or says it in other words")
-    .help("quote what the text now says, with its sign and its whole unit, or remove this line");
+    .why("nothing was compared: the text has changed, or uses other words")
+    .help("quote what the text now says, with its sign and its whole unit, or delete this line");
     match hidden {
         Some(place) => {
-            found.related(place, "it stands here, which is no shown text, or only a part of a number")
+            found.related(place, "it is here, in text that is not rendered, or as part of a longer number")
         }
         None => found,
     }
@@ -63,18 +63,18 @@ pub(super) fn no_value(said: &Claim<'_>, computed: f64) -> Finding {
     let (message, why) = if computed.is_nan() {
         (
             "this expression has no value in this run, so the quoted number was not checked",
-            "an event that it waits for never happened (`first`, `at`, `crossing`, `period`), it divides zero by zero, or it gives something that is no number",
+            "its event never happened (`first`, `at`, `crossing`, `period`), it divides zero by zero, or its value is not a number",
         )
     } else {
         (
             "this expression is infinite in this run, so the quoted number was not checked",
-            "it divides by zero, or something grows without end",
+            "it divides by zero, or a value grows without end",
         )
     };
     Finding::error(rules::QUOTE_WITHOUT_VALUE, said.expr.span(), message)
         .why(why)
         .help("make the run long enough for the event, or correct the expression")
-        .related(said.quote.span(), "the number that it is about")
+        .related(said.quote.span(), "the quoted number")
 }
 
 /// A finding at the places where the quote stands: the first one, and the others as related places.
@@ -89,13 +89,13 @@ fn at_places(
     let first = places.next().cloned().unwrap_or(said.quote.span());
     let mut found = Finding::error(rule, first, message).severity(severity);
     for place in places.by_ref().take(MAX_RELATED) {
-        found = found.related(place.clone(), "the text says it here too");
+        found = found.related(place.clone(), "the text also says it here");
     }
     let more = places.count();
     let value = significant(outcome.computed);
     let label = match more {
         0 => format!("this is {value}"),
-        n => format!("this is {value}; the text says it at {n} more places"),
+        n => format!("this is {value}; the text says it in {n} more places"),
     };
     found.related(said.expr.span(), label)
 }
@@ -113,9 +113,9 @@ fn as_read(said: &Claim<'_>, read: &Quoted) -> String {
 }
 
 pub(super) fn wrong_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
-    let message = format!("the text says {text}, and the expression gives {gives}");
+    let message = format!("the text says {text}, but the expression gives {gives}");
     at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
-        .why("the digits are right, and the unit is another one")
+        .why("the digits are right, but the unit differs")
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
@@ -124,37 +124,40 @@ pub(super) fn unsure_unit(said: &Claim<'_>, outcome: &QuoteOutcome, unit: &Unit,
     let message = match unit.link {
         Link::Clause => {
             format!(
-                "the number has no unit, the text names {text} beside it, and the expression gives {gives}"
+                "the number has no unit, the text names {text} beside it, but the expression gives {gives}"
             )
         }
-        _ => format!("{text} may be a unit or a symbol here, and the expression gives {gives}"),
+        _ => format!("{text} may be a unit or a symbol here, but the expression gives {gives}"),
     };
     at_places(rules::QUOTE_UNCLEAR, Severity::Error, said, outcome, message)
-        .why("nothing is called right that can be read in two ways")
-        .help("write the unit behind the number, or quote the number where its unit is plain")
+        .why("a quote with two readings cannot be called right")
+        .help("write the unit after the number, or quote the number where its unit is clear")
 }
 
 pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let right = printed(read, outcome.computed);
     let within = match read.form {
-        Form::PlusMinus(..) | Form::Range(..) => ", which does not lie in it",
+        Form::PlusMinus(..) | Form::Range(..) => ", which is outside it",
         _ => "",
     };
-    let message =
-        format!("the text says {}{}, the simulation gives {right}{within}", shown(said), as_read(said, read));
+    let message = format!(
+        "the text says {}{}, but the simulation gives {right}{within}",
+        shown(said),
+        as_read(said, read)
+    );
     let found = at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
         .why("a reader who measures it finds another number");
     if !outcome.moved.is_empty() {
         return found.help(format!(
-            "these digits depend on the timestep: {right} as the lesson stands, {}; state the timestep beside the number, and `set` it in the run",
+            "state the timestep beside the number, and `set` it in the run: the digits depend on it, {right} as the lesson stands, {}",
             list(outcome)
         ));
     }
     found.help(match read.form {
         Form::PlusMinus(..) | Form::Range(..) => {
-            format!("write a range that holds {right}, or correct the expression that it is compared with")
+            format!("write a range that contains {right}, or correct the expression")
         }
-        _ => format!("write {right}, or correct the expression that it is compared with"),
+        _ => format!("write {right}, or correct the expression"),
     })
 }
 
@@ -166,21 +169,23 @@ pub(super) fn of_timestep(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quote
         list(outcome)
     );
     at_places(rules::QUOTE_OF_TIMESTEP, Severity::Note, said, outcome, message)
-        .why("the number is right for this timestep only; a reader with another one finds another number")
-        .help("state it with its timestep, and `set` the timestep in the run; there is nothing to rewrite")
+        .why(
+            "the number is right for this timestep only; a reader with another timestep finds another number",
+        )
+        .help("state it with its timestep, and `set` the timestep in the run; the number itself is right")
 }
 
 /// A number that no run comes near, where no run can be repeated to its digits either.
 pub(super) fn far(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
     let message = format!(
-        "the text says {}{}, and no run comes near: {} as the lesson stands, {}",
+        "the text says {}{}, but no run comes near: {} as the lesson stands, {}",
         shown(said),
         as_read(said, read),
         printed(read, outcome.computed),
         list(outcome)
     );
     at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
-        .why("a reader who measures it finds another number, and each reader another one")
+        .why("a reader who measures it finds another number, and every reader a different one")
         .help(fewer(read, values))
 }
 
@@ -188,10 +193,12 @@ pub(super) fn far(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, value
 fn fewer(read: &Quoted, values: &[f64]) -> String {
     match agreed(read, values) {
         Some(text) => {
-            format!("print fewer digits: {text} is what all of these runs give; or quote a shorter run")
+            format!("print fewer digits, {text}, which all of these runs give, or quote a shorter run")
         }
-        None => "quote a shorter run, before such starts part, or say in words what all of these runs share"
-            .into(),
+        None => {
+            "quote a shorter run, before such starts diverge, or say in words what all of these runs share"
+                .into()
+        }
     }
 }
 
@@ -203,7 +210,7 @@ pub(super) fn chaotic(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, v
         list(outcome)
     );
     at_places(rules::QUOTE_CHAOTIC, Severity::Warning, said, outcome, message)
-        .why("such a start is within rounding of the lesson's own: another computer, or another version of the simulator, prints other digits")
+        .why("such a start is within rounding of that of the lesson: another computer, or another version of the simulator, prints other digits")
         .help(fewer(read, values))
 }
 
@@ -229,13 +236,13 @@ pub(super) fn doubtful(
     let value = significant(outcome.computed);
     let message = match other {
         Some(other) => format!(
-            "\"{}\" was read as {read}, but {why}: the expression gives {value}, as {other} would say",
+            "\"{}\" was read as {read}, but {why}: the expression gives {value}, which matches {other}",
             shown(said)
         ),
         None => format!("\"{}\" was read as {read}, but {why}: the expression gives {value}", shown(said)),
     };
     Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), message)
-        .why("nothing is called right or wrong that can be read in two ways")
+        .why("a quote with two readings cannot be called right or wrong")
         .help("quote only the number that the expression gives, with a point before its decimals")
         .related(said.expr.span(), format!("this is {value}"))
 }
@@ -249,7 +256,7 @@ pub(super) fn other_unit(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted
     };
     let action = if shift.power > 0 { "multiply" } else { "divide" };
     let message = format!(
-        "the text says {}{}, the expression gives {value}; the numbers differ by exactly a power of ten",
+        "the text says {}{}, but the expression gives {value}; the numbers differ by exactly a power of ten",
         shown(said),
         as_read(said, read)
     );

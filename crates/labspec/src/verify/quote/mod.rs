@@ -182,10 +182,10 @@ pub(super) fn check(
     let reading = match reading {
         Ok(reading) => reading,
         Err(Unread::NoNumber) => {
-            return unclear(outcome, "the quote holds no number", messages::no_number(said), findings);
+            return unclear(outcome, "the quote contains no number", messages::no_number(said), findings);
         }
         Err(Unread::Form(form)) => {
-            let reason = format!("the quote is {form}, which is not read");
+            let reason = format!("the quote is {form}, which the checker cannot read");
             return unclear(outcome, &reason, messages::unread(said, form), findings);
         }
     };
@@ -235,7 +235,7 @@ pub(super) fn check(
     }
     if !chaotic.is_empty() {
         outcome.moved = chaotic;
-        outcome.reason = format!("the text says {read}, and no run comes near");
+        outcome.reason = format!("the text says {read}, but no run comes near");
         outcome.state = QuoteState::Wrong;
         findings.push(messages::far(said, &outcome, &read, &values));
         return outcome;
@@ -248,7 +248,7 @@ pub(super) fn check(
         match (unit, measured) {
             (Some((unit, Held::Wrong)), Some(found)) => {
                 let gives = written(&found);
-                outcome.reason = format!("the text says {}, the expression gives {gives}", unit.text);
+                outcome.reason = format!("the text says {}, but the expression gives {gives}", unit.text);
                 outcome.state = QuoteState::Wrong;
                 findings.push(messages::wrong_unit(said, &outcome, &unit.text, &gives));
                 return outcome;
@@ -272,20 +272,20 @@ pub(super) fn check(
     }
     if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(computed)) {
         let finding = messages::doubtful(said, &outcome, &read, why, Some(other));
-        return unclear(outcome, "the quote can be read in two ways", finding, findings);
+        return unclear(outcome, "the quote has two readings", finding, findings);
     }
     if let Some(why) = reading.unsure {
         let finding = messages::doubtful(said, &outcome, &read, why, None);
-        return unclear(outcome, "the quote can be read in two ways", finding, findings);
+        return unclear(outcome, "the quote has two readings", finding, findings);
     }
     let text = reading.unit.as_ref().map_or("", |unit| unit.text.as_str());
     if let Some(shift) = unit::shift(&read, text, computed) {
         let finding = messages::other_unit(said, &outcome, &read, &shift);
-        return unclear(outcome, "text and expression differ by a power of ten", finding, findings);
+        return unclear(outcome, "the text and the expression differ by a power of ten", finding, findings);
     }
     findings.push(messages::wrong(said, &outcome, &read));
     outcome.reason =
-        format!("the text says {read}, the simulation gives {}", messages::printed(&read, computed));
+        format!("the text says {read}, but the simulation gives {}", messages::printed(&read, computed));
     outcome.state = QuoteState::Wrong;
     outcome
 }
@@ -316,13 +316,13 @@ pub(super) fn cells(claim: &Column, shown: &ShownText) -> Result<Vec<[Text; 2]>,
         return Err(if several {
             [
                 format!("several tables have the columns {}", headings.join(", ")),
-                "give them headings of their own".into(),
+                "give the tables different headings".into(),
             ]
         } else {
             let near =
                 headings.iter().find(|h| !known.contains(h)).and_then(|h| nearest(h, known.iter().copied()));
             let help = near.map_or_else(
-                || format!("the tables have the columns {}", known.join(", ")),
+                || format!("use the columns of a table: {}", known.join(", ")),
                 |right| format!("did you mean \"{right}\"?"),
             );
             [format!("no table has the columns {}", headings.join(", ")), help]
@@ -342,9 +342,9 @@ pub(super) fn cells(claim: &Column, shown: &ShownText) -> Result<Vec<[Text; 2]>,
         (false, _) => Ok(cells),
         (true, Some(row)) => Err([
             format!("no row of this table begins with \"{}\"", row.value),
-            "write what stands in the first cell of the row".into(),
+            "write the text in the first cell of the row".into(),
         ]),
-        (true, None) => Err(["this table has no rows".into(), "fill the table".into()]),
+        (true, None) => Err(["this table has no rows".into(), "add rows to the table".into()]),
     }
 }
 

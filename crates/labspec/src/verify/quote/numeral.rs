@@ -137,7 +137,7 @@ pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral 
         if chars.at(end) == Some('.') && chars.digit(end + 1) {
             refused = Some("digits with several points");
         } else if chars.at(end) == Some(',') && chars.digit(end + 1) {
-            refused = Some("digits with a point and a comma behind it");
+            refused = Some("digits with a comma after a point");
         }
     } else if chars.at(end) == Some(',') && chars.digit(end + 1) {
         // No thousands: a decimal comma, or a list.
@@ -149,7 +149,7 @@ pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral 
             let after = chars.text(end + 1, stop);
             decimals = after.len();
             if first != "0" {
-                unsure = Some("its comma may part decimals or two numbers");
+                unsure = Some("its comma may separate decimals or two numbers");
             }
             digits = format!("{digits}.{after}");
         }
@@ -193,7 +193,7 @@ pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral 
     }
     let count = digits.bytes().filter(u8::is_ascii_digit).count();
     if count > MAX_DIGITS || exponent.abs() > MAX_EXPONENT {
-        refused = Some("a number of more digits than a computation has");
+        refused = Some("a number with more digits than a computation has");
         (exponent, decimals) = (0, 0);
     }
     let sign = if negative { -1.0 } else { 1.0 };

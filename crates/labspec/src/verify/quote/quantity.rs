@@ -176,10 +176,10 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
         let relative = !left.is_empty() && !left.starts_with('%') && second_unit == "%";
         let one_unit = left == first_unit && (left.is_empty() || left == second_unit || relative);
         if !one_unit || left.is_empty() && second_unit == "%" {
-            return Pair::Refused("a plus-minus whose unit is not clear");
+            return Pair::Refused("a plus-minus value with an unclear unit");
         }
         if chars.at(second.whole.end) == Some(')') || a.exponent != b.exponent && a.exponent == 0 {
-            return Pair::Refused("a plus-minus whose power of ten is not clear");
+            return Pair::Refused("a plus-minus value with an unclear power of ten");
         }
         let about = if relative { a.value * b.value / 100.0 } else { b.value }.abs();
         let unit = if relative { first.unit.clone() } else { second.unit.clone() };

@@ -81,7 +81,7 @@ pub(in crate::verify) fn reading(text: &str) -> Result<Reading, Unread> {
         return Err(Unread::Form("a change from one number to another, or a range"));
     }
     let mut reading = of_quantity(first)?;
-    let several = "it holds more than one number";
+    let several = "it contains more than one number";
     let others = all.get(at + 1..).unwrap_or_default();
     reading.last = others.is_empty();
     if !matches!(reading.read.form, Form::PlusMinus(..) | Form::Range(..)) {
@@ -99,11 +99,11 @@ fn of_quantity(q: &Quantity) -> Result<Reading, Unread> {
         return Err(Unread::Form(form));
     }
     if !q.quoted.value.is_finite() {
-        return Err(Unread::Form("a number beyond all computing"));
+        return Err(Unread::Form("a number too large to compute with"));
     }
     let why = match q.quoted.form {
-        Form::Plain(Style { group: Some(','), .. }) => "its comma may part thousands or decimals",
-        _ => "its space may part thousands or two numbers",
+        Form::Plain(Style { group: Some(','), .. }) => "its comma may separate thousands or decimals",
+        _ => "its space may separate thousands or two numbers",
     };
     Ok(Reading {
         read: q.quoted,

@@ -152,7 +152,7 @@ fn what_may_mean_two_things_is_not_called_wrong() {
 fn other_forms_are_refused_by_name() {
     for (text, form) in [
         ("3.14.0", "digits with several points"),
-        ("1.500,5", "digits with a point and a comma behind it"),
+        ("1.500,5", "digits with a comma after a point"),
         ("1,2,3", "digits with several commas"),
         ("2^10", "a power"),
         ("0.442(3) s", "an uncertainty in brackets"),
@@ -167,16 +167,16 @@ fn other_forms_are_refused_by_name() {
         ("0.5 + 0.1", "a sum"),
         ("0.5 - 0.1", "a difference or a range"),
         ("0.5-0.1", "a difference or a range"),
-        ("less than 1 mm", "a bound and not a number"),
-        ("$v \\le 3$", "a bound and not a number"),
-        ("v >= 3", "a bound and not a number"),
-        ("± 0.01", "a plus-minus without its number"),
-        ("0.44 ± 2 %", "a plus-minus whose unit is not clear"),
-        ("(0.44 ± 0.01)×10^3", "a plus-minus whose power of ten is not clear"),
+        ("less than 1 mm", "a bound, not a number"),
+        ("$v \\le 3$", "a bound, not a number"),
+        ("v >= 3", "a bound, not a number"),
+        ("± 0.01", "a plus-minus sign without its number"),
+        ("0.44 ± 2 %", "a plus-minus value with an unclear unit"),
+        ("(0.44 ± 0.01)×10^3", "a plus-minus value with an unclear power of ten"),
         ("from 0.3 to 1.8 m", "a change from one number to another, or a range"),
         ("1 mm to 2 cm", "a range whose ends have different units or powers of ten"),
-        ("0.1234567890123456789012345678901", "a number of more digits than a computation has"),
-        ("1e99999", "a number of more digits than a computation has"),
+        ("0.1234567890123456789012345678901", "a number with more digits than a computation has"),
+        ("1e99999", "a number with more digits than a computation has"),
     ] {
         assert_eq!(refused(text), form, "{text}");
     }

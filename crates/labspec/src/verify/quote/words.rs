@@ -36,18 +36,18 @@ pub(in crate::verify) fn check_words(
                 .severity(severity)
                 .why(why.to_string())
                 .help(help.to_string())
-                .related(said.expr.span(), "this is what the words say"),
+                .related(said.expr.span(), "the condition for these words"),
         );
     };
     if let Some(how) = condition.start.first() {
         let message =
-            format!("whether \"{words}\" is right depends on the last digits: it is otherwise {how}");
+            format!("whether \"{words}\" is right depends on the last digits: the result differs {how}");
         tell(
             rules::QUOTE_CHAOTIC,
             Severity::Warning,
             message.clone(),
-            "another computer, or another version of the simulator, comes to the other answer",
-            "say it of a shorter run, or of a case that lies further from the edge",
+            "another computer, or another version of the simulator, gives the other result",
+            "say it about a shorter run, or about a case that is further from the limit",
         );
         return (QuoteState::Unclear, message);
     }
@@ -55,18 +55,18 @@ pub(in crate::verify) fn check_words(
         tell(
             rules::QUOTE_WRONG,
             Severity::Error,
-            format!("the text says \"{words}\", and that is not so in the simulation"),
-            "a reader who tries it finds the contrary",
-            "correct the text, or the condition that it is compared with",
+            format!("the text says \"{words}\", but the simulation disagrees"),
+            "a reader who tries it sees the opposite",
+            "correct the text, or its condition",
         );
-        return (QuoteState::Wrong, "what the words say does not hold".into());
+        return (QuoteState::Wrong, "the simulation disagrees with the words".into());
     }
     if let Some(how) = condition.timestep.first() {
         tell(
             rules::QUOTE_OF_TIMESTEP,
             Severity::Note,
-            format!("\"{words}\" is right for this timestep only: it is otherwise {how}"),
-            "a reader with another timestep finds the contrary",
+            format!("\"{words}\" is right for this timestep only: the result differs {how}"),
+            "a reader with another timestep sees the opposite",
             "state it with its timestep, and `set` the timestep in the run",
         );
     }

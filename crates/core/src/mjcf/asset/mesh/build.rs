@@ -68,8 +68,8 @@ pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
     if c.min(b).min(a) <= 0.0 || !most.is_finite() || a + b + c - 2.0 * most < -1e-6 * most - 1e-9 {
         return Err(Problem::new(
             "inertia",
-            format!("has the principal moments {a}, {b}, {c} for a density of one: no body has these"),
-            "its triangles do not enclose a body, or face different ways",
+            format!("has the principal moments {a}, {b}, {c} for a density of one, which no body has"),
+            "its triangles do not enclose a volume, or have different orientations",
             "repair the mesh, or write `inertia=\"convex\"` for the inertia of its convex hull",
         ));
     }
@@ -104,12 +104,11 @@ fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
             Flat::Line => ("has all its vertices on a line", "write a thin capsule instead"),
             Flat::Plane => (
                 "has all its vertices in a plane",
-                "write a thin box instead; a mesh that touches nothing (`contype=\"0\" conaffinity=\"0\"`) may be flat \
-                 with `inertia=\"shell\"`",
+                "write a thin box instead; a mesh without contacts (`contype=\"0\" conaffinity=\"0\"`) may be flat with `inertia=\"shell\"`",
             ),
-            Flat::Endless => ("has a convex hull that is too hard to find", "write fewer vertices"),
+            Flat::Endless => ("has a convex hull that is too hard to find", "use fewer vertices"),
         };
-        Problem::new("", what, "what touches other geoms is the convex hull of a mesh, and it must have a volume", help)
+        Problem::new("", what, "the convex hull of a mesh makes the contacts, so it must have a volume", help)
     })
 }
 
@@ -120,16 +119,16 @@ fn check(raw: &Raw, body: Body) -> Result<(), Problem> {
         return Err(Problem::new(
             "vertex",
             format!("has {count} vertices"),
-            "the smallest body has four corners",
+            "the smallest solid has four corners",
             "write at least four vertices",
         ));
     }
     if let Some(i) = raw.vert.iter().position(|v| v.iter().any(|x| !x.is_finite())) {
         return Err(Problem::new(
             "vertex",
-            format!("has vertex {i} at a place that is not finite"),
+            format!("has vertex {i} at a position that is not finite"),
             "",
-            "correct it",
+            "write finite numbers",
         ));
     }
     for (i, face) in raw.face.iter().enumerate() {
@@ -141,7 +140,7 @@ fn check(raw: &Raw, body: Body) -> Result<(), Problem> {
                     count - 1
                 ),
                 "",
-                "vertices are numbered from 0 in the order of `vertex`",
+                "number vertices from 0 in the order of `vertex`",
             ));
         }
     }
@@ -160,11 +159,11 @@ fn check_sense(raw: &Raw) -> Result<(), Problem> {
         Some(pair) => Err(Problem::new(
             "face",
             format!(
-                "has triangles that run different ways round at the edge of vertices {} and {}",
+                "has triangles with opposite orientations at the edge of vertices {} and {}",
                 pair[0].0, pair[0].1
             ),
-            "an exact inertia needs to know which side of each triangle is outside",
-            "let the corners of every triangle run counterclockwise as seen from outside, or write `inertia=\"legacy\"`",
+            "an exact inertia needs the outer side of each triangle",
+            "order the corners of every triangle counterclockwise as seen from outside, or write `inertia=\"legacy\"`",
         )),
     }
 }
@@ -196,9 +195,9 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
     if area < MINVAL || !area.is_finite() {
         return Err(Problem::new(
             "",
-            format!("has triangles of {area:.1e} square metres altogether"),
-            "nothing so small, or so large, can have a mass",
-            "look at `scale`: the mesh is in metres, and no axis may be scaled by zero",
+            format!("has triangles with a total area of {area:.1e} square metres"),
+            "such a small or large surface cannot have a mass",
+            "check `scale`: the mesh is in metres, and no axis may be scaled by zero",
         ));
     }
     let solid = if body == Body::Shell { face } else { solid };
@@ -207,8 +206,8 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
         return Err(Problem::new(
             "face",
             "is inside out: its triangles enclose a negative volume",
-            "an exact inertia needs to know which side of each triangle is outside",
-            "let the corners of every triangle run counterclockwise as seen from outside, or write `inertia=\"legacy\"`",
+            "an exact inertia needs the outer side of each triangle",
+            "order the corners of every triangle counterclockwise as seen from outside, or write `inertia=\"legacy\"`",
         ));
     }
     if amount < MINVAL || !amount.is_finite() {
@@ -216,7 +215,7 @@ fn mass(vert: &[Vec3], face: &[[i32; 3]], solid: &[[i32; 3]], body: Body) -> Res
             "",
             format!("encloses {amount:.1e} cubic metres"),
             "a body without volume has no mass",
-            "look at `scale`: the mesh is in metres; for an open or flat surface write `inertia=\"shell\"`",
+            "check `scale`: the mesh is in metres; for an open or flat surface write `inertia=\"shell\"`",
         ));
     }
     Ok(bulk::about(triangles(solid), body, centre))

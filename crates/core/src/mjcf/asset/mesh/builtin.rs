@@ -30,7 +30,7 @@ pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
     let Some((_, names)) = RULES.iter().find(|(name, _)| *name == rule) else {
         return Err(Problem::new(
             "builtin",
-            format!("is to be made by the rule `{rule}`, which there is not"),
+            format!("uses the unknown rule `{rule}`"),
             "",
             "write sphere, hemisphere, cone, supersphere, supertorus, wedge or plate",
         ));
@@ -56,9 +56,9 @@ pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
         let name = names.get(i).copied().unwrap_or("");
         Err(Problem::new(
             "params",
-            format!("has {} for the {name} of `{rule}`, which is from {low} to {high}", p(i)),
+            format!("has {} for the {name} of `{rule}`, which must be from {low} to {high}", p(i)),
             "",
-            "the parameters are described in MuJoCo's XML reference, asset/mesh",
+            "see MuJoCo's XML reference, asset/mesh",
         ))
     };
     // Angles and radii may come as near to zero as they like.

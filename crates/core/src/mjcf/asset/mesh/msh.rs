@@ -7,7 +7,10 @@ use crate::mjcf::gather::listed;
 
 pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     let cut = || {
-        Problem::file("has an MSH file that is shorter than its head", "export the mesh as OBJ or binary STL")
+        Problem::file(
+            "has an MSH file that is shorter than its header",
+            "export the mesh as OBJ or binary STL",
+        )
     };
     let mut numbers = Bytes(bytes);
     let sizes: [i32; 4] = numbers.ints().ok_or_else(cut)?;
@@ -20,13 +23,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
             format!(
                 "has an MSH file of {v} vertices, {n} normals, {t} texture coordinates and {f} triangles"
             ),
-            "there are four vertices or more, and as many normals and texture coordinates, or none",
+            "it needs at least four vertices, and as many normals and texture coordinates, or none",
         ));
     }
     let need = 4 * (3 * nvert + 3 * nnormal + 2 * ntexcoord + 3 * nface);
     if numbers.0.len() != need {
         return Err(Problem::file(
-            format!("has an MSH file of {} bytes, but what its head lists takes {}", bytes.len(), need + 16),
+            format!("has an MSH file of {} bytes, but its header needs {}", bytes.len(), need + 16),
             "export the mesh as OBJ or binary STL: the file is damaged",
         ));
     }

@@ -45,7 +45,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
         if raw.vert.len() > MAX_VERTICES || raw.normal.len() > MAX_FACES || polygons.len() > MAX_FACES {
             return Err(Problem::file(
                 format!("has an OBJ file of more than {MAX_VERTICES} vertices or {MAX_FACES} polygons"),
-                "simplify the mesh: the engine touches only its convex hull",
+                "simplify the mesh: only its convex hull makes contacts",
             ));
         }
     }
@@ -95,7 +95,7 @@ fn corner(word: &str, sizes: [usize; 3]) -> Result<Corner, String> {
         *slot = match index.signum() {
             1 => index - 1,
             -1 if index >= -count => index + count,
-            _ => return Err(format!("the number {index} in a face, before which there are {count}")),
+            _ => return Err(format!("the number {index} in a face, but only {count} vertices before it")),
         };
     }
     // Normals and texture coordinates only show.
@@ -111,7 +111,7 @@ fn numbers<'w, const N: usize>(words: &mut impl Iterator<Item = &'w str>) -> Res
     let mut all = [0.0; N];
     for x in &mut all {
         let word = words.next().ok_or_else(|| format!("a line with fewer than {N} numbers"))?;
-        let value: f32 = word.parse().map_err(|_| format!("`{word}` where a number should be"))?;
+        let value: f32 = word.parse().map_err(|_| format!("`{word}` instead of a number"))?;
         if !value.is_finite() {
             return Err(format!("`{word}`, which is not finite"));
         }
@@ -126,7 +126,7 @@ fn wrong(text: &str, number: usize, what: String) -> Problem {
     let line = text.get(..start).map_or(0, |before| before.lines().count()) + 1;
     Problem::file(
         format!("has {what} in line {line} of its OBJ file"),
-        "export the mesh again; numbers are written with a point",
+        "export the mesh again, with decimal points in numbers",
     )
 }
 
@@ -155,7 +155,7 @@ mod tests {
     fn damage_has_a_line() {
         for (text, what) in [
             ("v 0 0\n", "fewer than 3 numbers in line 1"),
-            ("# x\r\nv 0 0 zero\r\n", "`zero` where a number should be in line 2"),
+            ("# x\r\nv 0 0 zero\r\n", "`zero` instead of a number in line 2"),
             ("v 0 0 nan\n", "not finite in line 1"),
             ("v 0 0 0\nf 0 1 1\n", "the number 0 in a face"),
             ("v 0 0 0\nf -2 1 1\n", "the number -2 in a face"),

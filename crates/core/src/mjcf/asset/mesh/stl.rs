@@ -23,25 +23,25 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
     }
     if bytes.len() < HEAD {
         return Err(Problem::file(
-            format!("has an STL file of {} bytes, shorter than its head of {HEAD}", bytes.len()),
-            "export the mesh again: the file is cut off",
+            format!("has an STL file of {} bytes, shorter than its header of {HEAD}", bytes.len()),
+            "export the mesh again: the file is truncated",
         ));
     }
     let count = count(bytes).unwrap_or(0);
     if !(1..=MAX_FACES).contains(&count) {
         return Err(Problem::file(
             format!("has an STL file of {count} triangles"),
-            "a mesh has from 1 to 2000000 triangles; is it really binary STL?",
+            "export the mesh again, as binary STL with 1 to 2000000 triangles",
         ));
     }
     if !fits(bytes) {
         return Err(Problem::file(
             format!(
-                "has an STL file of {} bytes, but {count} triangles take {}",
+                "has an STL file of {} bytes, but {count} triangles need {}",
                 bytes.len(),
                 HEAD + TRIANGLE * count
             ),
-            "export the mesh again: the file is cut off, or in text form",
+            "export the mesh again: the file is truncated, or in text form",
         ));
     }
     let mut raw = Raw::default();
@@ -55,7 +55,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
             if !v.iter().all(|x| x.abs() <= FARTHEST) {
                 return Err(Problem::file(
                     format!("has a corner at {} {} {}", v[0], v[1], v[2]),
-                    "export the mesh again: no coordinate can be so large, or no number",
+                    "export the mesh again: a coordinate is too large or not a number",
                 ));
             }
             // Zero has two signs.

@@ -17,15 +17,13 @@ pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLa
     let mut known = BTreeSet::new();
     loop {
         let Some(line) = reader.next() else {
-            return Err(
-                reader.fault(0, "the file ends here, without the line `end of … labs`: it is not whole")
-            );
+            return Err(reader.fault(0, "the file is incomplete: the line `end of … labs` is missing"));
         };
         if let Some(rest) = line.strip_prefix("lab ") {
             let start = reader.at - 1;
             let [address, _] = reader.names(rest, 4)?;
             if !known.insert(address.clone()) {
-                return Err(reader.fault(4, &format!("the lab {address} stands here a second time")));
+                return Err(reader.fault(4, &format!("the lab {address} appears a second time")));
             }
             let runs = reader.runs()?;
             let lines = reader.lines.get(start..reader.at).unwrap_or_default();
@@ -33,16 +31,15 @@ pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLa
             labs.push(StoredLab { address, runs, text });
         } else if let Some(rest) = line.strip_prefix("end of ") {
             if rest != format!("{} labs", labs.len()) {
-                return Err(
-                    reader.fault(7, &format!("there are {} labs above, and this says `{rest}`", labs.len()))
-                );
+                return Err(reader
+                    .fault(7, &format!("the file has {} labs, but this line says `{rest}`", labs.len())));
             }
             return match reader.next() {
                 None => Ok(labs),
-                Some(_) => Err(reader.fault(0, "nothing stands behind the end")),
+                Some(_) => Err(reader.fault(0, "there is text after the end")),
             };
         } else {
-            return Err(reader.fault(0, "here a lab begins (`lab \"#1\" \"title\"`), or the end stands"));
+            return Err(reader.fault(0, "a lab (`lab \"#1\" \"title\"`) or the end must follow here"));
         }
     }
 }
@@ -67,10 +64,11 @@ impl<'t> Reader<'t> {
         self.at = 1;
         match self.lines.first() {
             Some(line) if *line == HEAD => Ok(()),
-            Some(line) if line.starts_with("labspec snapshot ") => {
-                Err(self.fault(17, "this is of another version: labspec snapshot --accept writes it anew"))
-            }
-            _ => Err(self.fault(0, &format!("this is no snapshot: one begins with `{HEAD}`"))),
+            Some(line) if line.starts_with("labspec snapshot ") => Err(self.fault(
+                17,
+                "the snapshot has another version; run `labspec snapshot --accept` to write it again",
+            )),
+            _ => Err(self.fault(0, &format!("the file is not a snapshot: a snapshot begins with `{HEAD}`"))),
         }
     }
 
@@ -103,7 +101,7 @@ impl<'t> Reader<'t> {
         match (text(0), text(1), words.len()) {
             (Some(a), Some(b), 2) => Ok([a, b]),
             _ => {
-                Err(self.fault(before, "here the address of a lab and its title stand, both between quotes"))
+                Err(self.fault(before, "the address and the title of a lab must follow here, both in quotes"))
             }
         }
     }
@@ -129,7 +127,7 @@ impl<'t> Reader<'t> {
                     escaped = c == '\\' && !escaped;
                 }
                 if !closed || serde_json::from_str::<String>(&word).is_err() {
-                    return Err(self.fault(before + i, "this text between quotes is not whole"));
+                    return Err(self.fault(before + i, "this quoted text is incomplete"));
                 }
             } else {
                 while let Some((_, c)) = letters.next_if(|(_, c)| !c.is_whitespace()) {
@@ -145,11 +143,11 @@ impl<'t> Reader<'t> {
         let mut runs: Vec<StoredRun> = Vec::new();
         while let Some(name) = self.next_with("run ") {
             if runs.iter().any(|run| run.name == name) {
-                return Err(self.fault(4, "this run stands here a second time"));
+                return Err(self.fault(4, "this run appears a second time"));
             }
             let about = self.next_with("  ");
             let about = about
-                .ok_or_else(|| self.fault(0, "below the name of a run stand its length and its timestep"))?;
+                .ok_or_else(|| self.fault(0, "the length and the timestep of a run must follow its name"))?;
             let about = about.split(", ").map(str::to_string).collect();
             if let (Some(first), Some(_)) = (runs.first(), self.next_with(&format!("  {SAME}"))) {
                 let run = StoredRun { name: name.to_string(), about, ..first.clone() };
@@ -158,11 +156,11 @@ impl<'t> Reader<'t> {
             }
             let times = self.next_with("  ").map(|line| self.words(line, 2)).transpose()?.unwrap_or_default();
             if times.first().is_none_or(|(_, word)| word != "time") || times.len() < 2 {
-                return Err(self.fault(0, "here the times of a run stand, behind the word `time`"));
+                return Err(self.fault(0, "the times of a run must follow here, after the word `time`"));
             }
             let time = |(at, word): &(usize, String)| {
                 let t = word.parse::<f64>().ok().filter(|t| t.is_finite());
-                t.ok_or_else(|| self.fault(*at, &format!("`{}` is no time", shortened(word))))
+                t.ok_or_else(|| self.fault(*at, &format!("`{}` is not a time", shortened(word))))
             };
             let times: Vec<f64> = times.iter().skip(1).map(time).collect::<Result<_, _>>()?;
             let mut rows = Vec::new();
@@ -178,17 +176,17 @@ impl<'t> Reader<'t> {
         let mut words = self.words(line, 2)?.into_iter();
         let name = words.next().and_then(|(_, w)| serde_json::from_str(&w).ok());
         let Some(name) = name else {
-            return Err(self.fault(2, "here the name of a trace or a readout stands, between quotes"));
+            return Err(self.fault(2, "the name of a trace or a readout must follow here, in quotes"));
         };
         let words: Vec<(usize, String)> = words.collect();
         if words.len() != columns {
             let end = line.chars().count() + 2;
-            return Err(self.fault(end, &format!("here are {} values, for {columns} times", words.len())));
+            return Err(self.fault(end, &format!("there are {} values for {columns} times", words.len())));
         }
         for (at, word) in &words {
             let fixed = [OPEN, NOTHING, "true", "false", "nan", "inf", "-inf"];
             if !fixed.contains(&word.as_str()) && !word.starts_with('"') && digits::read(word).is_none() {
-                return Err(self.fault(*at, &format!("`{}` is no value", shortened(word))));
+                return Err(self.fault(*at, &format!("`{}` is not a value", shortened(word))));
             }
         }
         Ok(StoredRow { name, cells: words.into_iter().map(|(_, w)| w).collect(), line: self.at })

@@ -10,11 +10,7 @@ use std::fmt::Write;
 /// The text of a file. `name` is that of the lesson, without its folder.
 pub(in crate::check::snapshot) fn whole<'t>(name: &str, labs: impl Iterator<Item = &'t str>) -> String {
     let mut text = format!(
-        "{HEAD}\n\
-         # What the labs of {} show at 11 times: as they stand, with each slider at its ends, each select at\n\
-         # its other options, after each button. A number has the digits that neither half the timestep nor a start moved\n\
-         # by 1e-14 changes, at most five ({OPEN}: none; {NOTHING}: nothing is shown), and is as stored while it rounds to them.\n\
-         # Written by `labspec snapshot`; look at changes with `labspec snapshot --review`.\n",
+        "{HEAD}\n# What the labs of {} show at 11 times: as they stand, with each slider at its ends, each select at\n# its other options, after each button. A number has the digits that neither half the timestep nor a start moved\n# by 1e-14 changes, at most five ({OPEN}: none; {NOTHING}: nothing is shown), and matches if it rounds to them.\n# Written by `labspec snapshot`; review changes with `labspec snapshot --review`.\n",
         printable(name)
     );
     let mut count = 0;
