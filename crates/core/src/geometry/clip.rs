@@ -21,17 +21,17 @@ pub(super) fn clip<const N: usize>(polygon: &mut List<Vec3, N>, height: impl Fn(
 /// The corners above the plane, and where edges pass it.
 fn cut<const N: usize>(polygon: &List<Vec3, N>, height: impl Fn(Vec3) -> f64, slack: f64) -> List<Vec3, N> {
     let mut out = List::new();
-    let Some(&last) = polygon.all().last() else { return out };
-    let mut from = (last, height(last));
-    for &p in polygon.all() {
-        let to = (p, height(p));
-        if from.1.min(to.1) < -slack && from.1.max(to.1) > slack {
-            out.push(add_scaled(from.0, sub(to.0, from.0), from.1 / (from.1 - to.1)));
-        }
-        if to.1 >= -slack {
+    let corners = polygon.all();
+    let Some(&first) = corners.first() else { return out };
+    let nexts = corners.iter().skip(1).chain([&first]);
+    for (&p, &next) in corners.iter().zip(nexts) {
+        let (here, there) = (height(p), height(next));
+        if here >= -slack {
             out.push(p);
         }
-        from = to;
+        if here.min(there) < -slack && here.max(there) > slack {
+            out.push(add_scaled(p, sub(next, p), here / (here - there)));
+        }
     }
     out
 }

@@ -47,9 +47,10 @@ pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec
 pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let [radius, half, _] = cylinder.size;
     let (normal, axis) = (plane.axis(2), cylinder.axis(2));
-    // Half the axis, downwards, and the direction across it that leads down most: -normal without its part along the axis.
+    // The axis downwards, and the direction across it that leads down most: -normal without its part along the axis.
     let slope = dot(normal, axis);
-    let end = scale(axis, if slope > 0.0 { -half } else { half });
+    let downwards = scale(axis, if slope > 0.0 { -1.0 } else { 1.0 });
+    let end = scale(downwards, half);
     let (mut down, steepness) = unit_vector(add_scaled(scale(normal, -1.0), axis, slope));
     if steepness < MINVAL {
         // Upright all directions are level.
@@ -69,26 +70,27 @@ pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut V
     }
     add_contact(sub(lowest, end));
     // A third of a turn to either side: cos 120° = -1/2, sin 120° = √3/2.
-    let aside = scale(cross(axis, down), 0.75f64.sqrt());
+    let aside = scale(cross(down, downwards), 0.75f64.sqrt());
     let behind = add_scaled(add(cylinder.pos, end), down, -0.5);
-    for point in [sub(behind, aside), add(behind, aside)] {
+    for point in [add(behind, aside), sub(behind, aside)] {
         add_contact(point);
     }
 }
 
-/// The lower corner of each of the four diagonals.
+/// The lower corner of each of the four diagonals, in the order x, y, z of their signs, of which x changes fastest.
 pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
     let normal = plane.axis(2);
     let height = dot(sub(cuboid.pos, plane.pos), normal);
     let [x, y, z] = [0, 1, 2].map(|i| scale(cuboid.axis(i), cuboid.size[i]));
-    let face = [add(x, y), sub(x, y)];
-    for half in [scale(face[0], -1.0), face[1], scale(face[1], -1.0), face[0]].map(|corner| sub(corner, z)) {
-        let rise = dot(normal, half);
-        let (corner, below) = if rise > 0.0 { (scale(half, -1.0), -rise) } else { (half, rise) };
-        if height + below <= margin {
-            out.push(touch(normal, height + below, add(corner, cuboid.pos)));
-        }
-    }
+    // Four corners with a z of either sign, by how they stand to the centre of that face.
+    let sides = [scale(add(x, y), -1.0), sub(x, y), sub(y, x), add(x, y)];
+    let corners = sides.map(|side| sub(side, z)).into_iter().chain(sides.map(|side| add(side, z)));
+    let low = corners.filter_map(|corner| {
+        let rise = dot(normal, corner);
+        (rise <= 0.0 && height + rise <= margin)
+            .then(|| touch(normal, height + rise, add(corner, cuboid.pos)))
+    });
+    out.extend(low.take(4));
 }
 
 /// The lowest point of an ellipsoid.
