@@ -6,7 +6,7 @@ use crate::scenes::scene;
 use crate::support::compile;
 use crate::zoo::animals;
 use labspec_core::reflect::{self, Object};
-use labspec_core::{self as core, Data, Demand, Model, Plan, Planned, Way, Ways};
+use labspec_core::{self as core, Data, Access, Model, Plan, Planned, TreeAlgorithm, TreeAlgorithms};
 use proptest::prelude::*;
 
 /// What trees are computed for. `qLD` of short chains and of rows is the same matrix.
@@ -24,9 +24,9 @@ type Column = (&'static str, Vec<f64>);
 
 /// The field that differs most between two ways after a forward pass, or the state after three steps more, with its difference
 /// relative to its largest number.
-fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: Ways) -> (f64, &'static str) {
+fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithms) -> (f64, &'static str) {
     let run = |ways| {
-        let mut d = Data::planned(m, Plan::by_ways(m, &Demand::ANY, ways));
+        let mut d = Data::planned(m, Plan::by_ways(m, &Access::ANY, ways));
         start(&mut d);
         core::forward(m, &mut d).unwrap();
         let now: Vec<Column> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();
@@ -44,15 +44,15 @@ fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: Ways) -> (f64
     };
     run(ways)
         .into_iter()
-        .zip(run(Ways::GENERAL))
+        .zip(run(TreeAlgorithms::GENERAL))
         .map(of)
         .fold((0.0, ""), |worst, now| if now.0 > worst.0 { now } else { worst })
 }
 
 /// Each way alone, and all of them.
-fn every() -> impl Iterator<Item = Ways> {
-    let alone = |way| Way::short().filter(|w| *w != way).fold(Ways::ALL, Ways::without);
-    Way::short().map(alone).chain([Ways::ALL])
+fn every() -> impl Iterator<Item = TreeAlgorithms> {
+    let alone = |way| TreeAlgorithm::short().filter(|w| *w != way).fold(TreeAlgorithms::ALL, TreeAlgorithms::without);
+    TreeAlgorithm::short().map(alone).chain([TreeAlgorithms::ALL])
 }
 
 #[test]

@@ -52,7 +52,7 @@ pub use api::planning::Plan;
 #[cfg(feature = "mjcf")]
 pub use api::reading as xml;
 pub use api::view::{Actuator, Body, Geom, Joint, Rows3, Sensor, Site, Tendon, Which};
-pub use collision::PairFate;
+pub use collision::PairFilterReason;
 pub use geometry::Distance;
 pub use kinds::{
     biastype, disable, dyntype, enable, eqtype, gaintype, geom, integrator, joint, solver, trntype, wraptype,
@@ -60,11 +60,11 @@ pub use kinds::{
 #[doc(hidden)]
 pub use model::Fields;
 pub use model::reflect;
-pub use model::stopwatch::{Lap, Laps};
-pub use model::way::{Way, Ways};
+pub use model::stopwatch::{StageTime, StageTimes};
+pub use model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};
 pub use sensor::unit as sensor_unit;
 pub use step::balance::Energy;
 pub use step::inverse::InverseError;
-pub use step::scene::Demand;
+pub use step::analysis::Access;

@@ -9,7 +9,7 @@
 use super::contents::Contents;
 use super::planning::Plan;
 use crate::model::reflect::FieldSet;
-use crate::step::scene::never_asked;
+use crate::step::analysis::never_asked;
 
 /// For how many passes values must have stayed before a plan takes them as they are.
 pub(super) const SETTLED: u64 = 256;
@@ -63,15 +63,15 @@ mod tests {
     use crate::kinds::integrator;
     use crate::model::reflect::{FieldId, FieldSet, data, model, option};
     use crate::model::stage::Stage;
-    use crate::step::scene::Demand;
+    use crate::step::analysis::Access;
 
     const CHAIN: &str = "<mujoco><worldbody><geom type='plane' size='2 2 1' contype='0' conaffinity='0'/>\
         <body pos='0 0 1'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0'/>\
         <body pos='.2 0 0'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0' contype='0'/></body></body>\
         </worldbody></mujoco>";
 
-    fn demand(writes: &[FieldId]) -> Demand {
-        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    fn demand(writes: &[FieldId]) -> Access {
+        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         demand.reads.insert(data::qpos);
         writes.iter().for_each(|&field| demand.writes.insert(field));
         demand

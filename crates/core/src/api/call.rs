@@ -7,13 +7,13 @@ use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
 use super::planning::Plan;
-use crate::dynamics::{jacobian, mass, object, subtree, ways};
+use crate::dynamics::{jacobian, mass, object, subtree, tree_algorithms};
 use crate::forces::{actuation, energy};
 use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
-use crate::model::stopwatch::Laps;
+use crate::model::stopwatch::StageTimes;
 use crate::model::{Contact, Obj};
 use crate::query::{self, RayFilter, RayHit};
 use crate::sensor::body_force;
@@ -152,10 +152,10 @@ pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> 
     d.engine(m)?;
     setconst::set_const(m.engine(), &mut d.inner);
     m.touch_constants();
-    d.in_step_with(m);
+    d.mark_synced(m);
     // A plan that was made while M was constant does not look at it again.
     let plan = &d.inner.plan;
-    if !plan.has(Fact::General) && !ways::are_constant(m.engine(), plan.ways) {
+    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.ways) {
         d.plan_again(m);
     }
     Ok(())
@@ -484,7 +484,7 @@ pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
 }
 
 /// What the stages took since [`clock`], or since this was asked last; nothing without a clock.
-pub fn laps<S: Scope>(d: &mut Data<S>) -> Laps {
+pub fn laps<S: Scope>(d: &mut Data<S>) -> StageTimes {
     functions::laps(&mut d.inner)
 }
 

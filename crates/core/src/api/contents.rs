@@ -3,7 +3,7 @@
 //! Clones of a model share the stamps of what is the same in them. A plan keeps those of the contents that it was made for, so that
 //! what differs from them is known whichever clone a step is taken with, and in whatever order clones were written.
 
-use crate::dynamics::ways;
+use crate::dynamics::tree_algorithms;
 use crate::model::reflect::{self, FieldId, FieldSet, NFIELD, Object};
 use crate::model::stage::Stage;
 use std::sync::LazyLock;
@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The fields of which the tree algorithms keep copies.
 static COPIED: LazyLock<FieldSet> = LazyLock::new(|| {
     let mut set = FieldSet::EMPTY;
-    ways::copied().for_each(|field| set.insert(field));
+    tree_algorithms::copied().for_each(|field| set.insert(field));
     set
 });
 
@@ -128,7 +128,7 @@ fn constants() -> impl Iterator<Item = FieldId> {
 mod tests {
     use crate::api::{call, data::Data, model::Model, planning::Plan};
     use crate::model::reflect::{FieldId, FieldSet, ViewMut, data, model, option};
-    use crate::step::scene::Demand;
+    use crate::step::analysis::Access;
     use proptest::prelude::*;
 
     const SCENE: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 1'/>\
@@ -171,8 +171,8 @@ mod tests {
         view.set(at % len.max(1), value);
     }
 
-    fn coordinates() -> Demand {
-        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    fn coordinates() -> Access {
+        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         demand.reads.insert(data::qpos);
         demand
     }

@@ -6,12 +6,12 @@ use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::planning::Plan;
 use crate::model::fields::data_fields;
-use crate::model::plan::{Fact, Plan as PlanTable};
+use crate::model::plan::{PlanFlag, PlanTable as PlanTable};
 use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut, data};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
-use crate::step::scene::{Demand, deciding, never_asked};
-use crate::step::workspace::Data as Inner;
+use crate::step::analysis::{Access, deciding, never_asked};
+use crate::step::workspace::Workspace as Inner;
 use crate::step::{functions, reset};
 use std::marker::PhantomData;
 use std::ops::Deref;
@@ -75,7 +75,7 @@ pub struct Data<S: Scope = Full> {
     copied: u64,
     /// What the plan takes for granted.
     pub(super) assumed: Assumed,
-    pub(super) demand: Demand,
+    pub(super) demand: Access,
     /// Whether inputs may have been written that the plan was not told of.
     pub(super) touched: bool,
     scope: PhantomData<S>,
@@ -111,7 +111,7 @@ impl Deref for Data<Full> {
 impl Data<Full> {
     /// Data for a model, at the default configuration. Nothing is computed yet: call [`forward`](crate::forward).
     pub fn new(m: &Model) -> Data<Full> {
-        Data::of(m, Plan::new(m, &Demand::ANY))
+        Data::of(m, Plan::new(m, &Access::ANY))
     }
 }
 
@@ -199,7 +199,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// What is read and written of these data.
-    pub fn demand(&self) -> &Demand {
+    pub fn demand(&self) -> &Access {
         &self.demand
     }
 
@@ -230,7 +230,7 @@ impl<S: Scope> Data<S> {
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn engine_in_step(&mut self, m: &Model) -> Result<&mut Inner, Error> {
         if self.touched {
-            self.look_again(m)?;
+            self.replan_for_inputs(m)?;
         }
         Ok(&mut self.inner)
     }
@@ -245,7 +245,7 @@ impl<S: Scope> Data<S> {
     /// Forces are applied that the plan was not told of, or controls are, or an equality constraint is switched on: it is made again,
     /// or they would not act.
     #[cold]
-    fn look_again(&mut self, m: &Model) -> Result<(), Error> {
+    fn replan_for_inputs(&mut self, m: &Model) -> Result<(), Error> {
         self.belongs_to(m)?;
         self.touched = false;
         let before = self.demand.writes;
@@ -259,7 +259,7 @@ impl<S: Scope> Data<S> {
         if !plan.keeps(Stage::Actuation) && ctrl.iter().any(|&u| u != 0.0) {
             self.demand.writes.insert(data::ctrl);
         }
-        if !plan.has(Fact::Equalities) && eq_active.contains(&true) {
+        if !plan.has(PlanFlag::Equalities) && eq_active.contains(&true) {
             self.demand.writes.insert(data::eq_active);
         }
         if self.demand.writes != before {
@@ -281,7 +281,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// Notes that the plan has been looked at for constants that were computed with these data.
-    pub(super) fn in_step_with(&mut self, m: &Model) {
+    pub(super) fn mark_synced(&mut self, m: &Model) {
         self.version = self.assumed.version_of(&m.contents);
         self.assumed.adopt_constants(&m.contents);
     }

@@ -2,14 +2,14 @@
 
 use super::contents::Contents;
 use super::model::{Model, SensorId};
-use crate::collision::{self, PairFate};
-use crate::dynamics::ways;
-use crate::model::plan::{Decision, Plan as Inner};
+use crate::collision::{self, PairFilterReason};
+use crate::dynamics::tree_algorithms;
+use crate::model::plan::{Decision, PlanTable as Inner};
 use crate::model::reflect::FieldSet;
 use crate::model::stage::Stage;
-use crate::model::way::{Way, Ways};
+use crate::model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 use crate::sensor;
-use crate::step::scene::{self, Demand};
+use crate::step::analysis::{self, Access};
 
 /// Which stages run, and why.
 ///
@@ -34,7 +34,7 @@ use crate::step::scene::{self, Demand};
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub(super) inner: Inner,
-    pub(super) demand: Demand,
+    pub(super) demand: Access,
     /// The contents that it was made for; `None` where it holds for any.
     pub(super) made_for: Option<Contents>,
     /// The fields of which it holds for any value.
@@ -53,48 +53,48 @@ impl Plan {
     ///
     /// What decides it is taken as the model has it now, also where programs may write it: data that were planned are planned
     /// again when such a value changes.
-    pub fn new(m: &Model, demand: &Demand) -> Plan {
-        Plan::by_ways(m, demand, Ways::ALL)
+    pub fn new(m: &Model, demand: &Access) -> Plan {
+        Plan::by_ways(m, demand, TreeAlgorithms::ALL)
     }
 
     /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
-    pub fn by_ways(m: &Model, demand: &Demand, ways: Ways) -> Plan {
-        Plan::made(m, demand, scene::never_asked(demand), |d| Inner::new(m, d, ways))
+    pub fn by_ways(m: &Model, demand: &Access, ways: TreeAlgorithms) -> Plan {
+        Plan::made(m, demand, analysis::never_asked(demand), |d| Inner::new(m, d, ways))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
-    pub fn with(m: &Model, demand: &Demand, more: Stage) -> Plan {
-        Plan::made(m, demand, scene::never_asked(demand), |d| Inner::with(m, d, Ways::ALL, Some(more)))
+    pub fn with(m: &Model, demand: &Access, more: Stage) -> Plan {
+        Plan::made(m, demand, analysis::never_asked(demand), |d| Inner::with(m, d, TreeAlgorithms::ALL, Some(more)))
     }
 
     /// The stages that a scene may come to need, whatever programs write.
-    pub fn for_any_value(m: &Model, demand: &Demand) -> Plan {
-        Plan::made(m, demand, demand.writes, |d| Inner::new(m, d, Ways::ALL))
+    pub fn for_any_value(m: &Model, demand: &Access) -> Plan {
+        Plan::made(m, demand, demand.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
     }
 
     /// A plan that holds for any values of some fields and for those at hand of all others.
     pub(super) fn made(
         m: &Model,
-        demand: &Demand,
+        demand: &Access,
         any: FieldSet,
-        inner: impl FnOnce(&Demand) -> Inner,
+        inner: impl FnOnce(&Access) -> Inner,
     ) -> Plan {
-        let inner = inner(&Demand { reads: demand.reads, writes: any });
+        let inner = inner(&Access { reads: demand.reads, writes: any });
         Plan { inner, demand: *demand, made_for: Some(m.contents.clone()), any }
     }
 
     /// Every stage, needed or not: the reference that plans are held against.
     pub fn full() -> Plan {
-        Plan { inner: Inner::full(), demand: Demand::ANY, made_for: None, any: FieldSet::ALL }
+        Plan { inner: Inner::full(), demand: Access::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// Every stage but the one that lets trees sleep.
     pub fn awake() -> Plan {
-        Plan { inner: Inner::awake(), demand: Demand::ANY, made_for: None, any: FieldSet::ALL }
+        Plan { inner: Inner::awake(), demand: Access::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// What it was made for.
-    pub fn demand(&self) -> &Demand {
+    pub fn demand(&self) -> &Access {
         &self.demand
     }
 
@@ -105,19 +105,19 @@ impl Plan {
 
     /// How many pairs of geoms of the model can ever touch, and how many cannot for which reason. Pairs of which programs may
     /// write what keeps them apart can touch.
-    pub fn pairs(&self, m: &Model) -> Vec<(PairFate, usize)> {
-        collision::census(m, scene::changes(&self.inner))
+    pub fn pairs(&self, m: &Model) -> Vec<(PairFilterReason, usize)> {
+        collision::pair_statistics(m, analysis::changes(&self.inner))
     }
 
     /// How the pairs that can touch are tested: two types of geoms, how many such pairs there are, and whether their contacts
     /// are searched for by the general algorithm of convex shapes. Of more than 4096 pairs, those at the start.
     pub fn tests(&self, m: &Model) -> Vec<([i32; 2], usize, bool)> {
-        collision::methods(m, scene::changes(&self.inner))
+        collision::pair_methods(m, analysis::changes(&self.inner))
     }
 
     /// The ways that each tree of the model takes: for where its bodies are, for its inertia and forces, for its accelerations.
-    pub fn ways(&self, m: &Model) -> Vec<[Way; 3]> {
-        (0..m.ntree).map(|tree| ways::taken_by(m, self.inner.ways, tree)).collect()
+    pub fn ways(&self, m: &Model) -> Vec<[TreeAlgorithm; 3]> {
+        (0..m.ntree).map(|tree| tree_algorithms::taken_by(m, self.inner.ways, tree)).collect()
     }
 
     /// Whether the values of a sensor are computed. A sensor that nobody reads is left out by itself.

@@ -22,8 +22,8 @@ pub struct Examined {
 
 /// Compiles a model, and tells what it may not be meant to be, besides what is wrong. `path` is where `files` has the text
 /// itself, if it has it: what it names is looked for in that folder.
-pub fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
-    let mjcf::Examined { model, findings } = mjcf::examine(xml, files, path);
+pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+    let mjcf::Examined { model, findings } = mjcf::check_xml(xml, files, path);
     Examined { model: model.map(Model::new), findings }
 }
 
@@ -40,8 +40,8 @@ pub fn examine_patched(
 
 /// The text of a model with changes, and with what it includes in its place: what another program can read. Meshes and other files
 /// that it names are still named. `None` when it is not XML, or a change cannot be made.
-pub fn written(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
-    mjcf::written(xml, files, path, patches)
+pub fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
+    mjcf::to_xml(xml, files, path, patches)
 }
 
 /// Compiles a model from its text; the mistakes as they were found.

@@ -5,7 +5,7 @@ use crate::math::{Vec3, scale};
 use crate::mjcf::compile;
 use crate::model::{Contact, Model};
 use crate::query::{RayFilter, ray};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::step::{forward, functions};
 
 const SCENE: &str = "<mujoco><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1 .8 .7 .9' scale='.5 .5 .5'/>
@@ -40,12 +40,12 @@ fn scene(turn: f64) -> Model {
 }
 
 /// The model and its data with every length of its geometry multiplied.
-fn scaled(m: &Model, d: &Data, by: f64) -> (Model, Data) {
+fn scaled(m: &Model, d: &Workspace, by: f64) -> (Model, Workspace) {
     let mut large = m.clone();
     let lists = [&mut large.geom_size, &mut large.geom_rbound, &mut large.geom_margin, &mut large.geom_gap];
     lists.into_iter().chain([&mut large.mesh_vert, &mut large.hfield_size]).flatten().for_each(|x| *x *= by);
     large.opt.ccd_tolerance *= by;
-    let mut there = Data::new(&large);
+    let mut there = Workspace::new(&large);
     there.geom_xpos.iter_mut().zip(&d.geom_xpos).for_each(|(x, &y)| *x = by * y);
     there.geom_xmat.copy_from_slice(&d.geom_xmat);
     forward::contacts(&large, &mut there);
@@ -62,7 +62,7 @@ fn whole_scenes_scale() {
     let mut hits = 0;
     for turn in [0.0, 0.3, 1.0, 1.7] {
         let m = scene(turn);
-        let mut d = Data::new(&m);
+        let mut d = Workspace::new(&m);
         forward::forward(&m, &mut d);
         let (_, unit) = scaled(&m, &d, 1.0);
         kinds.extend(unit.contact.iter().map(|c| [m.geom_type[c.geom1], m.geom_type[c.geom2]]));

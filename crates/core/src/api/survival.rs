@@ -4,9 +4,9 @@
 use crate::mjcf::compile;
 use crate::model::Model;
 use crate::model::reflect::{self, Elem, FieldId, Object, View};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::step::{forward, functions, inverse, save};
-use crate::step::{sound::unsound, step, step1, step2};
+use crate::step::{validate::validate, step, step1, step2};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -64,7 +64,7 @@ fn integers(object: Object, among: fn(FieldId) -> bool) -> impl Iterator<Item = 
 }
 
 /// Everything that a caller may ask for.
-fn use_all(m: &Model, d: &mut Data) {
+fn use_all(m: &Model, d: &mut Workspace) {
     functions::limit(d, BUDGET);
     forward::contacts(m, d);
     functions::kinematics(m, &mut d.clone());
@@ -82,20 +82,20 @@ fn use_all(m: &Model, d: &mut Data) {
 fn what_is_accepted_of_a_stored_model_can_be_stepped() {
     ends(|| {
         let m = everything();
-        assert_eq!(unsound(&m), None);
+        assert_eq!(validate(&m), None);
         let (mut accepted, mut refused, mut fatal) = (0, 0, Vec::new());
         for field in integers(Object::Model, |_| true).chain(integers(Object::Option, |_| true)) {
             for i in 0..reflect::view_model(&m, field).len() {
                 for value in VALUES {
                     let mut changed = m.clone();
                     reflect::view_model_mut(&mut changed, field).set(i, f64::from(value));
-                    if unsound(&changed).is_some() {
+                    if validate(&changed).is_some() {
                         refused += 1;
                         continue;
                     }
                     accepted += 1;
                     let run = std::panic::AssertUnwindSafe(|| {
-                        let mut d = Data::new(&changed);
+                        let mut d = Workspace::new(&changed);
                         functions::limit(&mut d, BUDGET);
                         (0..2).for_each(|_| step(&changed, &mut d));
                     });
@@ -114,7 +114,7 @@ fn what_is_accepted_of_a_stored_model_can_be_stepped() {
 fn what_is_written_to_the_integers_of_the_data_is_survived() {
     ends(|| {
         let m = everything();
-        let mut start = Data::new(&m);
+        let mut start = Workspace::new(&m);
         (0..2).for_each(|_| step(&m, &mut start));
         assert!(start.tree_asleep.iter().any(|&next| next >= 0), "nothing sleeps");
         let mut written = Vec::new();
@@ -160,7 +160,7 @@ fn a_written_circle_of_sleeping_trees_wakes() {
         )
         .unwrap();
         for next in 0..3 {
-            let mut d = Data::new(&m);
+            let mut d = Workspace::new(&m);
             forward::forward(&m, &mut d);
             d.geom_xpos[3] += 0.1;
             d.tree_asleep.copy_from_slice(&[next, 1, 2]);

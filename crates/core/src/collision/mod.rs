@@ -1,7 +1,7 @@
 //! Collision detection: which geoms touch, where, and with which contact parameters.
 
 mod candidates;
-mod census;
+mod pair_statistics;
 mod extent;
 mod filter;
 mod params;
@@ -10,8 +10,8 @@ mod reach;
 mod sweep;
 
 pub(crate) use candidates::{Changes, MOST_LISTED, candidate_pairs};
-pub use census::PairFate;
-pub(crate) use census::{census, in_reach, methods};
+pub use pair_statistics::PairFilterReason;
+pub(crate) use pair_statistics::{pair_statistics, in_reach, pair_methods};
 pub(crate) use extent::FIELDS as PLACES;
 use filter::Pair;
 pub(crate) use filter::searched_pair;
@@ -183,7 +183,7 @@ fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &P
         &a,
         &b,
         params.reach,
-        || pair::Settings::of(m),
+        || pair::PairSettings::of(m),
         &mut work.room,
         &mut work.touches,
     );

@@ -1,7 +1,7 @@
 //! Contact parameters from those of two geoms: priority, mixing, margin.
 
 use super::filter::Pair;
-use crate::geometry::pair::Touch;
+use crate::geometry::pair::ContactPoint;
 use crate::kinds::enable;
 use crate::math::*;
 use crate::model::{Contact, Model};
@@ -124,7 +124,7 @@ fn mixed(m: &Model, g1: usize, g2: usize) -> Params {
 
 /// A contact of the pair at `touch`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &Touch, frame: Mat3) -> Contact {
+pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &ContactPoint, frame: Mat3) -> Contact {
     let apart = touch.dist >= p.margin;
     // What sticks pulls across the gap, too: it holds the normal alone.
     let sticks = p.adhesion != 0.0;

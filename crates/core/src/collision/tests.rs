@@ -5,7 +5,7 @@ use crate::mjcf::compile;
 use crate::model::Contact;
 use crate::step::functions::kinematics;
 use crate::step::reset::reset_data;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Free bodies of random shapes in a cube, on a plane. The shapes are written over compiled spheres.
 fn pile(bodies: usize, side: f64) -> Model {
@@ -32,7 +32,7 @@ fn pile(bodies: usize, side: f64) -> Model {
 
 /// Contacts by the list of all pairs, or by the sweep.
 fn contacts(m: &Model, sweep: bool) -> Vec<Contact> {
-    let mut d = Data::unplanned(m);
+    let mut d = Workspace::unplanned(m);
     reset_data(m, &mut d);
     d.work.collision.pairs = pairs(m, Changes::default());
     if sweep {
@@ -107,7 +107,7 @@ fn random(mut state: u64) -> impl FnMut() -> f64 {
 
 /// Pairs that the sweep looks at for every geom, and pairs whose bounds overlap.
 fn examined(m: &Model) -> (f64, usize) {
-    let mut d = Data::unplanned(&pile(4, 1.0));
+    let mut d = Workspace::unplanned(&pile(4, 1.0));
     d.geom_xpos.clone_from(&m.geom_pos);
     d.geom_xmat = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0].repeat(m.ngeom);
     let mut sweep = Sweep::new(m, false);
@@ -157,7 +157,7 @@ fn columns_find_what_all_pairs_do() {
 fn too_many_contacts_are_left_out_with_a_warning() {
     let balls = "<body><freejoint/><geom size='.1'/></body>".repeat(400);
     let m = compile(&format!("<mujoco><worldbody>{balls}</worldbody></mujoco>")).unwrap();
-    let mut d = Data::new(&m);
+    let mut d = Workspace::new(&m);
     kinematics(&m, &mut d);
     collide(&m, &mut d.fields, &mut d.work.collision);
     let stat = d.warning[Warning::ContactFull as usize];
@@ -177,7 +177,7 @@ fn of_several_sides_the_nearest_to_the_direction_of_least_depth() {
         ends.collect::<String>()
     );
     let m = compile(&xml).unwrap();
-    let mut d = Data::unplanned(&m);
+    let mut d = Workspace::unplanned(&m);
     reset_data(&m, &mut d);
     // The mesh where it was drawn: the model has it about its centre.
     rows_mut::<3>(&mut d.fields.qpos[..3])[0] = [0.0; 3];

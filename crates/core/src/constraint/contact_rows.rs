@@ -75,14 +75,14 @@ fn common(
     let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let translation = inverse_weight(m, bodies, 0);
     if c.dim == 1 {
-        jac.push::<1>(Cost::Push, row, cols, along.iter().map(|a| [a[0]]));
+        jac.push::<1>(Cost::Unilateral, row, cols, along.iter().map(|a| [a[0]]));
         let r = [regularization(kbi.imp, translation)];
         push::<1>(d, &shared(c, id, kind::CONTACT_FRICTIONLESS, kbi, kbi, r));
         return;
     }
     let sides = f64x4::new([mu, -mu, mu2, -mu2]);
     let edges = |&[n, t1, t2]: &Vec3| (f64x4::splat(n) + sides * f64x4::new([t1, t1, t2, t2])).to_array();
-    jac.push::<4>(Cost::Push, row, cols, along.iter().map(edges));
+    jac.push::<4>(Cost::Unilateral, row, cols, along.iter().map(edges));
     let r = friction(m, c, false, regularization(kbi.imp, translation + mu * mu * translation));
     push::<4>(d, &shared(c, id, kind::CONTACT_PYRAMIDAL, kbi, kbi, r));
 }
@@ -133,7 +133,7 @@ fn pyramid<const R: usize>(
         s[0] + if r.is_multiple_of(2) { mu[r / 2] } else { -mu[r / 2] } * s[1 + r / 2]
     };
     let edges = space(columns).map(|s| std::array::from_fn(|r| edge(&s, r)));
-    jac.push::<R>(Cost::Push, d.nefc, columns.dofs(), edges);
+    jac.push::<R>(Cost::Unilateral, d.nefc, columns.dofs(), edges);
     let kbi = kbi(m, Acts::OneWay, c.solref, c.solimp, c.dist - c.includemargin);
     let translation = inverse_weight(m, bodies, 0);
     let r = friction(m, c, false, regularization(kbi.imp, translation + mu[0] * mu[0] * translation));

@@ -18,7 +18,7 @@ pub(super) enum Cost {
     /// Both ways, up to a largest force.
     DryFriction,
     /// One way.
-    Push,
+    Unilateral,
     /// Normal and friction together.
     Cone,
 }
@@ -39,7 +39,7 @@ impl Cost {
             kind::EQUALITY => Cost::Quadratic,
             kind::FRICTION_DOF | kind::FRICTION_TENDON => Cost::DryFriction,
             kind::CONTACT_ELLIPTIC => Cost::Cone,
-            _ => Cost::Push,
+            _ => Cost::Unilateral,
         }
     }
 }
@@ -162,7 +162,7 @@ impl<const R: usize> Shape<'_, R> {
     fn zone(&self, x: &[f64; R]) -> Zone<R> {
         match self.cost {
             Cost::Quadratic => Zone::Stick,
-            Cost::Push => Zone::Push,
+            Cost::Unilateral => Zone::Push,
             Cost::DryFriction if x[0].abs() >= self.loss / self.stiff[0] => {
                 Zone::Slip(if x[0] < 0.0 { -1.0 } else { 1.0 })
             }
@@ -322,7 +322,7 @@ mod tests {
             for j in 1..6 {
                 stiff[j] = d0 * (friction[j - 1] / mu).powi(2);
             }
-            let cost = [Cost::Quadratic, Cost::Push, Cost::DryFriction, Cost::Cone][which];
+            let cost = [Cost::Quadratic, Cost::Unilateral, Cost::DryFriction, Cost::Cone][which];
             if which == 2 {
                 let shape = Shape { cost, stiff: &[d0], loss, contact: None };
                 check(&shape, &[x[0]], &[v[0]])?;

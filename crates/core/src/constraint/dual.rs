@@ -5,7 +5,7 @@
 //! every change of a force, as in Mirtich and Canny's and Erleben's solvers by impulses; only the blocks of A on its
 //! diagonal are kept.
 
-use super::gram::RowGroup;
+use super::delassus::RowGroup;
 use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
 use crate::dynamics::mass;

@@ -50,9 +50,9 @@ pub(super) struct Hessian {
     /// Where the numbers of M go, those of the island row by row.
     mass: Vec<u32>,
     /// The columns of the blocks of the Jacobian, where they are here, and how many of these blocks have been passed.
-    stands: Vec<Stand>,
+    stands: Vec<ColumnBlocks>,
     stood: Vec<u32>,
-    quads: Vec<Quad>,
+    quads: Vec<ColumnBlock>,
     passed: usize,
     /// Scratch of a block of the Jacobian: its rows by fours of columns.
     fours: Vec<Four>,
@@ -71,14 +71,14 @@ struct BlockRow {
 
 /// Where columns of a block of the Jacobian, or of several that follow each other, are listed, and the fours that they are among.
 #[derive(Clone, Debug, PartialEq)]
-struct Stand {
+struct ColumnBlocks {
     columns: Range<usize>,
     quads: Range<usize>,
 }
 
 /// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Quad {
+struct ColumnBlock {
     block: u32,
     of: [u32; 4],
 }
@@ -225,12 +225,12 @@ impl Hessian {
                     q -= 1;
                 }
                 if q == first || self.quads[q - 1].block < block {
-                    self.quads.insert(q, Quad { block, of: [NONE; 4] });
+                    self.quads.insert(q, ColumnBlock { block, of: [NONE; 4] });
                     q += 1;
                 }
                 self.quads[q - 1].of[lane] = p as u32;
             }
-            self.stands.push(Stand { columns: column..self.stood.len(), quads: first..self.quads.len() });
+            self.stands.push(ColumnBlocks { columns: column..self.stood.len(), quads: first..self.quads.len() });
         }
     }
 
@@ -499,7 +499,7 @@ mod tests {
     use crate::model::Model;
     use crate::step::forward::forward;
     use crate::step::step;
-    use crate::step::workspace::Data;
+    use crate::step::workspace::Workspace;
     use std::array::from_fn;
     use std::fmt::Write;
 
@@ -512,7 +512,7 @@ mod tests {
         };
         let text: String = (0..200).map(ball).collect();
         let m = mjcf::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
-        let mut d = Data::new(&m);
+        let mut d = Workspace::new(&m);
         step(&m, &mut d);
         assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
         assert_eq!(d.work.constraint.solver.hessian.kept(), 0);
@@ -531,8 +531,8 @@ mod tests {
         mjcf::compile(&(text + "</worldbody></mujoco>")).unwrap()
     }
 
-    fn kept(m: &Model) -> (usize, Data) {
-        let mut d = Data::new(m);
+    fn kept(m: &Model) -> (usize, Workspace) {
+        let mut d = Workspace::new(m);
         forward(m, &mut d);
         let hessian = &d.work.constraint.solver.hessian;
         (hessian.kept(), d)
@@ -630,7 +630,7 @@ mod tests {
         let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
         let mut m = boxes((0..6).map(pair));
         m.opt.disableflags |= crate::kinds::disable::WARMSTART;
-        let mut d = Data::new(&m);
+        let mut d = Workspace::new(&m);
         let mut directions = 0;
         for _ in 0..50 {
             step(&m, &mut d);

@@ -13,7 +13,7 @@ use super::kind;
 use super::rows::{resize, soften};
 use crate::dynamics::mass;
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// Replaces `efc_R` with what follows from it, and sets `efc_aref`. `metric` is the diagonal of the matrix that takes the
@@ -33,7 +33,7 @@ pub(crate) fn at_end_of_step(m: &Model, d: &mut Fields, w: &Scratch, metric: &[f
     for (aref, kbip) in d.efc_aref.iter_mut().zip(rows::<4>(&d.efc_KBIP)) {
         *aref /= growth(h, kbip);
     }
-    if d.plan.has(Fact::Adhesion) {
+    if d.plan.has(PlanFlag::Adhesion) {
         contact_rows::adhesion(d);
     }
 }

@@ -1,6 +1,6 @@
 //! What the solvers keep while they go from one acceleration to the next.
 
-use super::gram::Dual;
+use super::delassus::Dual;
 use super::hessian::Hessian;
 
 /// Where the solver stands, and its scratch: vectors over all degrees of freedom or all rows, of which each island uses its own.

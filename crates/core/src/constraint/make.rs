@@ -9,7 +9,7 @@ use super::exact;
 use super::rows::resize;
 use super::single;
 use crate::kinds::{disable, enable};
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// `efc_*` up to R and D, `nefc`.
@@ -17,9 +17,9 @@ use crate::model::{Fields, Model};
 pub(crate) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     w.jac.clear();
     let on = |bit: i32| !m.opt.disabled(disable::CONSTRAINT) && !m.opt.disabled(bit);
-    let equal = d.plan.has(Fact::Equalities) && on(disable::EQUALITY);
-    let friction = d.plan.has(Fact::FrictionLoss) && on(disable::FRICTIONLOSS);
-    let limits = d.plan.has(Fact::Limits) && on(disable::LIMIT);
+    let equal = d.plan.has(PlanFlag::Equalities) && on(disable::EQUALITY);
+    let friction = d.plan.has(PlanFlag::FrictionLoss) && on(disable::FRICTIONLOSS);
+    let limits = d.plan.has(PlanFlag::Limits) && on(disable::LIMIT);
     // Room for all that may come; the arrays keep their length from step to step as long as contacts stay.
     let limits = if limits { single::count_limits(m, d) } else { 0 };
     let mut room = contact_rows::count(m, d) + limits;

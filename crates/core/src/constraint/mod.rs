@@ -13,7 +13,7 @@ pub(crate) mod ends;
 mod equality_rows;
 mod exact;
 mod force;
-mod gram;
+mod delassus;
 mod hessian;
 mod impedance;
 mod implicit_rows;

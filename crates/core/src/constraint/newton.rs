@@ -109,8 +109,8 @@ fn add_curvatures(
     for b in blocks {
         let b = &jac.blocks[b];
         match (b.cost, b.nrow) {
-            (Cost::Push, 1) => add_push::<1>(d, jac, jar, b, h),
-            (Cost::Push, 4) => add_push::<4>(d, jac, jar, b, h),
+            (Cost::Unilateral, 1) => add_push::<1>(d, jac, jar, b, h),
+            (Cost::Unilateral, 4) => add_push::<4>(d, jac, jar, b, h),
             _ => by_rows!(b.nrow, R => add_curvature::<R>(d, jac, jar, b, h)),
         }
     }

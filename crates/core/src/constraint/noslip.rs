@@ -6,7 +6,7 @@
 
 use super::cone::friction;
 use super::cost::Cost;
-use super::gram::RowGroup;
+use super::delassus::RowGroup;
 use super::jacobian::{Block, by_cone_rows};
 use super::kind;
 use super::primal::Problem;

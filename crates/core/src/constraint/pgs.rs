@@ -12,7 +12,7 @@
 
 use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
-use super::gram::RowGroup;
+use super::delassus::RowGroup;
 use super::jacobian::{Block, by_cone_rows, by_rows};
 use super::primal::Problem;
 use crate::math::{Ldl, dot};

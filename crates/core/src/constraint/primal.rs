@@ -6,7 +6,7 @@ use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::search::{Point, minimize};
-use crate::dynamics::{Scratch as Trees, mass, ways};
+use crate::dynamics::{Scratch as Trees, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{MINVAL, combine, dot, dot_slice, sum, zero};
 use crate::model::{Fields, Model};
@@ -121,8 +121,8 @@ impl<'a> Problem<'a> {
         for b in self.blocks() {
             let b = &jac.blocks[b];
             cost += match (b.cost, b.nrow) {
-                (Cost::Push, 1) => self.push_block::<1>(b),
-                (Cost::Push, 4) => self.push_block::<4>(b),
+                (Cost::Unilateral, 1) => self.push_block::<1>(b),
+                (Cost::Unilateral, 4) => self.push_block::<4>(b),
                 _ => by_rows!(b.nrow, R => self.other_block::<R>(b)),
             };
         }
@@ -171,7 +171,7 @@ impl<'a> Problem<'a> {
 
     /// ½ gᵀ M⁻¹ g; step ← M⁻¹ g.
     pub(super) fn decrement_by_mass(&mut self) -> f64 {
-        ways::complete(self.m, self.d, self.trees);
+        tree_algorithms::complete(self.m, self.d, self.trees);
         for dofs in self.dofs() {
             self.s.step[dofs.clone()].copy_from_slice(&self.s.grad[dofs.clone()]);
             mass::solve(self.m, &self.d.qLD, &self.d.qLDiagInv, &mut self.s.step, dofs);
@@ -181,7 +181,7 @@ impl<'a> Problem<'a> {
 
     /// ½ gᵀ M⁻¹ g where M is diagonal.
     fn decrement_by_diagonal(&mut self) -> f64 {
-        ways::complete(self.m, self.d, self.trees);
+        tree_algorithms::complete(self.m, self.d, self.trees);
         let of =
             |r: Range<usize>| sum([&self.d.qLDiagInv[r.clone()], &self.s.grad[r]], |[inv, g]| inv * g * g);
         0.5 * self.dofs().map(of).sum::<f64>()
@@ -231,7 +231,7 @@ impl<'a> Problem<'a> {
             };
             for b in blocks.clone() {
                 let b = &self.jac.blocks[b];
-                if b.cost == Cost::Push {
+                if b.cost == Cost::Unilateral {
                     add_push(&mut p, d, s, b);
                 } else {
                     by_rows!(b.nrow, R => add_other::<R>(&mut p, d, s, b));
@@ -280,7 +280,7 @@ pub(super) fn shape<'a, const R: usize>(d: &'a Fields, b: &Block) -> Option<Shap
 fn stays(d: &Fields, s: &Iterate, b: &Block) -> bool {
     match b.cost {
         Cost::Quadratic => true,
-        Cost::Push => b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0)),
+        Cost::Unilateral => b.rows().all(|r| (s.jar[r] < 0.0) == (s.jar[r] + s.jv[r] < 0.0)),
         _ => by_rows!(b.nrow, R => stays_other::<R>(d, s, b)),
     }
 }

@@ -5,7 +5,7 @@ use super::contact_rows;
 use super::equality_rows;
 use crate::kinds::integrator;
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// `efc_vel` = J v and `efc_aref` = -B J v - K d r, less the acceleration J̇ v that is there already.
@@ -19,7 +19,7 @@ pub(crate) fn reference(m: &Model, d: &mut Fields, w: &Scratch) {
 #[inline(never)]
 fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
     w.jac.mul(&d.qvel, &mut d.efc_vel);
-    if d.plan.has(Fact::Surfaces) {
+    if d.plan.has(PlanFlag::Surfaces) {
         contact_rows::surfaces(m, d);
     }
     if m.opt.integrator == integrator::DISCRETE {
@@ -33,7 +33,7 @@ fn ask(m: &Model, d: &mut Fields, w: &Scratch) {
     if d.ne > 0 {
         equality_rows::bias(m, d);
     }
-    if d.plan.has(Fact::Adhesion) {
+    if d.plan.has(PlanFlag::Adhesion) {
         contact_rows::adhesion(d);
     }
 }

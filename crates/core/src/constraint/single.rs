@@ -122,7 +122,7 @@ pub(super) fn limits(m: &Model, d: &mut Fields, jac: &mut Jacobian) {
         }
         let margin = m.tendon_margin[t];
         for (pos, sign) in sides(rows::<2>(&m.tendon_range)[t], d.ten_length[t], margin) {
-            if along_tendon(m, d, jac, Cost::Push, t, sign) {
+            if along_tendon(m, d, jac, Cost::Unilateral, t, sign) {
                 let row = Row { kind: kind::LIMIT_TENDON, id: t, pos, margin, loss: 0.0 };
                 let (solref, solimp) =
                     (rows::<2>(&m.tendon_solref_lim)[t], rows::<5>(&m.tendon_solimp_lim)[t]);
@@ -142,7 +142,7 @@ fn joint_limit(m: &Model, d: &mut Fields, jac: &mut Jacobian, j: usize, pos: f64
     let dof = m.jnt_dofadr[j] as usize;
     let (n, last) = (row.len(), dof + row.len() - 1);
     let columns: [u32; 3] = std::array::from_fn(|c| last.saturating_sub(c) as u32);
-    jac.push::<1>(Cost::Push, d.nefc, &columns[..n], row.iter().rev().map(|&j| [j]));
+    jac.push::<1>(Cost::Unilateral, d.nefc, &columns[..n], row.iter().rev().map(|&j| [j]));
     let row = Row { kind: kind::LIMIT_JOINT, id: j, pos, margin: m.jnt_margin[j], loss: 0.0 };
     let (solref, solimp) = (rows::<2>(&m.jnt_solref)[j], rows::<5>(&m.jnt_solimp)[j]);
     scalars(m, d, row, solref, solimp, m.dof_invweight0[dof]);

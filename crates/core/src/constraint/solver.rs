@@ -9,10 +9,10 @@ use super::island::Islands;
 use super::iterate::{Iterate, Reached};
 use super::jacobian::{Block, Jacobian, by_rows};
 use super::primal::{Problem, shape};
-use crate::dynamics::{Scratch as Trees, mass, ways};
+use crate::dynamics::{Scratch as Trees, mass, tree_algorithms};
 use crate::kinds::{disable, solver};
 use crate::math::{copy, zero};
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// `qacc`, `efc_force`, `qfrc_constraint`, `solver_niter`, from `qacc_smooth` and the rows.
@@ -44,7 +44,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
     s.resize(m.nv, d.nefc);
     if dual {
         unconstrained_residual(d, jac);
-        ways::complete(m, d, trees);
+        tree_algorithms::complete(m, d, trees);
         s.dual.build(m, d, jac);
     }
     if m.opt.solver == solver::PGS {
@@ -64,7 +64,7 @@ fn solve_rows(m: &Model, d: &mut Fields, w: &mut Scratch, trees: &mut Trees) {
             problem.finish_dual();
         }
     }
-    if d.plan.has(Fact::SolverDetails) {
+    if d.plan.has(PlanFlag::SolverDetails) {
         details(d, jac, &s.jar);
     }
 }
@@ -185,7 +185,7 @@ fn costs_less(d: &Fields, jac: &Jacobian, s: &mut Iterate, most: f64) -> bool {
             s.jv[r] -= d.efc_aref[r];
         }
         cost += match b.cost {
-            Cost::Push => b.rows().map(|r| push(s.jv[r], d.efc_D[r])).sum(),
+            Cost::Unilateral => b.rows().map(|r| push(s.jv[r], d.efc_D[r])).sum(),
             _ => by_rows!(b.nrow, R => block_cost::<R>(d, b, &s.jv)),
         };
         if cost >= most {

@@ -5,14 +5,14 @@
 
 use crate::kinds::joint;
 use crate::math::{lanes, *};
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// `subtree_com`, `cinert`, `cdof`.
 #[inline(never)]
 pub(crate) fn com_pos(m: &Model, d: &mut Fields) {
     subtree_com(m, d);
-    if d.plan.has(Fact::BodyInertias) {
+    if d.plan.has(PlanFlag::BodyInertias) {
         body_inertias(m, d);
     }
     motion_axes(m, d);

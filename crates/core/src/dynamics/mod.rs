@@ -17,12 +17,12 @@ pub(crate) mod rne;
 pub(crate) mod subtree;
 mod triangle;
 pub(crate) mod walk;
-pub(crate) mod ways;
+pub(crate) mod tree_algorithms;
 
-use crate::model::way::Ways;
+use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Fields, Model};
 use path::Path;
-use ways::Kept;
+use tree_algorithms::Kept;
 
 /// What these stages keep from one to the next, so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -44,7 +44,7 @@ pub(crate) struct Scratch {
 }
 
 impl Scratch {
-    pub(crate) fn new(m: &Model, ways: Ways) -> Scratch {
+    pub(crate) fn new(m: &Model, ways: TreeAlgorithms) -> Scratch {
         Scratch {
             ways: Kept::new(m, ways),
             rows_due: false,
@@ -60,8 +60,8 @@ impl Scratch {
 
 /// Poses of bodies, joints, geoms and sites, as `mj_kinematics` computes them.
 pub(crate) fn kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    ways::place(m, d, w);
-    ways::orient(d, w);
+    tree_algorithms::forward_kinematics(m, d, w);
+    tree_algorithms::orientations(d, w);
     kinematics::geoms(m, d);
     kinematics::sites(m, d);
 }

@@ -5,7 +5,7 @@
 
 use super::difference::Limits;
 use super::epa;
-use super::gjk::{Found, distance};
+use super::gjk::{GjkResult, distance};
 use super::polish::{Reach, least_reach};
 use super::support::Body;
 use crate::math::*;
@@ -65,7 +65,7 @@ fn nearest_of_cores(
 
 /// The search itself; what its support points cost is kept by the bodies.
 fn search(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits, room: &mut Room) -> Option<Nearest> {
-    let Found { dist, corral, steps } = distance(a, b, cutoff, limits);
+    let GjkResult { dist, corral, steps } = distance(a, b, cutoff, limits);
     room.cost += steps as u64 * STEP;
     let dist = dist?;
     // So near to touching that the direction between them is best seen from the side that overlaps.

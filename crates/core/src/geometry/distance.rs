@@ -2,7 +2,7 @@
 
 use super::Shape;
 use super::convex::{Convex, nearest};
-use super::pair::{self, CONVEX, Method, Settings};
+use super::pair::{self, CONVEX, Method, PairSettings};
 use crate::math::*;
 
 /// Distance and nearest points of two geoms.
@@ -19,7 +19,7 @@ pub(crate) fn shape_distance(
     a: &Shape,
     b: &Shape,
     most: f64,
-    settings: &Settings,
+    settings: &PairSettings,
     work: &mut Narrow,
 ) -> Option<Distance> {
     let mut best = Distance { dist: most, fromto: [[0.0; 3]; 2] };
@@ -61,5 +61,5 @@ pub(crate) fn shape_distance(
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Narrow {
     pub(crate) room: super::convex::Room,
-    pub(crate) touches: Vec<pair::Touch>,
+    pub(crate) touches: Vec<pair::ContactPoint>,
 }

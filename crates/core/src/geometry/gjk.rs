@@ -12,7 +12,7 @@ use crate::math::*;
 
 /// What came out.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Found {
+pub(super) struct GjkResult {
     /// Distance, m; zero when the origin is in the difference, `None` when it is larger than asked.
     pub(super) dist: Option<f64>,
     /// The simplex that holds the nearest point.
@@ -22,10 +22,10 @@ pub(super) struct Found {
 }
 
 /// Distance up to `cutoff`.
-pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> Found {
+pub(super) fn distance(a: &mut Body, b: &mut Body, cutoff: f64, limits: Limits) -> GjkResult {
     let towards = unit_vector(sub(b.centre(), a.centre())).0;
     let first = support(a, b, towards);
-    let mut found = Found { dist: Some(0.0), corral: Corral::new(first), steps: 1 };
+    let mut found = GjkResult { dist: Some(0.0), corral: Corral::new(first), steps: 1 };
     let mut size = norm(first.point);
     let discrete = a.discrete() && b.discrete();
     while found.steps <= limits.iterations {

@@ -18,7 +18,7 @@ mod polish;
 mod ray;
 mod segments;
 mod shape;
-mod sides;
+mod hull_faces;
 mod simplex;
 mod support;
 mod surface;
@@ -30,7 +30,7 @@ pub(crate) use hull::Hull;
 pub(crate) use inside::inside_shape;
 
 pub(crate) use shape::{Field, Mesh, Shape};
-pub(crate) use sides::Sides;
+pub(crate) use hull_faces::HullFaces;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -1,6 +1,6 @@
 //! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
 
-use super::{Hull, Sides};
+use super::{Hull, HullFaces};
 use crate::kinds::geom;
 use crate::math::*;
 
@@ -31,7 +31,7 @@ pub(crate) struct Mesh<'a> {
     /// The convex hull, when it is known.
     pub hull: Option<Hull<'a>>,
     /// The flat sides of the hull, when contacts may lie on them.
-    pub sides: Option<&'a Sides>,
+    pub sides: Option<&'a HullFaces>,
 }
 
 /// The data of a height field, a grid over its base.

@@ -14,8 +14,8 @@ use figures::Figures;
 use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
-use super::pair::{self, Method, Settings, Touch};
-use super::{Field, Hull, Mesh, Narrow, Shape, Sides, ray, ray_shape};
+use super::pair::{self, Method, PairSettings, ContactPoint};
+use super::{Field, Hull, Mesh, Narrow, Shape, HullFaces, ray, ray_shape};
 use crate::kinds::geom;
 use crate::math::*;
 use crate::model::Model;
@@ -27,7 +27,7 @@ struct Assets {
     vert: BTreeMap<String, Vec<Vec3>>,
     face: BTreeMap<String, Vec<[i32; 3]>>,
     graph: BTreeMap<String, Vec<i32>>,
-    sides: BTreeMap<String, Sides>,
+    sides: BTreeMap<String, HullFaces>,
     field: Option<(Vec<f64>, Vec<f64>)>,
 }
 
@@ -52,7 +52,7 @@ impl Assets {
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
                     let mesh = assets.mesh(name);
-                    let sides = mesh.hull.map_or_else(Sides::default, |hull| Sides::of(mesh.vert, &hull));
+                    let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::of(mesh.vert, &hull));
                     assets.sides.insert(name.into(), sides);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),
@@ -225,12 +225,12 @@ fn rays_hit_where_they_do_in_mujoco() {
     report.finish(print, &[]);
 }
 
-fn settings() -> Settings {
-    Settings::of(&Model { opt: crate::model::Options::default(), ..Model::default() })
+fn settings() -> PairSettings {
+    PairSettings::of(&Model { opt: crate::model::Options::default(), ..Model::default() })
 }
 
 /// With more iterations than the default of 35, which do not always do for round bodies deep in each other.
-fn patient() -> Settings {
+fn patient() -> PairSettings {
     let mut settings = settings();
     settings.effort.iterations = 300;
     settings

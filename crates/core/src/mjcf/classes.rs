@@ -38,11 +38,11 @@ impl Props {
 
     /// Puts the attributes of an element over these. Names stay with their element.
     pub(crate) fn overlay(&mut self, node: &Node) {
-        self.overlay_within(node, &Room::default());
+        self.overlay_within(node, &CompletionBudget::default());
     }
 
     /// The same, as long as there is room for lists that are partly the element's own.
-    fn overlay_within(&mut self, node: &Node, room: &Room) {
+    fn overlay_within(&mut self, node: &Node, room: &CompletionBudget) {
         #[cfg(test)]
         self.elements.push(node.element);
         let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
@@ -143,13 +143,13 @@ const MAX_COMPLETED: usize = 10_000_000;
 
 /// What completing lists takes.
 #[derive(Debug, Default)]
-struct Room {
+struct CompletionBudget {
     taken: Cell<usize>,
     /// The first list that there was no room for.
     exceeded: Cell<Option<usize>>,
 }
 
-impl Room {
+impl CompletionBudget {
     /// `over` laid over `below` from the front.
     fn overlaid(&self, below: &[f64], over: &Rc<Vec<f64>>, a: &Attribute) -> Rc<Vec<f64>> {
         // Short lists are kept in no place of their own.
@@ -182,7 +182,7 @@ pub(crate) struct Classes {
     list: Vec<Class>,
     names: BTreeMap<String, usize>,
     main: usize,
-    room: Room,
+    room: CompletionBudget,
 }
 
 impl Classes {
@@ -193,7 +193,7 @@ impl Classes {
     /// its section has by now.
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
         let mut classes =
-            Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0, room: Room::default() };
+            Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0, room: CompletionBudget::default() };
         let mut of_node: Vec<Option<usize>> = vec![None; tree.nodes.len()];
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
             let nested_in = node.parent.and_then(|p| *of_node.get(p)?);

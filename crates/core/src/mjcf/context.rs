@@ -1,7 +1,7 @@
 //! What reading an element needs to know.
 
 use super::classes::{Classes, Props};
-use super::expand::Part;
+use super::expand::AttachedModel;
 use super::settings::Compiler;
 use crate::math::Quat;
 use crate::mjcf::asset::read_asset::Assets;
@@ -14,7 +14,7 @@ pub(crate) struct Context<'a> {
     pub(crate) tree: &'a Tree,
     pub(crate) classes: &'a Classes,
     /// The models that make up the whole.
-    pub(crate) parts: &'a [Part],
+    pub(crate) parts: &'a [AttachedModel],
     pub(crate) assets: &'a Assets,
     /// What the model of the current element says: see [`Context::enter`].
     pub(crate) compiler: &'a Compiler,

@@ -57,7 +57,7 @@ pub(crate) struct Parts<'a> {
     pub(crate) pairs: &'a [PairSpec],
     pub(crate) excludes: &'a [ExcludeSpec],
     pub(crate) users: Users,
-    pub(crate) scene: &'a fill_scene::Scene,
+    pub(crate) scene: &'a fill_scene::SceneFields,
     pub(crate) assets: &'a Assets,
     pub(crate) sensors: &'a [SensorSpec],
     pub(crate) keys: &'a [KeySpec],

@@ -101,7 +101,7 @@ pub(crate) struct Examined {
 }
 
 /// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
-pub(crate) fn examine(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
+pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
     examine_patched(xml, files, path, &[]).0
 }
 
@@ -122,7 +122,7 @@ pub(crate) fn examine_patched(
 
 /// The text of a model with changes, and with what it includes in its place: what another program can read. `None` when it is not
 /// XML, or a change cannot be made.
-pub(crate) fn written(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
+pub(crate) fn to_xml(xml: &str, files: &dyn Files, path: Option<&str>, patches: &[Patch]) -> Option<String> {
     text::load::Loader::new(files, patches).written(xml, path, &mut Report::new())
 }
 

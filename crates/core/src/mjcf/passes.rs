@@ -63,7 +63,7 @@ pub(super) fn build(
     read_tendon::check_rotors(&tendons, &actuators, cx.report);
     let equalities = read_equality::equalities(&mut cx, refs);
     let (pairs, excludes) = read_contact::contacts(&mut cx, refs, &bodies);
-    let mut scene = fill_scene::Scene {
+    let mut scene = fill_scene::SceneFields {
         materials: read_scene::materials(&cx),
         textures: read_scene::textures(&tree),
         numerics: read_scene::numerics(&mut cx),
@@ -172,7 +172,7 @@ pub(super) fn build(
     sleep_policy::policies(&mut m, &bodies);
     reshape::total_mass(&mut m, compiler);
     crate::setup::setconst::set_const0(&mut m);
-    m.planar_trees = crate::dynamics::ways::planar_trees(&m);
+    m.planar_trees = crate::dynamics::tree_algorithms::planar_trees(&m);
     fill::spring_dampers(&mut m, &bodies);
     fill_actuator::length_ranges(&mut m, &actuators, &settings::length_range(&tree), report);
     statistic.apply(&mut m.stat);

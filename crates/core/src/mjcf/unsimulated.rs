@@ -6,7 +6,7 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::asleep::policy;
 use crate::model::{Model, Obj};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Reports what the model asks for and does not get.
 pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
@@ -41,7 +41,7 @@ fn asleep(tree: &Tree, m: &Model, report: &mut Report) {
     if !m.tree_sleep_policy.contains(&policy::INIT) {
         return;
     }
-    let d = Data::new(m);
+    let d = Workspace::new(m);
     let awake = |t: &usize| m.tree_sleep_policy[*t] == policy::INIT && d.tree_asleep[*t] < 0;
     for t in (0..m.ntree).filter(awake) {
         let body = m.names.of(Obj::Body).get(m.tree_bodyadr[t] as usize).filter(|name| !name.is_empty());

@@ -4,7 +4,7 @@
 use super::define;
 use super::fields::data_fields;
 use super::meter::Meter;
-use super::plan::Plan;
+use super::plan::PlanTable;
 
 macro_rules! define_data {
     ($($rows:tt)*) => { define! {

@@ -11,12 +11,12 @@ pub(crate) mod sensed;
 pub(crate) mod stage;
 pub(crate) mod state;
 pub(crate) mod stopwatch;
-pub(crate) mod way;
+pub(crate) mod tree_algorithm;
 
 pub use data_fields::Fields;
 pub use data_fields::{Contact, Warning, WarningStat};
 pub use plan::Decision;
-pub(crate) use plan::Plan;
+pub(crate) use plan::PlanTable;
 
 use crate::kinds::integrator;
 use crate::model::fields::{model_fields, option_fields, statistic_fields};

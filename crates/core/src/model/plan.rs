@@ -2,7 +2,7 @@
 
 use super::sensed::Values;
 use super::stage::Stage;
-use super::way::Ways;
+use super::tree_algorithm::TreeAlgorithms;
 
 /// One line of the plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub struct Decision {
 
 /// What is known of a scene once and for all, where stages would otherwise look again at every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Fact {
+pub(crate) enum PlanFlag {
     /// M of some tree depends on the configuration; otherwise it is diagonal and constant.
     General,
     /// Composite inertias are computed: some tree takes the general way, or they are read.
@@ -77,13 +77,13 @@ pub(crate) enum Fact {
 
 /// Which stages run.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Plan {
+pub(crate) struct PlanTable {
     pub(crate) decisions: Vec<Decision>,
     /// A bit for each stage that runs, and for each fact that holds.
     kept: u32,
     facts: u32,
     /// How trees may be computed.
-    pub(crate) ways: Ways,
+    pub(crate) ways: TreeAlgorithms,
     /// What is read of sensors.
     pub(crate) sensed: Values,
     /// Every sensor is evaluated, read or not.
@@ -94,27 +94,27 @@ pub(crate) struct Plan {
     pub(crate) passes: [[u32; 3]; 2],
 }
 
-impl Default for Plan {
+impl Default for PlanTable {
     /// No stage, and nothing is known.
-    fn default() -> Plan {
-        let mut plan = Plan {
+    fn default() -> PlanTable {
+        let mut plan = PlanTable {
             decisions: Vec::new(),
             kept: 0,
             facts: u32::MAX,
-            ways: Ways::ALL,
+            ways: TreeAlgorithms::ALL,
             sensed: Values::ALL,
             every_sensor: true,
             more: None,
             passes: [[0; 3]; 2],
         };
         let known = [
-            Fact::MassForRows,
-            Fact::DampersStay,
-            Fact::Motors,
-            Fact::Servos,
-            Fact::SlopesStay,
-            Fact::Unforced,
-            Fact::Ballistic,
+            PlanFlag::MassForRows,
+            PlanFlag::DampersStay,
+            PlanFlag::Motors,
+            PlanFlag::Servos,
+            PlanFlag::SlopesStay,
+            PlanFlag::Unforced,
+            PlanFlag::Ballistic,
         ];
         for known in known {
             plan.state(known, false);
@@ -123,7 +123,7 @@ impl Default for Plan {
     }
 }
 
-impl Plan {
+impl PlanTable {
     /// Whether a stage runs.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn keeps(&self, stage: Stage) -> bool {
@@ -132,7 +132,7 @@ impl Plan {
 
     /// Whether something is known to hold of the scene.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn has(&self, fact: Fact) -> bool {
+    pub(crate) fn has(&self, fact: PlanFlag) -> bool {
         self.facts & (1 << fact as u32) != 0
     }
 
@@ -146,7 +146,7 @@ impl Plan {
         self.kept = if keep { self.kept | bit } else { self.kept & !bit };
     }
 
-    pub(crate) fn state(&mut self, fact: Fact, holds: bool) {
+    pub(crate) fn state(&mut self, fact: PlanFlag, holds: bool) {
         let bit = 1 << fact as u32;
         self.facts = if holds { self.facts | bit } else { self.facts & !bit };
     }

@@ -711,7 +711,7 @@ impl FieldSet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::workspace::Data;
+    use crate::step::workspace::Workspace;
 
     #[test]
     fn elements_are_those_of_views() {
@@ -720,7 +720,7 @@ mod tests {
              <worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
         );
         let m = model.unwrap();
-        let mut d = Data::new(&m);
+        let mut d = Workspace::new(&m);
         d.time = 0.25;
         for f in fields() {
             let whole = view(&m, &d, f);

@@ -5,7 +5,7 @@ use super::stage::Stage;
 
 /// What something took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Lap {
+pub struct StageTime {
     /// How often it ran: a stage with parts in a pass of positions and of velocities runs twice in a pass.
     pub runs: u64,
     /// Time on the caller's clock, with what looking at it takes.
@@ -14,26 +14,26 @@ pub struct Lap {
     pub work: u64,
 }
 
-impl Lap {
+impl StageTime {
     fn add(&mut self, time: u64, work: u64) {
-        *self = Lap { runs: self.runs + 1, time: self.time + time, work: self.work + work };
+        *self = StageTime { runs: self.runs + 1, time: self.time + time, work: self.work + work };
     }
 }
 
 /// What the stages took.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Laps {
-    stages: Vec<(Stage, Lap)>,
+pub struct StageTimes {
+    stages: Vec<(Stage, StageTime)>,
     /// Of a call of nothing, once for each part of a pass: that much of every run is the looking.
-    pub nothing: Lap,
+    pub nothing: StageTime,
     /// Between the parts of passes: integrators, the look for numbers that are none, and what the caller does between steps.
-    pub between: Lap,
+    pub between: StageTime,
 }
 
-impl Laps {
+impl StageTimes {
     /// What a stage took.
-    pub fn of(&self, stage: Stage) -> Lap {
-        self.stages.iter().find(|(s, _)| *s == stage).map_or(Lap::default(), |(_, lap)| *lap)
+    pub fn of(&self, stage: Stage) -> StageTime {
+        self.stages.iter().find(|(s, _)| *s == stage).map_or(StageTime::default(), |(_, lap)| *lap)
     }
 
     /// Adds one run of a stage, or of nothing.
@@ -41,7 +41,7 @@ impl Laps {
         let Some(stage) = stage else { return self.nothing.add(time, work) };
         match self.stages.iter_mut().find(|(s, _)| *s == stage) {
             Some((_, lap)) => lap.add(time, work),
-            None => self.stages.push((stage, Lap { runs: 1, time, work })),
+            None => self.stages.push((stage, StageTime { runs: 1, time, work })),
         }
     }
 }
@@ -50,7 +50,7 @@ impl Laps {
 #[derive(Clone, Debug)]
 pub(crate) struct Stopwatch {
     pub(crate) clock: fn() -> u64,
-    pub(crate) laps: Laps,
+    pub(crate) laps: StageTimes,
     /// When the last part of a pass ended.
     pub(crate) ended: Option<u64>,
 }
@@ -64,7 +64,7 @@ impl PartialEq for Stopwatch {
 
 impl Stopwatch {
     pub(crate) fn new(clock: fn() -> u64) -> Stopwatch {
-        Stopwatch { clock, laps: Laps::default(), ended: None }
+        Stopwatch { clock, laps: StageTimes::default(), ended: None }
     }
 
     /// A part of a pass begins.

@@ -1,7 +1,7 @@
 //! Signed distance of two geoms of a model (`mj_geomDistance`).
 
 use crate::geometry::convex::Effort;
-use crate::geometry::pair::Settings;
+use crate::geometry::pair::PairSettings;
 use crate::geometry::{Distance, Narrow, Shape, shape_distance};
 use crate::kinds::disable;
 use crate::model::{Fields, Model};
@@ -17,7 +17,7 @@ pub(crate) fn geom_distance(
 ) -> Option<Distance> {
     (work.room.cost, work.room.most) = (0, Some(d.meter.left()));
     let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
-    let distance = shape_distance(&a, &b, most, &Settings::of(m), work);
+    let distance = shape_distance(&a, &b, most, &PairSettings::of(m), work);
     d.meter.add(100 + work.room.cost);
     distance
 }
@@ -25,9 +25,9 @@ pub(crate) fn geom_distance(
 /// Iterations beyond this cost more than they can give.
 const MOST_ITERATIONS: i32 = 10_000;
 
-impl Settings {
-    pub(crate) fn of(m: &Model) -> Settings {
-        Settings {
+impl PairSettings {
+    pub(crate) fn of(m: &Model) -> PairSettings {
+        PairSettings {
             effort: Effort {
                 tolerance: m.opt.ccd_tolerance,
                 iterations: m.opt.ccd_iterations.clamp(0, MOST_ITERATIONS) as usize,

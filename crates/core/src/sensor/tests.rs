@@ -5,7 +5,7 @@ use crate::mjcf;
 use crate::model::Model;
 use crate::model::reflect::{self, Object, View, ViewMut};
 use crate::step::forward::forward;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// A recorded line: a name and its numbers.
 fn parse(line: &str) -> (&str, Vec<f64>) {
@@ -19,7 +19,7 @@ fn compile(xml: &str) -> Model {
     })
 }
 
-fn numbers(m: &Model, d: &Data, object: Object, name: &str) -> Vec<f64> {
+fn numbers(m: &Model, d: &Workspace, object: Object, name: &str) -> Vec<f64> {
     let view: View = reflect::view(m, d, reflect::field(object, name).unwrap());
     (0..view.len()).filter_map(|i| view.get(i)).collect()
 }
@@ -59,7 +59,7 @@ const OPTICS: [&str; 15] = [
 /// Compares all constants and all states of a model; results that are not computed here are left out.
 fn check(xml: &str, recorded: &str, tolerance: f64) {
     let mut m = compile(xml);
-    let mut d = Data::new(&m);
+    let mut d = Workspace::new(&m);
     let mut wrong = Vec::new();
     let (mut state, mut computed, mut stepped) = (-1, false, false);
     for line in recorded.lines() {
@@ -155,7 +155,7 @@ golden! {
 #[test]
 fn equality_constraints_act_where_they_hold() {
     let m = compile(include_str!("golden/equality.xml"));
-    let mut d = Data::new(&m);
+    let mut d = Workspace::new(&m);
     let mut wrong = Vec::new();
     let mut rows = 0;
     for line in include_str!("golden/equality.txt").lines() {
@@ -197,7 +197,7 @@ fn switched_off_sensors_keep_their_values() {
     let mut m = compile(
         "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody><sensor><clock/><framelinacc objtype='body' objname='world'/></sensor></mujoco>",
     );
-    let mut d = Data::new(&m);
+    let mut d = Workspace::new(&m);
     d.time = 2.0;
     forward(&m, &mut d);
     m.opt.disableflags |= crate::kinds::disable::SENSOR;

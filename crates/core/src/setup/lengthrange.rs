@@ -11,7 +11,7 @@ use crate::forces::transmission::row;
 use crate::kinds::{biastype, disable, gaintype, joint, trntype};
 use crate::math::*;
 use crate::model::Model;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::step::{self, reset};
 
 /// Which actuators are looked at.
@@ -110,7 +110,7 @@ impl Search {
 }
 
 /// Finds `actuator_lengthrange` of actuator `i`, with `d` as scratch.
-pub(crate) fn length_range(m: &mut Model, d: &mut Data, i: usize, search: &Search) -> Result<(), Failure> {
+pub(crate) fn length_range(m: &mut Model, d: &mut Workspace, i: usize, search: &Search) -> Result<(), Failure> {
     let o = m.actuator_outadr[i] as usize;
     if let Some(range) = search.limits(m, i) {
         rows_mut::<2>(&mut m.actuator_lengthrange)[o] = range;
@@ -140,7 +140,7 @@ pub(crate) fn length_range(m: &mut Model, d: &mut Data, i: usize, search: &Searc
 }
 
 /// Smallest and largest length of output `o` in the last part of the time, after pulling in one direction.
-fn pull(m: &Model, d: &mut Data, o: usize, sign: f64, search: &Search) -> [f64; 2] {
+fn pull(m: &Model, d: &mut Workspace, o: usize, sign: f64, search: &Search) -> [f64; 2] {
     let damping = libm::exp(-m.opt.timestep / search.timeconst.max(0.01));
     let mut lengths: Option<[f64; 2]> = None;
     let mut acceleration = vec![0.0; m.nv];
@@ -165,7 +165,7 @@ fn pull(m: &Model, d: &mut Data, o: usize, sign: f64, search: &Search) -> [f64; 
 }
 
 /// A force along the moment of output `o` that would accelerate the mechanism by |M⁻¹ f| = `accel`.
-fn force(m: &Model, d: &mut Data, o: usize, sign: f64, search: &Search, acceleration: &mut [f64]) {
+fn force(m: &Model, d: &mut Workspace, o: usize, sign: f64, search: &Search, acceleration: &mut [f64]) {
     acceleration.fill(0.0);
     d.qfrc_applied.fill(0.0);
     for at in row(d, o) {

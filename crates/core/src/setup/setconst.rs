@@ -2,22 +2,22 @@
 
 use crate::constraint::ends;
 use crate::dynamics::kinematics::sameframe;
-use crate::dynamics::{self, camera, com, mass, walk, ways};
+use crate::dynamics::{self, camera, com, mass, walk, tree_algorithms};
 use crate::forces::{tendon, transmission};
 use crate::kinds::{geom, joint};
 use crate::math::*;
 use crate::model::Model;
-use crate::model::plan::Plan;
+use crate::model::plan::PlanTable;
 use crate::step::reset;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Recomputes what follows from masses, inertias and poses (`mj_setConst`).
 ///
 /// Uses `d` as scratch, with a visible effect: on return `qpos` is the configuration `qpos_spring`
 /// (normally `qpos0`), with positions computed there, while `qvel`, `time`, `act` and `ctrl` are untouched. A
 /// call in mid-flight therefore puts bodies back where they started and keeps their speed.
-pub(crate) fn set_const(m: &mut Model, d: &mut Data) {
-    let plan = std::mem::replace(&mut d.plan, Plan::full());
+pub(crate) fn set_const(m: &mut Model, d: &mut Workspace) {
+    let plan = std::mem::replace(&mut d.plan, PlanTable::full());
     let solves = (m.nbody + m.njnt + m.ntendon) * (6 * m.nC / m.ntree.max(1) + 100);
     let pass = d.meter.half;
     d.meter.add(8 * pass + solves as u64);
@@ -55,12 +55,12 @@ pub(crate) fn set_const(m: &mut Model, d: &mut Data) {
 
 /// The same for a model that has no data yet.
 pub(crate) fn set_const0(m: &mut Model) {
-    let mut d = Data::unplanned(m);
+    let mut d = Workspace::unplanned(m);
     set_const(m, &mut d);
 }
 
-fn positions(m: &Model, d: &mut Data) {
-    ways::load(m, &mut d.work.dynamics);
+fn positions(m: &Model, d: &mut Workspace) {
+    tree_algorithms::load(m, &mut d.work.dynamics);
     dynamics::kinematics(m, &mut d.fields, &mut d.work.dynamics);
     com::com_pos(m, d);
     tendon::tendons(m, d);
@@ -135,7 +135,7 @@ fn same_rotation(a: Quat, b: Quat) -> bool {
 ///
 /// For a body the mean diagonal of J M⁻¹ Jᵀ at its centre of mass, for translation and for rotation; for a
 /// degree of freedom that of M⁻¹, averaged over each group of a joint.
-fn inverse_weights(m: &mut Model, d: &Data) {
+fn inverse_weights(m: &mut Model, d: &Workspace) {
     let cdof = rows::<6>(&d.cdof);
     let (xipos, com) = (rows::<3>(&d.xipos), rows::<3>(&d.subtree_com));
     let mut x = vec![0.0; m.nv];
@@ -194,7 +194,7 @@ fn inverse_weights(m: &mut Model, d: &Data) {
 }
 
 /// `stat`: means over bodies, and a box around everything that has a place.
-fn statistics(m: &mut Model, d: &Data) {
+fn statistics(m: &mut Model, d: &Workspace) {
     let bodies = (m.nbody - 1) as f64;
     m.stat.meanmass = if m.nbody > 1 { m.body_mass.iter().skip(1).sum::<f64>() / bodies } else { 1.0 };
     m.stat.meaninertia = if m.nv > 0 { mass::trace(m, &d.M, 0..m.nv) / m.nv as f64 } else { 1.0 };
@@ -248,7 +248,7 @@ fn reach(m: &Model, g: usize) -> f64 {
 }
 
 /// How far the geoms of each body and the joints to its parent and its children reach from its centre of mass, m.
-fn body_sizes(m: &Model, d: &Data) -> Vec<f64> {
+fn body_sizes(m: &Model, d: &Workspace) -> Vec<f64> {
     let xipos = rows::<3>(&d.xipos);
     // A body with nothing in it counts as a point.
     let mut size = vec![1e-5f64; m.nbody];

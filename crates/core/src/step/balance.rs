@@ -1,7 +1,7 @@
 //! What a scene holds: the energy of motion, of gravity, and of what is elastic, servos included.
 
 use super::forward;
-use super::workspace::Data;
+use super::workspace::Workspace;
 use crate::dynamics::mass;
 use crate::forces::passive::spring;
 use crate::forces::{actuation, transmission};
@@ -29,7 +29,7 @@ impl Energy {
 
 /// The energy at `qpos` and `qvel`, for the controls at hand. `None` where some actuator has no potential: it may feed the
 /// scene. Computes where things are, how long they are and how heavy, and nothing else.
-pub(crate) fn mechanical_energy(m: &Model, d: &mut Data) -> Option<Energy> {
+pub(crate) fn mechanical_energy(m: &Model, d: &mut Workspace) -> Option<Energy> {
     forward::placed(m, d);
     transmission::transmissions(m, &mut d.fields, &mut d.work.forces);
     let mut gravity = 0.0;
@@ -47,7 +47,7 @@ pub(crate) fn mechanical_energy(m: &Model, d: &mut Data) -> Option<Energy> {
 ///
 /// A force clip(u) with u = a - k x has the potential Φ(u)/k, where Φ' = clip: a parabola with its tangents beyond the limits.
 /// With k = 0 the force c is constant: -c x.
-fn servos(m: &Model, d: &mut Data) -> Option<f64> {
+fn servos(m: &Model, d: &mut Workspace) -> Option<f64> {
     if m.nactuator == 0 || m.opt.disabled(disable::ACTUATION) {
         return Some(0.0);
     }

@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::model::stage::Stage;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// The bit of a pass that is walked by the clock.
 pub(super) const CLOCKED: u32 = 1 << 31;
@@ -10,7 +10,7 @@ pub(super) const CLOCKED: u32 = 1 << 31;
 /// Runs what the bits say, one by one, and notes what each took; before them a call of nothing, which shows what looking costs.
 #[cold]
 #[inline(never)]
-pub(super) fn walk(rows: &[fn(&Model, &mut Data)], stages: &[Stage], m: &Model, d: &mut Data, bits: u32) {
+pub(super) fn walk(rows: &[fn(&Model, &mut Workspace)], stages: &[Stage], m: &Model, d: &mut Workspace, bits: u32) {
     if let Some(watch) = &mut d.work.watch {
         watch.begin();
     }
@@ -24,7 +24,7 @@ pub(super) fn walk(rows: &[fn(&Model, &mut Data)], stages: &[Stage], m: &Model, 
 
 /// Runs one of them, or nothing, between two looks at the clock.
 #[inline(never)]
-fn lap(run: fn(&Model, &mut Data), stage: Option<Stage>, m: &Model, d: &mut Data) {
+fn lap(run: fn(&Model, &mut Workspace), stage: Option<Stage>, m: &Model, d: &mut Workspace) {
     let clock = d.work.watch.as_ref().map(|watch| watch.clock);
     let before = clock.map(|clock| (d.meter.cost, clock()));
     run(m, d);
@@ -34,4 +34,4 @@ fn lap(run: fn(&Model, &mut Data), stage: Option<Stage>, m: &Model, d: &mut Data
     }
 }
 
-fn nothing(_: &Model, _: &mut Data) {}
+fn nothing(_: &Model, _: &mut Workspace) {}

@@ -1,10 +1,10 @@
 //! Euler's method with implicit damping: (M + h B) a' = M a, where B is the derivative of the damping force.
 
-use crate::dynamics::{self, ways};
+use crate::dynamics::{self, tree_algorithms};
 use crate::forces::passive::spring;
 use crate::kinds::disable;
 use crate::math::combine;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model};
 
@@ -30,7 +30,7 @@ pub(super) fn damp(m: &Model, d: &Fields, w: &mut dynamics::Scratch, s: &mut Scr
     let Scratch { qacc: a, b, .. } = s;
     combine(a, [&*d.qfrc_smooth, &*d.qfrc_constraint], |_, [smooth, constraint]| smooth + constraint);
     damping(m, d, b);
-    ways::solve_with(m, d, w, b, a);
+    tree_algorithms::solve_with(m, d, w, b, a);
 }
 
 /// Both accelerations from `qfrc_smooth`, where no constraint acts: a, and a' in the scratch. Returns the first degree of
@@ -47,14 +47,14 @@ pub(super) fn accelerate(
     combine(a, [&*acceleration], |_, [force]| force + 0.0);
     damping(m, d, b);
     *done = true;
-    ways::solve_both(m, d, w, b, acceleration, a)
+    tree_algorithms::solve_both(m, d, w, b, acceleration, a)
 }
 
 /// h B.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
     let h = m.opt.timestep;
-    spring::of_dampers(m, d.plan.has(Fact::ActuatorDampers), &d.qvel, out, |law, v| h * law.slope(v.abs()));
+    spring::of_dampers(m, d.plan.has(PlanFlag::ActuatorDampers), &d.qvel, out, |law, v| h * law.slope(v.abs()));
 }
 
 /// Whether some degree of freedom has a damper, and dampers are on.
@@ -63,7 +63,7 @@ pub(super) fn damps(m: &Model, d: &Fields) -> bool {
     d.plan.keeps(Stage::Passive)
         && !m.opt.disabled(disable::EULERDAMP)
         && !m.opt.disabled(disable::DAMPER)
-        && if d.plan.has(Fact::DampersStay) { d.plan.has(Fact::JointDampers) } else { has_dampers(m) }
+        && if d.plan.has(PlanFlag::DampersStay) { d.plan.has(PlanFlag::JointDampers) } else { has_dampers(m) }
 }
 
 /// Whether some degree of freedom has a damper.

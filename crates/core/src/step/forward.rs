@@ -2,26 +2,26 @@
 
 use super::pipeline::{INPUTS, POSITIONS, VELOCITIES};
 use super::{damping, discrete, sleep};
-use crate::dynamics::{camera, com, jacobian, kinematics, subtree, ways};
+use crate::dynamics::{camera, com, jacobian, kinematics, subtree, tree_algorithms};
 use crate::forces::{actuation, energy, passive, tendon, transmission};
 use crate::kinds::{disable, enable, integrator};
 use crate::math::{combine, copy, rows};
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::stage::Stage;
 use crate::model::{Fields, Model, Warning};
 use crate::sensor::{When, body_force};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::{collision, constraint, sensor};
 
 /// Computes everything that follows from the state, without advancing time (`mj_forward`).
-pub(crate) fn forward(m: &Model, d: &mut Data) {
+pub(crate) fn forward(m: &Model, d: &mut Workspace) {
     from_state(m, d);
     from_inputs(m, d);
 }
 
 /// The same without what sensors show, for states between those that anybody sees. The energy is that of the last one, in
 /// MuJoCo as here.
-pub(crate) fn forward_unseen(m: &Model, d: &mut Data) {
+pub(crate) fn forward_unseen(m: &Model, d: &mut Workspace) {
     d.work.unseen = true;
     forward(m, d);
     d.work.unseen = false;
@@ -29,7 +29,7 @@ pub(crate) fn forward_unseen(m: &Model, d: &mut Data) {
 
 /// What follows from positions and velocities, with the sensors and the energy that they determine.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn from_state(m: &Model, d: &mut Data) {
+pub(crate) fn from_state(m: &Model, d: &mut Workspace) {
     let half = d.meter.half;
     d.meter.add(half);
     position(m, d);
@@ -37,26 +37,26 @@ pub(crate) fn from_state(m: &Model, d: &mut Data) {
 }
 
 /// What depends on `qpos` alone.
-pub(crate) fn position(m: &Model, d: &mut Data) {
+pub(crate) fn position(m: &Model, d: &mut Workspace) {
     let [bits, ..] = d.plan.passes[usize::from(d.work.unseen)];
     POSITIONS.run(m, d, bits);
 }
 
 /// The contacts of geoms where they are.
-pub(crate) fn contacts(m: &Model, d: &mut Data) {
+pub(crate) fn contacts(m: &Model, d: &mut Workspace) {
     let [bits, ..] = d.plan.passes[0];
     POSITIONS.run(m, d, bits & POSITIONS.of(Stage::Collision));
 }
 
 /// What depends on `qvel` as well.
-pub(crate) fn velocity(m: &Model, d: &mut Data) {
+pub(crate) fn velocity(m: &Model, d: &mut Workspace) {
     let [_, bits, _] = d.plan.passes[usize::from(d.work.unseen)];
     VELOCITIES.run(m, d, bits);
 }
 
 /// What follows from inputs as well: forces, accelerations and the other sensors.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn from_inputs(m: &Model, d: &mut Data) {
+pub(super) fn from_inputs(m: &Model, d: &mut Workspace) {
     let half = d.meter.half;
     d.meter.add(half);
     let [.., bits] = d.plan.passes[usize::from(d.work.unseen)];
@@ -65,16 +65,16 @@ pub(super) fn from_inputs(m: &Model, d: &mut Data) {
 }
 
 /// The same, and what follows from velocities.
-pub(crate) fn from_velocities(m: &Model, d: &mut Data) {
+pub(crate) fn from_velocities(m: &Model, d: &mut Workspace) {
     velocity(m, d);
     from_inputs(m, d);
 }
 
 /// Where things are and M, without what touches: what energies follow from.
-pub(crate) fn placed(m: &Model, d: &mut Data) {
+pub(crate) fn placed(m: &Model, d: &mut Workspace) {
     let [bits, ..] = d.plan.passes[0];
     POSITIONS.run(m, d, bits & POSITIONS.before(Stage::MassMatrix));
-    fill_mass_matrix(m, d, d.plan.has(Fact::Composite), true);
+    fill_mass_matrix(m, d, d.plan.has(PlanFlag::Composite), true);
 }
 
 // What the rows of `pipeline` run: the functions of the stages, with the scratch of their rooms.
@@ -88,8 +88,8 @@ macro_rules! calls {
 calls! {
     wake(m, d) { sleep::wake(m, &mut d.fields, &mut d.work.sleep) }
     keep_sleeping(m, d) { sleep::keep(m, &d.fields, &mut d.work.sleep) }
-    bodies(m, d) { ways::place(m, &mut d.fields, &mut d.work.dynamics) }
-    orientations(_m, d) { ways::orient(&mut d.fields, &mut d.work.dynamics) }
+    bodies(m, d) { tree_algorithms::forward_kinematics(m, &mut d.fields, &mut d.work.dynamics) }
+    orientations(_m, d) { tree_algorithms::orientations(&mut d.fields, &mut d.work.dynamics) }
     geoms(m, d) { kinematics::geoms(m, d) }
     sites(m, d) { kinematics::sites(m, d) }
     com_pos(m, d) { com::com_pos(m, d) }
@@ -105,12 +105,12 @@ calls! {
     acceleration_sensors(m, d) { sensor::evaluate(m, &mut d.fields, &mut d.work.sensor, When::Acceleration) }
 }
 
-pub(super) fn cameras_and_lights(m: &Model, d: &mut Data) {
+pub(super) fn cameras_and_lights(m: &Model, d: &mut Workspace) {
     camera::cameras(m, d);
     camera::lights(m, d);
 }
 
-pub(super) fn tendons(m: &Model, d: &mut Data) {
+pub(super) fn tendons(m: &Model, d: &mut Workspace) {
     tendon::tendons(m, d);
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_tendons(m, d);
@@ -118,28 +118,28 @@ pub(super) fn tendons(m: &Model, d: &mut Data) {
 }
 
 /// `M`, but for what is put off to steps in which constraints act.
-pub(super) fn mass_matrix(m: &Model, d: &mut Data) {
-    let rows = !d.plan.has(Fact::MassForRows);
-    fill_mass_matrix(m, d, d.plan.has(Fact::Composite) && rows, rows);
+pub(super) fn mass_matrix(m: &Model, d: &mut Workspace) {
+    let rows = !d.plan.has(PlanFlag::MassForRows);
+    fill_mass_matrix(m, d, d.plan.has(PlanFlag::Composite) && rows, rows);
 }
 
 /// `M`, with or without the rows of the general way, and of ways that put theirs off.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn fill_mass_matrix(m: &Model, d: &mut Data, general: bool, rows: bool) {
-    ways::mass(m, &mut d.fields, &mut d.work.dynamics, general, rows);
+fn fill_mass_matrix(m: &Model, d: &mut Workspace, general: bool, rows: bool) {
+    tree_algorithms::mass(m, &mut d.fields, &mut d.work.dynamics, general, rows);
     if m.ntendon > 0 {
         tendon::armature(m, d);
     }
 }
 
-pub(super) fn factor(m: &Model, d: &mut Data) {
-    if !d.plan.has(Fact::MassForRows) {
+pub(super) fn factor(m: &Model, d: &mut Workspace) {
+    if !d.plan.has(PlanFlag::MassForRows) {
         factor_now(m, d);
     }
 }
 
-fn factor_now(m: &Model, d: &mut Data) {
-    let bad = ways::factor(m, &mut d.fields, &mut d.work.dynamics);
+fn factor_now(m: &Model, d: &mut Workspace) {
+    let bad = tree_algorithms::factor(m, &mut d.fields, &mut d.work.dynamics);
     check_inertia(d, bad);
 }
 
@@ -150,7 +150,7 @@ fn check_inertia(d: &mut Fields, bad: Option<usize>) {
     }
 }
 
-pub(super) fn collide(m: &Model, d: &mut Data) {
+pub(super) fn collide(m: &Model, d: &mut Workspace) {
     if m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(disable::CONTACT) || d.meter.over() {
         return collision::none(d);
     }
@@ -160,40 +160,40 @@ pub(super) fn collide(m: &Model, d: &mut Data) {
     }
 }
 
-pub(super) fn make_constraints(m: &Model, d: &mut Data) {
+pub(super) fn make_constraints(m: &Model, d: &mut Workspace) {
     if d.plan.keeps(Stage::Sleep) {
         sleep::wake_by_equalities(m, d);
     }
     constraint::make(m, &mut d.fields, &mut d.work.constraint);
-    if d.plan.has(Fact::MassForRows) && d.nefc > 0 {
-        let general = d.plan.has(Fact::Composite);
-        if general || ways::put_rows_off(&d.work.dynamics) {
+    if d.plan.has(PlanFlag::MassForRows) && d.nefc > 0 {
+        let general = d.plan.has(PlanFlag::Composite);
+        if general || tree_algorithms::put_rows_off(&d.work.dynamics) {
             fill_mass_matrix(m, d, general, true);
         }
         factor_now(m, d);
     }
 }
 
-pub(super) fn bias(m: &Model, d: &mut Data) {
-    ways::bias(m, &mut d.fields, &mut d.work.dynamics);
+pub(super) fn bias(m: &Model, d: &mut Workspace) {
+    tree_algorithms::bias(m, &mut d.fields, &mut d.work.dynamics);
     if m.ntendon > 0 {
         tendon::bias(m, d);
     }
 }
 
 /// `qfrc_smooth` and `qacc_smooth` = M⁻¹ `qfrc_smooth`; `qacc` where no constraint can act.
-pub(super) fn acceleration(m: &Model, data: &mut Data) {
-    if data.plan.has(Fact::Ballistic) && m.opt.integrator != integrator::DISCRETE {
-        fall(data);
+pub(super) fn acceleration(m: &Model, data: &mut Workspace) {
+    if data.plan.has(PlanFlag::Ballistic) && m.opt.integrator != integrator::DISCRETE {
+        ballistic(data);
     } else {
         accelerate(m, data);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn accelerate(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = &mut *data;
-    if d.plan.has(Fact::Unforced) {
+fn accelerate(m: &Model, data: &mut Workspace) {
+    let Workspace { fields: d, work } = &mut *data;
+    if d.plan.has(PlanFlag::Unforced) {
         combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
     } else {
         let forces = [&*d.qfrc_passive, &*d.qfrc_bias, &*d.qfrc_applied, &*d.qfrc_actuator];
@@ -201,24 +201,24 @@ fn accelerate(m: &Model, data: &mut Data) {
             passive - bias + applied + actuator
         });
     }
-    if d.plan.has(Fact::AppliedForces) {
+    if d.plan.has(PlanFlag::AppliedForces) {
         applied_forces(m, d);
     }
     work.damping.done = false;
     if m.opt.integrator == integrator::DISCRETE {
         discrete::acceleration(m, d, &mut work.metric, &mut work.derivative);
-    } else if d.plan.has(Fact::General) {
+    } else if d.plan.has(PlanFlag::General) {
         let mut out = std::mem::take(&mut d.qacc_smooth);
         copy(&d.qfrc_smooth, &mut out);
-        if d.plan.has(Fact::MassForRows) && d.nefc == 0 {
+        if d.plan.has(PlanFlag::MassForRows) && d.nefc == 0 {
             let euler = m.opt.integrator == integrator::EULER && damping::damps(m, d);
             let bad = match euler {
                 true => damping::accelerate(m, d, &mut work.dynamics, &mut work.damping, &mut out),
-                false => ways::solve_now(m, d, &mut work.dynamics, &mut out),
+                false => tree_algorithms::solve_now(m, d, &mut work.dynamics, &mut out),
             };
             check_inertia(d, bad);
         } else {
-            ways::solve(m, d, &mut work.dynamics, &mut out);
+            tree_algorithms::solve(m, d, &mut work.dynamics, &mut out);
         }
         d.qacc_smooth = out;
     } else {
@@ -235,7 +235,7 @@ fn accelerate(m: &Model, data: &mut Data) {
 
 /// The same where nothing makes forces but gravity and motion, M is diagonal, and nothing can touch: what flies.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn fall(d: &mut Fields) {
+fn ballistic(d: &mut Fields) {
     combine(&mut d.qfrc_smooth, [&*d.qfrc_bias], |_, [bias]| 0.0 - bias);
     combine(&mut d.qacc_smooth, [&*d.qfrc_smooth, &*d.qLDiagInv], |_, [force, inv]| force * inv);
     copy(&d.qacc_smooth, &mut d.qacc);
@@ -254,8 +254,8 @@ fn applied_forces(m: &Model, d: &mut Fields) {
 }
 
 /// `qacc` and constraint forces.
-pub(super) fn solve(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = &mut *data;
+pub(super) fn solve(m: &Model, data: &mut Workspace) {
+    let Workspace { fields: d, work } = &mut *data;
     if m.opt.integrator == integrator::DISCRETE {
         discrete::constraints(m, d, &mut work.metric, &mut work.constraint, &mut work.dynamics);
     } else {
@@ -266,22 +266,22 @@ pub(super) fn solve(m: &Model, data: &mut Data) {
 
 /// What the discrete integrator adds to `qacc` of free bodies.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn turn_free_bodies(m: &Model, data: &mut Data) {
+fn turn_free_bodies(m: &Model, data: &mut Workspace) {
     if m.opt.integrator == integrator::DISCRETE {
-        let Data { fields: d, work } = data;
+        let Workspace { fields: d, work } = data;
         discrete::turn_free_bodies(m, d, &work.metric, &mut work.derivative, &work.constraint);
     }
 }
 
 /// Momenta of subtrees, where a sensor asks for them: they stay as they are otherwise.
-pub(super) fn subtree_velocities(m: &Model, d: &mut Data) {
+pub(super) fn subtree_velocities(m: &Model, d: &mut Workspace) {
     if measured(m, Stage::SubtreeVel) {
         subtree::subtree_vel(m, d);
     }
 }
 
 /// Accelerations of bodies and the forces between them, likewise.
-pub(super) fn body_forces(m: &Model, d: &mut Data) {
+pub(super) fn body_forces(m: &Model, d: &mut Workspace) {
     if measured(m, Stage::RnePost) {
         body_force::rne_post_constraint(m, d);
     }
@@ -293,7 +293,7 @@ fn measured(m: &Model, stage: Stage) -> bool {
 }
 
 /// `energy[0]`, or zeros when the flag is off and no sensor has just computed it.
-pub(super) fn potential_energy(m: &Model, d: &mut Data) {
+pub(super) fn potential_energy(m: &Model, d: &mut Workspace) {
     if m.opt.enabled(enable::ENERGY) {
         energy::potential(m, d);
     } else if d.work.unseen || m.opt.disabled(disable::SENSOR) || !sensor::measures_potential(m) {
@@ -302,7 +302,7 @@ pub(super) fn potential_energy(m: &Model, d: &mut Data) {
 }
 
 /// `energy[1]`.
-pub(super) fn kinetic_energy(m: &Model, d: &mut Data) {
+pub(super) fn kinetic_energy(m: &Model, d: &mut Workspace) {
     if m.opt.enabled(enable::ENERGY) {
         energy::kinetic(m, d);
     }

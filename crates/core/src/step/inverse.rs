@@ -7,9 +7,9 @@ use crate::forces::passive::spring;
 use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
 use crate::model::Model;
-use crate::model::plan::Plan;
+use crate::model::plan::PlanTable;
 use crate::step::forward;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::step::workspace::Work;
 use crate::step::{damping, discrete};
 
@@ -35,11 +35,11 @@ impl std::error::Error for InverseError {}
 ///
 /// All fields of position and velocity, the forces of constraints and sensors are computed, whatever the plan
 /// says.
-pub(crate) fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
+pub(crate) fn inverse(m: &Model, d: &mut Workspace) -> Result<(), InverseError> {
     if m.opt.enabled(enable::INVDISCRETE) && integrator::many_stages(m.opt.integrator) {
         return Err(InverseError::RungeKutta);
     }
-    let plan = std::mem::replace(&mut d.plan, Plan::everything());
+    let plan = std::mem::replace(&mut d.plan, PlanTable::everything());
     forward::from_state(m, d);
     from_velocity(m, d);
     d.plan = plan;
@@ -47,7 +47,7 @@ pub(crate) fn inverse(m: &Model, d: &mut Data) -> Result<(), InverseError> {
 }
 
 /// The same once position and velocity are known.
-fn from_velocity(m: &Model, d: &mut Data) {
+fn from_velocity(m: &Model, d: &mut Workspace) {
     let mut given = std::mem::take(&mut d.work.rk.slope);
     given.copy_from_slice(&d.qacc);
     if m.opt.enabled(enable::INVDISCRETE) {
@@ -77,8 +77,8 @@ fn from_velocity(m: &Model, d: &mut Data) {
 }
 
 /// `qacc` of a step to that of the equations of motion: what the integrator adds to M acts on it.
-fn continuous(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = data;
+fn continuous(m: &Model, data: &mut Workspace) {
+    let Workspace { fields: d, work } = data;
     let (h, force, w) = (m.opt.timestep, &mut work.damping.qacc, &mut work.derivative);
     match m.opt.integrator {
         integrator::EULER => {

@@ -6,7 +6,7 @@
 pub(crate) mod balance;
 mod clocked;
 pub(crate) mod damping;
-mod demand;
+mod access;
 pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;
@@ -18,9 +18,9 @@ pub(crate) mod pipeline;
 pub(crate) mod planner;
 pub(crate) mod reset;
 pub(crate) mod save;
-pub(crate) mod scene;
+pub(crate) mod analysis;
 pub(crate) mod sleep;
-pub(crate) mod sound;
+pub(crate) mod validate;
 pub(crate) mod stages;
 pub(crate) mod store;
 pub(crate) mod workspace;
@@ -28,14 +28,14 @@ pub(crate) mod workspace;
 use crate::kinds::disable;
 use crate::math::{LARGEST, SMALL, bad};
 use crate::model::{Fields, Model, Warning, WarningStat};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use wide::f64x4;
 
 /// Advances the simulation by one step (`mj_step`).
 ///
 /// A bad number in the state resets the data first; one in the acceleration resets it and the same step
 /// then starts from there (`warning` says which and when).
-pub(crate) fn step(m: &Model, d: &mut Data) {
+pub(crate) fn step(m: &Model, d: &mut Workspace) {
     check_state(m, d);
     forward::from_state(m, d);
     forward::from_inputs(m, d);
@@ -45,14 +45,14 @@ pub(crate) fn step(m: &Model, d: &mut Data) {
 
 /// The first part of a step (`mj_step1`): all that does not depend on inputs. Controls and applied forces may be
 /// set between the two.
-pub(crate) fn step1(m: &Model, d: &mut Data) {
+pub(crate) fn step1(m: &Model, d: &mut Workspace) {
     check_state(m, d);
     forward::from_state(m, d);
 }
 
 /// The second part of a step (`mj_step2`): forces, accelerations, the next state. Where the options name
 /// Runge–Kutta, which needs forces at other states, this is a step of Euler.
-pub(crate) fn step2(m: &Model, d: &mut Data) {
+pub(crate) fn step2(m: &Model, d: &mut Workspace) {
     forward::from_inputs(m, d);
     check_acceleration(m, d);
     integrate::integrate_once(m, d);
@@ -73,7 +73,7 @@ fn all_good(v: &[f64]) -> bool {
 /// Warns of the first bad number, and resets unless that is switched off. The warning survives the reset.
 #[cold]
 #[inline(never)]
-fn reset_after(m: &Model, d: &mut Data, warning: Warning, of: fn(&Fields) -> &[f64]) -> bool {
+fn reset_after(m: &Model, d: &mut Workspace, warning: Warning, of: fn(&Fields) -> &[f64]) -> bool {
     let Some(info) = of(d).iter().position(|&x| bad(x)) else { return false };
     d.warn(warning, info);
     if m.opt.disabled(disable::AUTORESET) {
@@ -88,7 +88,7 @@ fn reset_after(m: &Model, d: &mut Data, warning: Warning, of: fn(&Fields) -> &[f
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn check_state(m: &Model, d: &mut Data) {
+fn check_state(m: &Model, d: &mut Workspace) {
     if !all_good(&d.qpos) {
         reset_after(m, d, Warning::BadQpos, |d| &d.qpos);
     }
@@ -98,7 +98,7 @@ fn check_state(m: &Model, d: &mut Data) {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn check_acceleration(m: &Model, d: &mut Data) {
+fn check_acceleration(m: &Model, d: &mut Workspace) {
     if !all_good(&d.qacc) && reset_after(m, d, Warning::BadQacc, |d| &d.qacc) {
         forward::forward(m, d);
     }

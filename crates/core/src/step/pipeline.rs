@@ -6,18 +6,18 @@
 
 use super::clocked::{self, CLOCKED};
 use super::forward as run;
-use super::scene::Scene;
-use crate::dynamics::ways;
+use super::analysis::ModelAnalysis;
+use crate::dynamics::tree_algorithms;
 use crate::kinds::{disable, integrator, trntype, wraptype};
 use crate::model::reflect::{data, model};
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::{collision, sensor};
 
 /// When in a forward pass something runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum PassPart {
     /// What depends on `qpos` alone.
     Positions,
     /// What depends on `qvel` as well.
@@ -26,10 +26,10 @@ pub(super) enum Part {
     Inputs,
 }
 
-type Run = fn(&Model, &mut Data);
+type Run = fn(&Model, &mut Workspace);
 
 /// Stages whose results are used (any, where the list is empty), and in which scenes.
-type Need = (&'static [Stage], fn(&Scene, Stage) -> bool);
+type Need = (&'static [Stage], fn(&ModelAnalysis, Stage) -> bool);
 
 /// A stage.
 pub(super) struct Row {
@@ -38,21 +38,21 @@ pub(super) struct Row {
     pub(super) name: &'static str,
     pub(super) needs: &'static [Need],
     /// Why it runs for its own sake.
-    pub(super) wanted: fn(&Scene) -> Option<String>,
+    pub(super) wanted: fn(&ModelAnalysis) -> Option<String>,
     /// Why it does not run when nothing wants it.
-    pub(super) left_out: fn(&Scene) -> &'static str,
-    pub(super) run: &'static [(Part, Run)],
+    pub(super) left_out: fn(&ModelAnalysis) -> &'static str,
+    pub(super) run: &'static [(PassPart, Run)],
 }
 
 impl Row {
     /// Whether the stage uses the results of another one in a scene.
-    pub(super) fn uses(&self, scene: &Scene, of: Stage) -> bool {
+    pub(super) fn uses(&self, scene: &ModelAnalysis, of: Stage) -> bool {
         self.needs.iter().any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(scene, of))
     }
 }
 
 /// In every scene where the stage runs.
-const ALWAYS: fn(&Scene, Stage) -> bool = |_, _| true;
+const ALWAYS: fn(&ModelAnalysis, Stage) -> bool = |_, _| true;
 
 fn because(yes: bool, why: &str) -> Option<String> {
     yes.then(|| why.to_string())
@@ -66,7 +66,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: |s| because(s.sleeps, "trees at rest fall asleep"),
         left_out: |s| if s.m.ntree == 0 { "nothing can move" } else { "the sleep flag is off" },
-        run: &[(Part::Positions, run::wake), (Part::Inputs, run::keep_sleeping)],
+        run: &[(PassPart::Positions, run::wake), (PassPart::Inputs, run::keep_sleeping)],
     },
     Row {
         stage: Stage::Kinematics,
@@ -74,7 +74,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: |s| s.reads(Stage::Kinematics),
         left_out: |_| "nothing can touch and nothing reads a pose",
-        run: &[(Part::Positions, run::bodies)],
+        run: &[(PassPart::Positions, run::bodies)],
     },
     Row {
         stage: Stage::Orientations,
@@ -82,7 +82,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::Orientations),
         left_out: |_| "nothing reads an orientation as a quaternion",
-        run: &[(Part::Positions, run::orientations)],
+        run: &[(PassPart::Positions, run::orientations)],
     },
     Row {
         stage: Stage::GeomPoses,
@@ -90,7 +90,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::GeomPoses),
         left_out: |_| "no contact is possible and nothing reads a geom's pose",
-        run: &[(Part::Positions, run::geoms)],
+        run: &[(PassPart::Positions, run::geoms)],
     },
     Row {
         stage: Stage::SitePoses,
@@ -101,7 +101,7 @@ pub(super) const STAGES: [Row; 26] = [
             0 => "the model has no sites",
             _ => "nothing reads a site's pose",
         },
-        run: &[(Part::Positions, run::sites)],
+        run: &[(PassPart::Positions, run::sites)],
     },
     Row {
         stage: Stage::ComPos,
@@ -109,7 +109,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Kinematics], ALWAYS)],
         wanted: |s| s.reads(Stage::ComPos),
         left_out: |_| NO_SPATIAL_BODIES,
-        run: &[(Part::Positions, run::com_pos)],
+        run: &[(PassPart::Positions, run::com_pos)],
     },
     Row {
         stage: Stage::CameraPoses,
@@ -120,7 +120,7 @@ pub(super) const STAGES: [Row; 26] = [
             0 => "the model has no cameras and lights",
             _ => "nothing reads the pose of a camera or light",
         },
-        run: &[(Part::Positions, run::cameras_and_lights)],
+        run: &[(PassPart::Positions, run::cameras_and_lights)],
     },
     Row {
         stage: Stage::Tendon,
@@ -136,7 +136,7 @@ pub(super) const STAGES: [Row; 26] = [
                 .or_else(|| because(wakes, "tendons at their limits wake the trees that they connect"))
         },
         left_out: without_tendons,
-        run: &[(Part::Positions, run::tendons)],
+        run: &[(PassPart::Positions, run::tendons)],
     },
     Row {
         stage: Stage::MassMatrix,
@@ -151,7 +151,7 @@ pub(super) const STAGES: [Row; 26] = [
             false => because(s.reads_field(data::crb), "data.crb is read"),
         },
         left_out: |_| CONSTANT_MASS,
-        run: &[(Part::Positions, run::mass_matrix)],
+        run: &[(PassPart::Positions, run::mass_matrix)],
     },
     Row {
         stage: Stage::Factor,
@@ -159,7 +159,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: |s| because(s.general, MOVING_MASS),
         left_out: |_| CONSTANT_MASS,
-        run: &[(Part::Positions, run::factor)],
+        run: &[(PassPart::Positions, run::factor)],
     },
     Row {
         stage: Stage::Collision,
@@ -174,7 +174,7 @@ pub(super) const STAGES: [Row; 26] = [
                 _ => "no pair of geoms can ever touch",
             }
         },
-        run: &[(Part::Positions, run::collide)],
+        run: &[(PassPart::Positions, run::collide)],
     },
     Row {
         stage: Stage::Constraint,
@@ -190,7 +190,7 @@ pub(super) const STAGES: [Row; 26] = [
             constraints(s).or_else(|| because(wakes, "trees that are tied together wake each other"))
         },
         left_out: |_| NO_CONSTRAINTS,
-        run: &[(Part::Positions, run::make_constraints)],
+        run: &[(PassPart::Positions, run::make_constraints)],
     },
     Row {
         stage: Stage::Transmission,
@@ -203,7 +203,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| s.reads(Stage::Transmission),
         left_out: |s| without_actuators(s).unwrap_or("moments are constant and no force depends on a length"),
-        run: &[(Part::Positions, run::transmissions)],
+        run: &[(PassPart::Positions, run::transmissions)],
     },
     Row {
         stage: Stage::TendonVel,
@@ -211,7 +211,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Tendon], ALWAYS)],
         wanted: |s| s.reads(Stage::TendonVel),
         left_out: without_tendons,
-        run: &[(Part::Velocities, run::tendon_velocities)],
+        run: &[(PassPart::Velocities, run::tendon_velocities)],
     },
     Row {
         stage: Stage::ActuatorVel,
@@ -219,7 +219,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::Transmission], ALWAYS)],
         wanted: |s| s.reads(Stage::ActuatorVel),
         left_out: |s| without_actuators(s).unwrap_or("no force depends on the velocity of an actuator"),
-        run: &[(Part::Velocities, run::actuator_velocities)],
+        run: &[(PassPart::Velocities, run::actuator_velocities)],
     },
     Row {
         stage: Stage::ComVel,
@@ -227,7 +227,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::ComPos], ALWAYS)],
         wanted: |s| s.reads(Stage::ComVel),
         left_out: |_| NO_SPATIAL_BODIES,
-        run: &[(Part::Velocities, run::com_vel)],
+        run: &[(PassPart::Velocities, run::com_vel)],
     },
     Row {
         stage: Stage::Passive,
@@ -246,7 +246,7 @@ pub(super) const STAGES: [Row; 26] = [
                 .or_else(|| because(s.gravcomp, "the weight of bodies is compensated"))
         },
         left_out: |_| "no joint or tendon has a spring or a damper, and bodies move in a vacuum",
-        run: &[(Part::Velocities, run::passive)],
+        run: &[(PassPart::Velocities, run::passive)],
     },
     Row {
         stage: Stage::Reference,
@@ -254,7 +254,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[(&[Stage::ComVel], |s, _| s.ties_bodies())],
         wanted: constraints,
         left_out: |_| NO_CONSTRAINTS,
-        run: &[(Part::Velocities, run::reference)],
+        run: &[(PassPart::Velocities, run::reference)],
     },
     Row {
         stage: Stage::Bias,
@@ -262,11 +262,11 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Tendon], |s, _| s.tendon_armature),
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
-            (&[Stage::Kinematics], |s, _| ways::look_at_places(s.m, s.ways)),
+            (&[Stage::Kinematics], |s, _| tree_algorithms::look_at_places(s.m, s.ways)),
         ],
         wanted: |s| because(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         left_out: |_| "nothing moves",
-        run: &[(Part::Velocities, run::bias)],
+        run: &[(PassPart::Velocities, run::bias)],
     },
     Row {
         stage: Stage::Actuation,
@@ -279,7 +279,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| because(s.actuated, "actuators make forces"),
         left_out: |s| without_actuators(s).unwrap_or("actuators are switched off"),
-        run: &[(Part::Inputs, run::actuation)],
+        run: &[(PassPart::Inputs, run::actuation)],
     },
     Row {
         stage: Stage::Acceleration,
@@ -294,7 +294,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| because(s.m.nv > 0, "the integrator needs it"),
         left_out: |_| "nothing moves",
-        run: &[(Part::Inputs, run::acceleration)],
+        run: &[(PassPart::Inputs, run::acceleration)],
     },
     Row {
         stage: Stage::Solve,
@@ -302,7 +302,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[],
         wanted: constraints,
         left_out: |_| NO_CONSTRAINTS,
-        run: &[(Part::Inputs, run::solve)],
+        run: &[(PassPart::Inputs, run::solve)],
     },
     Row {
         stage: Stage::SubtreeVel,
@@ -311,7 +311,7 @@ pub(super) const STAGES: [Row; 26] = [
         // Its fields show something only where a sensor asks for it.
         wanted: |s| s.reads(Stage::SubtreeVel).filter(|_| sensor::needs(s.m, Stage::SubtreeVel)),
         left_out: |_| "no sensor measures the momentum of a subtree",
-        run: &[(Part::Velocities, run::subtree_velocities)],
+        run: &[(PassPart::Velocities, run::subtree_velocities)],
     },
     Row {
         stage: Stage::RnePost,
@@ -325,7 +325,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| s.reads(Stage::RnePost).filter(|_| sensor::needs(s.m, Stage::RnePost)),
         left_out: |_| "no sensor measures a force or an acceleration",
-        run: &[(Part::Inputs, run::body_forces)],
+        run: &[(PassPart::Inputs, run::body_forces)],
     },
     Row {
         stage: Stage::Sensors,
@@ -343,9 +343,9 @@ pub(super) const STAGES: [Row; 26] = [
             _ => "nothing reads sensordata",
         },
         run: &[
-            (Part::Positions, run::position_sensors),
-            (Part::Velocities, run::velocity_sensors),
-            (Part::Inputs, run::acceleration_sensors),
+            (PassPart::Positions, run::position_sensors),
+            (PassPart::Velocities, run::velocity_sensors),
+            (PassPart::Inputs, run::acceleration_sensors),
         ],
     },
     Row {
@@ -358,7 +358,7 @@ pub(super) const STAGES: [Row; 26] = [
         ],
         wanted: |s| s.reads(Stage::Energy).filter(|_| s.energy || sensor::measures_energy(s.m)),
         left_out: |s| if s.energy { "nothing reads the energy" } else { "the energy flag is off" },
-        run: &[(Part::Positions, run::potential_energy), (Part::Velocities, run::kinetic_energy)],
+        run: &[(PassPart::Positions, run::potential_energy), (PassPart::Velocities, run::kinetic_energy)],
     },
 ];
 
@@ -371,11 +371,11 @@ const NO_CONSTRAINTS: &str = "no contact and no limit is possible";
 /// Transmissions between sites.
 const AT_SITES: [i32; 3] = [trntype::SITE, trntype::SLIDERCRANK, trntype::SO3];
 
-fn without_tendons(s: &Scene) -> &'static str {
+fn without_tendons(s: &ModelAnalysis) -> &'static str {
     if s.m.ntendon == 0 { "the model has no tendons" } else { "nothing uses the tendons" }
 }
 
-fn without_actuators(s: &Scene) -> Option<&'static str> {
+fn without_actuators(s: &ModelAnalysis) -> Option<&'static str> {
     match s.m.nactuator {
         0 => Some("the model has no actuators"),
         _ if s.idle => Some("no actuator is driven: without a control none makes a force"),
@@ -392,7 +392,7 @@ fn count(n: usize, one: &str, many: &str) -> Option<String> {
     }
 }
 
-fn contacts(s: &Scene) -> Option<String> {
+fn contacts(s: &ModelAnalysis) -> Option<String> {
     match s.pairs {
         n if n > collision::MOST_LISTED => {
             Some(format!("more than {} pairs of geoms can touch", collision::MOST_LISTED))
@@ -401,7 +401,7 @@ fn contacts(s: &Scene) -> Option<String> {
     }
 }
 
-fn constraints(s: &Scene) -> Option<String> {
+fn constraints(s: &ModelAnalysis) -> Option<String> {
     contacts(s)
         .or_else(|| count(s.limited, "one joint is limited", "joints are limited"))
         .or_else(|| count(s.limited_tendons, "one tendon is limited", "tendons are limited"))
@@ -416,7 +416,7 @@ pub(crate) struct Sequence<const N: usize> {
 }
 
 /// How many rows run something in a part.
-const fn count_of(part: Part) -> usize {
+const fn count_of(part: PassPart) -> usize {
     let (mut n, mut row) = (0, 0);
     while row < STAGES.len() {
         let mut k = 0;
@@ -430,7 +430,7 @@ const fn count_of(part: Part) -> usize {
 }
 
 impl<const N: usize> Sequence<N> {
-    const fn new(part: Part) -> Sequence<N> {
+    const fn new(part: PassPart) -> Sequence<N> {
         let mut all = Sequence { run: [nothing as Run; N], stage: [Stage::Sleep; N] };
         let (mut n, mut row) = (0, 0);
         while row < STAGES.len() {
@@ -466,7 +466,7 @@ impl<const N: usize> Sequence<N> {
 
     /// Runs what the bits say.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn run(&self, m: &Model, d: &mut Data, mut bits: u32) {
+    pub(crate) fn run(&self, m: &Model, d: &mut Workspace, mut bits: u32) {
         if bits & CLOCKED != 0 {
             return clocked::walk(&self.run, &self.stage, m, d, bits);
         }
@@ -477,11 +477,11 @@ impl<const N: usize> Sequence<N> {
     }
 }
 
-fn nothing(_: &Model, _: &mut Data) {}
+fn nothing(_: &Model, _: &mut Workspace) {}
 
-pub(crate) static POSITIONS: Sequence<{ count_of(Part::Positions) }> = Sequence::new(Part::Positions);
-pub(crate) static VELOCITIES: Sequence<{ count_of(Part::Velocities) }> = Sequence::new(Part::Velocities);
-pub(crate) static INPUTS: Sequence<{ count_of(Part::Inputs) }> = Sequence::new(Part::Inputs);
+pub(crate) static POSITIONS: Sequence<{ count_of(PassPart::Positions) }> = Sequence::new(PassPart::Positions);
+pub(crate) static VELOCITIES: Sequence<{ count_of(PassPart::Velocities) }> = Sequence::new(PassPart::Velocities);
+pub(crate) static INPUTS: Sequence<{ count_of(PassPart::Inputs) }> = Sequence::new(PassPart::Inputs);
 
 /// The same passes by the clock.
 pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {

@@ -5,19 +5,19 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use super::pipeline::{STAGES, passes};
-use super::scene::{Demand, FACTS, Scene};
+use super::analysis::{Access, FACTS, ModelAnalysis};
 use crate::model::Model;
-use crate::model::plan::{Decision, Fact, Plan};
+use crate::model::plan::{Decision, PlanFlag, PlanTable};
 use crate::model::stage::Stage;
-use crate::model::way::Ways;
+use crate::model::tree_algorithm::TreeAlgorithms;
 
 /// What shows in sensors alone: the stages of Runge and Kutta's method leave it out.
 const SHOWN: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
 
-impl Plan {
+impl PlanTable {
     /// Every stage runs, needed or not: the reference that plans are held against.
-    pub(crate) fn full() -> Plan {
-        let mut plan = Plan::default();
+    pub(crate) fn full() -> PlanTable {
+        let mut plan = PlanTable::default();
         for row in &STAGES {
             plan.decide(row.stage, true, "the full pipeline was requested".into());
         }
@@ -25,8 +25,8 @@ impl Plan {
     }
 
     /// Every stage but the one that lets trees sleep: what computes constants wants all of them awake.
-    pub(crate) fn awake() -> Plan {
-        let mut plan = Plan::full();
+    pub(crate) fn awake() -> PlanTable {
+        let mut plan = PlanTable::full();
         plan.keep(Stage::Sleep, false);
         plan.arranged()
     }
@@ -35,15 +35,15 @@ impl Plan {
     ///
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
     /// stage that runs uses its results.
-    pub(crate) fn new(m: &Model, demand: &Demand, ways: Ways) -> Plan {
-        Plan::with(m, demand, ways, None)
+    pub(crate) fn new(m: &Model, demand: &Access, ways: TreeAlgorithms) -> PlanTable {
+        PlanTable::with(m, demand, ways, None)
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
-    pub(crate) fn with(m: &Model, demand: &Demand, ways: Ways, more: Option<Stage>) -> Plan {
-        let mut scene = Scene::new(m, demand, ways);
+    pub(crate) fn with(m: &Model, demand: &Access, ways: TreeAlgorithms, more: Option<Stage>) -> PlanTable {
+        let mut scene = ModelAnalysis::new(m, demand, ways);
         scene.every_sensor |= more == Some(Stage::Sensors);
-        let mut plan = Plan::default();
+        let mut plan = PlanTable::default();
         (plan.ways, plan.more) = (ways, more);
         (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
         for (fact, holds) in FACTS {
@@ -60,18 +60,18 @@ impl Plan {
         }
         plan.decisions.reverse();
         let forced = plan.keeps(Stage::Passive) || plan.keeps(Stage::Actuation) || scene.applies_forces();
-        plan.state(Fact::Unforced, !forced);
-        let ties = plan.has(Fact::General) || plan.keeps(Stage::Solve) || plan.keeps(Stage::Sleep);
-        plan.state(Fact::Ballistic, !forced && !ties);
-        plan.state(Fact::BodyInertias, scene.needs_body_inertias(&plan));
+        plan.state(PlanFlag::Unforced, !forced);
+        let ties = plan.has(PlanFlag::General) || plan.keeps(Stage::Solve) || plan.keeps(Stage::Sleep);
+        plan.state(PlanFlag::Ballistic, !forced && !ties);
+        plan.state(PlanFlag::BodyInertias, scene.needs_body_inertias(&plan));
         let for_rows = scene.mass_for_rows(&plan);
-        plan.state(Fact::MassForRows, for_rows);
+        plan.state(PlanFlag::MassForRows, for_rows);
         plan.arranged()
     }
 
     /// Every stage runs; no list of reasons.
-    pub(crate) fn everything() -> Plan {
-        let mut plan = Plan::default();
+    pub(crate) fn everything() -> PlanTable {
+        let mut plan = PlanTable::default();
         STAGES.iter().for_each(|row| plan.keep(row.stage, true));
         plan.arranged()
     }
@@ -82,7 +82,7 @@ impl Plan {
     }
 
     /// With what a forward pass runs.
-    fn arranged(mut self) -> Plan {
+    fn arranged(mut self) -> PlanTable {
         self.passes =
             [passes(|stage| self.keeps(stage)), passes(|stage| self.keeps(stage) && !SHOWN.contains(&stage))];
         self

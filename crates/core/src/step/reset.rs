@@ -2,49 +2,49 @@
 
 use super::pipeline::by_the_clock;
 use super::{forward, sleep};
-use crate::dynamics::{self, kinematics, mass, ways};
+use crate::dynamics::{self, kinematics, mass, tree_algorithms};
 use crate::forces::{actuation, transmission};
 use crate::math::*;
 use crate::model::meter::Meter;
-use crate::model::plan::Fact;
-use crate::model::plan::Plan;
+use crate::model::plan::PlanFlag;
+use crate::model::plan::PlanTable;
 use crate::model::stage::Stage;
 use crate::model::stopwatch::Stopwatch;
-use crate::model::way::Ways;
+use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Model, Warning, WarningStat, asleep, reflect};
-use crate::step::scene::{self, Demand};
-use crate::step::workspace::Data;
+use crate::step::analysis::{self, Access};
+use crate::step::workspace::Workspace;
 use crate::{collision, constraint, sensor};
 
-impl Data {
+impl Workspace {
     /// Data for a model, at the default configuration. Nothing is computed yet: call `forward`.
     ///
     /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
-    pub(crate) fn new(m: &Model) -> Data {
-        Data::planned(m, Plan::new(m, &Demand::ANY, Ways::ALL))
+    pub(crate) fn new(m: &Model) -> Workspace {
+        Workspace::planned(m, PlanTable::new(m, &Access::ANY, TreeAlgorithms::ALL))
     }
 
     /// Data that computes only what a plan keeps.
-    pub(crate) fn planned(m: &Model, plan: Plan) -> Data {
-        let mut d = Data::unplanned(m);
+    pub(crate) fn planned(m: &Model, plan: PlanTable) -> Workspace {
+        let mut d = Workspace::unplanned(m);
         set_plan(m, &mut d, plan);
         d
     }
 
     /// Data with the full pipeline and no collision pairs.
-    pub(crate) fn unplanned(m: &Model) -> Data {
-        let mut d = Data::default();
-        (d.plan, d.meter, d.acting) = (Plan::awake(), Meter::new(m), vec![0.0; m.nu]);
-        d.work.make_room(m, Ways::ALL);
+    pub(crate) fn unplanned(m: &Model) -> Workspace {
+        let mut d = Workspace::default();
+        (d.plan, d.meter, d.acting) = (PlanTable::awake(), Meter::new(m), vec![0.0; m.nu]);
+        d.work.make_room(m, TreeAlgorithms::ALL);
         reset_data(m, &mut d);
         d
     }
 }
 
 /// Replaces the plan, which decides what the next forward pass computes.
-pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
+pub(crate) fn set_plan(m: &Model, d: &mut Workspace, plan: PlanTable) {
     d.work.collision.pairs = if plan.keeps(Stage::Collision) {
-        collision::pairs(m, scene::changes(&plan))
+        collision::pairs(m, analysis::changes(&plan))
     } else {
         collision::Pairs::default()
     };
@@ -55,7 +55,7 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
     if d.work.watch.is_some() {
         d.plan.passes = by_the_clock(d.plan.passes);
     }
-    ways::load(m, &mut d.work.dynamics);
+    tree_algorithms::load(m, &mut d.work.dynamics);
     d.work.derivative.forget();
     if sleep::is_fresh(&d.work.sleep) {
         lay_down(m, d);
@@ -64,19 +64,19 @@ pub(crate) fn set_plan(m: &Model, d: &mut Data, plan: Plan) {
 }
 
 /// Takes what the tree algorithms keep from the model again.
-pub(crate) fn load(m: &Model, d: &mut Data) {
-    ways::load(m, &mut d.work.dynamics);
+pub(crate) fn load(m: &Model, d: &mut Workspace) {
+    tree_algorithms::load(m, &mut d.work.dynamics);
 }
 
 /// Measures the stages from here on by a clock, from nothing.
-pub(crate) fn clock(d: &mut Data, clock: fn() -> u64) {
+pub(crate) fn clock(d: &mut Workspace, clock: fn() -> u64) {
     d.work.watch = Some(Box::new(Stopwatch::new(clock)));
     d.plan.passes = by_the_clock(d.plan.passes);
 }
 
 /// Back to the default configuration (`mj_resetData`): state, inputs, results and warnings. The model keeps
 /// what was written to it.
-pub(crate) fn reset_data(m: &Model, d: &mut Data) {
+pub(crate) fn reset_data(m: &Model, d: &mut Workspace) {
     reflect::allocate_data(m, d);
     (d.ncon, d.nefc, d.nisland, d.solver_niter) = (0, 0, 0, 0);
     (d.ne, d.nf, d.nl) = (0, 0, 0);
@@ -99,7 +99,7 @@ pub(crate) fn reset_data(m: &Model, d: &mut Data) {
 }
 
 /// Trees that start asleep are laid down; all others are awake.
-fn lay_down(m: &Model, d: &mut Data) {
+fn lay_down(m: &Model, d: &mut Workspace) {
     if sleep::wake_all(m, &mut d.fields) {
         forward::forward(m, d);
         sleep::start(m, &mut d.fields, &mut d.work.constraint);
@@ -108,7 +108,7 @@ fn lay_down(m: &Model, d: &mut Data) {
 }
 
 /// Back to keyframe `key` (`mj_resetDataKeyframe`); one that does not exist resets to the default.
-pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
+pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Workspace, key: usize) {
     reset_data(m, d);
     if key >= m.nkey {
         return;
@@ -125,7 +125,7 @@ pub(crate) fn reset_data_keyframe(m: &Model, d: &mut Data, key: usize) {
 
 /// Stores the time, the state and the inputs in keyframe `key` (`mj_setKeyframe`). `false`, and nothing changes, when the
 /// model has no such keyframe.
-pub(crate) fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
+pub(crate) fn set_keyframe(m: &mut Model, d: &Workspace, key: usize) -> bool {
     let Some(time) = m.key_time.get_mut(key) else { return false };
     *time = d.time;
     let row = |a: &mut [f64], x: &[f64]| a[key * x.len()..(key + 1) * x.len()].copy_from_slice(x);
@@ -139,8 +139,8 @@ pub(crate) fn set_keyframe(m: &mut Model, d: &Data, key: usize) -> bool {
 }
 
 /// Gives the fields of stages that the plan leaves out the values that those stages would find.
-pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
-    if !d.plan.has(Fact::General) {
+pub(crate) fn clear_left_out(m: &Model, d: &mut Workspace) {
+    if !d.plan.has(PlanFlag::General) {
         mass::constant(m, d);
     }
     if d.plan.keeps(Stage::Actuation) && !d.plan.keeps(Stage::Transmission) {
@@ -168,17 +168,17 @@ pub(crate) fn clear_left_out(m: &Model, d: &mut Data) {
     if !d.plan.keeps(Stage::Energy) {
         d.energy = [0.0; 2];
     }
-    if !d.plan.has(Fact::Springs) {
+    if !d.plan.has(PlanFlag::Springs) {
         d.qfrc_spring.fill(0.0);
     }
-    if !d.plan.has(Fact::Dampers) {
+    if !d.plan.has(PlanFlag::Dampers) {
         d.qfrc_damper.fill(0.0);
     }
-    if !d.plan.has(Fact::BodyForces) {
+    if !d.plan.has(PlanFlag::BodyForces) {
         d.qfrc_gravcomp.fill(0.0);
         d.qfrc_fluid.fill(0.0);
     }
-    if !d.plan.has(Fact::Adhesion) {
+    if !d.plan.has(PlanFlag::Adhesion) {
         d.qfrc_adhesion.fill(0.0);
     }
 }

@@ -5,12 +5,12 @@
 //! first. A file may come from anywhere: it is compared with its fingerprint, and what the engine would index by must
 //! lie where it can.
 
-use crate::dynamics::ways;
-use crate::geometry::Sides;
+use crate::dynamics::tree_algorithms;
+use crate::geometry::HullFaces;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object};
 use crate::model::{Model, Names};
-use crate::step::sound::unsound;
+use crate::step::validate::validate;
 
 const MAGIC: [u8; 8] = *b"labmodl\n";
 /// Of the layout that this module writes.
@@ -109,9 +109,9 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
     m.mesh_sides = take_list(bytes, |bytes| {
         let (integers, floats) = (take_list(bytes, u32::take)?, take_list(bytes, f64::take)?);
         let corners = usize::try_from(*m.mesh_vertnum.get(mesh.next()?)?).ok()?;
-        Sides::from_numbers(&integers, &floats, corners)
+        HullFaces::from_numbers(&integers, &floats, corners)
     })?;
-    let good = rest.is_empty() && unsound(&m).is_none() && ways::are_chains(&m, &m.planar_trees);
+    let good = rest.is_empty() && validate(&m).is_none() && tree_algorithms::are_chains(&m, &m.planar_trees);
     good.then_some(m)
 }
 
@@ -119,7 +119,7 @@ pub(crate) fn read(bytes: &[u8]) -> Option<Model> {
 mod tests {
     use crate::mjcf::compile;
     use crate::model::reflect::{self, Elem, Object};
-    use crate::step::sound::unsound;
+    use crate::step::validate::validate;
 
     const EVERYTHING: &str = "<mujoco>
         <asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/><hfield name='h' nrow='2' ncol='2' size='1 1 1 1'/></asset>
@@ -142,7 +142,7 @@ mod tests {
             let path = entry.unwrap().path();
             let Ok(text) = std::fs::read_to_string(&path) else { continue };
             let Ok(m) = compile(&text) else { continue };
-            if let Some(what) = unsound(&m) {
+            if let Some(what) = validate(&m) {
                 wrong.push(format!("{}: {what}", path.display()));
             }
         }
@@ -161,7 +161,7 @@ mod tests {
                 for value in [i32::MIN, -2, -1, 0, 1, 1000, i32::MAX] {
                     let mut changed = m.clone();
                     reflect::view_model_mut(&mut changed, field).set(i, f64::from(value));
-                    refused += usize::from(unsound(&changed).is_some());
+                    refused += usize::from(validate(&changed).is_some());
                 }
             }
         }
@@ -178,7 +178,7 @@ mod tests {
                 let field = reflect::field(Object::Model, name).unwrap();
                 reflect::view_model_mut(&mut changed, field).set(0, value);
             }
-            let _ = unsound(&changed);
+            let _ = validate(&changed);
         }
     }
 }

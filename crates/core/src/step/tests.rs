@@ -4,7 +4,7 @@ use super::*;
 use crate::mjcf::compile;
 
 /// A slide and a hinge with a motor each, after three steps.
-fn started(flag: &str) -> (Model, Data) {
+fn started(flag: &str) -> (Model, Workspace) {
     let text = format!(
         "<mujoco><option>{flag}</option><worldbody><body><joint type='slide'/><joint/><geom size='.1'/></body></worldbody>\
          <actuator><motor joint='a'/><motor joint='b'/></actuator></mujoco>"
@@ -12,13 +12,13 @@ fn started(flag: &str) -> (Model, Data) {
     let named =
         text.replace("type='slide'", "name='a' type='slide'").replace("<joint/>", "<joint name='b'/>");
     let m = compile(&named).unwrap();
-    let mut d = Data::new(&m);
+    let mut d = Workspace::new(&m);
     (0..3).for_each(|_| step(&m, &mut d));
     (m, d)
 }
 
 /// Number and index of each warning that was raised.
-fn raised(d: &Data) -> Vec<(Warning, usize, usize)> {
+fn raised(d: &Workspace) -> Vec<(Warning, usize, usize)> {
     let all = Warning::ALL.into_iter().zip(&d.warning);
     all.filter(|(_, s)| s.number > 0).map(|(w, s)| (w, s.number, s.lastinfo)).collect()
 }
@@ -27,7 +27,7 @@ const KEPT: &str = "<flag autoreset='disable'/>";
 
 #[test]
 fn a_bad_number_resets_and_the_step_goes_on_from_there() {
-    type Break = (Warning, fn(&mut Data));
+    type Break = (Warning, fn(&mut Workspace));
     let breaks: [Break; 5] = [
         (Warning::BadQpos, |d| d.qpos[1] = f64::NAN),
         (Warning::BadQvel, |d| d.qvel[1] = 1e11),

@@ -5,16 +5,16 @@ use super::factored::Factored;
 use super::stages::{Flow, RungeKutta};
 use super::{damping, sleep};
 use crate::forces::{self, derivative};
-use crate::model::plan::Plan;
+use crate::model::plan::PlanTable;
 use crate::model::stopwatch::Stopwatch;
-use crate::model::way::Ways;
+use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Fields, Model};
 use crate::{collision, constraint, dynamics, sensor};
 use std::ops::{Deref, DerefMut};
 
 /// State, inputs and results of a simulation of one model.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Data {
+pub(crate) struct Workspace {
     /// What everybody may look at.
     pub(crate) fields: Fields,
     /// What is nobody's business, kept so that steps do not allocate.
@@ -47,7 +47,7 @@ pub(crate) struct Work {
 
 impl Work {
     /// What depends on the sizes of the model.
-    pub(super) fn make_room(&mut self, m: &Model, ways: Ways) {
+    pub(super) fn make_room(&mut self, m: &Model, ways: TreeAlgorithms) {
         self.dynamics = dynamics::Scratch::new(m, ways);
         self.forces = forces::Scratch::new(m);
         self.constraint = constraint::Scratch::new(m);
@@ -57,7 +57,7 @@ impl Work {
     }
 }
 
-impl Deref for Data {
+impl Deref for Workspace {
     type Target = Fields;
 
     #[cfg_attr(not(feature = "small"), inline(always))]
@@ -66,16 +66,16 @@ impl Deref for Data {
     }
 }
 
-impl DerefMut for Data {
+impl DerefMut for Workspace {
     #[cfg_attr(not(feature = "small"), inline(always))]
     fn deref_mut(&mut self) -> &mut Fields {
         &mut self.fields
     }
 }
 
-impl Data {
+impl Workspace {
     /// The plan that decides what is computed.
-    pub(crate) fn plan(&self) -> &Plan {
+    pub(crate) fn plan(&self) -> &PlanTable {
         &self.fields.plan
     }
 }

@@ -103,7 +103,7 @@ impl Models {
     pub fn of(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             ModelSource::Xml(text) => {
-                let examined = xml::examine(&text.value, &NoFiles, None);
+                let examined = xml::check_xml(&text.value, &NoFiles, None);
                 findings.extend(examined.findings.iter().map(|d| inline(d, text)));
                 examined.model.map(Arc::new)
             }
@@ -124,7 +124,7 @@ impl Models {
 
     /// The text of the model of a lab with changes, and with what it includes in its place: what another program can read.
     pub fn written(&self, lab: &Lab, patches: &[Patch]) -> Option<String> {
-        self.texts(lab, |text, files, path| xml::written(text, files, path, patches))?
+        self.texts(lab, |text, files, path| xml::to_xml(text, files, path, patches))?
     }
 
     /// The model of a lab with changes of its text, made before it is compiled.
@@ -179,7 +179,7 @@ impl Models {
             Asked::Models => self.folder.names().unwrap_or_default().to_vec(),
             Asked::SitesOf(name) => self.load(name).map_or_else(Vec::new, |model| sites(&model)),
             Asked::SitesIn(xml) => {
-                xml::examine(xml, &NoFiles, None).model.map_or_else(Vec::new, |model| sites(&model))
+                xml::check_xml(xml, &NoFiles, None).model.map_or_else(Vec::new, |model| sites(&model))
             }
         }
     }
@@ -341,7 +341,7 @@ impl Files for Around<'_> {
 /// Compiles the text of a model, which `files` has as `name`.
 fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>, mark: Option<Hash>) -> Compiled {
     let remembering = Remembering::new(files, mark);
-    let examined = xml::examine(file.text(), &remembering, name);
+    let examined = xml::check_xml(file.text(), &remembering, name);
     let mut sources = Vec::new();
     if !examined.findings.is_empty() {
         sources.push(file.clone());

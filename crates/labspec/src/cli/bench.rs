@@ -6,7 +6,7 @@ use crate::report::{report, set_number};
 use crate::run::Session;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{Data, Demand, Plan, Way, Ways};
+use labspec_core::{Data, Access, Plan, TreeAlgorithm, TreeAlgorithms};
 use serde_json::json;
 use std::time::Instant;
 
@@ -32,26 +32,26 @@ pub(super) struct Arguments {
     full: bool,
     /// Compute trees without a short way; may be given several times
     #[arg(long, value_name = "WAY", value_parser = short_way())]
-    without: Vec<Way>,
+    without: Vec<TreeAlgorithm>,
     /// Start every repetition from the reset state, so that all compute the same motion
     #[arg(long)]
     reset: bool,
 }
 
 /// A short way of computing trees, by its name.
-fn short_way() -> impl TypedValueParser<Value = Way> {
-    PossibleValuesParser::new(Way::short().map(Way::name))
-        .try_map(|name| Way::short().find(|way| way.name() == name).ok_or("this algorithm does not exist"))
+fn short_way() -> impl TypedValueParser<Value = TreeAlgorithm> {
+    PossibleValuesParser::new(TreeAlgorithm::short().map(TreeAlgorithm::name))
+        .try_map(|name| TreeAlgorithm::short().find(|way| way.name() == name).ok_or("this algorithm does not exist"))
 }
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let demand = if a.full {
-        Demand { reads: FieldSet::ALL, ..target.programs.demand }
+        Access { reads: FieldSet::ALL, ..target.programs.demand }
     } else {
         target.programs.demand
     };
-    let ways = a.without.iter().fold(Ways::ALL, |ways, &short| ways.without(short));
+    let ways = a.without.iter().fold(TreeAlgorithms::ALL, |ways, &short| ways.without(short));
     let plan = Plan::by_ways(&target.model, &demand, ways);
     let data = Data::planned(&target.model, plan);
     let key = target.lab.keyframe();

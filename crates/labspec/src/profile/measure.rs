@@ -13,7 +13,7 @@ use crate::interrupt;
 use crate::run::{RunError, Session, count_steps};
 use crate::spec::Lab;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{self as core, Data, Demand, Model, Plan};
+use labspec_core::{self as core, Data, Access, Model, Plan};
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -170,7 +170,7 @@ impl<'a> MeasuredLab<'a> {
                 }
                 let laps = core::laps(&mut session.world.data);
                 let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;
-                let net = |lap: core::Lap| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
+                let net = |lap: core::StageTime| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
                 let stages = plan.decisions().iter().map(|d| net(laps.of(d.stage)));
                 // The clock was looked at for the controller, too.
                 let own = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
@@ -205,7 +205,7 @@ pub(super) fn measure(
     case.runs = (LONG_ENOUGH / whole.max(1.0)).ceil().clamp(1.0, 100.0) as usize;
     case.chunk = (LOOK_EVERY * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
 
-    let full = Plan::new(model, &Demand { reads: FieldSet::ALL, ..programs.demand });
+    let full = Plan::new(model, &Access { reads: FieldSet::ALL, ..programs.demand });
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
     let left_out = stages.iter().filter(|s| !plan.keeps(**s));
     let mut variants = vec![plan.clone(), full];

@@ -2,7 +2,7 @@
 
 use crate::precision::INTEGRATORS;
 use labspec_core::reflect::{Stage, data, option};
-use labspec_core::{self as core, Demand, Model, PairFate, Plan, geom, solver};
+use labspec_core::{self as core, Access, Model, PairFilterReason, Plan, geom, solver};
 
 /// A piece of code of which a lab uses one or none.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -70,12 +70,12 @@ pub struct Pairs {
 pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<Seen>) -> Pairs {
     let census = plan.pairs(model);
     let all = census.iter().map(|(_, n)| n).sum();
-    if !plan.keeps(Stage::Collision) && census.iter().any(|(fate, _)| *fate == PairFate::CanTouch) {
+    if !plan.keeps(Stage::Collision) && census.iter().any(|(fate, _)| *fate == PairFilterReason::CanTouch) {
         let left_out = vec![("contacts are switched off", all)];
         return Pairs { all, can_touch: 0, left_out, tests: Vec::new(), seen };
     }
-    let can_touch = census.iter().find(|(fate, _)| *fate == PairFate::CanTouch).map_or(0, |(_, n)| *n);
-    let others = census.iter().filter(|(fate, _)| *fate != PairFate::CanTouch);
+    let can_touch = census.iter().find(|(fate, _)| *fate == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
+    let others = census.iter().filter(|(fate, _)| *fate != PairFilterReason::CanTouch);
     let tests = plan.tests(model).into_iter().map(|(types, n, searched)| (types.map(shape), n, searched));
     Pairs {
         all,
@@ -148,7 +148,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
 }
 
 /// The integrators.
-pub(super) fn integrators(model: &Model, demand: &Demand) -> Vec<Code> {
+pub(super) fn integrators(model: &Model, demand: &Access) -> Vec<Code> {
     let own = crate::precision::Integrator::of(model);
     let written = demand.writes.contains(option::integrator);
     let code = |i: crate::precision::Integrator| Code {
@@ -166,9 +166,9 @@ pub(super) fn integrators(model: &Model, demand: &Demand) -> Vec<Code> {
 /// The ways, in their order.
 pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<Way> {
     let trees = plan.ways(model);
-    let count = |way: core::Way| {
+    let count = |way: core::TreeAlgorithm| {
         let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();
         Way { name: way.name(), trees: [of(0), of(1), of(2)] }
     };
-    core::Way::all().map(count).collect()
+    core::TreeAlgorithm::all().map(count).collect()
 }

@@ -19,7 +19,7 @@ mod servo;
 use crate::forces::{Scratch, transmission};
 use crate::kinds::{biastype, disable, dyntype, gaintype, joint, trntype};
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model, asleep};
 
 pub(crate) use control::{record, reset};
@@ -58,7 +58,7 @@ fn exact(act: f64, rate: f64, tau: f64, h: f64) -> f64 {
 /// `actuator_force`, `act_dot`, `qfrc_actuator`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn actuation(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    if !(d.plan.has(Fact::Motors) && motors(m, d)) {
+    if !(d.plan.has(PlanFlag::Motors) && motors(m, d)) {
         any(m, d, w);
     }
 }
@@ -71,7 +71,7 @@ fn any(m: &Model, d: &mut Fields, w: &mut Scratch) {
         d.qfrc_actuator.fill(0.0);
         return;
     }
-    if !(d.plan.has(Fact::Servos) && servos(m, d)) {
+    if !(d.plan.has(PlanFlag::Servos) && servos(m, d)) {
         by_their_laws(m, d);
     }
     limit::tendons(m, d, w);
@@ -117,7 +117,7 @@ fn by_their_laws(m: &Model, d: &mut Fields) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
-    if d.plan.has(Fact::ForceLimits) || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+    if d.plan.has(PlanFlag::ForceLimits) || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
         return false;
     }
     zero(&mut d.qfrc_actuator);

@@ -9,13 +9,13 @@ pub(crate) mod sparse;
 
 use std::ops::Range;
 
-use crate::dynamics::{jacobian, mass, walk, ways};
+use crate::dynamics::{jacobian, mass, walk, tree_algorithms};
 use crate::forces::passive::fluid::{self, Frame, Shape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
 use crate::kinds::{disable, joint};
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// What is computed anew in every step; its arrays are made when they are first needed.
@@ -66,7 +66,7 @@ impl Work {
 ///
 /// Where all else is known once and for all, only the slopes of actuators may change: as long as they are the same, it stays.
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
-    if !(w.known && d.plan.has(Fact::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
+    if !(w.known && d.plan.has(PlanFlag::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
         make_forces(m, d, w, medium);
     }
     w.whole.copy_from_slice(&w.forces);
@@ -94,7 +94,7 @@ pub(crate) fn subtract_bias(m: &Model, d: &Fields, w: &mut Work) {
 
 /// Subtracts the derivative of the bias force of one tree that is a free body.
 pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
-    if ways::turns_alone(m, d.plan.ways, tree) {
+    if tree_algorithms::turns_alone(m, d.plan.ways, tree) {
         return subtract_turning(m, d, &mut w.whole, tree);
     }
     let first = m.tree_bodyadr[tree] as usize;
@@ -107,7 +107,7 @@ fn subtract_turning(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
     let first = m.tree_dofs(tree).start + 3;
     let body = m.dof_bodyid[first] as usize;
     let turn = [d.qvel[first], d.qvel[first + 1], d.qvel[first + 2]];
-    for (r, slope) in ways::turning_slope(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate() {
+    for (r, slope) in tree_algorithms::turning_slope(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate() {
         let row = m.D_rowadr[first + r] as usize + 3;
         for (x, s) in whole[row..row + 3].iter_mut().zip(slope) {
             *x -= s;
@@ -159,7 +159,7 @@ pub(crate) fn is_free_rigid(m: &Model, tree: usize) -> bool {
 /// Dampers of joints and tendons.
 fn dampers(m: &Model, d: &Fields, w: &mut Work) {
     let Work { forces: out, slopes, .. } = w;
-    let actuators = d.plan.has(Fact::ActuatorDampers);
+    let actuators = d.plan.has(PlanFlag::ActuatorDampers);
     spring::of_dampers(m, actuators, &d.qvel, slopes, |law, v| law.slope(v.abs()));
     for (i, slope) in slopes.iter().enumerate().filter(|(_, slope)| **slope != 0.0) {
         out[sparse::diagonal(m, i)] -= slope;

@@ -8,20 +8,20 @@ pub(crate) mod spring;
 
 use crate::kinds::{disable, joint};
 use crate::math::combine;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 
 /// `qfrc_spring`, `qfrc_damper`, `qfrc_gravcomp`, `qfrc_fluid`, `qfrc_passive`. With springs and dampers both
 /// switched off there are no passive forces at all.
 pub(crate) fn passive(m: &Model, d: &mut Fields) {
     let (springs, dampers) = (!m.opt.disabled(disable::SPRING), !m.opt.disabled(disable::DAMPER));
-    if d.plan.has(Fact::Springs) {
+    if d.plan.has(PlanFlag::Springs) {
         d.qfrc_spring.fill(0.0);
         if springs {
             spring::joint_springs(m, d);
         }
     }
-    if d.plan.has(Fact::Dampers) {
+    if d.plan.has(PlanFlag::Dampers) {
         if dampers {
             spring::damp_joints(m, d);
         } else {
@@ -32,10 +32,10 @@ pub(crate) fn passive(m: &Model, d: &mut Fields) {
         spring::tendons(m, d, springs, dampers);
     }
     combine(&mut d.qfrc_passive, [&*d.qfrc_spring, &*d.qfrc_damper], |_, [spring, damper]| spring + damper);
-    if d.plan.has(Fact::BodyForces) {
+    if d.plan.has(PlanFlag::BodyForces) {
         body_forces(m, d, springs || dampers);
     }
-    if d.plan.has(Fact::Adhesion) {
+    if d.plan.has(PlanFlag::Adhesion) {
         d.qfrc_adhesion.fill(0.0);
         if springs || dampers {
             adhesion::adhesion(m, d);

@@ -8,7 +8,7 @@ use crate::dynamics::reflected::{self, On};
 use crate::forces::tendon;
 use crate::kinds::joint;
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model, asleep};
 
 /// The coefficients of a spring or a damper.
@@ -143,7 +143,7 @@ pub(crate) fn tendon_damper(m: &Model, t: usize) -> Law {
 /// What the dampers of joints do: `qfrc_damper`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn damp_joints(m: &Model, d: &mut Fields) {
-    of_dampers(m, d.plan.has(Fact::ActuatorDampers), &d.qvel, &mut d.qfrc_damper, |law, v| {
+    of_dampers(m, d.plan.has(PlanFlag::ActuatorDampers), &d.qvel, &mut d.qfrc_damper, |law, v| {
         // Without a damper the force is 0, not -0: a plan that leaves this stage out finds the same.
         if law.is_zero() { 0.0 } else { -law.at(v.abs()) * v }
     });

@@ -7,7 +7,7 @@
 //! corner of what is left is a contact, as deep as it is below the face. A perpendicular of edges: the contact is half way
 //! between the closest points of these edges.
 
-use super::Touch;
+use super::ContactPoint;
 use super::polygon::FACING;
 use crate::geometry::Shape;
 use crate::geometry::clip::{ROUNDING, clip};
@@ -54,7 +54,7 @@ const FACE_PREFERRED: f64 = 0.05;
 
 /// Appends the contacts of two boxes whose surfaces are within `margin`. Normals point from the first to the second, `pos` is
 /// halfway between the surfaces.
-pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn box_box(first: &Shape, second: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let placement = Placement::new(first, second);
     let limit = margin + placement.rounding;
     let (gap, face) = placement.largest_face_gap();
@@ -186,7 +186,7 @@ impl Placement {
     }
 
     /// The contact of two edges: half way between their closest points.
-    fn edge_contact(&self, first: &Shape, &EdgeAxis { edges: [i, j], normal, .. }: &EdgeAxis) -> Touch {
+    fn edge_contact(&self, first: &Shape, &EdgeAxis { edges: [i, j], normal, .. }: &EdgeAxis) -> ContactPoint {
         let ([a, b], [p, _]) = (self.size, self.offset);
         let columns = transposed(&self.rotation);
         // The edge of each box that is farthest towards the other.
@@ -202,7 +202,7 @@ impl Placement {
         }
         let [x, y] = closest_points(&of_first, &of_second);
         let (on_first, on_second) = (of_first.at(x), of_second.at(y));
-        Touch {
+        ContactPoint {
             dist: dot(sub(on_second, on_first), normal),
             pos: first.world(scale(add(on_first, on_second), 0.5)),
             normal: mat_mul_vec(&first.mat, normal),
@@ -224,7 +224,7 @@ fn face_contacts(
     a: usize,
     outward: f64,
     margin: f64,
-    out: &mut Vec<Touch>,
+    out: &mut Vec<ContactPoint>,
 ) {
     let ([size, _], [offset, _]) = (placement.size, placement.offset);
     let [x, y] = others(a);
@@ -237,7 +237,7 @@ fn face_contacts(
         if height <= margin && !polygon.all().iter().take(k).any(is_same) {
             let mut pos = [0.0; 3];
             (pos[x], pos[y], pos[a]) = (px, py, up * (size[a] + 0.5 * height));
-            out.push(Touch { dist: height, pos: reference.world(pos), normal, tangent: [0.0; 3] });
+            out.push(ContactPoint { dist: height, pos: reference.world(pos), normal, tangent: [0.0; 3] });
         }
     }
 }

@@ -12,7 +12,7 @@
 //! perpendicular of the segment and an edge (the separating axes of the two): contacts at the ends of the part of the segment that is
 //! below the face, or between the closest points of segment and edge.
 
-use super::Touch;
+use super::ContactPoint;
 use crate::geometry::Shape;
 use crate::geometry::clip::ROUNDING;
 use crate::geometry::ray::slab;
@@ -20,12 +20,12 @@ use crate::geometry::segments::{Segment, closest_points};
 use crate::math::*;
 
 /// Contact of a sphere and a box.
-pub(super) fn sphere_box(sphere: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn sphere_box(sphere: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     out.extend(ball(cuboid.local(sphere.pos), sphere.size[0], cuboid, margin));
 }
 
 /// Contacts of a capsule and a box: none, one or two.
-pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let [radius, half_length, _] = capsule.size;
     if half_length <= 0.0 {
         return sphere_box(capsule, cuboid, margin, out);
@@ -46,12 +46,12 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
 }
 
 /// A contact that is given in the frame of the box.
-fn to_world(cuboid: &Shape, contact: Touch) -> Touch {
-    Touch { pos: cuboid.world(contact.pos), normal: mat_mul_vec(&cuboid.mat, contact.normal), ..contact }
+fn to_world(cuboid: &Shape, contact: ContactPoint) -> ContactPoint {
+    ContactPoint { pos: cuboid.world(contact.pos), normal: mat_mul_vec(&cuboid.mat, contact.normal), ..contact }
 }
 
 /// Contact of the box and a ball, whose centre is given in the frame of the box.
-fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Touch> {
+fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<ContactPoint> {
     let size = cuboid.size;
     let nearest: Vec3 = std::array::from_fn(|i| clip(centre[i], [-size[i], size[i]]));
     let apart = sub(nearest, centre);
@@ -65,7 +65,7 @@ fn ball(centre: Vec3, radius: f64, cuboid: &Shape, margin: f64) -> Option<Touch>
     // A NaN fails the comparison.
     (dist <= margin).then(|| {
         let pos = add_scaled(centre, normal, radius + 0.5 * dist);
-        to_world(cuboid, Touch { dist, pos, normal, tangent: [0.0; 3] })
+        to_world(cuboid, ContactPoint { dist, pos, normal, tangent: [0.0; 3] })
     })
 }
 
@@ -184,7 +184,7 @@ impl Axis {
     }
 
     /// Contacts of a capsule whose axis goes into the box, in the frame of the box.
-    fn pierced(&self, radius: f64) -> [Option<Touch>; 2] {
+    fn pierced(&self, radius: f64) -> [Option<ContactPoint>; 2] {
         let Segment { centre, half } = self.segment;
         let [x, y, z] = self.size;
         let slack = self.rounding();
@@ -215,7 +215,7 @@ impl Axis {
     }
 
     /// The contacts at the ends of the part of the axis that is below face `i`, or above it.
-    fn face_contacts(&self, i: usize, radius: f64) -> [Option<Touch>; 2] {
+    fn face_contacts(&self, i: usize, radius: f64) -> [Option<ContactPoint>; 2] {
         let Segment { centre, half } = self.segment;
         let side = 1f64.copysign(centre[i]);
         let mut normal = [0.0; 3];
@@ -223,7 +223,7 @@ impl Axis {
         let contact = |t: f64| {
             let p = self.segment.at(t);
             let dist = side * p[i] - self.size[i] - radius;
-            Touch { dist, pos: add_scaled(p, normal, radius + 0.5 * dist), normal, tangent: [0.0; 3] }
+            ContactPoint { dist, pos: add_scaled(p, normal, radius + 0.5 * dist), normal, tangent: [0.0; 3] }
         };
         let (mut from, mut to) = (-1f64, 1f64);
         for k in [(i + 1) % 3, (i + 2) % 3] {
@@ -239,7 +239,7 @@ impl Axis {
     }
 
     /// The contact with the edge along axis `i` that is farthest against the normal, which points from the capsule to the box.
-    fn edge_contact(&self, i: usize, normal: Vec3, radius: f64) -> Touch {
+    fn edge_contact(&self, i: usize, normal: Vec3, radius: f64) -> ContactPoint {
         let mut edge = Segment { centre: [0.0; 3], half: [0.0; 3] };
         for k in 0..3 {
             let place = if k == i { &mut edge.half[k] } else { &mut edge.centre[k] };
@@ -249,7 +249,7 @@ impl Axis {
         let (on_axis, on_edge) = (self.segment.at(t), edge.at(y));
         let dist = dot(sub(on_edge, on_axis), normal) - radius;
         let on_capsule = add_scaled(on_axis, normal, radius);
-        Touch { dist, pos: scale(add(on_capsule, on_edge), 0.5), normal, tangent: [0.0; 3] }
+        ContactPoint { dist, pos: scale(add(on_capsule, on_edge), 0.5), normal, tangent: [0.0; 3] }
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::ops::{ControlFlow, RangeInclusive};
 
-use super::{MOST, Settings, Touch};
+use super::{MOST, PairSettings, ContactPoint};
 use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
@@ -21,9 +21,9 @@ pub(super) fn field(
     ground: &Shape,
     b: &Shape,
     margin: f64,
-    settings: &Settings,
+    settings: &PairSettings,
     room: &mut Room,
-    out: &mut Vec<Touch>,
+    out: &mut Vec<ContactPoint>,
 ) {
     let local = seen_from(ground, b);
     let mut body = Convex::new(&local);
@@ -39,7 +39,7 @@ pub(super) fn field(
             let [on_a, on_b] = found.witness;
             let middle = add_scaled(scale(add(on_a, on_b), 0.5), found.normal, -0.5 * half);
             let normal = mat_mul_vec(&ground.mat, found.normal);
-            out.push(Touch { dist: found.dist - half, pos: ground.world(middle), normal, tangent: [0.0; 3] });
+            out.push(ContactPoint { dist: found.dist - half, pos: ground.world(middle), normal, tangent: [0.0; 3] });
         }
         if out.len() - start < MOST { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
@@ -51,7 +51,7 @@ pub(crate) fn field_distance(
     ground: &Shape,
     b: &Shape,
     most: f64,
-    settings: &Settings,
+    settings: &PairSettings,
     room: &mut Room,
 ) -> Option<Nearest> {
     let local = seen_from(ground, b);

@@ -25,7 +25,7 @@ pub(crate) const MOST: usize = 50;
 
 /// A place where two shapes touch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Touch {
+pub(crate) struct ContactPoint {
     /// Distance of the surfaces, negative when they overlap, m.
     pub(crate) dist: f64,
     /// Midpoint between the surfaces, m, world.
@@ -36,17 +36,17 @@ pub(crate) struct Touch {
     pub(crate) tangent: Vec3,
 }
 
-impl Touch {
+impl ContactPoint {
     /// Half way between the nearest or deepest points.
-    fn between(n: &Nearest) -> Touch {
+    fn between(n: &Nearest) -> ContactPoint {
         let [on_a, on_b] = n.witness;
-        Touch { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
+        ContactPoint { dist: n.dist, pos: scale(add(on_a, on_b), 0.5), normal: n.normal, tangent: [0.0; 3] }
     }
 }
 
 /// What the general algorithm needs besides the shapes.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Settings {
+pub(crate) struct PairSettings {
     pub(crate) effort: Effort,
     /// Whether flat contacts get several points.
     pub(crate) several: bool,
@@ -56,7 +56,7 @@ pub(crate) struct Settings {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Method {
     /// A closed form.
-    Direct(fn(&Shape, &Shape, f64, &mut Vec<Touch>)),
+    Direct(fn(&Shape, &Shape, f64, &mut Vec<ContactPoint>)),
     /// The general algorithm for convex shapes.
     Convex,
     /// The general algorithm on every prism of a height field.
@@ -114,9 +114,9 @@ pub(crate) fn contacts(
     a: &Shape,
     b: &Shape,
     margin: f64,
-    settings: impl FnOnce() -> Settings,
+    settings: impl FnOnce() -> PairSettings,
     room: &mut Room,
-    out: &mut Vec<Touch>,
+    out: &mut Vec<ContactPoint>,
 ) {
     match method {
         Method::Direct(test) => test(a, b, margin, out),

@@ -1,6 +1,6 @@
 //! A plane (the half space below it) against everything else. The normal is the plane's.
 
-use super::Touch;
+use super::ContactPoint;
 use super::polygon::{Corners, widest};
 use crate::geometry::Shape;
 use crate::geometry::support::{Body, climb, search};
@@ -8,43 +8,43 @@ use crate::math::*;
 
 /// A contact at a point of the other shape, moved half the way to the plane.
 #[inline]
-fn touch(normal: Vec3, dist: f64, point: Vec3) -> Touch {
-    Touch { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
+fn touch(normal: Vec3, dist: f64, point: Vec3) -> ContactPoint {
+    ContactPoint { dist, pos: add_scaled(point, normal, -0.5 * dist), normal, tangent: [0.0; 3] }
 }
 
 /// A ball on a plane, which is given by a point and its normal: the height of the centre minus the radius, half way below the
 /// lowest point.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn ball_on_plane(at: Vec3, normal: Vec3, centre: Vec3, radius: f64, margin: f64) -> Option<Touch> {
+pub(crate) fn ball_on_plane(at: Vec3, normal: Vec3, centre: Vec3, radius: f64, margin: f64) -> Option<ContactPoint> {
     let dist = dot(sub(centre, at), normal) - radius;
     if dist > margin {
         return None;
     }
-    Some(Touch { dist, pos: add_scaled(centre, normal, -(radius + 0.5 * dist)), normal, tangent: [0.0; 3] })
+    Some(ContactPoint { dist, pos: add_scaled(centre, normal, -(radius + 0.5 * dist)), normal, tangent: [0.0; 3] })
 }
 
 /// A ball of another shape.
 #[inline]
-fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<Touch> {
+fn ball(plane: &Shape, centre: Vec3, radius: f64, margin: f64) -> Option<ContactPoint> {
     ball_on_plane(plane.pos, plane.axis(2), centre, radius, margin)
 }
 
-pub(super) fn sphere(plane: &Shape, sphere: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn sphere(plane: &Shape, sphere: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     out.extend(ball(plane, sphere.pos, sphere.size[0], margin));
 }
 
 /// Both ends, with the first tangent along the axis.
-pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let axis = capsule.axis(2);
     let half = scale(axis, capsule.size[1]);
     for end in [add(capsule.pos, half), sub(capsule.pos, half)] {
-        out.extend(ball(plane, end, capsule.size[0], margin).map(|t| Touch { tangent: axis, ..t }));
+        out.extend(ball(plane, end, capsule.size[0], margin).map(|t| ContactPoint { tangent: axis, ..t }));
     }
 }
 
 /// A cylinder lies on the line through the lowest point of its rim: both ends of that. It stands on the circle of its lower end:
 /// three points of it as far from each other as can be, the lowest among them.
-pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let [radius, half, _] = cylinder.size;
     let (normal, axis) = (plane.axis(2), cylinder.axis(2));
     // The axis downwards, and the direction across it that leads down most: -normal without its part along the axis.
@@ -78,7 +78,7 @@ pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut V
 }
 
 /// The lower corner of each of the four diagonals, in the order x, y, z of their signs, of which x changes fastest.
-pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
     let height = dot(sub(cuboid.pos, plane.pos), normal);
     let [x, y, z] = [0, 1, 2].map(|i| scale(cuboid.axis(i), cuboid.size[i]));
@@ -94,7 +94,7 @@ pub(super) fn cuboid(plane: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<T
 }
 
 /// The lowest point of an ellipsoid.
-pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
     let lowest = Body::new(ellipsoid).support(scale(normal, -1.0));
     let dist = dot(sub(lowest, plane.pos), normal);
@@ -105,7 +105,7 @@ pub(super) fn ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut
 
 /// The corners of the side that looks most at the plane, of those at the lowest corner: from that corner on, of more
 /// than four those that span the largest area; of these the ones within the margin and below the centre.
-pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let normal = plane.axis(2);
     let mesh = &other.mesh();
     let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);

@@ -6,11 +6,11 @@
 //! clipped by the sides of that face. What is left and below the face that clips are contacts, each as deep as it is
 //! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
 
-use super::{Settings, Touch};
+use super::{PairSettings, ContactPoint};
 use crate::geometry::clip::{ROUNDING, clip};
 use crate::geometry::convex::{Convex, Room, nearest};
 use crate::geometry::list::List;
-use crate::geometry::{Shape, Sides};
+use crate::geometry::{Shape, HullFaces};
 use crate::kinds::geom;
 use crate::math::*;
 
@@ -65,7 +65,7 @@ struct Patch {
 }
 
 /// Contacts of two shapes without margin.
-pub(super) fn contacts(a: &Shape, b: &Shape, settings: &Settings, room: &mut Room, out: &mut Vec<Touch>) {
+pub(super) fn contacts(a: &Shape, b: &Shape, settings: &PairSettings, room: &mut Room, out: &mut Vec<ContactPoint>) {
     let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, room);
     let Some(deep) = found.filter(|n| n.dist < 0.0) else { return };
     let start = out.len();
@@ -73,7 +73,7 @@ pub(super) fn contacts(a: &Shape, b: &Shape, settings: &Settings, room: &mut Roo
         patch.contacts(out);
     }
     if out.len() == start {
-        out.push(Touch::between(&deep));
+        out.push(ContactPoint::between(&deep));
     }
 }
 
@@ -227,7 +227,7 @@ fn box_corner(s: &Shape, corner: Vec3, out: &mut Feature) {
 }
 
 /// The sides and edges of a mesh that meet in a vertex.
-fn mesh_corner(s: &Shape, sides: &Sides, vertex: usize, corner: Vec3, out: &mut Feature) {
+fn mesh_corner(s: &Shape, sides: &HullFaces, vertex: usize, corner: Vec3, out: &mut Feature) {
     for (index, at) in sides.around(vertex) {
         let list = sides.vertices(index);
         let other = list[(at + 1) % list.len()] as usize;
@@ -268,7 +268,7 @@ fn corners(s: &Shape, face: usize) -> Corners {
 
 impl Patch {
     /// A contact at every corner that is below the face; of more than four, those that span the largest area.
-    fn contacts(mut self, out: &mut Vec<Touch>) {
+    fn contacts(mut self, out: &mut Vec<ContactPoint>) {
         let face = self.face.all();
         let Some(&origin) = face.first().filter(|_| face.len() > 2) else { return };
         let mut size = 0.0_f64;
@@ -289,7 +289,7 @@ impl Patch {
             let dist = depth(p);
             // The corner is on the second shape, or on the first.
             let half = if self.on_first { -0.5 * dist } else { 0.5 * dist };
-            Touch {
+            ContactPoint {
                 dist,
                 pos: add_scaled(p, self.direction, half),
                 normal: self.direction,

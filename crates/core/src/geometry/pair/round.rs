@@ -1,7 +1,7 @@
 //! Spheres, capsules and cylinders: what is nearest to what is a point of an axis, a side, an end or a rim. Spheres and capsules are
 //! two balls at the closest points of their centres or axes.
 
-use super::Touch;
+use super::ContactPoint;
 use crate::geometry::Shape;
 use crate::geometry::segments::{Segment, closest_points};
 use crate::math::*;
@@ -16,7 +16,7 @@ pub(crate) fn two_balls(
     [ra, rb]: [f64; 2],
     margin: f64,
     axes: impl FnOnce() -> [Vec3; 2],
-) -> Option<Touch> {
+) -> Option<ContactPoint> {
     let between = sub(b, a);
     let reach = margin + ra + rb;
     if dot(between, between) > reach * reach {
@@ -28,16 +28,16 @@ pub(crate) fn two_balls(
         normal = normalize(cross(x, y)).0;
     }
     let dist = length - ra - rb;
-    Some(Touch { dist, pos: add_scaled(a, normal, ra + 0.5 * dist), normal, tangent: [0.0; 3] })
+    Some(ContactPoint { dist, pos: add_scaled(a, normal, ra + 0.5 * dist), normal, tangent: [0.0; 3] })
 }
 
 /// Balls of two shapes, which have the direction of their z axes.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn balls(a: &Shape, at_a: Vec3, ra: f64, b: &Shape, at_b: Vec3, rb: f64, margin: f64) -> Option<Touch> {
+fn balls(a: &Shape, at_a: Vec3, ra: f64, b: &Shape, at_b: Vec3, rb: f64, margin: f64) -> Option<ContactPoint> {
     two_balls([at_a, at_b], [ra, rb], margin, || [a.axis(2), b.axis(2)])
 }
 
-pub(super) fn sphere_sphere(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn sphere_sphere(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     out.extend(balls(a, a.pos, a.size[0], b, b.pos, b.size[0], margin));
 }
 
@@ -47,7 +47,7 @@ fn axis(capsule: &Shape) -> Segment {
     Segment { centre: capsule.pos, half: scale(capsule.axis(2), capsule.size[1]) }
 }
 
-pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let line = axis(capsule);
     let nearest = line.at(line.closest_to(sphere.pos));
     out.extend(balls(sphere, sphere.pos, sphere.size[0], capsule, nearest, capsule.size[0], margin));
@@ -56,7 +56,7 @@ pub(super) fn sphere_capsule(sphere: &Shape, capsule: &Shape, margin: f64, out: 
 /// In the half plane that holds the axis of the cylinder and the centre of the sphere the cylinder is a rectangle: beyond its side
 /// and its end the corner is nearest, the rim; else the one of the two beyond which the centre is more or, inside, below which it
 /// is less.
-pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let ([radius, half, _], r) = (cylinder.size, sphere.size[0]);
     let axis = cylinder.axis(2);
     let from_centre = sub(sphere.pos, cylinder.pos);
@@ -78,7 +78,7 @@ pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out
     };
     let (dist, normal) = (gap - r, scale(away, -1.0));
     if dist <= margin {
-        out.push(Touch {
+        out.push(ContactPoint {
             dist,
             pos: add_scaled(sphere.pos, normal, r + 0.5 * dist),
             normal,
@@ -89,7 +89,7 @@ pub(super) fn sphere_cylinder(sphere: &Shape, cylinder: &Shape, margin: f64, out
 
 /// Two balls at the closest points of both axes. Of parallel axes many points are as close: up to two pairs, each an end of one
 /// axis and the point of the other that is closest to it, first the ends of the first.
-pub(super) fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<Touch>) {
+pub(super) fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let (on_a, on_b) = (axis(a), axis(b));
     let contact = |[x, y]: [f64; 2]| balls(a, on_a.at(x), a.size[0], b, on_b.at(y), b.size[0], margin);
     if on_a.is_parallel(&on_b) {

@@ -1,7 +1,7 @@
 //! Two convex shapes by the general algorithm, and further contacts where they lie flat on each other.
 
-use super::Settings;
-use super::Touch;
+use super::PairSettings;
+use super::ContactPoint;
 use super::polygon;
 use crate::geometry::Shape;
 use crate::geometry::convex::{Convex, Room, nearest};
@@ -19,9 +19,9 @@ pub(super) fn convex(
     a: &Shape,
     b: &Shape,
     margin: f64,
-    settings: &Settings,
+    settings: &PairSettings,
     room: &mut Room,
-    out: &mut Vec<Touch>,
+    out: &mut Vec<ContactPoint>,
 ) {
     let flat = |s: &Shape| matches!(s.kind, geom::CYLINDER | geom::BOX | geom::MESH);
     if settings.several && margin <= 0.0 && flat(a) && flat(b) {
@@ -37,11 +37,11 @@ pub(super) fn convex(
 }
 
 /// The deepest point of two shapes.
-fn deepest(a: &Shape, b: &Shape, margin: f64, settings: &Settings, room: &mut Room) -> Option<Touch> {
+fn deepest(a: &Shape, b: &Shape, margin: f64, settings: &PairSettings, room: &mut Room) -> Option<ContactPoint> {
     let (mut u, mut v) = (Convex::new(a), Convex::new(b));
     nearest(&mut u, &mut v, margin, settings.effort, room)
         .filter(|n| n.dist < margin)
-        .map(|n| Touch::between(&n))
+        .map(|n| ContactPoint::between(&n))
 }
 
 /// Rocks both shapes against each other about the first contact, to and fro about each tangent, and keeps the
@@ -50,10 +50,10 @@ fn rock(
     a: &Shape,
     b: &Shape,
     margin: f64,
-    settings: &Settings,
+    settings: &PairSettings,
     room: &mut Room,
-    first: Touch,
-    out: &mut Vec<Touch>,
+    first: ContactPoint,
+    out: &mut Vec<ContactPoint>,
 ) {
     let start = out.len() - 1;
     let apart = DISTINCT * a.bounding_radius().min(b.bounding_radius());
@@ -65,7 +65,7 @@ fn rock(
             let (a, b) = (turned(a, first.pos, &turn), turned(b, first.pos, &back));
             let Some(found) = deepest(&a, &b, margin, settings, room) else { continue };
             if out[start..].iter().all(|t| norm(sub(t.pos, found.pos)) > apart) {
-                out.push(Touch { dist: first.dist, ..found });
+                out.push(ContactPoint { dist: first.dist, ..found });
             }
         }
     }

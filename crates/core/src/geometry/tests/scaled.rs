@@ -25,7 +25,7 @@ fn assets_scaled(text: &str, by: f64) -> Assets {
     let names: Vec<String> = assets.vert.keys().cloned().collect();
     for name in names {
         let mesh = assets.mesh(&name);
-        let sides = mesh.hull.map_or_else(Sides::default, |hull| Sides::of(mesh.vert, &hull));
+        let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::of(mesh.vert, &hull));
         assets.sides.insert(name, sides);
     }
     if let Some((head, _)) = &mut assets.field {
@@ -38,14 +38,14 @@ fn scaled<'a>(s: Shape<'a>, by: f64) -> Shape<'a> {
     Shape { size: scale(s.size, by), pos: scale(s.pos, by), ..s }
 }
 
-fn settings_scaled(by: f64) -> Settings {
+fn settings_scaled(by: f64) -> PairSettings {
     let mut settings = patient();
     settings.effort.tolerance *= by;
     settings
 }
 
 /// Contacts and distance of a line's two shapes: lengths divided by the scale, then directions.
-fn answer(assets: &Assets, line: &str, by: f64) -> (Vec<Touch>, Vec<f64>) {
+fn answer(assets: &Assets, line: &str, by: f64) -> (Vec<ContactPoint>, Vec<f64>) {
     let given = line.split('|').next().unwrap();
     let mut words = given.split_whitespace();
     words.next();
@@ -61,7 +61,7 @@ fn answer(assets: &Assets, line: &str, by: f64) -> (Vec<Touch>, Vec<f64>) {
         let near = margin.min(0.01) * by;
         pair::contacts(method, first, second, near, || settings, &mut work.room, &mut work.touches);
     }
-    let back = |t: &Touch| Touch { dist: t.dist / by, pos: scale(t.pos, 1.0 / by), ..*t };
+    let back = |t: &ContactPoint| ContactPoint { dist: t.dist / by, pos: scale(t.pos, 1.0 / by), ..*t };
     (work.touches.iter().map(back).collect(), distance)
 }
 

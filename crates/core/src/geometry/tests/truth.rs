@@ -10,7 +10,7 @@
 
 use super::Random;
 use crate::geometry::convex::{Convex, Nearest, Room, nearest};
-use crate::geometry::{Mesh, Shape, Sides};
+use crate::geometry::{Mesh, Shape, HullFaces};
 use crate::kinds::geom;
 use crate::math::*;
 
@@ -43,7 +43,7 @@ struct Solid {
     vert: Vec<Vec3>,
     face: Vec<[i32; 3]>,
     graph: Vec<i32>,
-    sides: Sides,
+    sides: HullFaces,
 }
 
 pub(super) fn farthest(s: &Shape, dir: Vec3) -> Vec3 {
@@ -163,10 +163,10 @@ fn solids() -> Vec<Solid> {
             vert: rows::<3>(&numbers).to_vec(),
             face: ints(parts[1]).as_chunks().0.to_vec(),
             graph: ints(parts[2]),
-            sides: Sides::default(),
+            sides: HullFaces::default(),
         };
         let hull = crate::geometry::Hull::of(&solid.graph).unwrap();
-        solid.sides = Sides::of(&solid.vert, &hull);
+        solid.sides = HullFaces::of(&solid.vert, &hull);
         out.push(solid);
     }
     out

@@ -9,7 +9,7 @@ use crate::mjcf::spec::{ActuatorSpec, List, RangeSpec};
 use crate::mjcf::text::diagnostic::Report;
 use crate::model::Model;
 use crate::setup::lengthrange::{self, Failure, Search};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Steps times degrees of freedom for all ranges of lengths: more would take minutes.
 const MAX_SEARCH: f64 = 2e7;
@@ -122,7 +122,7 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
         report.error(rules::LIMIT, first.span.clone(), message).help("write a `lengthrange` for each");
         return;
     }
-    let mut d = Data::unplanned(m);
+    let mut d = Workspace::unplanned(m);
     for i in wanted {
         let Some(spec) = list.get(i) else { continue };
         let wrong = match lengthrange::length_range(m, &mut d, i, search) {

@@ -3,7 +3,7 @@
 use super::mesh::{Hull, Mesh};
 use super::read_asset::Assets;
 use super::skin::{Bone, Skin};
-use crate::geometry::{self, Sides};
+use crate::geometry::{self, HullFaces};
 use crate::math::Vec3;
 use crate::mjcf::arrays::flat;
 use crate::mjcf::gather::listed;
@@ -78,7 +78,7 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_sides = listed(list.iter().map(|x| {
         // Seen before the vertices lose their precision.
         let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
-        geometry::Hull::of(&graph).map_or_else(Sides::default, |hull| Sides::of(&x.shape.vert, &hull))
+        geometry::Hull::of(&graph).map_or_else(HullFaces::default, |hull| HullFaces::of(&x.shape.vert, &hull))
     }));
     flat(&mut m.mesh_scale, &list, |x| x.options.scale);
     flat(&mut m.mesh_pos, &list, |x| x.pos);

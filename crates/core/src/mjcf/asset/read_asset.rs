@@ -11,7 +11,7 @@ use crate::kinds::geom;
 use crate::math::{IDENTITY, norm};
 use crate::mjcf::asset::mesh::build::{self, Options};
 use crate::mjcf::classes::{Classes, Props};
-use crate::mjcf::expand::Part;
+use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::names::{NameTable, WORLD};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
@@ -50,7 +50,7 @@ pub(crate) struct Assets {
 
 /// What reading needs to know.
 struct Reader<'a> {
-    parts: &'a [Part],
+    parts: &'a [AttachedModel],
     files: &'a dyn Files,
     /// What is left of [`MOST`].
     left: usize,
@@ -62,7 +62,7 @@ impl Assets {
     pub(crate) fn read(
         tree: &Tree,
         classes: &Classes,
-        parts: &[Part],
+        parts: &[AttachedModel],
         files: &dyn Files,
         report: &mut Report,
     ) -> Assets {
@@ -283,7 +283,7 @@ impl Reader<'_> {
 
     /// Reads the file of an asset; its path and its bytes.
     fn file(&mut self, node: &Node, p: &Props) -> Option<(String, Vec<u8>)> {
-        let Part { compiler, folder } = self.parts.get(node.model)?;
+        let AttachedModel { compiler, folder } = self.parts.get(node.model)?;
         let mut written = p.text("file")?.to_string();
         if compiler.strippath
             && let Some((_, name)) = written.rsplit_once(['/', '\\'])

@@ -4,7 +4,7 @@ use crate::math::{
     IDENTITY, MINVAL, Quat, Vec3, add, add_scaled, inertia_about, quat_axis_angle, quat_mul, quat_normalize,
     quat_to_mat, sub,
 };
-use crate::mjcf::expand::Part;
+use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::settings::{Compiler, InertiaFromGeom};
@@ -14,10 +14,10 @@ use crate::mjcf::text::diagnostic::Report;
 const NONE: Inertia = Inertia { pos: [0.0; 3], quat: IDENTITY, mass: 0.0, moments: [0.0; 3] };
 
 /// The inertia of every body. The world has none.
-pub(crate) fn bodies(list: &[BodySpec], parts: &[Part], report: &mut Report) -> Vec<Inertia> {
+pub(crate) fn bodies(list: &[BodySpec], parts: &[AttachedModel], report: &mut Report) -> Vec<Inertia> {
     let mut all = vec![NONE];
     for body in list.iter().skip(1) {
-        let Some(Part { compiler, .. }) = parts.get(body.part) else { continue };
+        let Some(AttachedModel { compiler, .. }) = parts.get(body.part) else { continue };
         let mut inertia = body_inertia(body, compiler);
         inertia.mass = inertia.mass.max(compiler.boundmass);
         inertia.moments = inertia.moments.map(|x| x.max(compiler.boundinertia));

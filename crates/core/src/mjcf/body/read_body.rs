@@ -17,7 +17,7 @@ use crate::mjcf::text::tree::{Node, name};
 
 /// Where an element stands: in a body, and perhaps in frames.
 #[derive(Clone, Copy)]
-struct Place {
+struct ElementSite {
     body: usize,
     frame: Pose,
     childclass: Option<usize>,
@@ -28,21 +28,21 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
     let mut list = vec![empty(0, 0..0, WORLD.into(), 0)];
     // Elements are in document order, so are the bodies; `worldbody` may stand several times.
     let tree = cx.tree;
-    let mut inside: Vec<Option<Place>> = vec![None; tree.nodes.len()];
+    let mut inside: Vec<Option<ElementSite>> = vec![None; tree.nodes.len()];
     for (i, node) in tree.nodes.iter().enumerate() {
         let place = node.parent.and_then(|p| inside.get(p).copied().flatten());
         cx.enter(node);
         let holds = match (node.element.name, place) {
-            ("worldbody", None) => Place { body: 0, frame: Pose::NONE, childclass: None },
+            ("worldbody", None) => ElementSite { body: 0, frame: Pose::NONE, childclass: None },
             ("body", Some(place)) => {
                 list.push(body(cx, i, node, place));
                 let childclass = class_inside(cx, node, place);
-                Place { body: list.len() - 1, frame: Pose::NONE, childclass }
+                ElementSite { body: list.len() - 1, frame: Pose::NONE, childclass }
             }
             ("frame", Some(place)) => {
                 let p = Props::own(node);
                 let (pos, quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
-                Place { frame: place.frame.of(pos, quat), childclass: class_inside(cx, node, place), ..place }
+                ElementSite { frame: place.frame.of(pos, quat), childclass: class_inside(cx, node, place), ..place }
             }
             (_, Some(place)) => {
                 if let Some(body) = list.get_mut(place.body) {
@@ -60,7 +60,7 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
 }
 
 /// The class of what stands in a body or frame and has none.
-fn class_inside(cx: &Context, node: &Node, place: Place) -> Option<usize> {
+fn class_inside(cx: &Context, node: &Node, place: ElementSite) -> Option<usize> {
     node.text("childclass").and_then(|name| cx.classes.find(name)).or(place.childclass)
 }
 
@@ -89,7 +89,7 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
     }
 }
 
-fn body(cx: &mut Context, i: usize, node: &Node, place: Place) -> BodySpec {
+fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec {
     let p = Props::own(node);
     let written = Pose { pos: p.reals("pos", [0.0; 3]), quat: cx.orientation(&p, node) };
     let Pose { pos, quat } = place.frame.of(written.pos, written.quat);
@@ -108,7 +108,7 @@ fn body(cx: &mut Context, i: usize, node: &Node, place: Place) -> BodySpec {
 }
 
 /// Something that stands in a body.
-fn member(cx: &mut Context, i: usize, node: &Node, place: Place, body: &mut BodySpec) {
+fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mut BodySpec) {
     let (frame, class) = (place.frame, place.childclass);
     if place.body == 0 && matches!(node.element.name, "inertial" | "joint" | "freejoint") {
         // Directly in `worldbody` the schema refuses them; here a frame stands between.

@@ -34,7 +34,7 @@ const MAX_COPIED: usize = 200 << 20;
 
 /// A model that is part of the whole: the main model, or one that is attached.
 #[derive(Clone, Debug)]
-pub(crate) struct Part {
+pub(crate) struct AttachedModel {
     /// What its angles, ranges and inertias mean.
     pub(crate) compiler: Compiler,
     /// The folder that its files are looked for in.
@@ -46,7 +46,7 @@ pub(crate) struct Part {
 pub(crate) struct Expanded {
     pub(crate) tree: Tree,
     /// By [`Node::model`].
-    pub(crate) parts: Vec<Part>,
+    pub(crate) parts: Vec<AttachedModel>,
 }
 
 /// Carries out everything that a model asks for.
@@ -62,7 +62,7 @@ pub(crate) fn model(written: Written, report: &mut Report) -> Expanded {
         bytes: 0,
         sections: Words::default(),
         names: BTreeMap::new(),
-        parts: vec![Part { compiler, folder: written.folder }],
+        parts: vec![AttachedModel { compiler, folder: written.folder }],
         models,
     };
     for at in e.survey() {
@@ -121,7 +121,7 @@ struct Expander {
     sections: Words<usize>,
     /// Bodies and frames by name.
     names: BTreeMap<(&'static str, String), usize>,
-    parts: Vec<Part>,
+    parts: Vec<AttachedModel>,
     models: BTreeMap<String, Child>,
 }
 

@@ -11,7 +11,7 @@ use crate::kinds::joint;
 use crate::math::{IDENTITY, MINVAL, quat_conj, rotate, scale};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::inertia::combined;
-use crate::mjcf::expand::Part;
+use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::expand::references::{Names, kind_of};
 use crate::mjcf::settings::Compiler;
 use crate::mjcf::spec::{BodySpec, GeomSpec, Inertia};
@@ -20,8 +20,8 @@ use crate::mjcf::text::values::Value;
 use crate::model::Model;
 
 /// Carries out what the model asks for.
-pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree, parts: &[Part]) {
-    let Some(Part { compiler, .. }) = parts.first() else { return };
+pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree, parts: &[AttachedModel]) {
+    let Some(AttachedModel { compiler, .. }) = parts.first() else { return };
     align_free(bodies, inertias, parts);
     if compiler.fusestatic {
         fuse_static(bodies, inertias, tree);
@@ -37,7 +37,7 @@ pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tre
 
 /// The frame of a free body without children moves into its centre of mass, along its principal axes: then its mass
 /// matrix is diagonal.
-fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Part]) {
+fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[AttachedModel]) {
     let mut carries = vec![false; bodies.len()];
     for body in bodies.iter().skip(1) {
         if let Some(carries) = carries.get_mut(body.parent) {

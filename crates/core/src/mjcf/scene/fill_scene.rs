@@ -7,7 +7,7 @@ use crate::model::Model;
 use std::collections::BTreeMap;
 
 /// What the functions of this file fill in.
-pub(crate) struct Scene {
+pub(crate) struct SceneFields {
     pub(crate) materials: Vec<MaterialSpec>,
     pub(crate) textures: Vec<String>,
     pub(crate) numerics: Vec<NumericSpec>,
@@ -37,14 +37,14 @@ impl<'n> Places<'n> {
 }
 
 /// The sizes that these objects add to the model.
-pub(crate) fn count(m: &mut Model, scene: &Scene) {
+pub(crate) fn count(m: &mut Model, scene: &SceneFields) {
     (m.nmat, m.ntex) = (scene.materials.len(), scene.textures.len());
     (m.nnumeric, m.ntuple, m.ntext) = (scene.numerics.len(), scene.tuples.len(), scene.texts.len());
     m.nnumericdata = scene.numerics.iter().map(|n| n.data.len()).sum();
     m.ntupledata = scene.tuples.iter().map(|t| t.elements.len()).sum();
 }
 
-pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) {
+pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &SceneFields) {
     let materials = Places::of(scene.materials.iter().map(|m| &m.name));
     flat(&mut m.geom_type, geoms, |(_, g)| [g.kind]);
     flat(&mut m.geom_contype, geoms, |(_, g)| [g.contype]);
@@ -73,7 +73,7 @@ pub(crate) fn geoms(m: &mut Model, geoms: &[(usize, &GeomSpec)], scene: &Scene) 
     flat(&mut m.geom_rgba, geoms, |(_, g)| single(g.rgba));
 }
 
-pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &Scene) {
+pub(crate) fn sites(m: &mut Model, sites: &[(usize, &SiteSpec)], scene: &SceneFields) {
     let materials = Places::of(scene.materials.iter().map(|m| &m.name));
     flat(&mut m.site_type, sites, |(_, s)| [s.kind]);
     flat(&mut m.site_dataid, sites, |(_, s)| [s.data]);
@@ -135,7 +135,7 @@ pub(crate) fn lights(m: &mut Model, lights: &[(usize, &LightSpec)], bodies: &[St
     }
 }
 
-pub(crate) fn materials(m: &mut Model, scene: &Scene) {
+pub(crate) fn materials(m: &mut Model, scene: &SceneFields) {
     let list = &scene.materials;
     let places = Places::of(scene.textures.iter());
     let textures = list.iter().flat_map(|material| &material.textures);
@@ -158,7 +158,7 @@ pub(crate) fn materials(m: &mut Model, scene: &Scene) {
     m.names.texture.clone_from(&scene.textures);
 }
 
-pub(crate) fn custom(m: &mut Model, scene: &Scene) {
+pub(crate) fn custom(m: &mut Model, scene: &SceneFields) {
     let addresses = |lengths: &mut dyn Iterator<Item = usize>| -> (Vec<i32>, Vec<i32>) {
         let mut next = 0;
         let mut place = |n: usize| {

@@ -6,7 +6,7 @@ use crate::mjcf::compile_with;
 use crate::mjcf::text::files::Files;
 use crate::model::Model;
 use crate::step::step;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 fn load(asset: &str, geom: &str, file: &str, bytes: &[u8]) -> Result<Model, String> {
     let files = BTreeMap::from([(file.to_string(), bytes.to_vec())]);
@@ -96,7 +96,7 @@ fn three_formats_are_one_mesh() {
 fn damaged_files_do_no_harm() {
     let go = |model: Result<Model, String>| {
         if let Ok(m) = model {
-            let mut d = Data::new(&m);
+            let mut d = Workspace::new(&m);
             (0..3).for_each(|_| step(&m, &mut d));
         }
     };

@@ -1,16 +1,16 @@
 //! What is told of models that load: each against what the engine does.
 
-use crate::mjcf::{NoFiles, Severity, examine};
-use crate::step::workspace::Data;
+use crate::mjcf::{NoFiles, Severity, check_xml};
+use crate::step::workspace::Workspace;
 
 fn codes(xml: &str) -> Vec<(&'static str, Severity)> {
-    examine(xml, &NoFiles, None).findings.iter().map(|f| (f.code, f.severity)).collect()
+    check_xml(xml, &NoFiles, None).findings.iter().map(|f| (f.code, f.severity)).collect()
 }
 
 /// Whether the motion of a joint has grown beyond what it began with, a thousand times.
 fn grows(xml: &str) -> bool {
-    let model = examine(xml, &NoFiles, None).model.unwrap();
-    let mut data = Data::new(&model);
+    let model = check_xml(xml, &NoFiles, None).model.unwrap();
+    let mut data = Workspace::new(&model);
     data.qvel[0] = 1e-3;
     for _ in 0..4000 {
         crate::step::step(&model, &mut data);
@@ -74,8 +74,8 @@ fn what_is_softened_is_what_it_is_said_to_get() {
              </body></worldbody></mujoco>"
         );
         let told = codes(&xml).iter().any(|(code, _)| *code == "mjcf-softened");
-        let model = examine(&xml, &NoFiles, None).model.unwrap();
-        let mut data = Data::new(&model);
+        let model = check_xml(&xml, &NoFiles, None).model.unwrap();
+        let mut data = Workspace::new(&model);
         (0..200).for_each(|_| crate::step::step(&model, &mut data));
         (told, data.qpos.clone())
     };

@@ -71,7 +71,7 @@ fn spans_are_slices_of_the_text() {
     for xml in
         ["<mujoco>&#9;é€=&#9;&#9;é</mujoco>", "<mujoco><xml:éé€/></mujoco>", "<mujoco xml:éé€='1'/>", "<é€/>"]
     {
-        let list = crate::mjcf::examine(xml, &crate::mjcf::NoFiles, None).findings;
+        let list = crate::mjcf::check_xml(xml, &crate::mjcf::NoFiles, None).findings;
         assert!(!list.is_empty(), "{xml}");
         assert!(list.iter().all(|d| xml.get(d.span.clone()).is_some()), "{list:?}");
     }
@@ -139,7 +139,7 @@ fn written_paths_stay_inside_the_model() {
         <site site='a'/><geom geom='g'/><site site='b'/><pulley divisor='2'/><site site='a'/><site site='b'/>
         </spatial></tendon></mujoco>";
     let mut m = compile(xml).unwrap();
-    let mut d = crate::step::workspace::Data::new(&m);
+    let mut d = crate::step::workspace::Workspace::new(&m);
     for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -1.0, 0.0, 0.5, 1.0, 2.0] {
         m.wrap_prm.fill(x);
         m.geom_size.fill(x);

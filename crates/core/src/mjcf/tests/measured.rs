@@ -1,8 +1,8 @@
 //! Small texts against what MuJoCo 3.14.0 says of them: `golden/cases.py` recorded it.
 
-use crate::mjcf::{NoFiles, Severity, compile, examine, rules};
+use crate::mjcf::{NoFiles, Severity, compile, check_xml, rules};
 use crate::step::forward::forward;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Recorded lines: what MuJoCo says, and the text.
 fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)> {
@@ -17,7 +17,7 @@ fn cases(recorded: &'static str) -> impl Iterator<Item = (&'static str, String)>
 fn text_between_elements_loads_where_mujoco_loads_it() {
     let (mut wrong, mut warned) = (Vec::new(), 0);
     for (answer, text) in cases(include_str!("../golden/texts.txt")) {
-        let examined = examine(&text, &NoFiles, None);
+        let examined = check_xml(&text, &NoFiles, None);
         let ours = if examined.model.is_some() { "loads" } else { "refused" };
         let texts: Vec<_> = examined.findings.iter().filter(|d| d.code == rules::TEXT).collect();
         if ours != answer || texts.iter().any(|d| d.severity == Severity::Error) {
@@ -51,7 +51,7 @@ fn negative_margins_are_those_of_mujoco() {
     let mut wrong = Vec::new();
     for (recorded, text) in cases(include_str!("../golden/margins.txt")) {
         let m = compile(&text).unwrap();
-        let mut d = Data::new(&m);
+        let mut d = Workspace::new(&m);
         forward(&m, &mut d);
         let want: Vec<f64> = recorded.split(' ').map(|x| x.parse().unwrap()).collect();
         let mut ours = vec![d.ncon as f64, d.nefc as f64];
@@ -96,7 +96,7 @@ fn exclusions_of_many_bodies_keep_only_theirs_apart() {
     let m = compile(&text).unwrap();
     assert_eq!(m.exclude_bodies, [[1, 65_540]]);
     assert_eq!(m.exclude_signature, [(2 << 16) + 4]);
-    let mut d = Data::new(&m);
+    let mut d = Workspace::new(&m);
     forward(&m, &mut d);
     // Four balls in one place: all six pairs but the one that is excluded.
     assert_eq!(d.ncon, 5);

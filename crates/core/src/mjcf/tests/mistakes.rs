@@ -1,11 +1,11 @@
 //! Wrong models and what an author reads about them.
 
 use super::world;
-use crate::mjcf::{FileProblem, Files, NoFiles, compile_with, examine};
+use crate::mjcf::{FileProblem, Files, NoFiles, compile_with, check_xml};
 
 /// Each finding with the line it is about, the place underlined.
 fn explained(xml: &str) -> String {
-    let list = examine(xml, &NoFiles, None).findings;
+    let list = check_xml(xml, &NoFiles, None).findings;
     if list.is_empty() {
         return "no finding\n".into();
     }

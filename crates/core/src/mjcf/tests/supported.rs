@@ -2,7 +2,7 @@
 
 use crate::mjcf::schema::{Element, ROOT, Status};
 use crate::mjcf::text::seen;
-use crate::mjcf::{Folder, examine};
+use crate::mjcf::{Folder, check_xml};
 
 /// A model with what no model of the folders below has.
 const OTHERS: &str = r#"<mujoco>
@@ -44,7 +44,7 @@ fn every_supported_attribute_is_looked_up() {
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_some_and(|e| e == "xml") {
-                examine(&std::fs::read_to_string(&path).unwrap(), &files, path.file_name().unwrap().to_str());
+                check_xml(&std::fs::read_to_string(&path).unwrap(), &files, path.file_name().unwrap().to_str());
             }
         }
     }

@@ -7,7 +7,7 @@ use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
 use crate::model::{Model, Obj};
 use crate::step::forward::position;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// A contact deeper than this part of the smaller geom's half thickness is no contact.
 const DEEP: f64 = 0.3;
@@ -39,12 +39,12 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// Everything at its place; nothing where that is too much.
-fn placed(m: &Model) -> Option<Data> {
+fn placed(m: &Model) -> Option<Workspace> {
     if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
         return None;
     }
     // Nothing is solved: where things are is enough.
-    let mut d = Data::new(m);
+    let mut d = Workspace::new(m);
     d.meter.limit = WORK;
     position(m, &mut d);
     (!d.meter.over()).then_some(d)
@@ -86,7 +86,7 @@ mod tests {
         ] {
             for (geoms, bodies) in [(20, 10), (200, 100), (500, 250), (500, 500)] {
                 let m = heap(geoms, bodies, geom);
-                let mut d = Data::new(&m);
+                let mut d = Workspace::new(&m);
                 d.meter.limit = WORK;
                 position(&m, &mut d);
                 // One test of a pair more than the limit, and what follows from the contacts that were found by then.

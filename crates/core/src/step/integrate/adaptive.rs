@@ -10,7 +10,7 @@ use super::flow;
 use crate::math::combine;
 use crate::model::Model;
 use crate::step::stages::Flow;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Lines of the table: 2, 4, … steps.
 const LINES: usize = 8;
@@ -22,7 +22,7 @@ const HALVINGS: u32 = 14;
 const PARTS: usize = 4096;
 
 /// A step.
-pub(super) fn adaptive(m: &Model, d: &mut Data) {
+pub(super) fn adaptive(m: &Model, d: &mut Workspace) {
     let h = m.opt.timestep;
     // The table, and three states of the midpoint rule.
     let mut w = flow::enter(m, d, LINES + 3);
@@ -55,7 +55,7 @@ pub(super) fn adaptive(m: &Model, d: &mut Data) {
 }
 
 /// A part of the step, to `w.end`; whether it is as exact as asked.
-fn extrapolate(m: &Model, d: &mut Data, w: &mut Flow, h: f64) -> bool {
+fn extrapolate(m: &Model, d: &mut Workspace, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     if n == 0 {
         return true;
@@ -101,7 +101,7 @@ fn larger(error: f64, x: f64) -> f64 {
 }
 
 /// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end.
-fn midpoint(m: &Model, d: &mut Data, w: &Flow, h: f64, steps: usize, scratch: &mut [f64], out: &mut [f64]) {
+fn midpoint(m: &Model, d: &mut Workspace, w: &Flow, h: f64, steps: usize, scratch: &mut [f64], out: &mut [f64]) {
     let n = w.first.len();
     let (older, rest) = scratch.split_at_mut(n);
     let (old, rest) = rest.split_at_mut(n);

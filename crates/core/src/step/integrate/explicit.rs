@@ -3,7 +3,7 @@
 use super::flow;
 use crate::math::combine;
 use crate::model::Model;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// A method: stage s starts from the state at the start of the step plus h times the slopes of the stages before it, with the
 /// weights of its row; the step ends with `weights`. The first stage is the start itself and has no row.
@@ -77,7 +77,7 @@ pub(super) const EIGHTH: Method = Method {
 };
 
 /// A step.
-pub(super) fn explicit(m: &Model, d: &mut Data, method: &Method) {
+pub(super) fn explicit(m: &Model, d: &mut Workspace, method: &Method) {
     let h = m.opt.timestep;
     let mut w = flow::enter(m, d, method.weights.len());
     let n = w.start.len();

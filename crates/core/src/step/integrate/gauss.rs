@@ -9,7 +9,7 @@ use super::explicit::along;
 use super::flow;
 use crate::model::Model;
 use crate::step::stages::Flow;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// √15
 const R: f64 = 3.872_983_346_207_417;
@@ -27,7 +27,7 @@ const PARTS: usize = 64;
 
 /// A step: whole if the iteration settles, else in as many equal parts as it takes, up to a limit. Beyond that a part is taken as
 /// the iteration left it.
-pub(super) fn gauss(m: &Model, d: &mut Data) {
+pub(super) fn gauss(m: &Model, d: &mut Workspace) {
     let h = m.opt.timestep;
     // Three stages, and the next guess of one.
     let mut w = flow::enter(m, d, 4);
@@ -43,7 +43,7 @@ pub(super) fn gauss(m: &Model, d: &mut Data) {
 }
 
 /// A part of the step, to `w.end`; whether its stages settled.
-fn settles(m: &Model, d: &mut Data, w: &mut Flow, h: f64) -> bool {
+fn settles(m: &Model, d: &mut Workspace, w: &mut Flow, h: f64) -> bool {
     let n = w.start.len();
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     let (stages, rest) = rows.split_at_mut(3 * n);

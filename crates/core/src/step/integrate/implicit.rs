@@ -6,11 +6,11 @@ use crate::dynamics::mass;
 use crate::forces::derivative::{self, Medium, sparse};
 use crate::math::{Spatial, solve_six};
 use crate::model::{Fields, Model, Warning};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// All of D.
-pub(super) fn implicit(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = data;
+pub(super) fn implicit(m: &Model, data: &mut Workspace) {
+    let Workspace { fields: d, work } = data;
     let w = &mut work.derivative;
     derivative::forces(m, d, w, Medium::Whole);
     derivative::subtract_bias(m, d, w);
@@ -25,8 +25,8 @@ pub(super) fn implicit(m: &Model, data: &mut Data) {
 
 /// D without the bias force, its lower triangle for both: a symmetric matrix. Rigid bodies that move freely are
 /// solved with all of D, six by six.
-pub(super) fn implicitfast(m: &Model, data: &mut Data) {
-    let Data { fields: d, work } = data;
+pub(super) fn implicitfast(m: &Model, data: &mut Workspace) {
+    let Workspace { fields: d, work } = data;
     let (w, factored) = (&mut work.derivative, &mut work.factored);
     let h = m.opt.timestep;
     derivative::forces(m, d, w, Medium::Symmetric);

@@ -15,14 +15,14 @@ use crate::kinds::integrator;
 use crate::math::{combine, copy};
 use crate::model::stage::Stage;
 use crate::model::{Model, asleep};
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 use crate::{constraint, sensor};
 
 pub(crate) use position::{differentiate_pos, integrate_pos};
 
 /// The next state, by the integrator that the options name.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn integrate(m: &Model, d: &mut Data) {
+pub(crate) fn integrate(m: &Model, d: &mut Workspace) {
     match m.opt.integrator {
         integrator::EULER => euler::euler(m, d),
         _ => by_another(m, d),
@@ -30,7 +30,7 @@ pub(crate) fn integrate(m: &Model, d: &mut Data) {
 }
 
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn by_another(m: &Model, d: &mut Data) {
+fn by_another(m: &Model, d: &mut Workspace) {
     match m.opt.integrator {
         integrator::RK4 => runge_kutta::rk4(m, d),
         integrator::RKMK4 => explicit::explicit(m, d, &explicit::FOURTH),
@@ -43,7 +43,7 @@ fn by_another(m: &Model, d: &mut Data) {
 
 /// The same from one evaluation of forces: methods that need more, as Runge–Kutta, become Euler.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn integrate_once(m: &Model, d: &mut Data) {
+pub(crate) fn integrate_once(m: &Model, d: &mut Workspace) {
     match m.opt.integrator {
         integrator::IMPLICIT => implicit::implicit(m, d),
         integrator::IMPLICITFAST => implicit::implicitfast(m, d),
@@ -66,7 +66,7 @@ struct Slopes<'a> {
 /// What every integrator ends with, in MuJoCo's order: histories, activations, sleep, velocities, positions along the
 /// new velocities, time, and the acceleration from which the next solver starts.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
+fn advance(m: &Model, d: &mut Workspace, slopes: Slopes) {
     let h = m.opt.timestep;
     let Slopes { activation, reached, acceleration, velocity } = slopes;
     if m.nhistory > 0 {
@@ -96,7 +96,7 @@ fn advance(m: &Model, d: &mut Data, slopes: Slopes) {
 
 /// The same along the acceleration that an implicit method has left in the scratch.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn advance_along(m: &Model, d: &mut Data) {
+fn advance_along(m: &Model, d: &mut Workspace) {
     let acceleration = std::mem::take(&mut d.work.damping.qacc);
     advance(m, d, Slopes { acceleration: Some(&acceleration), ..Slopes::default() });
     d.work.damping.qacc = acceleration;
@@ -105,7 +105,7 @@ fn advance_along(m: &Model, d: &mut Data) {
 /// Velocities and positions where trees may sleep: those that fall asleep stop, and what depends on their velocities is
 /// computed again; those that sleep stay where they are.
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn advance_awake(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
+fn advance_awake(m: &Model, d: &mut Workspace, acceleration: Option<&[f64]>, velocity: Option<&[f64]>) {
     let (mut a, mut start) =
         (std::mem::take(&mut d.work.sleep.acceleration), std::mem::take(&mut d.work.sleep.start));
     a.copy_from_slice(acceleration.unwrap_or(&d.qacc));
@@ -133,7 +133,7 @@ fn advance_awake(m: &Model, d: &mut Data, acceleration: Option<&[f64]>, velocity
 
 /// Keeps the controls and values of this time for delayed actuators and sensors.
 #[cfg_attr(not(feature = "small"), inline(never))]
-fn record(m: &Model, d: &mut Data) {
+fn record(m: &Model, d: &mut Workspace) {
     actuation::record(m, d);
     if d.plan.keeps(Stage::Sensors) {
         sensor::record(m, &mut d.fields, &mut d.work.sensor);

@@ -4,13 +4,13 @@
 use super::{Slopes, advance, integrate_pos};
 use crate::model::Model;
 use crate::step::forward;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// Stage s starts from the first state plus A[s] h times the slope of stage s - 1; B weighs the slopes.
 const A: [f64; 3] = [0.5, 0.5, 1.0];
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-pub(super) fn rk4(m: &Model, d: &mut Data) {
+pub(super) fn rk4(m: &Model, d: &mut Workspace) {
     let (h, start) = (m.opt.timestep, d.time);
     let mut w = std::mem::take(&mut d.work.rk);
     w.qpos.copy_from_slice(&d.qpos);

@@ -4,11 +4,11 @@ use super::*;
 use crate::constraint::contact_force;
 use crate::dynamics::subtree::subtree_vel;
 use crate::mjcf::compile;
-use crate::model::plan::Plan;
+use crate::model::plan::PlanTable;
 use crate::sensor::body_force::rne_post_constraint;
 use crate::step::forward::forward;
 use crate::step::inverse::inverse;
-use crate::step::scene::Demand;
+use crate::step::analysis::Access;
 use crate::step::{step, step1, step2};
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>
@@ -29,8 +29,8 @@ fn scenes() -> Vec<Model> {
 }
 
 /// In the middle of its way.
-fn moving(m: &Model, plan: Plan) -> Data {
-    let mut d = Data::planned(m, plan);
+fn moving(m: &Model, plan: PlanTable) -> Workspace {
+    let mut d = Workspace::planned(m, plan);
     d.ctrl.fill(0.3);
     d.qvel.iter_mut().enumerate().for_each(|(i, v)| *v = 0.1 * (i as f64).sin());
     (0..30).for_each(|_| step(m, &mut d));
@@ -40,10 +40,10 @@ fn moving(m: &Model, plan: Plan) -> Data {
 #[test]
 fn what_is_restored_goes_on_bit_for_bit() {
     for m in scenes() {
-        for plan in [Plan::full(), Plan::new(&m, &Demand::OBSERVE, crate::model::way::Ways::ALL)] {
+        for plan in [PlanTable::full(), PlanTable::new(&m, &Access::OBSERVE, crate::model::tree_algorithm::TreeAlgorithms::ALL)] {
             let mut d = moving(&m, plan.clone());
             let bytes = save(&m, &d);
-            let mut other = Data::planned(&m, plan);
+            let mut other = Workspace::planned(&m, plan);
             (0..7).for_each(|_| step(&m, &mut other));
             restore(&m, &mut other, &bytes).unwrap();
             assert!(save(&m, &other) == bytes);
@@ -59,10 +59,10 @@ fn what_is_restored_goes_on_bit_for_bit() {
 #[test]
 fn a_step_is_restored_in_its_middle() {
     for m in scenes() {
-        let mut d = moving(&m, Plan::full());
+        let mut d = moving(&m, PlanTable::full());
         step1(&m, &mut d);
         let bytes = save(&m, &d);
-        let mut other = Data::new(&m);
+        let mut other = Workspace::new(&m);
         restore(&m, &mut other, &bytes).unwrap();
         step2(&m, &mut d);
         step2(&m, &mut other);
@@ -73,9 +73,9 @@ fn a_step_is_restored_in_its_middle() {
 #[test]
 fn other_bytes_are_told_apart_and_change_nothing() {
     let m = &scenes()[0];
-    let d = moving(m, Plan::full());
+    let d = moving(m, PlanTable::full());
     let bytes = save(m, &d);
-    let before = moving(m, Plan::full());
+    let before = moving(m, PlanTable::full());
     let mut after = before.clone();
     let mut fails = |m: &Model, bytes: &[u8]| {
         let error = restore(m, &mut after, bytes).unwrap_err();
@@ -105,7 +105,7 @@ fn other_bytes_are_told_apart_and_change_nothing() {
 #[test]
 fn every_integer_field_has_its_limits() {
     let m = &scenes()[0];
-    let d = Data::new(m);
+    let d = Workspace::new(m);
     for f in reflect::fields().map(|f| f.info()).filter(|f| f.object == Object::Data) {
         if matches!(f.elem, Elem::I32 | Elem::Size) {
             assert!(limits(m, &d, f.name).is_some(), "{}: say in `limits` what it can be", f.name);
@@ -123,7 +123,7 @@ fn hostile_bytes_never_panic() {
     };
     let mut accepted = 0;
     for m in [&scenes()[0], &scenes()[4], &scenes()[5]] {
-        let bytes = save(m, &moving(m, Plan::full()));
+        let bytes = save(m, &moving(m, PlanTable::full()));
         for _ in 0..400 {
             let mut changed = bytes[..bytes.len() - 8].to_vec();
             for _ in 0..1 + random(3) {
@@ -133,7 +133,7 @@ fn hostile_bytes_never_panic() {
                 changed.iter_mut().skip(at).take(n).for_each(|b| *b = with);
             }
             fingerprint(&changed.clone()).put(&mut changed);
-            let mut d = Data::new(m);
+            let mut d = Workspace::new(m);
             if restore(m, &mut d, &changed).is_err() {
                 continue;
             }

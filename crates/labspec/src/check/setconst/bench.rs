@@ -9,7 +9,7 @@ use crate::run::{self, Breakdown, Cell, Play, Session, StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{Demand, Model};
+use labspec_core::{Access, Model};
 use labspec_expr::{Access, Compiler, Effects, Type, Value};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
@@ -388,7 +388,7 @@ impl<'a> Bench<'a> {
             },
             ProgramSite::Run(_) => {}
         }
-        let mut demand = Demand { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
         programs.demand = demand;
         Some(Amended { programs, bound })

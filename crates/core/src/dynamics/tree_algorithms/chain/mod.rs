@@ -17,7 +17,7 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
-use super::{Forces, NOTHING, Own, Row};
+use super::{Forces, NOTHING, Assignment, Row};
 pub(super) use planar::plane_of;
 
 use crate::dynamics::{Scratch, mass, walk};
@@ -67,7 +67,7 @@ pub(super) struct Trees {
     /// Number of links of each chain.
     lengths: Vec<usize>,
     /// Bodies that are part of a link, or that carry one and cannot move, parents first.
-    parts: Vec<Part>,
+    parts: Vec<LinkBody>,
 }
 
 /// What moves with one joint.
@@ -137,7 +137,7 @@ struct Motion {
 
 /// A body, and its frame in that of its link or of the world.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Part {
+struct LinkBody {
     body: usize,
     link: Option<usize>,
     /// The part that it is attached to, `None` for the world.
@@ -162,7 +162,7 @@ fn covers(m: &Model, tree: usize) -> bool {
 
 impl Trees {
     /// The links of the short chains of a model.
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let mut chains = Trees::default();
         let mut part_of: Vec<Option<usize>> = vec![None; m.nbody];
         if own.forces.is_empty() {
@@ -195,7 +195,7 @@ impl Trees {
                 link = Some(chains.links.len() - 1);
             }
             part_of[b] = Some(chains.parts.len());
-            chains.parts.push(Part { body: b, link, parent, ..Part::default() });
+            chains.parts.push(LinkBody { body: b, link, parent, ..LinkBody::default() });
         }
         chains.load(m);
         chains
@@ -237,7 +237,7 @@ impl Trees {
 
         let (ipos, iquat) = (rows::<3>(&m.body_ipos), rows::<4>(&m.body_iquat));
         let moments = rows::<3>(&m.body_inertia);
-        let com = |part: &Part| add(mat_mul_vec(&part.turn, ipos[part.body]), part.at);
+        let com = |part: &LinkBody| add(mat_mul_vec(&part.turn, ipos[part.body]), part.at);
         for part in &self.parts {
             let Some(link) = part.link else { continue };
             let (f, mass) = (&mut self.links[link].fixed, m.body_mass[part.body]);

@@ -2,7 +2,7 @@
 //!
 //! Their rows of M are a packed lower triangle, which is factorized and solved with all sizes known (`triangle`).
 
-use super::{Damped, Factors, NOTHING, Own, Row};
+use super::{Damped, Factors, NOTHING, Assignment, Row};
 use crate::dynamics::Scratch;
 use crate::dynamics::triangle::{
     by_size, factor as factor_triangle, part, part_mut, size_before, solve as solve_triangle, solve_at,
@@ -45,7 +45,7 @@ struct Tree {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let tree = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             Tree { first: dofs.start, size: dofs.len(), row: m.M_rowadr[dofs.start] as usize }

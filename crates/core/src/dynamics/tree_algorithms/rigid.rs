@@ -9,7 +9,7 @@
 //!
 //! > kinetic energy ½ m v² + v · R(ω × h) + ½ ω · I ω, bias along v = R(ω × (ω × h)) - m g
 
-use super::{Forces, NOTHING, Own, Row};
+use super::{Forces, NOTHING, Assignment, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
@@ -78,7 +78,7 @@ struct Body {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let body = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             let joint = m.dof_jntid[dofs.start] as usize;

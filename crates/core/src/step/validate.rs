@@ -113,7 +113,7 @@ fn count(m: &Model, kind: i32) -> Option<usize> {
 }
 
 /// What of the model the engine could not index by; `None` when all is sound.
-pub(crate) fn unsound(m: &Model) -> Option<&'static str> {
+pub(crate) fn validate(m: &Model) -> Option<&'static str> {
     let sizes = [
         m.nuserdata,
         m.nsensordata,

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 
 /// What becomes of a pair of geoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum PairFate {
+pub enum PairFilterReason {
     /// They can touch: they are looked at in every step.
     CanTouch,
     /// They belong to one body.
@@ -31,35 +31,35 @@ pub enum PairFate {
     OutOfReach,
 }
 
-impl PairFate {
+impl PairFilterReason {
     /// Why such a pair never touches, in words; of one that can, that it can.
     pub fn reason(self) -> &'static str {
         match self {
-            PairFate::CanTouch => "they can touch",
-            PairFate::SameBody => "both belong to one body",
-            PairFate::Welded => "their bodies are welded together",
-            PairFate::Static => "neither of them can move",
-            PairFate::Excluded => "the model excludes them",
-            PairFate::ParentAndChild => "their bodies are parent and child",
-            PairFate::Masks => "their contact bits admit no contact",
-            PairFate::Shapes => "such shapes pass through each other",
-            PairFate::OutOfReach => "they are out of reach of each other in every configuration",
+            PairFilterReason::CanTouch => "they can touch",
+            PairFilterReason::SameBody => "both belong to one body",
+            PairFilterReason::Welded => "their bodies are welded together",
+            PairFilterReason::Static => "neither of them can move",
+            PairFilterReason::Excluded => "the model excludes them",
+            PairFilterReason::ParentAndChild => "their bodies are parent and child",
+            PairFilterReason::Masks => "their contact bits admit no contact",
+            PairFilterReason::Shapes => "such shapes pass through each other",
+            PairFilterReason::OutOfReach => "they are out of reach of each other in every configuration",
         }
     }
 }
 
 /// How many pairs of geoms meet each fate, each pair counted once; fates that none meets are not listed. What programs may write
 /// keeps no pair apart.
-pub(crate) fn census(m: &Model, change: Changes) -> Vec<(PairFate, usize)> {
+pub(crate) fn pair_statistics(m: &Model, change: Changes) -> Vec<(PairFilterReason, usize)> {
     let extents = (!change.places && !change.params).then(|| Extents::new(m));
     let named: BTreeSet<[i32; 2]> = (0..m.npair).map(|p| ordered(m.pair_geom1[p], m.pair_geom2[p])).collect();
-    let mut counts: Vec<(PairFate, usize)> = Vec::new();
+    let mut counts: Vec<(PairFilterReason, usize)> = Vec::new();
     for a in 0..m.ngeom {
         for b in a + 1..m.ngeom {
             let named = named.contains(&[a as i32, b as i32]);
             let mut fate = fate(m, a, b, change.bits, named);
-            if fate == PairFate::CanTouch && extents.as_ref().is_some_and(|e| apart(m, e, a, b)) {
-                fate = PairFate::OutOfReach;
+            if fate == PairFilterReason::CanTouch && extents.as_ref().is_some_and(|e| apart(m, e, a, b)) {
+                fate = PairFilterReason::OutOfReach;
             }
             match counts.iter_mut().find(|(f, _)| *f == fate) {
                 Some((_, n)) => *n += 1,
@@ -84,27 +84,27 @@ fn ordered(a: i32, b: i32) -> [i32; 2] {
 }
 
 /// What becomes of two geoms; a pair that the model names asks for neither bits nor parents.
-fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFate {
+fn fate(m: &Model, a: usize, b: usize, may_change: bool, named: bool) -> PairFilterReason {
     let bodies @ [ba, bb] = [a, b].map(|g| m.geom_bodyid[g] as usize);
     let welds @ [wa, wb] = bodies.map(|body| m.body_weldid[body] as usize);
     let (small, large) = (m.geom_type[a].min(m.geom_type[b]), m.geom_type[a].max(m.geom_type[b]));
     let still = welds.iter().all(|&w| m.body_dofnum[w] == 0 && m.body_treeid[w] < 0);
     let rules = !named;
     match () {
-        () if rules && ba == bb => PairFate::SameBody,
-        () if still && (rules || m.nbody == 1) => PairFate::Static,
-        () if rules && wa == wb => PairFate::Welded,
-        () if rules && excluded(m, ba, bb) => PairFate::Excluded,
-        () if rules && !may_change && parent_and_child(m, a, b) => PairFate::ParentAndChild,
-        () if rules && !may_change && !masks_admit(m, a, b) => PairFate::Masks,
-        () if pair::method(small, large).is_none() => PairFate::Shapes,
-        () => PairFate::CanTouch,
+        () if rules && ba == bb => PairFilterReason::SameBody,
+        () if still && (rules || m.nbody == 1) => PairFilterReason::Static,
+        () if rules && wa == wb => PairFilterReason::Welded,
+        () if rules && excluded(m, ba, bb) => PairFilterReason::Excluded,
+        () if rules && !may_change && parent_and_child(m, a, b) => PairFilterReason::ParentAndChild,
+        () if rules && !may_change && !masks_admit(m, a, b) => PairFilterReason::Masks,
+        () if pair::method(small, large).is_none() => PairFilterReason::Shapes,
+        () => PairFilterReason::CanTouch,
     }
 }
 
 /// How the pairs that can touch are tested, by the types of their geoms: how many there are, and whether their contacts are
 /// searched for by the general algorithm. Of a scene with too many pairs for a list, those at its start.
-pub(crate) fn methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, bool)> {
+pub(crate) fn pair_methods(m: &Model, change: Changes) -> Vec<([i32; 2], usize, bool)> {
     let mut out: Vec<([i32; 2], usize, bool)> = Vec::new();
     for Pair { geom1, geom2, .. } in candidate_pairs(m, change) {
         let types = [geom1, geom2].map(|g| m.geom_type[g as usize]);

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use crate::dynamics::{mass, rne};
 use crate::mjcf::compile;
 use crate::step::forward::forward;
-use crate::step::workspace::Data;
+use crate::step::workspace::Workspace;
 
 /// A link: slide or hinge, axis, anchor, pose of its body, whether a body is welded to it, whether the joint
 /// is a second one of the same body.
@@ -74,7 +74,7 @@ proptest! {
     fn a_chain_moves_as_its_bodies(links in chain(), q in prop::array::uniform8(-2.0f64..2.0), v in prop::array::uniform8(-3.0f64..3.0)) {
         let m = compile(&text(&links)).map_err(|e| TestCaseError::fail(format!("{e:?}\n{}", text(&links))))?;
         prop_assume!(m.nv > 0 && m.dof_simplenum[0] == 0);
-        let mut d = Data::new(&m);
+        let mut d = Workspace::new(&m);
         d.qpos.copy_from_slice(&q[..m.nq]);
         d.qvel.copy_from_slice(&v[..m.nv]);
         forward(&m, &mut d);

@@ -13,12 +13,12 @@
 //! Which trees are such chains is found when a model is compiled, and kept in it. Written to its axes and frames afterwards, a chain may
 //! leave its plane: it is then computed as the general way does.
 
-use super::planar_passes::{Joint, Link, inward, outward, place, solve_known};
-use super::{Damped, Factors, Forces, NOTHING, Own, Row, chain};
+use super::planar_passes::{Joint, Link, inward, outward, forward_kinematics, solve_known};
+use super::{Damped, Factors, Forces, NOTHING, Assignment, Row, chain};
 use crate::dynamics::{Scratch, com, kinematics, mass as rows_of_m, reflected, rne};
 use crate::kinds::joint;
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -95,7 +95,7 @@ pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
     if !is_chain(m, tree) {
         return false;
     }
-    let own = Own { forces: vec![tree], ..Own::default() };
+    let own = Assignment { forces: vec![tree], ..Assignment::default() };
     Trees::new(m, &own).flat
 }
 
@@ -104,7 +104,7 @@ impl Trees {
         self.links.is_empty()
     }
 
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let chains = chain::Trees::new(m, own);
         let (mut links, mut spans) = (0, Vec::new());
         for &tree in &own.forces {
@@ -177,7 +177,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     }
     for span in &trees.spans {
         let links = &mut trees.links[span.links.clone()];
-        place(links, &d.qpos);
+        forward_kinematics(links, &d.qpos);
         if rows {
             rows_of_mass(m, &mut d.M, span, links);
         }
@@ -286,7 +286,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
 #[inline(never)]
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
-    w.rows_due = d.plan.has(Fact::MassForRows);
+    w.rows_due = d.plan.has(PlanFlag::MassForRows);
     if !w.rows_due {
         rows_of_factor(m, d, w);
     }

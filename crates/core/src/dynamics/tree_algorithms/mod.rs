@@ -21,7 +21,7 @@ use super::Scratch;
 use crate::kinds::disable;
 use crate::math::Vec3;
 use crate::model::reflect::FieldId;
-use crate::model::way::{Way, Ways};
+use crate::model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 use crate::model::{Fields, Model};
 
 /// The table, from its rows: a module each, with `ROW` and `Trees`.
@@ -53,22 +53,22 @@ mod general;
 mod planar_chain;
 mod planar_passes;
 mod rigid;
-mod serial;
-mod simple;
-mod sliding;
+mod small_chain;
+mod diagonal_inertia;
+mod prismatic;
 
 table! {
-    simple
+    diagonal_inertia
     rigid
     chain
-    serial
-    sliding
+    small_chain
+    prismatic
     planar_chain
     articulated
     general
 }
 
-pub(crate) use simple::turning_slope;
+pub(crate) use diagonal_inertia::turning_slope;
 
 /// A way.
 struct Row {
@@ -99,9 +99,9 @@ const NOTHING: Row = Row {
 /// Where bodies are.
 struct Places {
     /// `xpos xmat xipos ximat xanchor xaxis`.
-    place: fn(&Model, &mut Fields, &mut Scratch),
+    forward_kinematics: fn(&Model, &mut Fields, &mut Scratch),
     /// `xquat`, after `place`.
-    orient: fn(&mut Fields, &mut Scratch),
+    orientations: fn(&mut Fields, &mut Scratch),
 }
 
 /// M and the bias force.
@@ -141,29 +141,29 @@ type Damped<'a> = (&'a [f64], &'a mut [f64], &'a mut [f64]);
 
 /// The ways that have trees, for each of the three.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Taken {
-    places: Ways,
-    forces: Ways,
-    factors: Ways,
+struct Selected {
+    places: TreeAlgorithms,
+    forces: TreeAlgorithms,
+    factors: TreeAlgorithms,
 }
 
 /// The trees of one way, for each of the three, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
-struct Own {
+struct Assignment {
     places: Vec<usize>,
     forces: Vec<usize>,
     factors: Vec<usize>,
 }
 
-impl Way {
+impl TreeAlgorithm {
     /// The short ways, in the order of the table.
-    pub fn short() -> impl Iterator<Item = Way> {
-        (0..GENERAL as u8).map(Way)
+    pub fn short() -> impl Iterator<Item = TreeAlgorithm> {
+        (0..GENERAL as u8).map(TreeAlgorithm)
     }
 
     /// All of them, the general one last.
-    pub fn all() -> impl Iterator<Item = Way> {
-        (0..TABLE.len() as u8).map(Way)
+    pub fn all() -> impl Iterator<Item = TreeAlgorithm> {
+        (0..TABLE.len() as u8).map(TreeAlgorithm)
     }
 
     /// What it is called.
@@ -172,7 +172,7 @@ impl Way {
     }
 }
 
-impl std::fmt::Debug for Way {
+impl std::fmt::Debug for TreeAlgorithm {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.name())
     }
@@ -185,9 +185,9 @@ const GENERAL: usize = TABLE.len() - 1;
 const _: () = assert!(TABLE.len() <= u8::BITS as usize);
 
 /// The row that a tree takes for one of the three.
-fn row_of(m: &Model, ways: Ways, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
+fn row_of(m: &Model, ways: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
     let takes = |i: &usize| {
-        ways.has(Way(*i as u8))
+        ways.has(TreeAlgorithm(*i as u8))
             && !m.tree_dofs(tree).is_empty()
             && computes(&TABLE[*i])
             && (TABLE[*i].covers)(m, tree)
@@ -196,19 +196,19 @@ fn row_of(m: &Model, ways: Ways, tree: usize, computes: impl Fn(&Row) -> bool) -
 }
 
 /// Which ways the trees of a model take.
-fn sort(m: &Model, ways: Ways) -> (Taken, [Own; TABLE.len()]) {
+fn sort(m: &Model, ways: TreeAlgorithms) -> (Selected, [Assignment; TABLE.len()]) {
     // The general way is always asked: bodies may be in no tree, and what it computes of bodies may be read.
-    let always = Ways::GENERAL.with(Way(GENERAL as u8));
-    let mut taken = Taken { places: always, forces: always, factors: Ways::GENERAL };
-    let mut own = [(); TABLE.len()].map(|()| Own::default());
+    let always = TreeAlgorithms::GENERAL.with(TreeAlgorithm(GENERAL as u8));
+    let mut taken = Selected { places: always, forces: always, factors: TreeAlgorithms::GENERAL };
+    let mut own = [(); TABLE.len()].map(|()| Assignment::default());
     for tree in (0..m.ntree).filter(|&t| !m.tree_dofs(t).is_empty()) {
         let [places, forces, factors] = taken_by(m, ways, tree).map(|way| usize::from(way.0));
         own[places].places.push(tree);
         own[forces].forces.push(tree);
         own[factors].factors.push(tree);
-        taken.places = taken.places.with(Way(places as u8));
-        taken.forces = taken.forces.with(Way(forces as u8));
-        taken.factors = taken.factors.with(Way(factors as u8));
+        taken.places = taken.places.with(TreeAlgorithm(places as u8));
+        taken.forces = taken.forces.with(TreeAlgorithm(forces as u8));
+        taken.factors = taken.factors.with(TreeAlgorithm(factors as u8));
     }
     (taken, own)
 }
@@ -216,44 +216,44 @@ fn sort(m: &Model, ways: Ways) -> (Taken, [Own; TABLE.len()]) {
 // What plans ask.
 
 /// What computes M and the bias force of a tree. A row without them is never chosen.
-fn forces(m: &Model, ways: Ways, tree: usize) -> (usize, Option<&'static Forces>) {
+fn forces(m: &Model, ways: TreeAlgorithms, tree: usize) -> (usize, Option<&'static Forces>) {
     let row = row_of(m, ways, tree, |row| row.forces.is_some());
     (row, TABLE[row].forces.as_ref())
 }
 
 /// The ways that a tree takes for its places, its forces and its factors.
-pub(crate) fn taken_by(m: &Model, ways: Ways, tree: usize) -> [Way; 3] {
+pub(crate) fn taken_by(m: &Model, ways: TreeAlgorithms, tree: usize) -> [TreeAlgorithm; 3] {
     [
         row_of(m, ways, tree, |row| row.places.is_some()),
         row_of(m, ways, tree, |row| row.forces.is_some()),
         row_of(m, ways, tree, |row| row.factors.is_some()),
     ]
-    .map(|row| Way(row as u8))
+    .map(|row| TreeAlgorithm(row as u8))
 }
 
 /// Whether M and the bias force of some tree need composite bodies and recursion.
-pub(crate) fn need_bodies(m: &Model, ways: Ways) -> bool {
+pub(crate) fn need_bodies(m: &Model, ways: TreeAlgorithms) -> bool {
     (0..m.ntree).any(|tree| forces(m, ways, tree).0 == GENERAL)
 }
 
 /// Whether the bias force of some tree needs to know where its bodies are.
-pub(crate) fn look_at_places(m: &Model, ways: Ways) -> bool {
+pub(crate) fn look_at_places(m: &Model, ways: TreeAlgorithms) -> bool {
     (0..m.ntree).any(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.looks_at_places)(m, tree)))
 }
 
 /// Whether M of the whole model is diagonal and constant.
-pub(crate) fn are_constant(m: &Model, ways: Ways) -> bool {
+pub(crate) fn are_constant(m: &Model, ways: TreeAlgorithms) -> bool {
     (0..m.ntree).all(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.constant)(m, tree)))
 }
 
 /// Whether the bias force of a tree is a torque that follows from the turning of its one free body: then composite bodies are not
 /// needed to say how it changes with velocities.
-pub(crate) fn turns_alone(m: &Model, ways: Ways, tree: usize) -> bool {
+pub(crate) fn turns_alone(m: &Model, ways: TreeAlgorithms, tree: usize) -> bool {
     forces(m, ways, tree).1.is_some_and(|f| f.turns_alone)
 }
 
 /// Whether all accelerations are found without the general rows of M.
-pub(crate) fn solve_alone(m: &Model, ways: Ways) -> bool {
+pub(crate) fn solve_alone(m: &Model, ways: TreeAlgorithms) -> bool {
     (0..m.ntree).all(|tree| {
         let factors = row_of(m, ways, tree, |row| row.factors.is_some());
         forces(m, ways, tree).0 != GENERAL || TABLE[factors].factors.as_ref().is_some_and(|f| f.without_mass)
@@ -305,14 +305,14 @@ macro_rules! each {
 
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn place(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |_way, row, of| (of.place)(m, d, w));
+pub(crate) fn forward_kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
+    each!(w, places, |_way, row, of| (of.forward_kinematics)(m, d, w));
 }
 
 /// Orientations of bodies as quaternions, `xquat`, after [`place`].
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn orient(d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |_way, row, of| (of.orient)(d, w));
+pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
+    each!(w, places, |_way, row, of| (of.orientations)(d, w));
 }
 
 /// `M`, with or without the rows of the general way, and of ways that put theirs off.

@@ -2,37 +2,37 @@
 
 /// A way of computing a tree: a row of the table in `dynamics/ways`, which says what each is.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub struct Way(pub(crate) u8);
+pub struct TreeAlgorithm(pub(crate) u8);
 
 /// The ways that are allowed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ways(u8);
+pub struct TreeAlgorithms(u8);
 
-impl Default for Ways {
-    fn default() -> Ways {
-        Ways::ALL
+impl Default for TreeAlgorithms {
+    fn default() -> TreeAlgorithms {
+        TreeAlgorithms::ALL
     }
 }
 
-impl Ways {
+impl TreeAlgorithms {
     /// Each tree by the shortest.
-    pub const ALL: Ways = Ways(u8::MAX);
+    pub const ALL: TreeAlgorithms = TreeAlgorithms(u8::MAX);
     /// Every tree by the general one.
-    pub const GENERAL: Ways = Ways(0);
+    pub const GENERAL: TreeAlgorithms = TreeAlgorithms(0);
 
     /// Whether a way is allowed.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub fn has(self, way: Way) -> bool {
+    pub fn has(self, way: TreeAlgorithm) -> bool {
         self.0 & (1 << way.0) != 0
     }
 
     /// The same and one more.
-    pub(crate) fn with(self, way: Way) -> Ways {
-        Ways(self.0 | 1 << way.0)
+    pub(crate) fn with(self, way: TreeAlgorithm) -> TreeAlgorithms {
+        TreeAlgorithms(self.0 | 1 << way.0)
     }
 
     /// The same but for one.
-    pub fn without(self, way: Way) -> Ways {
-        Ways(self.0 & !(1 << way.0))
+    pub fn without(self, way: TreeAlgorithm) -> TreeAlgorithms {
+        TreeAlgorithms(self.0 & !(1 << way.0))
     }
 }

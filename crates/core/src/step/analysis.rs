@@ -1,14 +1,14 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
-pub use super::demand::Demand;
+pub use super::access::Access;
 
-use crate::dynamics::ways;
+use crate::dynamics::tree_algorithms;
 use crate::forces::{actuation, derivative, tendon};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::reflect::{FieldId, FieldSet, Object, Stage, data, model, option};
-use crate::model::way::Ways;
-use crate::model::{Model, Plan};
+use crate::model::tree_algorithm::TreeAlgorithms;
+use crate::model::{Model, PlanTable};
 use crate::step::{damping, idle};
 use crate::{collision, sensor};
 
@@ -104,65 +104,65 @@ pub(crate) fn deciding() -> FieldSet {
         .into_iter()
         .flatten()
         .for_each(|field| set.insert(*field));
-    ways::copied().for_each(|field| set.insert(field));
+    tree_algorithms::copied().for_each(|field| set.insert(field));
     set
 }
 
 /// What is written, and decides nothing: of these fields a plan never asks the value.
-pub(crate) fn never_asked(demand: &Demand) -> FieldSet {
+pub(crate) fn never_asked(demand: &Access) -> FieldSet {
     demand.writes.difference(&deciding())
 }
 
 /// When a fact holds.
-type Test = fn(&Scene) -> bool;
+type Test = fn(&ModelAnalysis) -> bool;
 
 /// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
 /// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(Fact, Test); 23] = [
-    (Fact::General, |s| s.general),
-    (Fact::Composite, |s| s.large || s.reads_field(data::crb)),
-    (Fact::Recursion, |s| s.large),
-    (Fact::Equalities, |s| s.equalities > 0),
-    (Fact::FrictionLoss, |s| s.friction > 0),
-    (Fact::Limits, |s| s.limited > 0 || s.limited_tendons > 0),
-    (Fact::Adhesion, |s| s.adhesion),
-    (Fact::Surfaces, |s| s.pairs > 0 && s.some(&[SURFACES])),
-    (Fact::DampersStay, |s| s.damped().is_some()),
-    (Fact::JointDampers, |s| s.damped() == Some(true)),
-    (Fact::Springs, |s| s.some(&JOINT_FORCES[2..]) || s.tendon_springs),
-    (Fact::Dampers, |s| s.damped() != Some(false) || s.tendon_dampers),
-    (Fact::ActuatorDampers, |s| s.damped().is_none() || s.m.jnt_actuatorid.iter().any(|&i| i != -1)),
-    (Fact::Motors, |s| s.actuators_are(Scene::is_motor)),
-    (Fact::Servos, |s| s.actuators_are(Scene::is_servo)),
-    (Fact::SlopesStay, |s| s.slopes_stay()),
-    (Fact::ForceLimits, |s| {
+pub(super) const FACTS: [(PlanFlag, Test); 23] = [
+    (PlanFlag::General, |s| s.general),
+    (PlanFlag::Composite, |s| s.large || s.reads_field(data::crb)),
+    (PlanFlag::Recursion, |s| s.large),
+    (PlanFlag::Equalities, |s| s.equalities > 0),
+    (PlanFlag::FrictionLoss, |s| s.friction > 0),
+    (PlanFlag::Limits, |s| s.limited > 0 || s.limited_tendons > 0),
+    (PlanFlag::Adhesion, |s| s.adhesion),
+    (PlanFlag::Surfaces, |s| s.pairs > 0 && s.some(&[SURFACES])),
+    (PlanFlag::DampersStay, |s| s.damped().is_some()),
+    (PlanFlag::JointDampers, |s| s.damped() == Some(true)),
+    (PlanFlag::Springs, |s| s.some(&JOINT_FORCES[2..]) || s.tendon_springs),
+    (PlanFlag::Dampers, |s| s.damped() != Some(false) || s.tendon_dampers),
+    (PlanFlag::ActuatorDampers, |s| s.damped().is_none() || s.m.jnt_actuatorid.iter().any(|&i| i != -1)),
+    (PlanFlag::Motors, |s| s.actuators_are(ModelAnalysis::is_motor)),
+    (PlanFlag::Servos, |s| s.actuators_are(ModelAnalysis::is_servo)),
+    (PlanFlag::SlopesStay, |s| s.slopes_stay()),
+    (PlanFlag::ForceLimits, |s| {
         s.m.actuator_forcelimited.contains(&true)
             || s.m.jnt_actfrclimited.contains(&true)
             || s.writes(&[model::actuator_forcelimited, model::jnt_actfrclimited])
     }),
-    (Fact::SolverDetails, |s| s.reads_field(data::efc_b) || s.reads_field(data::efc_state)),
-    (Fact::BodyForces, |s| s.body_forces()),
-    (Fact::AppliedForces, |s| s.pushed()),
-    (Fact::PairsChange, |s| s.pairs_change),
-    (Fact::ContactParamsChange, |s| s.changes().params),
-    (Fact::PlacesChange, |s| s.changes().places),
+    (PlanFlag::SolverDetails, |s| s.reads_field(data::efc_b) || s.reads_field(data::efc_state)),
+    (PlanFlag::BodyForces, |s| s.body_forces()),
+    (PlanFlag::AppliedForces, |s| s.pushed()),
+    (PlanFlag::PairsChange, |s| s.pairs_change),
+    (PlanFlag::ContactParamsChange, |s| s.changes().params),
+    (PlanFlag::PlacesChange, |s| s.changes().places),
 ];
 
 /// What may change of what pairs of geoms are chosen by, as far as a plan says it.
-pub(crate) fn changes(plan: &Plan) -> collision::Changes {
+pub(crate) fn changes(plan: &PlanTable) -> collision::Changes {
     collision::Changes {
-        bits: plan.has(Fact::PairsChange),
-        params: plan.has(Fact::ContactParamsChange),
-        places: plan.has(Fact::PlacesChange),
+        bits: plan.has(PlanFlag::PairsChange),
+        params: plan.has(PlanFlag::ContactParamsChange),
+        places: plan.has(PlanFlag::PlacesChange),
     }
 }
 
 /// What is known of a scene before it runs.
-pub(super) struct Scene<'a> {
+pub(super) struct ModelAnalysis<'a> {
     pub(super) m: &'a Model,
-    pub(super) demand: &'a Demand,
+    pub(super) demand: &'a Access,
     /// How trees may be computed.
-    pub(super) ways: Ways,
+    pub(super) ways: TreeAlgorithms,
     /// M of some tree depends on the configuration.
     pub(super) general: bool,
     /// M and the bias force of some tree take the general way.
@@ -199,14 +199,14 @@ pub(super) struct Scene<'a> {
     pub(super) sleeps: bool,
 }
 
-impl<'a> Scene<'a> {
-    pub(super) fn new(m: &'a Model, demand: &'a Demand, ways: Ways) -> Scene<'a> {
-        let mut scene = Scene {
+impl<'a> ModelAnalysis<'a> {
+    pub(super) fn new(m: &'a Model, demand: &'a Access, ways: TreeAlgorithms) -> ModelAnalysis<'a> {
+        let mut scene = ModelAnalysis {
             m,
             demand,
             ways,
-            general: !ways::are_constant(m, ways),
-            large: ways::need_bodies(m, ways),
+            general: !tree_algorithms::are_constant(m, ways),
+            large: tree_algorithms::need_bodies(m, ways),
             pairs_change: false,
             pairs: 0,
             limited: m.jnt_limited.iter().filter(|&&l| l).count(),
@@ -323,7 +323,7 @@ impl<'a> Scene<'a> {
 
     /// Whether something looks at the inertias of bodies: trees that take the general way, derivatives of the bias force, forces between
     /// bodies.
-    pub(super) fn needs_body_inertias(&self, plan: &Plan) -> bool {
+    pub(super) fn needs_body_inertias(&self, plan: &PlanTable) -> bool {
         let m = self.m;
         let explicit = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
         self.large
@@ -335,7 +335,7 @@ impl<'a> Scene<'a> {
 
     /// Whether only constraints look at M: trees take ways that do without its general
     /// rows, and so does the integrator.
-    pub(super) fn mass_for_rows(&self, plan: &Plan) -> bool {
+    pub(super) fn mass_for_rows(&self, plan: &PlanTable) -> bool {
         let m = self.m;
         let fields = [data::M, data::qLD, data::qLDiagInv, data::crb];
         let integrates = m.opt.integrator == integrator::EULER || integrator::many_stages(m.opt.integrator);
@@ -349,7 +349,7 @@ impl<'a> Scene<'a> {
             && !plan.keeps(Stage::Energy)
             && !(plan.keeps(Stage::Sensors) && self.sensed(Stage::MassMatrix))
             && !fields.into_iter().any(|f| self.reads_field(f))
-            && ways::solve_alone(m, self.ways)
+            && tree_algorithms::solve_alone(m, self.ways)
     }
 
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
@@ -387,7 +387,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Whether all actuators are of a kind, each with one control and none of them ever switched off.
-    pub(super) fn actuators_are(&self, of_kind: fn(&Scene<'a>, usize) -> bool) -> bool {
+    pub(super) fn actuators_are(&self, of_kind: fn(&ModelAnalysis<'a>, usize) -> bool) -> bool {
         let m = self.m;
         let plain = |i: usize| {
             of_kind(self, i)
@@ -410,7 +410,7 @@ impl<'a> Scene<'a> {
             && self.damped().is_some()
             && !self.some(&growth)
             && !self.writes(&numbers)
-            && (self.m.nactuator == 0 || self.actuators_are(Scene::is_servo))
+            && (self.m.nactuator == 0 || self.actuators_are(ModelAnalysis::is_servo))
             && (0..self.m.ntendon).all(|t| tendon::is_fixed(self.m, t))
     }
 
@@ -471,7 +471,7 @@ impl<'a> Scene<'a> {
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     pub(super) fn bias_slopes(&self) -> bool {
         let bodies =
-            |&t: &usize| derivative::is_free_rigid(self.m, t) && !ways::turns_alone(self.m, self.ways, t);
+            |&t: &usize| derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.ways, t);
         let free = || (0..self.m.ntree).any(|t| bodies(&t));
         let of_free = [integrator::IMPLICITFAST, integrator::DISCRETE];
         self.may_integrate_by(integrator::IMPLICIT)

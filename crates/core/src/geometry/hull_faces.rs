@@ -9,7 +9,7 @@ const FLAT: f64 = 1.0 - 1e-7;
 
 /// The sides of a hull.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sides {
+pub struct HullFaces {
     sides: Vec<Side>,
     vertices: Vec<u32>,
     /// Sides at each vertex: where its list begins in `around`, and one more.
@@ -25,9 +25,9 @@ struct Side {
     count: u32,
 }
 
-impl Sides {
+impl HullFaces {
     /// The sides of the hull of some vertices.
-    pub fn of(vert: &[Vec3], hull: &Hull) -> Sides {
+    pub fn of(vert: &[Vec3], hull: &Hull) -> HullFaces {
         let mut sides = merge(vert, hull);
         sides.index(vert.len());
         sides
@@ -43,7 +43,7 @@ impl Sides {
     }
 
     /// What [`Sides::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
-    pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<Sides> {
+    pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<HullFaces> {
         let (&[a, b, c], mut rest) = integers.split_first_chunk::<3>()?;
         let count = floats.len() / 3;
         let mut take = |n: usize| {
@@ -55,7 +55,7 @@ impl Sides {
         let (corners, first, around) = (take(a as usize)?, take(b as usize)?, take(c as usize)?);
         let sides = places.as_chunks::<2>().0.iter().zip(floats.as_chunks::<3>().0);
         let sides = sides.map(|(&[first, count], &normal)| Side { normal, first, count });
-        let out = Sides { sides: sides.collect(), vertices: corners, first, around };
+        let out = HullFaces { sides: sides.collect(), vertices: corners, first, around };
         let corners = out.vertices.len() as u64;
         let good = rest.is_empty()
             && floats.len().is_multiple_of(3)
@@ -113,7 +113,7 @@ impl Sides {
     }
 }
 
-fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
+fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
     let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
     let normals: Vec<Vec3> = hull
         .face
@@ -130,7 +130,7 @@ fn merge(vert: &[Vec3], hull: &Hull) -> Sides {
         let at = edges.partition_point(|&(x, y, _)| (x, y) < (b, a));
         edges.get(at).filter(|&&(x, y, _)| (x, y) == (b, a)).map(|e| e.2)
     };
-    let mut out = Sides::default();
+    let mut out = HullFaces::default();
     let mut side_of = vec![usize::MAX; hull.face.len()];
     for start in 0..hull.face.len() {
         if side_of[start] != usize::MAX {

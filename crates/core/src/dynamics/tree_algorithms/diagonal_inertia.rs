@@ -2,7 +2,7 @@
 //!
 //! M is diagonal and constant, the bias force has a closed form: weight along translations, ω × I ω for rotations.
 
-use super::{Forces, NOTHING, Own, Row};
+use super::{Forces, NOTHING, Assignment, Row};
 use crate::dynamics::Scratch;
 use crate::kinds::joint;
 use crate::math::*;
@@ -42,7 +42,7 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let dofs: Vec<_> = own.forces.iter().map(|&tree| m.tree_dofs(tree)).collect();
         let mut joints: Vec<usize> =
             dofs.iter().cloned().flatten().map(|dof| m.dof_jntid[dof] as usize).collect();

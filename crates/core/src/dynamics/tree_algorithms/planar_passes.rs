@@ -48,7 +48,7 @@ struct Body {
 
 /// Turns the links.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn place(links: &mut [Link], qpos: &[f64]) {
+pub(super) fn forward_kinematics(links: &mut [Link], qpos: &[f64]) {
     let (mut angle, mut cos, mut sin) = (0.0, 1.0, 0.0);
     let mut anchor = [0.0; 2];
     for link in links {

@@ -4,7 +4,7 @@
 //! moves and a are the axes, and the bias force is weight alone, -m_i (a_i · g). M changes when its masses do, or when something
 //! turns what carries the tree; while it does not, it stays, and so does its factorization.
 
-use super::{Damped, Factors, Forces, NOTHING, Own, Row};
+use super::{Damped, Factors, Forces, NOTHING, Assignment, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
@@ -84,7 +84,7 @@ struct Factored {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let slide = |dof: usize| {
             let joint = m.dof_jntid[dof] as usize;
             let row = vec![0.0; rows_of_mass::row(m, dof).len()];

@@ -12,10 +12,10 @@
 //! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
 //! from body to body.
 
-use super::{Damped, Factors, NOTHING, Own, Row};
+use super::{Damped, Factors, NOTHING, Assignment, Row};
 use crate::dynamics::{Scratch, mass, reflected};
 use crate::math::*;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -103,7 +103,7 @@ fn covers(m: &Model, tree: usize) -> bool {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         let span = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             // Bodies are numbered depth first: those of a tree follow each other.
@@ -164,7 +164,7 @@ impl Passes<'_> {
                 }
             }
             if X {
-                rise::<A, B>(bodies, link, s, joint);
+                inward_pass::<A, B>(bodies, link, s, joint);
             }
             let Some((own, up)) = link.carrier.and_then(|c| with_carrier(bodies, link.body, c)) else {
                 continue;
@@ -187,14 +187,14 @@ impl Passes<'_> {
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
         for (joint, (link, s)) in joints[dofs].iter_mut().zip(links).rev() {
-            rise::<A, B>(bodies, link, s, joint);
+            inward_pass::<A, B>(bodies, link, s, joint);
         }
-        self.fall::<A, B>(bodies, joints);
+        self.outward_pass::<A, B>(bodies, joints);
     }
 
     /// The way down, from the root to the leaves.
     #[inline(never)]
-    fn fall<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
+    fn outward_pass<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
         for (joint, (link, s)) in joints[dofs].iter_mut().zip(links) {
@@ -215,7 +215,7 @@ impl Passes<'_> {
 
 /// One degree of freedom on the way up: what its joint takes of the force on its body, and what it passes on.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn rise<const A: usize, const B: usize>(
+fn inward_pass<const A: usize, const B: usize>(
     bodies: &mut [[Body; 2]],
     link: &Link,
     s: &Spatial,
@@ -250,7 +250,7 @@ fn with_carrier(
 #[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let bad = prepare(m, d, w, None);
-    w.rows_due = d.plan.has(Fact::MassForRows);
+    w.rows_due = d.plan.has(PlanFlag::MassForRows);
     if !w.rows_due {
         rows_of_factor(m, d, w);
     }
@@ -281,7 +281,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
                 Some(x) => {
                     put::<0>(joints, dofs.clone(), x);
                     let bad = tree.factor::<0, 1, true>(rows(&d.cinert), bodies, joints);
-                    tree.fall::<0, 1>(bodies, joints);
+                    tree.outward_pass::<0, 1>(bodies, joints);
                     get::<0>(joints, dofs, x);
                     bad
                 }
@@ -318,7 +318,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
             }
             let tree = Passes { span, links, cdof: rows(&d.cdof) };
             let bad = tree.factor::<0, 2, true>(rows(&d.cinert), bodies, joints);
-            tree.fall::<0, 2>(bodies, joints);
+            tree.outward_pass::<0, 2>(bodies, joints);
             get::<0>(joints, dofs.clone(), x);
             get::<1>(joints, dofs, y);
             bad
@@ -395,7 +395,7 @@ fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
             }
             let tree = Passes { span, links, cdof: rows(&d.cdof) };
             tree.factor::<1, 2, true>(rows(&d.cinert), bodies, joints);
-            tree.fall::<1, 2>(bodies, joints);
+            tree.outward_pass::<1, 2>(bodies, joints);
             get::<1>(joints, dofs, x);
         } else {
             mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
@@ -469,11 +469,11 @@ mod tests {
     #![allow(clippy::unwrap_used, clippy::panic)]
 
     use super::*;
-    use crate::dynamics::ways::{solve, solve_with};
+    use crate::dynamics::tree_algorithms::{solve, solve_with};
     use crate::kinds::joint;
     use crate::mjcf::compile;
     use crate::step::forward::forward;
-    use crate::step::workspace::Data;
+    use crate::step::workspace::Workspace;
     use proptest::prelude::*;
 
     /// A tree as text: of each body its parent, its joints (-1 for none, three hinges at most), its place and turn.
@@ -512,7 +512,7 @@ mod tests {
             q in prop::collection::vec(-1.0f64..1.0, 80),
         ) {
             let m = compile(&text(&bodies)).unwrap();
-            let mut d = Data::new(&m);
+            let mut d = Workspace::new(&m);
             for j in (0..m.njnt).filter(|&j| m.jnt_type[j] != joint::FREE) {
                 let at = m.jnt_qposadr[j] as usize;
                 d.qpos[at] += q[at % q.len()];

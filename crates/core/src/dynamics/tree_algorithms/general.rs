@@ -3,11 +3,11 @@
 //! Bodies are placed one after the other (`kinematics`); M comes from composite bodies, a row for each degree of freedom, and is
 //! factorized by elimination (`mass`); the bias force is found by recursion (`rne`).
 
-use super::{Damped, Factors, Forces, Own, Places, Row};
+use super::{Damped, Factors, Forces, Assignment, Places, Row};
 use crate::dynamics::kinematics::{self, Frames};
 use crate::dynamics::{Scratch, mass as rows, rne};
 use crate::math::Vec3;
-use crate::model::plan::Fact;
+use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ pub(super) const ROW: Row = Row {
     covers: |_, _| true,
     copies: &kinematics::FIELDS,
     load: |m, w| w.ways.general.frames.load(m),
-    places: Some(Places { place, orient }),
+    places: Some(Places { forward_kinematics, orientations }),
     forces: Some(Forces {
         mass,
         bias,
@@ -45,7 +45,7 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Own) -> Trees {
+    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
         Trees { frames: Frames::new(m), forces: spans(m, &own.forces), factors: spans(m, &own.factors) }
     }
 }
@@ -67,11 +67,11 @@ pub(super) fn frames(w: &mut Scratch) -> &mut Frames {
     &mut w.ways.general.frames
 }
 
-fn place(_: &Model, d: &mut Fields, w: &mut Scratch) {
+fn forward_kinematics(_: &Model, d: &mut Fields, w: &mut Scratch) {
     kinematics::bodies(d, &mut w.ways.general.frames);
 }
 
-fn orient(d: &mut Fields, w: &mut Scratch) {
+fn orientations(d: &mut Fields, w: &mut Scratch) {
     kinematics::orientations(d, &w.ways.general.frames);
 }
 
@@ -80,7 +80,7 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 }
 
 fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
-    if d.plan.has(Fact::Recursion) {
+    if d.plan.has(PlanFlag::Recursion) {
         rne::newton_euler(m, d, w, gravity);
     }
 }

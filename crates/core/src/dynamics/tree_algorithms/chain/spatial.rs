@@ -10,7 +10,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
     let Some(chain) = chain.get_mut(..n) else { return };
     for i in 0..n {
         let parent = i.checked_sub(1).map(|p| chain[p].pose);
-        chain[i].place(parent.as_ref(), qpos[chain[i].coordinate]);
+        chain[i].forward_kinematics(parent.as_ref(), qpos[chain[i].coordinate]);
     }
     let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
     for i in 0..n {
@@ -46,7 +46,7 @@ pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass
 impl Link {
     /// The pose for a coordinate of the joint.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn place(&mut self, parent: Option<&Pose>, q: f64) {
+    fn forward_kinematics(&mut self, parent: Option<&Pose>, q: f64) {
         let (f, pose) = (&self.fixed, &mut self.pose);
         match parent {
             None => (pose.anchor, pose.axes) = (f.at, f.turn),
