@@ -368,7 +368,7 @@ fn done_for(when: &str, folder: &Path) -> Option<Done> {
             assert_eq!(check(&["nowhere.md"])?.code, 2);
             check(&["clean.md", "--no-such-option"])
         }
-        "has nothing to check" => {
+        "there is nothing to check" => {
             assert_eq!(check(&["empty"])?.code, 2);
             write("a.md", "# Only prose\n");
             check(&["a.md"])

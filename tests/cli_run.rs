@@ -143,7 +143,7 @@ fn plan_measures() {
     );
     let done = run(&["plan", "fall.json", "--read", "data.nothing", "--no-run"]);
     assert_eq!(done.code, 2);
-    assert!(done.stderr.contains("`data.nothing` names no field"), "{}", done.stderr);
+    assert!(done.stderr.contains("`data.nothing` is not a field of the data"), "{}", done.stderr);
 }
 
 /// One more reader makes stages join: the same that the plan of a lab with that reader keeps.

@@ -229,7 +229,7 @@ fn a_search_sees_a_thin_band_and_says_where_it_looked() {
     let clean = choice("", &find(&format!("{half_way} < 0.35")));
     assert_eq!(verdict(&clean), Verdict::Verified, "{:?}", codes(&clean));
     let answer = checked_reason(&clean);
-    assert!(answer.contains("`limit` was looked for at") && answer.contains("from -20 to -2"), "{answer}");
+    assert!(answer.contains("`limit` was searched at") && answer.contains("from -20 to -2"), "{answer}");
     let band = choice("", &find(&format!("{half_way} < 0.35 && abs({half_way} - 0.26) > 0.001")));
     assert_eq!(verdict(&band), Verdict::Failed, "{:?}", codes(&band));
 }

@@ -169,11 +169,11 @@ fn a_verdict_that_turns_over_is_found() {
         [
             (
                 "engine-dependent",
-                "this answer depends on the engine: verified here, refuted with MuJoCo 3.14.0"
+                "this answer depends on the engine: verified here, but refuted with MuJoCo 3.14.0"
             ),
             (
                 "engine-dependent",
-                "\"0.55 m\" depends on the engine: verified here, refuted with MuJoCo 3.14.0"
+                "\"0.55 m\" depends on the engine: verified here, but refuted with MuJoCo 3.14.0"
             ),
         ]
     );
@@ -238,7 +238,7 @@ fn what_is_no_recording_is_refused() {
     let cases = [
         ("{", "EOF"),
         ("[]", "its version is missing"),
-        ("{\"recording\": \"judge\", \"version\": 2}", "of this version"),
+        ("{\"recording\": \"judge\", \"version\": 2}", "its version is missing or unsupported"),
         (&with(&|r| r["engine"] = json!("")), "does not name its engine"),
         (&with(&|r| r["runs"] = json!(5)), "has no runs"),
         (&with(&|r| r["runs"][0]["hash"] = json!(5)), "run 0 has no \"hash\""),
@@ -254,7 +254,7 @@ fn what_is_no_recording_is_refused() {
         let done = run_in(folder.path(), &["check", "fall.md", "--judge", "judge.json"]);
         assert_eq!(done.code, 2, "{text}");
         assert!(
-            done.stderr.contains("judge.json is no recording of a judge") && done.stderr.contains(why),
+            done.stderr.contains("judge.json is not a recording of a judge") && done.stderr.contains(why),
             "{}",
             done.stderr
         );

@@ -305,7 +305,7 @@ fn a_repair_keeps_the_neighbours_in_sight() {
         .replace("[\"0.77 m\", \"low\"]", "[\"0.56 m\", \"low\"]");
     std::fs::write(folder.path().join("reader.md"), &text).unwrap();
     let done = run_in(folder.path(), &["check", "reader.md", "--fix", "--unsafe-fixes"]);
-    assert!(done.stderr.contains("repaired 1 finding in 1 file"), "{}{}", done.stdout, done.stderr);
+    assert!(done.stderr.contains("fixed 1 finding in 1 file"), "{}{}", done.stdout, done.stderr);
     let after = std::fs::read_to_string(folder.path().join("reader.md")).unwrap();
     assert_eq!(after, text.replace("titel", "title"));
     assert!(!done.stdout.contains("unknown-lab"), "{}", done.stdout);

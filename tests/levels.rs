@@ -99,7 +99,7 @@ fn settings_of_the_nearest_file_count() {
     write(folder.path(), "labspec.toml", "ignore = [\"nonsense\"]\n");
     let done = check(&folder, &["."]);
     assert_eq!(done.code, 2);
-    assert!(done.stderr.contains("labspec.toml: ignore: `nonsense` is no rule"), "{}", done.stderr);
+    assert!(done.stderr.contains("labspec.toml: ignore: `nonsense` is not a rule"), "{}", done.stderr);
     write(folder.path(), "other.toml", "ignore = [\"structure\"]\n");
     assert_eq!(told(&folder, &[".", "--config", "other.toml"]), (0, vec![]));
 }
@@ -200,7 +200,7 @@ fn repairs_are_checked_before_they_are_written() {
     assert_eq!(read(), odd);
     let done = check(&folder, &["a.md", "--fix"]);
     assert_eq!(done.code, 1, "{}{}", done.stdout, done.stderr);
-    assert!(done.stderr.contains("repaired 1 finding in 1 file"), "{}", done.stderr);
+    assert!(done.stderr.contains("fixed 1 finding in 1 file"), "{}", done.stderr);
     let safe = odd.replace("2}],\n", "2}]\n");
     assert_eq!(read(), safe);
     // A guess is made where it is asked for.

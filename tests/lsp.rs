@@ -440,7 +440,7 @@ fn a_rename_that_is_not_certain_is_refused() {
     let heavy = "data.body('he|avy').xpos[2]";
     for (inside, new, why) in [
         (format!("\"setup\": \"ctx.z = {heavy}\""), "light", "already"),
-        (format!("\"setup\": \"ctx.z = {heavy}\""), "a b\"", "escaped"),
+        (format!("\"setup\": \"ctx.z = {heavy}\""), "a b\"", "escape"),
         (format!("\"setup\": \"ctx.z = {heavy}\""), "", "at least one character"),
         (format!("\"setup\": \"ctx.z = {heavy}; ctx.name = 'heavy'\""), "iron", "or something else"),
         (
@@ -480,7 +480,7 @@ fn repairs_are_offered_and_made() {
     };
     let made = |action: &Value| edited(&text, &action["edit"]["documentChanges"][0]["edits"]);
     assert!(made(&offered("title")).contains("\"title\": \"A\""));
-    let kept = made(&offered("allow `duplicate-readout`"));
+    let kept = made(&offered("suppress `duplicate-readout`"));
     assert!(kept.contains("\"lint\": {\"allow\": [\"duplicate-readout\"], \"why\": \"\"}"), "{kept}");
     // Once a reason stands there, it is no longer told.
     let kept = kept.replace("\"why\": \"\"", "\"why\": \"on purpose\"");

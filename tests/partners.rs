@@ -65,9 +65,9 @@ fn codes(lab: &Json) -> Vec<&'static str> {
     found(lab).iter().map(|f| f.code).collect()
 }
 
-/// The numbers of both runs: those before and behind ", and ".
+/// The numbers of both runs: those before and behind ", but ".
 fn numbers(why: &str) -> (f64, f64) {
-    let (before, after) = why.split_once(")\" is ").unwrap().1.split_once(", and ").unwrap();
+    let (before, after) = why.split_once(")\" is ").unwrap().1.split_once(", but ").unwrap();
     let first = |text: &str| {
         let word = text.split(' ').next().unwrap().trim_end_matches(',').replace('\u{2212}', "-");
         word.parse::<f64>().unwrap_or_else(|_| panic!("{why}"))
@@ -228,7 +228,7 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
         lab(xml, &slider([0.05, 0.3, 0.05], &json!({"apply": apply})), shown)
     };
     let finding = found(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]")).remove(0);
-    assert!(finding.message.contains("leaves `model.geom_rbound`"), "{finding:?}");
+    assert!(finding.message.contains("but not `model.geom_rbound`"), "{finding:?}");
     let (alone, both) = repaired(&size(DROP, "model.geom_size[3] = value", "data.qpos[2]"), "shape-alone");
     // The ball rests at its radius, or at what its bounds let it sink to.
     assert!(both > 0.25 && alone < 0.2, "{alone} {both}");
@@ -244,7 +244,7 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
     rolls["setup"] = json!("data.qpos[2] = model.geom_size[3]; data.qvel[0] = 2");
     rolls["stopAt"] = json!(0.2);
     let finding = found(&rolls).remove(0);
-    assert!(finding.message.ends_with("leaves `model.body_inertia`"), "{finding:?}");
+    assert!(finding.message.ends_with("but not `model.body_inertia`"), "{finding:?}");
     repaired(&rolls, "shape-alone");
     // The bob of a pendulum takes the centre of mass along.
     let bob = lab(
@@ -253,7 +253,7 @@ fn a_size_takes_its_bounds_and_its_inertia_along() {
         "data.qpos[0]",
     );
     let finding = found(&bob).remove(0);
-    assert!(finding.message.contains("leaves `model.body_ipos`"), "{finding:?}");
+    assert!(finding.message.contains("but not `model.body_ipos`"), "{finding:?}");
     repaired(&bob, "shape-alone");
 }
 
@@ -385,7 +385,7 @@ fn a_claim_that_holds_both_ways_says_so() {
     let checked = check_text("lesson.md", &lesson(MASS, "", &verify, KEY));
     let answer = checked.claims.iter().find_map(|c| c.judgement.answer.clone()).unwrap();
     assert_eq!(answer.verdict, Verdict::Verified);
-    assert!(answer.reason.contains("also holds with the inertia that this mass has"), "{}", answer.reason);
+    assert!(answer.reason.contains("also true with the inertia that this mass has"), "{}", answer.reason);
 }
 
 #[test]

@@ -107,7 +107,7 @@ fn the_plain_call_is_advised_where_it_was_seen_to_be_right() {
     let lab =
         drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value;", "value": 0.1, "reset": true}))]));
     let help = only(&lab).help.unwrap();
-    assert!(help.starts_with("add `mj.mj_setConst(model, data)`; tried"), "{help}");
+    assert!(help.starts_with("add `mj.mj_setConst(model, data)`; in a test run"), "{help}");
     assert!(!fixed(&lab).contains("slice"));
     // Moved in mid-run it would throw the ball back to its start.
     let lab = drop(&json!([slider(&json!({"apply": "model.body_mass[2] = value // kg", "value": 0.1}))]));
@@ -119,7 +119,7 @@ fn the_plain_call_is_advised_where_it_was_seen_to_be_right() {
 fn a_call_before_the_mass_is_written_counts_as_none() {
     let apply = "mj.mj_setConst(model, data); model.body_mass[2] = value";
     let lab = drop(&json!([slider(&json!({"apply": apply, "value": 0.1, "reset": true}))]));
-    assert!(only(&lab).message.contains("is changed after the last `mj.mj_setConst(model, data)`"));
+    assert!(only(&lab).message.contains("changes after the last `mj.mj_setConst(model, data)`"));
     fixed(&lab);
     let apply = "model.body_mass[2] = value; mj.mj_setConst(model, data)";
     let lab = drop(&json!([slider(&json!({"apply": apply, "value": 0.1, "reset": true}))]));
@@ -171,7 +171,7 @@ fn what_could_not_be_tried_says_so() {
     let all = found(&lab);
     let finding = all.iter().find(|f| f.code == "missing-setconst").unwrap();
     let help = finding.help.as_ref().unwrap();
-    assert!(help.contains("could not be tried: as it stands, the simulation breaks"), "{help}");
+    assert!(help.contains("could not be tested: as it stands, the simulation breaks"), "{help}");
     assert_eq!(finding.fix, None);
 }
 

@@ -12,11 +12,15 @@ use labspec_core::{self as core, Data, Access, Plan};
 const ROUNDING: f64 = 1e-12;
 /// Where a solver works to a tolerance of 1e-12.
 const SOLVED: f64 = 1e-8;
+/// The removal of slip ends when its objective no longer falls. The objective is flat at its minimum, so that its rounding of 1e-16 hides
+/// relative differences of forces of up to the root of that, on both sides.
+const SLIP_REMOVED: f64 = 2e-7;
 
 fn differences(scene: &str, tolerance: f64) {
     let recorded = &recording("sleep")[scene];
     let mut wrong = Vec::new();
     for (name, run) in objects(&recorded["runs"]) {
+        let tolerance = if name == "noslip" { SLIP_REMOVED } else { tolerance };
         let mut m = model(scene);
         let mut d = Data::new(&m);
         for (option, value) in objects(&run["options"]) {

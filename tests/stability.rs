@@ -397,12 +397,12 @@ fn stiff_and_extreme_scenes() {
          before the wall, as fast as its energy allows. *Silently wrong* is a run that does not, without a warning of the engine. Of the searches \
          for the longest timestep, only those of labspec are evaluated step by step.\n\n{}\n## Reported problems\n\n\
          | report | criterion | monitor |\n|---|---|---|\n\
-         | energy grows | three times the possible energy (up to ten times near the limit of a spring) in one step, or once that energy for 32 steps; if a step makes half a turn, observed a few times | `advice/growth` |\n\
-         | a damper pushes | the same, caused by a negative damping | `advice/growth` |\n\
-         | past a limit | half the joint's range beyond its limit, or a fifth of it permanently or by one step that is longer | `advice/limits` |\n\
-         | went through | the centre of a body passes through a middle plane of another one | `advice/through` |\n\
-         | sunk in | permanently three tenths of the thickness deep, or completely below a plane | `advice/sunk` |\n\
-         | solver stopped | a quarter of the constraint forces is missing, repeatedly | `advice/unsolved` |\n\n\
+         | energy grows | three times the possible energy (up to ten times near the limit of a spring) in one step, or once that energy for 32 steps; if a step makes half a turn, observed a few times | `monitors/growth` |\n\
+         | a damper pushes | the same, caused by a negative damping | `monitors/growth` |\n\
+         | past a limit | half the joint's range beyond its limit, or a fifth of it permanently or by one step that is longer | `monitors/limits` |\n\
+         | went through | the centre of a body passes through a middle plane of another one | `monitors/through` |\n\
+         | sunk in | permanently three tenths of the thickness deep, or completely below a plane | `monitors/sunk` |\n\
+         | solver stopped | a quarter of the constraint forces is missing, repeatedly | `monitors/unsolved` |\n\n\
          ## Results by case\n\n*Apart* is the largest difference of the first coordinates at the end (m, rad). Stacks of very unequal boxes jitter by the residual of the \
          solver at its tolerance, in both programs, but not in the same steps. Every step of a run is monitored.\n{sections}\n\
          ## Longest stable timestep\n\nThe longest of the timesteps {} at which 2,000 steps stay within bounds, with all shorter ones as well; **MuJoCo / labspec** where they \

@@ -16,7 +16,6 @@ const EXCEPTIONS: &[Exception] = &[
         "compile",
         "corners of a flat side are off it by the rounding of single precision: the library's hull lies along another of them",
     ),
-    ("mesh_builtin", "forward", "the axes of that hull"),
     ("actuator_orientation_clamp", "forward", CLAMPED),
     ("actuator_orientation", "forward", ORDER),
     ("actuator_orientation", "Euler", ORDER),

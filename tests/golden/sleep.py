@@ -22,7 +22,9 @@ FIELDS = ("tree_asleep tree_awake body_awake ntree_awake nbody_awake nparent_awa
 HELD = ("tree_asleep body_awake ntree_awake nbody_awake nparent_awake nv_awake ncon nefc nisland qpos qvel qacc "
         "qacc_smooth qfrc_constraint sensordata energy").split()
 ALL = {name: {"integrator": i} for i, name in enumerate(INTEGRATORS)}
-SOLVERS = {"noslip": {"noslip_iterations": 3}, "ellipse": {"cone": 1}}
+# The dual solver and the removal of slip run to convergence: what they find after a few sweeps depends on the order of the sweeps.
+SOLVERS = {"noslip": {"noslip_iterations": 20_000, "noslip_tolerance": 0}, "ellipse": {"cone": 1}}
+DUAL = {"solver": 0, "iterations": 20_000, "tolerance": 0}
 # Before this step: field, element, value.
 SCENES = {
     "sleep": (700, FIELDS, ALL, [
@@ -35,7 +37,7 @@ SCENES = {
         (0, "qvel", 0, 0.3), (150, "qvel", 18, 1.5), (500, "mocap_pos", 2, 0.49), (520, "mocap_pos", 2, 3.0),
         (800, "xfrc_applied", 6 * 3, 0.5), (801, "xfrc_applied", 6 * 3, 0.0), (900, "qpos", 2, 0.35)]),
     # Limits and dry friction at rest; equalities that are switched on between trees that sleep; a tendon pulled tight.
-    "sleep_ties": (1500, HELD, {**ALL, **SOLVERS, "dual": {"solver": 0}}, [
+    "sleep_ties": (1500, HELD, {**ALL, **SOLVERS, "dual": DUAL}, [
         (0, "qvel", 1, 0.3), (0, "qvel", 2, 0.4), (200, "qvel", 0, 0.5), (400, "eq_active", 0, 1), (600, "eq_active", 0, 0),
         (700, "qvel", 4, 0.3), (900, "eq_active", 4, 1), (1100, "qfrc_applied", 8, 0.1), (1110, "qfrc_applied", 8, 0.0),
         (1300, "eq_active", 3, 1)]),

@@ -37,13 +37,13 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
                 .help(format!("add \"{key}\": …"))
         }
         Mistake::ControlType(word) => {
-            let finding = wrong(format!("`{}` is not a type of control", named(word)))
+            let finding = wrong(format!("{} is not a type of control", named(word)))
                 .why("the page knows sliders, selects and buttons; it shows nothing for other types");
             let help = "write \"select\" or \"button\", or delete `type` for a slider";
             one_of(finding, word, texts(CONTROL.words), help.to_string())
         }
         Mistake::QuestionKind(word) => {
-            let finding = wrong(format!("`{}` is not a kind of question", named(word)))
+            let finding = wrong(format!("{} is not a kind of question", named(word)))
                 .why("the page can neither ask nor grade it");
             let kinds: Vec<&str> = texts(QUESTION.words).collect();
             one_of(finding, word, texts(QUESTION.words), format!("use one of the kinds {}", kinds.join(", ")))

@@ -117,7 +117,11 @@ fn by_their_laws(m: &Model, d: &mut Fields) {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn motors(m: &Model, d: &mut Fields) -> bool {
     let off = disable::ACTUATION | disable::CLAMPCTRL;
-    if d.plan.has(PlanFlag::ForceLimits) || m.opt.disabled(off) || d.ctrl.iter().any(|&u| bad(u)) {
+    if m.nactuator == 0
+        || d.plan.has(PlanFlag::ForceLimits)
+        || m.opt.disabled(off)
+        || d.ctrl.iter().any(|&u| bad(u))
+    {
         return false;
     }
     zero(&mut d.qfrc_actuator);

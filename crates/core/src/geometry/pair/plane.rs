@@ -44,36 +44,39 @@ pub(super) fn capsule(plane: &Shape, capsule: &Shape, margin: f64, out: &mut Vec
 
 /// A cylinder lies on the line through the lowest point of its rim: both ends of that. It stands on the circle of its lower end:
 /// three points of it as far from each other as can be, the lowest among them.
+///
+/// Heights are sums of scalars, so that a cylinder that a scene puts exactly on a plane has a distance of exactly zero.
 pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Vec<ContactPoint>) {
     let [radius, half, _] = cylinder.size;
     let (normal, axis) = (plane.axis(2), cylinder.axis(2));
+    let height = dot(sub(cylinder.pos, plane.pos), normal);
     // The axis downwards, and the direction across it that leads down most: -normal without its part along the axis.
     let slope = dot(normal, axis);
     let downwards = scale(axis, if slope > 0.0 { -1.0 } else { 1.0 });
     let end = scale(downwards, half);
-    let (mut down, steepness) = unit_vector(add_scaled(scale(normal, -1.0), axis, slope));
+    let (mut down, mut steepness) = unit_vector(add_scaled(scale(normal, -1.0), axis, slope));
     if steepness < MINVAL {
         // Upright all directions are level.
-        down = cylinder.axis(0);
+        (down, steepness) = (cylinder.axis(0), 0.0);
     }
     let down = scale(down, radius);
-    let lowest = add(cylinder.pos, down);
-    let mut add_contact = |point: Vec3| {
-        let dist = dot(sub(point, plane.pos), normal);
+    // What the lower end, and the lowest point of a rim, add to the height of the centre.
+    let (to_end, to_rim) = (-half * slope.abs(), -radius * steepness);
+    let mut add_contact = |offset: Vec3, dist: f64| {
         if dist <= margin {
-            out.push(touch(normal, dist, point));
+            out.push(touch(normal, dist, add(cylinder.pos, offset)));
         }
         dist <= margin
     };
-    if !add_contact(add(lowest, end)) {
+    if !add_contact(add(down, end), height + to_end + to_rim) {
         return;
     }
-    add_contact(sub(lowest, end));
+    add_contact(sub(down, end), height - to_end + to_rim);
     // A third of a turn to either side: cos 120° = -1/2, sin 120° = √3/2.
     let aside = scale(cross(down, downwards), 0.75f64.sqrt());
-    let behind = add_scaled(add(cylinder.pos, end), down, -0.5);
-    for point in [add(behind, aside), sub(behind, aside)] {
-        add_contact(point);
+    let behind = add_scaled(end, down, -0.5);
+    for side in [aside, scale(aside, -1.0)] {
+        add_contact(add(behind, side), height + to_end - 0.5 * to_rim);
     }
 }
 
