@@ -14,14 +14,14 @@ use labspec::lint::load_lesson;
 use labspec::run::{Cell, Samples, Session};
 use labspec::source::SourceFile;
 use labspec_core::reflect::{FieldSet, Object, field};
-use labspec_core::{self as core, Data, Access, Model, Plan, Planned, integrator};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, integrator};
 use labspec_expr::Value;
 use serde_json::json;
 use std::fmt::Write;
 
 /// A demand that reads the coordinates only.
-fn coordinates() -> Access {
-    let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+fn coordinates() -> AccessSet {
+    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
     demand.reads.insert(field(Object::Data, "qpos").unwrap());
     demand
 }
@@ -29,7 +29,7 @@ fn coordinates() -> Access {
 /// Steps a model from its start, once to warm up and once to count, with the full pipeline, with a plan for
 /// anything, and with a plan for the coordinates.
 fn allocates_nothing(name: &str, m: &Model, steps: usize) {
-    for plan in [Plan::full(), Plan::new(m, &Access::ANY), Plan::new(m, &coordinates())] {
+    for plan in [Plan::full(), Plan::new(m, &AccessSet::ANY), Plan::new(m, &coordinates())] {
         let mut d = Data::planned(m, plan);
         let mut contacts = 0;
         let start = |d: &mut Data<Planned>| match m.keys().next() {

@@ -93,7 +93,7 @@ fn random_world(model: &Model, seed: u64) -> World {
         (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
     let mut world = World {
-        data: Data::planned(model, labspec_core::Plan::new(model, &labspec_core::Access::ANY)),
+        data: Data::planned(model, labspec_core::Plan::new(model, &labspec_core::AccessSet::ANY)),
         model: model.clone(),
         key: None,
         own: labspec::Functions::new(),

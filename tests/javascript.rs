@@ -273,7 +273,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     );
     assert!(programs.probes.iter().all(|p| p.bound.is_some()), "{name}");
     let jobs = texts(lab, &programs);
-    let mut session = Session::start(&programs, model, lab.keyframe(), &labspec_core::Access::ANY);
+    let mut session = Session::start(&programs, model, lab.keyframe(), &labspec_core::AccessSet::ANY);
     let mut work = Work::default();
     for phase in 0..4 {
         match phase {

@@ -14,7 +14,7 @@ use labspec::lint::load_lesson;
 use labspec::run::Session;
 use labspec::source::SourceFile;
 use labspec::verify::QuoteState;
-use labspec_core::{self as core, Data, Access, Model};
+use labspec_core::{self as core, AccessSet, Data, Model};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 
@@ -183,7 +183,7 @@ fn the_mass_slider_in_mid_run() {
     let programs = Programs::compile(lab, &model, &mut findings);
     assert_eq!(findings, []);
     // A page that may read anything, and a run that needs nothing else: both see what the library sees.
-    for demand in [programs.demand, Access::ANY] {
+    for demand in [programs.demand, AccessSet::ANY] {
         let mut session = Session::start(&programs, &model, None, &demand);
         let text = std::fs::read_to_string(workspace().join("tests/golden/slider.json")).unwrap();
         let golden: Json = serde_json::from_str(&text).unwrap();
@@ -320,7 +320,7 @@ fn touchdown_from_five_heights() {
 #[test]
 fn poses_are_old_until_forward() {
     let m = compile(&model_text("ball_drop"));
-    for demand in [Access::ANY, Access::OBSERVE] {
+    for demand in [AccessSet::ANY, AccessSet::OBSERVE] {
         let mut d = Data::planned(&m, core::Plan::new(&m, &demand));
         core::forward(&m, &mut d).unwrap();
         d.edit().qpos[2] = 0.5;

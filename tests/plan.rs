@@ -6,7 +6,7 @@
 use crate::scenes::tied_scene;
 use crate::support::{compile, model, model_text};
 use labspec_core::reflect::{self, FieldId, FieldSet, Object, Stage, View};
-use labspec_core::{self as core, Data, Access, Model, Plan, Planned, Scope, enable};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, Scope, enable};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::fmt::Write;
@@ -140,12 +140,12 @@ fn bits<S: Scope>(m: &Model, d: &Data<S>, f: FieldId) -> Vec<u64> {
 }
 
 /// Runs a scene with a plan and with the full pipeline; the first field that differs, with its step.
-fn difference(m: &Model, demand: &Access, events: &[Event]) -> Option<String> {
+fn difference(m: &Model, demand: &AccessSet, events: &[Event]) -> Option<String> {
     difference_of(m, Data::planned(m, Plan::new(m, demand)), demand, events)
 }
 
 /// The same of data whose plan is already decided.
-fn difference_of(m: &Model, mut planned: Data<Planned>, demand: &Access, events: &[Event]) -> Option<String> {
+fn difference_of(m: &Model, mut planned: Data<Planned>, demand: &AccessSet, events: &[Event]) -> Option<String> {
     let (mut m1, mut m2) = (m.clone(), m.clone());
     let mut full = Data::unplanned(m);
     for step in 0..STEPS {
@@ -212,7 +212,7 @@ proptest! {
     ) {
         let m = compile(&scene.xml());
         let all = data_fields();
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: writes(&events) };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
         reads.iter().for_each(|i| demand.reads.insert(*i.get(&all)));
         // The state is what every lab shows, whatever else it reads.
         for name in ["time", "qpos", "qvel"] {
@@ -230,12 +230,12 @@ proptest! {
         events in vec(event(), 0..6),
     ) {
         let m = compile(&scene.xml());
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         reads.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
         for name in ["time", "qpos", "qvel"] {
             demand.reads.insert(field(Object::Data, name));
         }
-        let told = Access { writes: writes(&events), ..demand };
+        let told = AccessSet { writes: writes(&events), ..demand };
         let difference = difference(&m, &demand, &events)
             .or_else(|| difference_of(&m, Data::planned(&m, Plan::for_any_value(&m, &told)), &told, &events));
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
@@ -250,7 +250,7 @@ proptest! {
         events in vec(event(), 0..4),
     ) {
         let m = compile(&scene.xml());
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: writes(&events) };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
         others.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
         let sensors: Vec<core::SensorId> = m.sensors().collect();
         for i in &reads {
@@ -270,7 +270,7 @@ proptest! {
         events in vec(event(), 0..4),
     ) {
         let m = compile(&scene.xml());
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: writes(&events) };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
         reads.iter().for_each(|i| demand.reads.insert(*i.get(&data_fields())));
         for name in ["time", "qpos", "qvel"] {
             demand.reads.insert(field(Object::Data, name));
@@ -287,7 +287,7 @@ proptest! {
     #[test]
     fn a_plan_that_may_be_asked_anything_is_the_full_run(scene in tied_scene(), events in vec(event(), 0..4)) {
         let m = compile(&scene.xml());
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: writes(&events) };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: writes(&events) };
         data_fields().into_iter().for_each(|f| demand.reads.insert(f));
         let difference = difference(&m, &demand, &events);
         prop_assert!(difference.is_none(), "{}", difference.unwrap_or_default());
@@ -362,8 +362,8 @@ fn sensors_that_nobody_reads_are_left_out() {
 }
 
 /// A demand that reads these fields of the data and writes nothing.
-fn reading(names: &[&str]) -> Access {
-    let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+fn reading(names: &[&str]) -> AccessSet {
+    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
     names.iter().for_each(|n| demand.reads.insert(field(Object::Data, n)));
     demand
 }

@@ -8,7 +8,7 @@ use crate::needs::needs;
 use crate::support::{compile, for_each, models, workspace};
 use labspec::bind::{Functions, ModelNames, Scope, World, include};
 use labspec_core::reflect::{self, FieldSet, Object};
-use labspec_core::{self as core, Data, Access, Model, Plan};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan};
 use labspec_expr::{CollectionId, Compiler, Context, Entry, Globals, ObjectId, Param, Schema, Value};
 
 /// Most elements of a field, and most objects of a kind, that are read.
@@ -134,7 +134,7 @@ fn world(model: &Model, plan: Plan, change: Option<Change>) -> World {
 }
 
 /// What an expression gives, as text with every bit.
-fn shown(world: &mut World, text: &str, demand: Option<&mut Access>) -> Option<String> {
+fn shown(world: &mut World, text: &str, demand: Option<&mut AccessSet>) -> Option<String> {
     let mut globals = Globals::new();
     let program = {
         let names = ModelNames::new(&world.model, Scope::Measure);
@@ -166,7 +166,7 @@ fn compare(model: &Model, change: Option<Change>, announced: bool) -> (usize, Ve
     let full = world(model, Plan::full(), change);
     let (mut count, mut wrong) = (0, Vec::new());
     for text in expressions(model) {
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         let mut blank = full.clone();
         if shown(&mut blank, &text, Some(&mut demand)).is_none() {
             continue;

@@ -6,7 +6,7 @@
 use crate::recorded::{list, objects, worst};
 use crate::support::{model, numbers, recording};
 use labspec_core::reflect::{self, Object};
-use labspec_core::{self as core, Data, Access, Plan};
+use labspec_core::{self as core, AccessSet, Data, Plan};
 
 /// Rounding alone, over steps that are stable.
 const ROUNDING: f64 = 1e-12;
@@ -80,7 +80,7 @@ fn what_is_tied_sleeps_and_wakes_as_recorded() {
 fn a_plan_lets_trees_sleep_as_they_do() {
     for scene in ["sleep", "sleep_pile", "sleep_ties"] {
         let m = model(scene);
-        let mut demand = Access { reads: Default::default(), writes: Default::default() };
+        let mut demand = AccessSet { reads: Default::default(), writes: Default::default() };
         demand.reads.insert(reflect::field(Object::Data, "tree_asleep").unwrap());
         let run = |plan: Plan| {
             let mut d = Data::planned(&m, plan);

@@ -6,7 +6,7 @@ use crate::scenes::scene;
 use crate::support::compile;
 use crate::zoo::animals;
 use labspec_core::reflect::{self, Object};
-use labspec_core::{self as core, Data, Access, Model, Plan, Planned, TreeAlgorithm, TreeAlgorithms};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, TreeAlgorithm, TreeAlgorithms};
 use proptest::prelude::*;
 
 /// What trees are computed for. `qLD` of short chains and of rows is the same matrix.
@@ -26,7 +26,7 @@ type Column = (&'static str, Vec<f64>);
 /// relative to its largest number.
 fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithms) -> (f64, &'static str) {
     let run = |ways| {
-        let mut d = Data::planned(m, Plan::by_ways(m, &Access::ANY, ways));
+        let mut d = Data::planned(m, Plan::by_ways(m, &AccessSet::ANY, ways));
         start(&mut d);
         core::forward(m, &mut d).unwrap();
         let now: Vec<Column> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();
@@ -51,7 +51,8 @@ fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithm
 
 /// Each way alone, and all of them.
 fn every() -> impl Iterator<Item = TreeAlgorithms> {
-    let alone = |way| TreeAlgorithm::short().filter(|w| *w != way).fold(TreeAlgorithms::ALL, TreeAlgorithms::without);
+    let alone =
+        |way| TreeAlgorithm::short().filter(|w| *w != way).fold(TreeAlgorithms::ALL, TreeAlgorithms::without);
     TreeAlgorithm::short().map(alone).chain([TreeAlgorithms::ALL])
 }
 

@@ -4,7 +4,7 @@ use crate::recorded::{examine, list, objects, set};
 use crate::standing::{Exception, Standing};
 use crate::support::{compile_unconstrained, models, recording, workspace};
 use labspec_core::reflect::{self, FieldSet, Object};
-use labspec_core::{self as core, Data, Access, Model, Plan, Planned};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -138,7 +138,7 @@ fn a_plan_for_any_field_changes_no_bit_of_it() {
         };
         let full = run(Plan::full());
         for &f in &fields {
-            let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+            let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
             demand.reads.insert(f);
             let planned = run(Plan::new(&m, &demand));
             let bits = |d: &Data<Planned>| list(&m, d, f).into_iter().map(f64::to_bits).collect::<Vec<_>>();

@@ -4,7 +4,7 @@
 use super::{Random, tries};
 use crate::support::{model, models, workspace};
 use labspec_core::reflect::{self, Elem, Kind};
-use labspec_core::{self as core, Data, Access, Model, Obj, Plan, save, state};
+use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, save, state};
 
 /// What a test run affords.
 const CASES: u64 = 400;
@@ -161,7 +161,7 @@ fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -
         }
         29 => {
             let mut planned =
-                Data::planned(m, Plan::new(m, &Access { reads: Default::default(), ..Access::OBSERVE }));
+                Data::planned(m, Plan::new(m, &AccessSet { reads: Default::default(), ..AccessSet::OBSERVE }));
             drop((
                 core::step(m, &mut planned),
                 core::full_m(m, &planned),

@@ -2,7 +2,7 @@
 
 use crate::error::located;
 use crate::{Error, Functions, ModelNames, Scope, World};
-use labspec_core::{self as core, Data, Access, Model, Plan};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan};
 use labspec_expr::{Compiled, Compiler, Context, Globals, Program, Value};
 use labspec_finding::Finding;
 use std::sync::Arc;
@@ -34,7 +34,7 @@ impl Engine {
     /// # Errors
     /// The engine refuses the model's first pass.
     pub fn of(model: Model) -> Result<Engine, Error> {
-        let mut data = Data::planned(&model, Plan::new(&model, &Access::ANY));
+        let mut data = Data::planned(&model, Plan::new(&model, &AccessSet::ANY));
         core::forward(&model, &mut data).map_err(refused)?;
         let world =
             World { model, data, key: None, own: Functions::new(), shown: Vec::new(), numbers: Vec::new() };

@@ -65,6 +65,6 @@ pub use model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 pub use model::{Contact, Decision, Names, Obj, Options, Statistic, Warning, WarningStat};
 pub use query::{RayFilter, RayHit};
 pub use sensor::unit as sensor_unit;
+pub use step::analysis::AccessSet;
 pub use step::balance::Energy;
 pub use step::inverse::InverseError;
-pub use step::analysis::Access;

@@ -188,14 +188,14 @@ mod tests {
     use crate::lint::ModelFolder;
     use crate::lint::load_lesson;
     use crate::source::SourceFile;
-    use labspec_core::{self as core, Data, Access, Model, Plan, Planned, xml};
+    use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, xml};
     use labspec_expr::{Compiler, Context, Globals};
 
     const PENDULUM: &str = include_str!("../../../specs/models/pendulum.xml");
 
     /// Data of which everything is computed.
     fn everything(model: &Model) -> Data<Planned> {
-        Data::planned(model, Plan::new(model, &Access::ANY))
+        Data::planned(model, Plan::new(model, &AccessSet::ANY))
     }
 
     /// Statements and a last expression; gives its value.

@@ -160,12 +160,12 @@ impl EngineAccess<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use labspec_core::{Access, Plan};
+    use labspec_core::{AccessSet, Plan};
 
     #[test]
     fn no_row_turns_an_error_of_the_engine_into_a_value() {
         let model = core::xml::compile("<mujoco><worldbody><site name='s'/></worldbody></mujoco>").unwrap();
-        let data = Data::planned(&model, Plan::new(&model, &Access::ANY));
+        let data = Data::planned(&model, Plan::new(&model, &AccessSet::ANY));
         let mut world = World {
             model,
             data,

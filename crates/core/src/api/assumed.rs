@@ -63,15 +63,15 @@ mod tests {
     use crate::kinds::integrator;
     use crate::model::reflect::{FieldId, FieldSet, data, model, option};
     use crate::model::stage::Stage;
-    use crate::step::analysis::Access;
+    use crate::step::analysis::AccessSet;
 
     const CHAIN: &str = "<mujoco><worldbody><geom type='plane' size='2 2 1' contype='0' conaffinity='0'/>\
         <body pos='0 0 1'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0'/>\
         <body pos='.2 0 0'><joint axis='0 1 0'/><geom size='.05' pos='.2 0 0' contype='0'/></body></body>\
         </worldbody></mujoco>";
 
-    fn demand(writes: &[FieldId]) -> Access {
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    fn demand(writes: &[FieldId]) -> AccessSet {
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         demand.reads.insert(data::qpos);
         writes.iter().for_each(|&field| demand.writes.insert(field));
         demand

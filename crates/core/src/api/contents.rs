@@ -128,7 +128,7 @@ fn constants() -> impl Iterator<Item = FieldId> {
 mod tests {
     use crate::api::{call, data::Data, model::Model, planning::Plan};
     use crate::model::reflect::{FieldId, FieldSet, ViewMut, data, model, option};
-    use crate::step::analysis::Access;
+    use crate::step::analysis::AccessSet;
     use proptest::prelude::*;
 
     const SCENE: &str = "<mujoco><worldbody><geom name='floor' type='plane' size='2 2 1'/>\
@@ -171,8 +171,8 @@ mod tests {
         view.set(at % len.max(1), value);
     }
 
-    fn coordinates() -> Access {
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    fn coordinates() -> AccessSet {
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         demand.reads.insert(data::qpos);
         demand
     }

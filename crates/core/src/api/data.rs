@@ -6,11 +6,11 @@ use super::error::Error;
 use super::model::{Cell, Model, access};
 use super::planning::Plan;
 use crate::model::fields::data_fields;
-use crate::model::plan::{PlanFlag, PlanTable as PlanTable};
+use crate::model::plan::{PlanFlag, PlanTable};
 use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut, data};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
-use crate::step::analysis::{Access, deciding, never_asked};
+use crate::step::analysis::{AccessSet, deciding, never_asked};
 use crate::step::workspace::Workspace as Inner;
 use crate::step::{functions, reset};
 use std::marker::PhantomData;
@@ -75,7 +75,7 @@ pub struct Data<S: Scope = Full> {
     copied: u64,
     /// What the plan takes for granted.
     pub(super) assumed: Assumed,
-    pub(super) demand: Access,
+    pub(super) demand: AccessSet,
     /// Whether inputs may have been written that the plan was not told of.
     pub(super) touched: bool,
     scope: PhantomData<S>,
@@ -111,7 +111,7 @@ impl Deref for Data<Full> {
 impl Data<Full> {
     /// Data for a model, at the default configuration. Nothing is computed yet: call [`forward`](crate::forward).
     pub fn new(m: &Model) -> Data<Full> {
-        Data::of(m, Plan::new(m, &Access::ANY))
+        Data::of(m, Plan::new(m, &AccessSet::ANY))
     }
 }
 
@@ -199,7 +199,7 @@ impl<S: Scope> Data<S> {
     }
 
     /// What is read and written of these data.
-    pub fn demand(&self) -> &Access {
+    pub fn demand(&self) -> &AccessSet {
         &self.demand
     }
 

@@ -4,7 +4,7 @@ use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
 use crate::model::reflect::{self, FieldSet, Object, data};
 use crate::model::stage::Stage;
 use crate::model::tree_algorithm::TreeAlgorithms;
-use crate::step::analysis::Access;
+use crate::step::analysis::AccessSet;
 use std::fmt::Write;
 
 /// A chain of many links in a plane that is turned in space, with hinges either way round, bodies that are welded to a link, and inertia
@@ -35,7 +35,7 @@ fn chain(links: usize, option: &str, more: &str) -> Model {
 }
 
 fn everything(m: &Model, ways: TreeAlgorithms) -> Data<Planned> {
-    Data::planned(m, Plan::by_ways(m, &Access::ANY, ways))
+    Data::planned(m, Plan::by_ways(m, &AccessSet::ANY, ways))
 }
 
 /// Data whose forces are computed by one way or the other, after some steps.
@@ -53,7 +53,8 @@ fn moved(m: &Model, ways: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> (Model
 }
 
 fn agree(m: &Model, change: &dyn Fn(&mut Model)) {
-    let [(_, ours), (m, theirs)] = [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL].map(|ways| moved(m, ways, change));
+    let [(_, ours), (m, theirs)] =
+        [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL].map(|ways| moved(m, ways, change));
     for name in
         ["M", "qLD", "qLDiagInv", "qfrc_bias", "qacc_smooth", "qacc", "qfrc_constraint", "qpos", "qvel"]
     {
@@ -101,7 +102,7 @@ fn a_chain_may_leave_its_plane() {
 /// Nothing of bodies in space is computed, and planned numbers are those of a full run.
 #[test]
 fn no_spatial_bodies_are_needed() {
-    let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
     demand.reads.insert(data::qpos);
     for more in ["", TIE, TENDON] {
         let m = chain(12, "", more);

@@ -9,7 +9,7 @@ use crate::model::reflect::FieldSet;
 use crate::model::stage::Stage;
 use crate::model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 use crate::sensor;
-use crate::step::analysis::{self, Access};
+use crate::step::analysis::{self, AccessSet};
 
 /// Which stages run, and why.
 ///
@@ -34,7 +34,7 @@ use crate::step::analysis::{self, Access};
 #[derive(Clone, Debug)]
 pub struct Plan {
     pub(super) inner: Inner,
-    pub(super) demand: Access,
+    pub(super) demand: AccessSet,
     /// The contents that it was made for; `None` where it holds for any.
     pub(super) made_for: Option<Contents>,
     /// The fields of which it holds for any value.
@@ -53,48 +53,50 @@ impl Plan {
     ///
     /// What decides it is taken as the model has it now, also where programs may write it: data that were planned are planned
     /// again when such a value changes.
-    pub fn new(m: &Model, demand: &Access) -> Plan {
+    pub fn new(m: &Model, demand: &AccessSet) -> Plan {
         Plan::by_ways(m, demand, TreeAlgorithms::ALL)
     }
 
     /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
-    pub fn by_ways(m: &Model, demand: &Access, ways: TreeAlgorithms) -> Plan {
+    pub fn by_ways(m: &Model, demand: &AccessSet, ways: TreeAlgorithms) -> Plan {
         Plan::made(m, demand, analysis::never_asked(demand), |d| Inner::new(m, d, ways))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
-    pub fn with(m: &Model, demand: &Access, more: Stage) -> Plan {
-        Plan::made(m, demand, analysis::never_asked(demand), |d| Inner::with(m, d, TreeAlgorithms::ALL, Some(more)))
+    pub fn with(m: &Model, demand: &AccessSet, more: Stage) -> Plan {
+        Plan::made(m, demand, analysis::never_asked(demand), |d| {
+            Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
+        })
     }
 
     /// The stages that a scene may come to need, whatever programs write.
-    pub fn for_any_value(m: &Model, demand: &Access) -> Plan {
+    pub fn for_any_value(m: &Model, demand: &AccessSet) -> Plan {
         Plan::made(m, demand, demand.writes, |d| Inner::new(m, d, TreeAlgorithms::ALL))
     }
 
     /// A plan that holds for any values of some fields and for those at hand of all others.
     pub(super) fn made(
         m: &Model,
-        demand: &Access,
+        demand: &AccessSet,
         any: FieldSet,
-        inner: impl FnOnce(&Access) -> Inner,
+        inner: impl FnOnce(&AccessSet) -> Inner,
     ) -> Plan {
-        let inner = inner(&Access { reads: demand.reads, writes: any });
+        let inner = inner(&AccessSet { reads: demand.reads, writes: any });
         Plan { inner, demand: *demand, made_for: Some(m.contents.clone()), any }
     }
 
     /// Every stage, needed or not: the reference that plans are held against.
     pub fn full() -> Plan {
-        Plan { inner: Inner::full(), demand: Access::ANY, made_for: None, any: FieldSet::ALL }
+        Plan { inner: Inner::full(), demand: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// Every stage but the one that lets trees sleep.
     pub fn awake() -> Plan {
-        Plan { inner: Inner::awake(), demand: Access::ANY, made_for: None, any: FieldSet::ALL }
+        Plan { inner: Inner::awake(), demand: AccessSet::ANY, made_for: None, any: FieldSet::ALL }
     }
 
     /// What it was made for.
-    pub fn demand(&self) -> &Access {
+    pub fn demand(&self) -> &AccessSet {
         &self.demand
     }
 

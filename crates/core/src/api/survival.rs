@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::model::reflect::{self, Elem, FieldId, Object, View};
 use crate::step::workspace::Workspace;
 use crate::step::{forward, functions, inverse, save};
-use crate::step::{validate::validate, step, step1, step2};
+use crate::step::{step, step1, step2, validate::validate};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 

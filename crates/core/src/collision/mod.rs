@@ -1,21 +1,21 @@
 //! Collision detection: which geoms touch, where, and with which contact parameters.
 
 mod candidates;
-mod pair_statistics;
 mod extent;
 mod filter;
+mod pair_statistics;
 mod params;
 mod primitive;
 mod reach;
 mod sweep;
 
 pub(crate) use candidates::{Changes, MOST_LISTED, candidate_pairs};
-pub use pair_statistics::PairFilterReason;
-pub(crate) use pair_statistics::{pair_statistics, in_reach, pair_methods};
 pub(crate) use extent::FIELDS as PLACES;
 use filter::Pair;
 pub(crate) use filter::searched_pair;
 pub(crate) use filter::{can_collide, may_touch};
+pub use pair_statistics::PairFilterReason;
+pub(crate) use pair_statistics::{in_reach, pair_methods, pair_statistics};
 use params::Params;
 use reach::Spheres;
 use sweep::Sweep;

@@ -7,7 +7,13 @@ use crate::model::{Fields, Model};
 
 /// The contact of a plane and a sphere.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(super) fn plane_sphere(m: &Model, d: &Fields, plane: usize, sphere: usize, reach: f64) -> Option<ContactPoint> {
+pub(super) fn plane_sphere(
+    m: &Model,
+    d: &Fields,
+    plane: usize,
+    sphere: usize,
+    reach: f64,
+) -> Option<ContactPoint> {
     let (pos, mat) = (rows::<3>(&d.geom_xpos), rows::<9>(&d.geom_xmat));
     let radius = rows::<3>(&m.geom_size)[sphere][0];
     ball_on_plane(pos[plane], column(&mat[plane], 2), pos[sphere], radius, reach)

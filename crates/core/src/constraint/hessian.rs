@@ -230,7 +230,8 @@ impl Hessian {
                 }
                 self.quads[q - 1].of[lane] = p as u32;
             }
-            self.stands.push(ColumnBlocks { columns: column..self.stood.len(), quads: first..self.quads.len() });
+            self.stands
+                .push(ColumnBlocks { columns: column..self.stood.len(), quads: first..self.quads.len() });
         }
     }
 

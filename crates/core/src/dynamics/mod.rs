@@ -15,9 +15,9 @@ pub(crate) mod path;
 pub(crate) mod reflected;
 pub(crate) mod rne;
 pub(crate) mod subtree;
+pub(crate) mod tree_algorithms;
 mod triangle;
 pub(crate) mod walk;
-pub(crate) mod tree_algorithms;
 
 use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Fields, Model};

@@ -11,6 +11,7 @@ mod distance;
 mod epa;
 mod gjk;
 mod hull;
+mod hull_faces;
 mod inside;
 mod list;
 pub(crate) mod pair;
@@ -18,7 +19,6 @@ mod polish;
 mod ray;
 mod segments;
 mod shape;
-mod hull_faces;
 mod simplex;
 mod support;
 mod surface;
@@ -29,8 +29,8 @@ pub(crate) use distance::{Narrow, shape_distance};
 pub(crate) use hull::Hull;
 pub(crate) use inside::inside_shape;
 
-pub(crate) use shape::{Field, Mesh, Shape};
 pub(crate) use hull_faces::HullFaces;
+pub(crate) use shape::{Field, Mesh, Shape};
 
 #[cfg(test)]
 pub(crate) mod tests;

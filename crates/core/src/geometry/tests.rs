@@ -14,8 +14,8 @@ use figures::Figures;
 use std::collections::BTreeMap;
 
 use super::convex::{Convex, nearest};
-use super::pair::{self, Method, PairSettings, ContactPoint};
-use super::{Field, Hull, Mesh, Narrow, Shape, HullFaces, ray, ray_shape};
+use super::pair::{self, ContactPoint, Method, PairSettings};
+use super::{Field, Hull, HullFaces, Mesh, Narrow, Shape, ray, ray_shape};
 use crate::kinds::geom;
 use crate::math::*;
 use crate::model::Model;
@@ -52,7 +52,8 @@ impl Assets {
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
                     let mesh = assets.mesh(name);
-                    let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::of(mesh.vert, &hull));
+                    let sides =
+                        mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::of(mesh.vert, &hull));
                     assets.sides.insert(name.into(), sides);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),

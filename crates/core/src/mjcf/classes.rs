@@ -192,8 +192,12 @@ impl Classes {
     /// they copied from it, as in MuJoCo. A model that is attached has a main class of its own, under the name that
     /// its section has by now.
     pub(crate) fn read(tree: &Tree, report: &mut Report) -> Classes {
-        let mut classes =
-            Classes { list: vec![Class::default()], names: BTreeMap::new(), main: 0, room: CompletionBudget::default() };
+        let mut classes = Classes {
+            list: vec![Class::default()],
+            names: BTreeMap::new(),
+            main: 0,
+            room: CompletionBudget::default(),
+        };
         let mut of_node: Vec<Option<usize>> = vec![None; tree.nodes.len()];
         for (i, node) in tree.nodes.iter().enumerate().filter(|(_, n)| n.element.name == "default") {
             let nested_in = node.parent.and_then(|p| *of_node.get(p)?);

@@ -17,7 +17,7 @@ macro_rules! define_data {
             /// Warnings since the last reset, by [`Warning`].
             pub warning: [WarningStat; Warning::COUNT],
             /// Which stages run; see `set_plan`.
-            pub(crate) plan: Plan,
+            pub(crate) plan: PlanTable,
             /// What was done.
             pub(crate) meter: Meter,
             /// Controls as they act: delayed and clamped.

@@ -64,7 +64,7 @@ macro_rules! define_model {
             /// The trees that were long chains of hinges in a plane when the model was compiled, in ascending order.
             pub planar_trees: Vec<i32>,
             /// Flat sides of the hull of each mesh, their normals more precise than its vertices.
-            pub mesh_sides: Vec<crate::geometry::Sides>,
+            pub mesh_sides: Vec<crate::geometry::HullFaces>,
         }
         $($rows)*
     } };

@@ -110,7 +110,12 @@ impl Search {
 }
 
 /// Finds `actuator_lengthrange` of actuator `i`, with `d` as scratch.
-pub(crate) fn length_range(m: &mut Model, d: &mut Workspace, i: usize, search: &Search) -> Result<(), Failure> {
+pub(crate) fn length_range(
+    m: &mut Model,
+    d: &mut Workspace,
+    i: usize,
+    search: &Search,
+) -> Result<(), Failure> {
     let o = m.actuator_outadr[i] as usize;
     if let Some(range) = search.limits(m, i) {
         rows_mut::<2>(&mut m.actuator_lengthrange)[o] = range;

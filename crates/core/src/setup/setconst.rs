@@ -2,7 +2,7 @@
 
 use crate::constraint::ends;
 use crate::dynamics::kinematics::sameframe;
-use crate::dynamics::{self, camera, com, mass, walk, tree_algorithms};
+use crate::dynamics::{self, camera, com, mass, tree_algorithms, walk};
 use crate::forces::{tendon, transmission};
 use crate::kinds::{geom, joint};
 use crate::math::*;

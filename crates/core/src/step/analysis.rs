@@ -1,6 +1,6 @@
 //! What is known of a scene before it runs, from the model and from what programs read and write.
 
-pub use super::access::Access;
+pub use super::access::AccessSet;
 
 use crate::dynamics::tree_algorithms;
 use crate::forces::{actuation, derivative, tendon};
@@ -109,7 +109,7 @@ pub(crate) fn deciding() -> FieldSet {
 }
 
 /// What is written, and decides nothing: of these fields a plan never asks the value.
-pub(crate) fn never_asked(demand: &Access) -> FieldSet {
+pub(crate) fn never_asked(demand: &AccessSet) -> FieldSet {
     demand.writes.difference(&deciding())
 }
 
@@ -160,7 +160,7 @@ pub(crate) fn changes(plan: &PlanTable) -> collision::Changes {
 /// What is known of a scene before it runs.
 pub(super) struct ModelAnalysis<'a> {
     pub(super) m: &'a Model,
-    pub(super) demand: &'a Access,
+    pub(super) demand: &'a AccessSet,
     /// How trees may be computed.
     pub(super) ways: TreeAlgorithms,
     /// M of some tree depends on the configuration.
@@ -200,7 +200,7 @@ pub(super) struct ModelAnalysis<'a> {
 }
 
 impl<'a> ModelAnalysis<'a> {
-    pub(super) fn new(m: &'a Model, demand: &'a Access, ways: TreeAlgorithms) -> ModelAnalysis<'a> {
+    pub(super) fn new(m: &'a Model, demand: &'a AccessSet, ways: TreeAlgorithms) -> ModelAnalysis<'a> {
         let mut scene = ModelAnalysis {
             m,
             demand,
@@ -470,8 +470,9 @@ impl<'a> ModelAnalysis<'a> {
 
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     pub(super) fn bias_slopes(&self) -> bool {
-        let bodies =
-            |&t: &usize| derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.ways, t);
+        let bodies = |&t: &usize| {
+            derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.ways, t)
+        };
         let free = || (0..self.m.ntree).any(|t| bodies(&t));
         let of_free = [integrator::IMPLICITFAST, integrator::DISCRETE];
         self.may_integrate_by(integrator::IMPLICIT)

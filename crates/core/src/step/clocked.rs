@@ -10,7 +10,13 @@ pub(super) const CLOCKED: u32 = 1 << 31;
 /// Runs what the bits say, one by one, and notes what each took; before them a call of nothing, which shows what looking costs.
 #[cold]
 #[inline(never)]
-pub(super) fn walk(rows: &[fn(&Model, &mut Workspace)], stages: &[Stage], m: &Model, d: &mut Workspace, bits: u32) {
+pub(super) fn walk(
+    rows: &[fn(&Model, &mut Workspace)],
+    stages: &[Stage],
+    m: &Model,
+    d: &mut Workspace,
+    bits: u32,
+) {
     if let Some(watch) = &mut d.work.watch {
         watch.begin();
     }

@@ -54,7 +54,9 @@ pub(super) fn accelerate(
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn damping(m: &Model, d: &Fields, out: &mut [f64]) {
     let h = m.opt.timestep;
-    spring::of_dampers(m, d.plan.has(PlanFlag::ActuatorDampers), &d.qvel, out, |law, v| h * law.slope(v.abs()));
+    spring::of_dampers(m, d.plan.has(PlanFlag::ActuatorDampers), &d.qvel, out, |law, v| {
+        h * law.slope(v.abs())
+    });
 }
 
 /// Whether some degree of freedom has a damper, and dampers are on.

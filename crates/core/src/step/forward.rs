@@ -82,7 +82,7 @@ pub(crate) fn placed(m: &Model, d: &mut Workspace) {
 /// A function of the pipeline that calls one of a stage.
 macro_rules! calls {
     ($($name:ident($m:ident, $d:ident) $call:block)*) => {
-        $(pub(super) fn $name($m: &Model, $d: &mut Data) $call)*
+        $(pub(super) fn $name($m: &Model, $d: &mut Workspace) $call)*
     };
 }
 calls! {

@@ -65,7 +65,7 @@ mod tests {
     use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
     use crate::model::reflect::{FieldSet, data};
     use crate::model::stage::Stage;
-    use crate::step::analysis::Access;
+    use crate::step::analysis::AccessSet;
 
     /// A pendulum, with some actuators and constraints.
     fn pendulum(more: &str) -> Model {
@@ -77,8 +77,8 @@ mod tests {
         .unwrap()
     }
 
-    fn reading() -> Access {
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    fn reading() -> AccessSet {
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         demand.reads.insert(data::qpos);
         demand
     }

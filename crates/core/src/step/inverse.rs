@@ -9,8 +9,8 @@ use crate::math::Spatial;
 use crate::model::Model;
 use crate::model::plan::PlanTable;
 use crate::step::forward;
-use crate::step::workspace::Workspace;
 use crate::step::workspace::Work;
+use crate::step::workspace::Workspace;
 use crate::step::{damping, discrete};
 
 /// What inverse dynamics cannot answer.

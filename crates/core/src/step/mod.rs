@@ -3,10 +3,11 @@
 //! [`forward`] is the order of the stages; an integrator takes what they leave to the next state; bad numbers are looked for
 //! before and between.
 
+mod access;
+pub(crate) mod analysis;
 pub(crate) mod balance;
 mod clocked;
 pub(crate) mod damping;
-mod access;
 pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;
@@ -18,11 +19,10 @@ pub(crate) mod pipeline;
 pub(crate) mod planner;
 pub(crate) mod reset;
 pub(crate) mod save;
-pub(crate) mod analysis;
 pub(crate) mod sleep;
-pub(crate) mod validate;
 pub(crate) mod stages;
 pub(crate) mod store;
+pub(crate) mod validate;
 pub(crate) mod workspace;
 
 use crate::kinds::disable;

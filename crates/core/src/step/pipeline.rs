@@ -4,9 +4,9 @@
 //! (from the last to the first, as a stage runs for what a later one needs), and `labspec plan` prints them. What a stage
 //! computes stands in the field table, row by row under its [`Stage`].
 
+use super::analysis::ModelAnalysis;
 use super::clocked::{self, CLOCKED};
 use super::forward as run;
-use super::analysis::ModelAnalysis;
 use crate::dynamics::tree_algorithms;
 use crate::kinds::{disable, integrator, trntype, wraptype};
 use crate::model::reflect::{data, model};
@@ -480,7 +480,8 @@ impl<const N: usize> Sequence<N> {
 fn nothing(_: &Model, _: &mut Workspace) {}
 
 pub(crate) static POSITIONS: Sequence<{ count_of(PassPart::Positions) }> = Sequence::new(PassPart::Positions);
-pub(crate) static VELOCITIES: Sequence<{ count_of(PassPart::Velocities) }> = Sequence::new(PassPart::Velocities);
+pub(crate) static VELOCITIES: Sequence<{ count_of(PassPart::Velocities) }> =
+    Sequence::new(PassPart::Velocities);
 pub(crate) static INPUTS: Sequence<{ count_of(PassPart::Inputs) }> = Sequence::new(PassPart::Inputs);
 
 /// The same passes by the clock.

@@ -4,8 +4,8 @@
 //! parameter that some program writes is treated as if it had any value. A plan never changes a number: the
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
+use super::analysis::{AccessSet, FACTS, ModelAnalysis};
 use super::pipeline::{STAGES, passes};
-use super::analysis::{Access, FACTS, ModelAnalysis};
 use crate::model::Model;
 use crate::model::plan::{Decision, PlanFlag, PlanTable};
 use crate::model::stage::Stage;
@@ -35,12 +35,12 @@ impl PlanTable {
     ///
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
     /// stage that runs uses its results.
-    pub(crate) fn new(m: &Model, demand: &Access, ways: TreeAlgorithms) -> PlanTable {
+    pub(crate) fn new(m: &Model, demand: &AccessSet, ways: TreeAlgorithms) -> PlanTable {
         PlanTable::with(m, demand, ways, None)
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
-    pub(crate) fn with(m: &Model, demand: &Access, ways: TreeAlgorithms, more: Option<Stage>) -> PlanTable {
+    pub(crate) fn with(m: &Model, demand: &AccessSet, ways: TreeAlgorithms, more: Option<Stage>) -> PlanTable {
         let mut scene = ModelAnalysis::new(m, demand, ways);
         scene.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = PlanTable::default();

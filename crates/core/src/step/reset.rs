@@ -12,7 +12,7 @@ use crate::model::stage::Stage;
 use crate::model::stopwatch::Stopwatch;
 use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Model, Warning, WarningStat, asleep, reflect};
-use crate::step::analysis::{self, Access};
+use crate::step::analysis::{self, AccessSet};
 use crate::step::workspace::Workspace;
 use crate::{collision, constraint, sensor};
 
@@ -21,7 +21,7 @@ impl Workspace {
     ///
     /// The plan allows any field to be read or written at any time: see `Data::planned` for less work.
     pub(crate) fn new(m: &Model) -> Workspace {
-        Workspace::planned(m, PlanTable::new(m, &Access::ANY, TreeAlgorithms::ALL))
+        Workspace::planned(m, PlanTable::new(m, &AccessSet::ANY, TreeAlgorithms::ALL))
     }
 
     /// Data that computes only what a plan keeps.

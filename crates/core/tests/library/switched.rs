@@ -2,7 +2,7 @@
 
 use labspec_core::reflect::{FieldSet, Object, field};
 use labspec_core::xml::compile;
-use labspec_core::{self as core, Data, Access, Model, Plan, Planned};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned};
 
 /// The height of the box at the end, with some plan.
 fn height(m: &Model, mut d: Data<Planned>, writes: &[(&str, usize, f64)]) -> f64 {
@@ -35,9 +35,9 @@ fn bits_that_are_switched_do_what_they_do_in_the_library() {
         };
         let writes: Vec<_> = writes.split("; ").filter(|w| !w.is_empty()).map(write).collect();
         let m = compile(xml).unwrap();
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         demand.reads.insert(field(Object::Data, "qpos").unwrap());
-        let told = Access { writes: FieldSet::ALL, ..demand };
+        let told = AccessSet { writes: FieldSet::ALL, ..demand };
         let plans =
             [Plan::full(), Plan::new(&m, &demand), Plan::new(&m, &told), Plan::for_any_value(&m, &told)];
         let ours = plans.map(|plan| height(&m, Data::planned(&m, plan), &writes));

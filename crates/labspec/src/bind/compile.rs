@@ -8,7 +8,7 @@ use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
 use labspec_bind::WORDS;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
-use labspec_core::{Access, Model};
+use labspec_core::{AccessSet, Model};
 use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, ProgramId, Type, Value};
 
 /// A text and the program it was compiled to.
@@ -65,7 +65,7 @@ pub struct Programs {
     /// The `ctx` variables.
     pub globals: Globals,
     /// What all of them read and write.
-    pub demand: Access,
+    pub demand: AccessSet,
     /// Functions of the embedding program, which they may call.
     pub functions: Functions,
     /// The model that they were compiled for ([`Model::identity`]).
@@ -117,7 +117,7 @@ impl Programs {
                 findings.push(to_finding(&d, text));
             }
         }
-        let demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         let functions = functions.clone();
         let mut programs = Programs {
             setup,
@@ -164,7 +164,7 @@ impl Programs {
 }
 
 /// Adds what a program touches to a demand.
-pub fn include(effects: &Effects, demand: &mut Access) {
+pub fn include(effects: &Effects, demand: &mut AccessSet) {
     if effects.reads_everything {
         demand.reads = FieldSet::ALL;
     }

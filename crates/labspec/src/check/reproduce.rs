@@ -10,7 +10,7 @@ use crate::run::{Budget, Session};
 use crate::spec::Lesson;
 use crate::verify::Stage;
 use labspec_core::reflect::{self, FieldId, Object, model};
-use labspec_core::{self as core, Data, Access, Model, Obj, Plan, solver};
+use labspec_core::{self as core, AccessSet, Data, Model, Obj, Plan, solver};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -165,7 +165,7 @@ fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>>
 
 /// The numbers of some fields of a model, with the names of the fields.
 fn numbers(model: &Model, fields: impl Iterator<Item = FieldId>) -> Vec<(&'static str, Vec<f64>)> {
-    let data = Data::planned(model, Plan::new(model, &Access::OBSERVE));
+    let data = Data::planned(model, Plan::new(model, &AccessSet::OBSERVE));
     let of = |f: FieldId| {
         let view = core::view(model, &data, f).ok();
         view.map_or(Vec::new(), |view| (0..view.len()).filter_map(|i| view.get(i)).collect())

@@ -6,7 +6,7 @@ use crate::report::{report, set_number};
 use crate::run::Session;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{Data, Access, Plan, TreeAlgorithm, TreeAlgorithms};
+use labspec_core::{AccessSet, Data, Plan, TreeAlgorithm, TreeAlgorithms};
 use serde_json::json;
 use std::time::Instant;
 
@@ -40,14 +40,15 @@ pub(super) struct Arguments {
 
 /// A short way of computing trees, by its name.
 fn short_way() -> impl TypedValueParser<Value = TreeAlgorithm> {
-    PossibleValuesParser::new(TreeAlgorithm::short().map(TreeAlgorithm::name))
-        .try_map(|name| TreeAlgorithm::short().find(|way| way.name() == name).ok_or("this algorithm does not exist"))
+    PossibleValuesParser::new(TreeAlgorithm::short().map(TreeAlgorithm::name)).try_map(|name| {
+        TreeAlgorithm::short().find(|way| way.name() == name).ok_or("this algorithm does not exist")
+    })
 }
 
 pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     let target = target::open(&a.lab, &a.models)?;
     let demand = if a.full {
-        Access { reads: FieldSet::ALL, ..target.programs.demand }
+        AccessSet { reads: FieldSet::ALL, ..target.programs.demand }
     } else {
         target.programs.demand
     };

@@ -8,7 +8,7 @@ use crate::run::{Budget, Session};
 use crate::source::{SourceMap, Text};
 use crate::spec::Lab;
 use labspec_bind::units::written;
-use labspec_core::{Access, Model};
+use labspec_core::{AccessSet, Model};
 use labspec_expr::{Compiler, Type};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ pub(super) fn started<'a>(around: &'a mut Around, lab: &Lab, key: &str) -> Optio
     }
     let model = around.models.of(lab, &mut Vec::<Finding>::new())?;
     let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
-    let session = Session::start_within(programs, &model, lab.keyframe(), &Access::ANY, WORK);
+    let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
     if around.started.len() >= MOST {
         around.started.remove(0);
     }

@@ -11,7 +11,7 @@ use crate::lint::load_lesson;
 use crate::run::Session;
 use crate::source::SourceFile;
 use crate::spec::LabAddress;
-use labspec_core::Access;
+use labspec_core::AccessSet;
 use labspec_core::reflect::FieldSet;
 use std::sync::Arc;
 
@@ -83,7 +83,7 @@ impl Player {
         };
         let lab = Arc::new(lab.clone());
         // Whoever draws a scene may read everything.
-        let demand = Access { reads: FieldSet::ALL, ..programs.demand };
+        let demand = AccessSet { reads: FieldSet::ALL, ..programs.demand };
         let mut session = Session::start(Arc::new(programs), &model, lab.keyframe(), &demand);
         session.watch();
         let (controls, shown) = (control::list(&lab), displayed::list(&lab));

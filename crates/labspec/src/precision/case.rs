@@ -12,7 +12,7 @@ use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session};
 use crate::spec::{Lab, Plot};
 use labspec_bind::units::written;
 use labspec_core::reflect::{FieldId, option};
-use labspec_core::{self as core, Data, Access, Full, Model, Warning, state};
+use labspec_core::{self as core, AccessSet, Data, Full, Model, Warning, state};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{Compiler, Type, Value};
 use std::ops::ControlFlow;
@@ -75,7 +75,7 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) set: &'a [(String, Value)],
     /// Buttons and the times of their presses, s.
     pub(super) presses: Vec<(usize, f64)>,
-    pub(super) demand: Access,
+    pub(super) demand: AccessSet,
     /// Time between samples of the truth, s, and their number, the start not counted.
     pub(super) interval: f64,
     pub(super) count: usize,

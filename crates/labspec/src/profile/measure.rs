@@ -13,7 +13,7 @@ use crate::interrupt;
 use crate::run::{RunError, Session, count_steps};
 use crate::spec::Lab;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{self as core, Data, Access, Model, Plan};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan};
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -205,7 +205,7 @@ pub(super) fn measure(
     case.runs = (LONG_ENOUGH / whole.max(1.0)).ceil().clamp(1.0, 100.0) as usize;
     case.chunk = (LOOK_EVERY * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
 
-    let full = Plan::new(model, &Access { reads: FieldSet::ALL, ..programs.demand });
+    let full = Plan::new(model, &AccessSet { reads: FieldSet::ALL, ..programs.demand });
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
     let left_out = stages.iter().filter(|s| !plan.keeps(**s));
     let mut variants = vec![plan.clone(), full];

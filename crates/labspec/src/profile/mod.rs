@@ -13,7 +13,7 @@ use crate::bind::Programs;
 use crate::run::{Budget, RunError, Session, is_steady};
 use crate::spec::Lab;
 use labspec_core::reflect::Stage;
-use labspec_core::{Access, Model, Plan};
+use labspec_core::{AccessSet, Model, Plan};
 
 /// A stage.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,7 +34,7 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// What its programs read and write.
-    pub demand: Access,
+    pub demand: AccessSet,
     /// The stages, in the order of a step.
     pub rows: Vec<Row>,
     /// When the lab's controller runs, where it has one.

@@ -2,7 +2,7 @@
 
 use crate::precision::INTEGRATORS;
 use labspec_core::reflect::{Stage, data, option};
-use labspec_core::{self as core, Access, Model, PairFilterReason, Plan, geom, solver};
+use labspec_core::{self as core, AccessSet, Model, PairFilterReason, Plan, geom, solver};
 
 /// A piece of code of which a lab uses one or none.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -74,7 +74,8 @@ pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<Seen>) -> Pairs {
         let left_out = vec![("contacts are switched off", all)];
         return Pairs { all, can_touch: 0, left_out, tests: Vec::new(), seen };
     }
-    let can_touch = census.iter().find(|(fate, _)| *fate == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
+    let can_touch =
+        census.iter().find(|(fate, _)| *fate == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
     let others = census.iter().filter(|(fate, _)| *fate != PairFilterReason::CanTouch);
     let tests = plan.tests(model).into_iter().map(|(types, n, searched)| (types.map(shape), n, searched));
     Pairs {
@@ -148,7 +149,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
 }
 
 /// The integrators.
-pub(super) fn integrators(model: &Model, demand: &Access) -> Vec<Code> {
+pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<Code> {
     let own = crate::precision::Integrator::of(model);
     let written = demand.writes.contains(option::integrator);
     let code = |i: crate::precision::Integrator| Code {

@@ -3,7 +3,7 @@
 use crate::bind::{ModelNames, Programs, Scope, include};
 use crate::run::RunError;
 use labspec_core::reflect::{Object, Stage, data, field};
-use labspec_core::{Access, Model, Plan};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::Compiler;
 
 /// Something that would be read besides what the lab reads.
@@ -12,7 +12,7 @@ pub struct Reader {
     /// As it was asked for.
     pub text: String,
     /// What programs read and write with it.
-    pub demand: Access,
+    pub demand: AccessSet,
     /// The stages that run with it and not without.
     pub joins: Vec<Stage>,
     /// What a step takes longer, ns; `None` where nothing was run.
@@ -38,14 +38,14 @@ pub(super) fn readers(model: &Model, programs: &Programs, texts: &[String]) -> R
     Ok(readers)
 }
 
-fn reader(model: &Model, programs: &Programs, text: &str, demand: Access) -> Reader {
+fn reader(model: &Model, programs: &Programs, text: &str, demand: AccessSet) -> Reader {
     let (before, after) = (Plan::new(model, &programs.demand), Plan::new(model, &demand));
     let joins = after.decisions().iter().map(|d| d.stage).filter(|s| after.keeps(*s) && !before.keeps(*s));
     Reader { text: text.to_string(), demand, joins: joins.collect(), cost: None }
 }
 
 /// Adds what a field, a sensor by its name, or an expression reads.
-fn read(model: &Model, programs: &Programs, text: &str, demand: &mut Access) -> Result<(), RunError> {
+fn read(model: &Model, programs: &Programs, text: &str, demand: &mut AccessSet) -> Result<(), RunError> {
     if let Some(field) = field(Object::Data, text.strip_prefix("data.").unwrap_or(text)) {
         demand.reads.insert(field);
         return Ok(());

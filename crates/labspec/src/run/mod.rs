@@ -27,7 +27,7 @@ use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{Data, Access, Model, Plan};
+use labspec_core::{AccessSet, Data, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -128,10 +128,10 @@ pub(crate) fn begin<'p>(
     model: &Model,
     programs: &'p Programs,
     options: &RunOptions,
-    demand: &Access,
+    demand: &AccessSet,
 ) -> Result<Begun<'p>, RunError> {
     let key = lab.keyframe();
-    let all = Access { reads: FieldSet::ALL, ..*demand };
+    let all = AccessSet { reads: FieldSet::ALL, ..*demand };
     let plan = Plan::new(model, if options.full { &all } else { demand });
     let mut session = Session::start_with(programs, model, key, Data::planned(model, plan));
     set_controls(&mut session, lab, programs, &options.set)?;

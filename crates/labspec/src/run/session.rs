@@ -11,7 +11,7 @@ use crate::monitors::growth::Growth;
 use crate::monitors::watch::{self, Monitors, Noticed};
 use crate::source::Text;
 use labspec_core::reflect::{FieldId, Kind, data, option};
-use labspec_core::{self as core, Data, Access, Model, Plan, Planned, Warning, WarningStat};
+use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, FieldKey, Program, RuntimeError, Value};
 
@@ -113,7 +113,7 @@ impl<'p> Session<'p> {
         programs: impl Into<Held<'p>>,
         model: &Model,
         key: Option<usize>,
-        demand: &Access,
+        demand: &AccessSet,
     ) -> Session<'p> {
         Session::start_within(programs, model, key, demand, Budget::ASKED)
     }
@@ -123,7 +123,7 @@ impl<'p> Session<'p> {
         programs: impl Into<Held<'p>>,
         model: &Model,
         key: Option<usize>,
-        demand: &Access,
+        demand: &AccessSet,
         budget: Budget,
     ) -> Session<'p> {
         let data = Data::planned(model, Plan::new(model, demand));

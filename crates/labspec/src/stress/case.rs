@@ -10,7 +10,7 @@ use crate::monitors::watch::Noticed;
 use crate::run::{self, Budget, End, Play, Session};
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldId, data};
-use labspec_core::{Access, Model, Warning, WarningStat, joint};
+use labspec_core::{AccessSet, Model, Warning, WarningStat, joint};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
@@ -19,7 +19,7 @@ pub(crate) struct StressCase<'a> {
     pub(super) lab: &'a Lab,
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
-    pub(super) demand: Access,
+    pub(super) demand: AccessSet,
     /// A program runs before every step: it may push whatever it likes.
     pub(super) controlled: bool,
     /// It may also write where bodies are.

@@ -9,7 +9,7 @@ use crate::run::{self, Play, Session};
 use crate::spec::Lab;
 use crate::verify::Stated;
 use labspec_bind::element_owner;
-use labspec_core::{Access, Model};
+use labspec_core::{AccessSet, Model};
 use labspec_core::{geom, joint, trntype, wraptype};
 use labspec_expr::Compiler;
 use labspec_expr::dimension::{Dimension, Measure};
@@ -318,7 +318,7 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
 
 /// Pairs of named geoms that touch in a run of the lab as it stands.
 fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
-    let mut session = Session::start(programs, model, lab.keyframe(), &Access::ANY);
+    let mut session = Session::start(programs, model, lab.keyframe(), &AccessSet::ANY);
     let timestep = session.world.model.opt.timestep;
     let Ok(steps) = run::count_steps(lab, None, None, timestep) else { return Vec::new() };
     let mut pairs: Vec<(String, String)> = Vec::new();

@@ -19,7 +19,7 @@ use crate::run::{Budget, Session, StepVariant};
 use crate::source::Text;
 use crate::spec::{Find, Run, Sweep, Verify};
 use labspec_core::reflect::{FieldId, Object, option};
-use labspec_core::{self as core, Access, Model};
+use labspec_core::{self as core, AccessSet, Model};
 use labspec_expr::{Compiled, Compiler, Globals, Program, Value};
 use std::cell::{OnceCell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
@@ -235,7 +235,7 @@ impl<'a> BoundVerify<'a> {
     pub(super) fn idle_in<T>(&self, place: usize, work: impl FnOnce(&mut Session<'a>) -> T) -> Option<T> {
         let scene = &self.scenes.get(place)?.scene;
         let mut idle = self.idle.borrow_mut();
-        let start = || Session::start(scene.programs.clone(), &scene.model, None, &Access::ANY);
+        let start = || Session::start(scene.programs.clone(), &scene.model, None, &AccessSet::ANY);
         Some(work(idle.entry(place).or_insert_with(start)))
     }
 
@@ -270,7 +270,7 @@ impl<'a> BoundVerify<'a> {
         let Some(BoundLab { lab, model, programs, .. }) = self.lab() else { return false };
         let start = |x: f64| {
             let mut session =
-                Session::start_within(programs.clone(), model, lab.keyframe(), &Access::ANY, Budget::TRIAL);
+                Session::start_within(programs.clone(), model, lab.keyframe(), &AccessSet::ANY, Budget::TRIAL);
             let (i, _) = programs.control(&label.value)?;
             session.set_control(i, Value::Number(x));
             Some(session)

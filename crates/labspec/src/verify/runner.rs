@@ -238,7 +238,7 @@ pub(super) fn begun(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model>
 }
 
 /// What the programs of the lab and of the run need.
-fn demand(asked: &Asked<'_, '_>) -> labspec_core::Access {
+fn demand(asked: &Asked<'_, '_>) -> labspec_core::AccessSet {
     let mut demand = asked.scene.scene.programs.demand;
     let own = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
     for program in asked.measures.iter().map(|m| &m.program).chain(own) {

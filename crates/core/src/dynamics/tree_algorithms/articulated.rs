@@ -12,7 +12,7 @@
 //! Everything is expressed about the centre of mass of the tree, as `cdof` and `cinert` are: nothing is transformed
 //! from body to body.
 
-use super::{Damped, Factors, NOTHING, Assignment, Row};
+use super::{Assignment, Damped, Factors, NOTHING, Row};
 use crate::dynamics::{Scratch, mass, reflected};
 use crate::math::*;
 use crate::model::plan::PlanFlag;
@@ -194,7 +194,11 @@ impl Passes<'_> {
 
     /// The way down, from the root to the leaves.
     #[inline(never)]
-    fn outward_pass<const A: usize, const B: usize>(&self, bodies: &mut [[Body; 2]], joints: &mut [[Joint; 2]]) {
+    fn outward_pass<const A: usize, const B: usize>(
+        &self,
+        bodies: &mut [[Body; 2]],
+        joints: &mut [[Joint; 2]],
+    ) {
         let dofs = self.span.dofs.clone();
         let links = self.links[dofs.clone()].iter().zip(&self.cdof[dofs.clone()]);
         for (joint, (link, s)) in joints[dofs].iter_mut().zip(links) {

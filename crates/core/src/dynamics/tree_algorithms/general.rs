@@ -3,7 +3,7 @@
 //! Bodies are placed one after the other (`kinematics`); M comes from composite bodies, a row for each degree of freedom, and is
 //! factorized by elimination (`mass`); the bias force is found by recursion (`rne`).
 
-use super::{Damped, Factors, Forces, Assignment, Places, Row};
+use super::{Assignment, Damped, Factors, Forces, Places, Row};
 use crate::dynamics::kinematics::{self, Frames};
 use crate::dynamics::{Scratch, mass as rows, rne};
 use crate::math::Vec3;

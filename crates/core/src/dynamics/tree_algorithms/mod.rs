@@ -32,13 +32,13 @@ macro_rules! table {
         /// What each way knows of its trees, and which ways have some.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub(crate) struct Kept {
-            taken: Taken,
+            taken: Selected,
             $($way: $way::Trees,)*
         }
 
         impl Kept {
             /// The trees of a model by the ways that they take.
-            pub(crate) fn new(m: &Model, ways: Ways) -> Kept {
+            pub(crate) fn new(m: &Model, ways: TreeAlgorithms) -> Kept {
                 let (taken, own) = sort(m, ways);
                 let mut own = own.iter();
                 Kept { taken, $($way: own.next().map_or_else($way::Trees::default, |own| $way::Trees::new(m, own)),)* }
@@ -49,13 +49,13 @@ macro_rules! table {
 
 mod articulated;
 mod chain;
+mod diagonal_inertia;
 mod general;
 mod planar_chain;
 mod planar_passes;
+mod prismatic;
 mod rigid;
 mod small_chain;
-mod diagonal_inertia;
-mod prismatic;
 
 table! {
     diagonal_inertia
@@ -293,7 +293,7 @@ pub(crate) fn put_rows_off(w: &Scratch) -> bool {
 macro_rules! each {
     ($w:ident, $of:ident, |$way:ident, $row:ident, $functions:ident| $call:expr) => {
         for i in (0..TABLE.len()).rev() {
-            let ($way, $row) = (Way(i as u8), &TABLE[i]);
+            let ($way, $row) = (TreeAlgorithm(i as u8), &TABLE[i]);
             if let Some($functions) = &$row.$of
                 && $w.ways.taken.$of.has($way)
             {

@@ -13,8 +13,8 @@
 //! Which trees are such chains is found when a model is compiled, and kept in it. Written to its axes and frames afterwards, a chain may
 //! leave its plane: it is then computed as the general way does.
 
-use super::planar_passes::{Joint, Link, inward, outward, forward_kinematics, solve_known};
-use super::{Damped, Factors, Forces, NOTHING, Assignment, Row, chain};
+use super::planar_passes::{Joint, Link, forward_kinematics, inward, outward, solve_known};
+use super::{Assignment, Damped, Factors, Forces, NOTHING, Row, chain};
 use crate::dynamics::{Scratch, com, kinematics, mass as rows_of_m, reflected, rne};
 use crate::kinds::joint;
 use crate::math::*;

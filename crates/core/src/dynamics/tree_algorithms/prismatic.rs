@@ -4,7 +4,7 @@
 //! moves and a are the axes, and the bias force is weight alone, -m_i (a_i · g). M changes when its masses do, or when something
 //! turns what carries the tree; while it does not, it stays, and so does its factorization.
 
-use super::{Damped, Factors, Forces, NOTHING, Assignment, Row};
+use super::{Assignment, Damped, Factors, Forces, NOTHING, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;
@@ -13,7 +13,7 @@ use crate::model::{Fields, Model};
 use std::ops::Range;
 
 pub(super) const ROW: Row = Row {
-    name: "sliding",
+    name: "prismatic",
     covers,
     copies: &[
         fields_of::body_mass,
@@ -21,7 +21,7 @@ pub(super) const ROW: Row = Row {
         fields_of::actuator_armature,
         fields_of::actuator_gear,
     ],
-    load: |m, w| w.ways.sliding.load(m),
+    load: |m, w| w.ways.prismatic.load(m),
     forces: Some(Forces {
         mass,
         bias,
@@ -140,7 +140,7 @@ impl Trees {
 }
 
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let trees = &mut w.ways.sliding;
+    let trees = &mut w.ways.prismatic;
     trees.update(m, rows::<3>(&d.xaxis));
     for slide in &trees.slides {
         d.M[rows_of_mass::row(m, slide.dof)].copy_from_slice(&slide.row);
@@ -149,14 +149,14 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     let axes = rows::<3>(&d.xaxis);
-    for slide in &w.ways.sliding.slides {
+    for slide in &w.ways.prismatic.slides {
         d.qfrc_bias[slide.dof] = -slide.mass * dot(gravity, axes[slide.joint]);
     }
 }
 
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
-    for tree in &mut w.ways.sliding.factored {
+    for tree in &mut w.ways.prismatic.factored {
         let (rows, dofs) = (tree.rows.clone(), tree.dofs.clone());
         if same_bits(&tree.of, &d.M[rows.clone()]) {
             d.qLD[rows].copy_from_slice(&tree.ld);
@@ -179,13 +179,13 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    for tree in &w.ways.sliding.factored {
+    for tree in &w.ways.prismatic.factored {
         rows_of_mass::solve(m, &d.qLD, &d.qLDiagInv, x, tree.dofs.clone());
     }
 }
 
 fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    for tree in &w.ways.sliding.factored {
+    for tree in &w.ways.prismatic.factored {
         let dofs = tree.dofs.clone();
         rows_of_mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
     }

@@ -9,7 +9,7 @@
 //!
 //! > kinetic energy ½ m v² + v · R(ω × h) + ½ ω · I ω, bias along v = R(ω × (ω × h)) - m g
 
-use super::{Forces, NOTHING, Assignment, Row};
+use super::{Assignment, Forces, NOTHING, Row};
 use crate::dynamics::{Scratch, mass as rows_of_mass};
 use crate::kinds::joint;
 use crate::math::*;

@@ -2,7 +2,7 @@
 //!
 //! Their rows of M are a packed lower triangle, which is factorized and solved with all sizes known (`triangle`).
 
-use super::{Damped, Factors, NOTHING, Assignment, Row};
+use super::{Assignment, Damped, Factors, NOTHING, Row};
 use crate::dynamics::Scratch;
 use crate::dynamics::triangle::{
     by_size, factor as factor_triangle, part, part_mut, size_before, solve as solve_triangle, solve_at,
@@ -10,7 +10,7 @@ use crate::dynamics::triangle::{
 use crate::model::{Fields, Model};
 
 pub(super) const ROW: Row = Row {
-    name: "serial",
+    name: "small_chain",
     covers,
     factors: Some(Factors {
         without_mass: false,
@@ -57,7 +57,7 @@ impl Trees {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn factor(_: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
-    for tree in &w.ways.serial.trees {
+    for tree in &w.ways.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, None));
     }
     bad
@@ -65,14 +65,14 @@ fn factor(_: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve(_: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    for tree in &w.ways.serial.trees {
+    for tree in &w.ways.small_chain.trees {
         tree.solve(d, x);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_with(_: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    for tree in &w.ways.serial.trees {
+    for tree in &w.ways.small_chain.trees {
         tree.solve_with(&d.M, b, x);
     }
 }
@@ -80,7 +80,7 @@ fn solve_with(_: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_now(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
-    for tree in &w.ways.serial.trees {
+    for tree in &w.ways.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
     }
     bad
@@ -89,7 +89,7 @@ fn solve_now(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_both(_: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let mut bad = None;
-    for tree in &w.ways.serial.trees {
+    for tree in &w.ways.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
         tree.solve_with(&d.M, b, y);
     }

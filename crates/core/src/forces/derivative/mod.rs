@@ -9,7 +9,7 @@ pub(crate) mod sparse;
 
 use std::ops::Range;
 
-use crate::dynamics::{jacobian, mass, walk, tree_algorithms};
+use crate::dynamics::{jacobian, mass, tree_algorithms, walk};
 use crate::forces::passive::fluid::{self, Frame, Shape};
 use crate::forces::passive::spring;
 use crate::forces::tendon;
@@ -107,7 +107,9 @@ fn subtract_turning(m: &Model, d: &Fields, whole: &mut [f64], tree: usize) {
     let first = m.tree_dofs(tree).start + 3;
     let body = m.dof_bodyid[first] as usize;
     let turn = [d.qvel[first], d.qvel[first + 1], d.qvel[first + 2]];
-    for (r, slope) in tree_algorithms::turning_slope(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate() {
+    for (r, slope) in
+        tree_algorithms::turning_slope(rows::<3>(&m.body_inertia)[body], turn).iter().enumerate()
+    {
         let row = m.D_rowadr[first + r] as usize + 3;
         for (x, s) in whole[row..row + 3].iter_mut().zip(slope) {
             *x -= s;

@@ -186,7 +186,11 @@ impl Placement {
     }
 
     /// The contact of two edges: half way between their closest points.
-    fn edge_contact(&self, first: &Shape, &EdgeAxis { edges: [i, j], normal, .. }: &EdgeAxis) -> ContactPoint {
+    fn edge_contact(
+        &self,
+        first: &Shape,
+        &EdgeAxis { edges: [i, j], normal, .. }: &EdgeAxis,
+    ) -> ContactPoint {
         let ([a, b], [p, _]) = (self.size, self.offset);
         let columns = transposed(&self.rotation);
         // The edge of each box that is farthest towards the other.

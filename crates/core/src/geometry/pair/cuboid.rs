@@ -47,7 +47,11 @@ pub(super) fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mu
 
 /// A contact that is given in the frame of the box.
 fn to_world(cuboid: &Shape, contact: ContactPoint) -> ContactPoint {
-    ContactPoint { pos: cuboid.world(contact.pos), normal: mat_mul_vec(&cuboid.mat, contact.normal), ..contact }
+    ContactPoint {
+        pos: cuboid.world(contact.pos),
+        normal: mat_mul_vec(&cuboid.mat, contact.normal),
+        ..contact
+    }
 }
 
 /// Contact of the box and a ball, whose centre is given in the frame of the box.

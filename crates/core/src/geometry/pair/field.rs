@@ -3,7 +3,7 @@
 
 use std::ops::{ControlFlow, RangeInclusive};
 
-use super::{MOST, PairSettings, ContactPoint};
+use super::{ContactPoint, MOST, PairSettings};
 use crate::geometry::convex::{Convex, Nearest, Room, nearest};
 use crate::geometry::{Field, Shape};
 use crate::math::*;
@@ -39,7 +39,12 @@ pub(super) fn field(
             let [on_a, on_b] = found.witness;
             let middle = add_scaled(scale(add(on_a, on_b), 0.5), found.normal, -0.5 * half);
             let normal = mat_mul_vec(&ground.mat, found.normal);
-            out.push(ContactPoint { dist: found.dist - half, pos: ground.world(middle), normal, tangent: [0.0; 3] });
+            out.push(ContactPoint {
+                dist: found.dist - half,
+                pos: ground.world(middle),
+                normal,
+                tangent: [0.0; 3],
+            });
         }
         if out.len() - start < MOST { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });

@@ -15,12 +15,23 @@ fn touch(normal: Vec3, dist: f64, point: Vec3) -> ContactPoint {
 /// A ball on a plane, which is given by a point and its normal: the height of the centre minus the radius, half way below the
 /// lowest point.
 #[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn ball_on_plane(at: Vec3, normal: Vec3, centre: Vec3, radius: f64, margin: f64) -> Option<ContactPoint> {
+pub(crate) fn ball_on_plane(
+    at: Vec3,
+    normal: Vec3,
+    centre: Vec3,
+    radius: f64,
+    margin: f64,
+) -> Option<ContactPoint> {
     let dist = dot(sub(centre, at), normal) - radius;
     if dist > margin {
         return None;
     }
-    Some(ContactPoint { dist, pos: add_scaled(centre, normal, -(radius + 0.5 * dist)), normal, tangent: [0.0; 3] })
+    Some(ContactPoint {
+        dist,
+        pos: add_scaled(centre, normal, -(radius + 0.5 * dist)),
+        normal,
+        tangent: [0.0; 3],
+    })
 }
 
 /// A ball of another shape.

@@ -6,11 +6,11 @@
 //! clipped by the sides of that face. What is left and below the face that clips are contacts, each as deep as it is
 //! there. Which face clips, the angles and the number of contacts are those of MuJoCo 3.14.0 (measured).
 
-use super::{PairSettings, ContactPoint};
+use super::{ContactPoint, PairSettings};
 use crate::geometry::clip::{ROUNDING, clip};
 use crate::geometry::convex::{Convex, Room, nearest};
 use crate::geometry::list::List;
-use crate::geometry::{Shape, HullFaces};
+use crate::geometry::{HullFaces, Shape};
 use crate::kinds::geom;
 use crate::math::*;
 
@@ -65,7 +65,13 @@ struct Patch {
 }
 
 /// Contacts of two shapes without margin.
-pub(super) fn contacts(a: &Shape, b: &Shape, settings: &PairSettings, room: &mut Room, out: &mut Vec<ContactPoint>) {
+pub(super) fn contacts(
+    a: &Shape,
+    b: &Shape,
+    settings: &PairSettings,
+    room: &mut Room,
+    out: &mut Vec<ContactPoint>,
+) {
     let found = nearest(&mut Convex::new(a), &mut Convex::new(b), 0.0, settings.effort, room);
     let Some(deep) = found.filter(|n| n.dist < 0.0) else { return };
     let start = out.len();

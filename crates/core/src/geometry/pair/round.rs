@@ -33,7 +33,15 @@ pub(crate) fn two_balls(
 
 /// Balls of two shapes, which have the direction of their z axes.
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn balls(a: &Shape, at_a: Vec3, ra: f64, b: &Shape, at_b: Vec3, rb: f64, margin: f64) -> Option<ContactPoint> {
+fn balls(
+    a: &Shape,
+    at_a: Vec3,
+    ra: f64,
+    b: &Shape,
+    at_b: Vec3,
+    rb: f64,
+    margin: f64,
+) -> Option<ContactPoint> {
     two_balls([at_a, at_b], [ra, rb], margin, || [a.axis(2), b.axis(2)])
 }
 

@@ -1,7 +1,7 @@
 //! Two convex shapes by the general algorithm, and further contacts where they lie flat on each other.
 
-use super::PairSettings;
 use super::ContactPoint;
+use super::PairSettings;
 use super::polygon;
 use crate::geometry::Shape;
 use crate::geometry::convex::{Convex, Room, nearest};
@@ -37,7 +37,13 @@ pub(super) fn convex(
 }
 
 /// The deepest point of two shapes.
-fn deepest(a: &Shape, b: &Shape, margin: f64, settings: &PairSettings, room: &mut Room) -> Option<ContactPoint> {
+fn deepest(
+    a: &Shape,
+    b: &Shape,
+    margin: f64,
+    settings: &PairSettings,
+    room: &mut Room,
+) -> Option<ContactPoint> {
     let (mut u, mut v) = (Convex::new(a), Convex::new(b));
     nearest(&mut u, &mut v, margin, settings.effort, room)
         .filter(|n| n.dist < margin)

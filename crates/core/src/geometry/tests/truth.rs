@@ -10,7 +10,7 @@
 
 use super::Random;
 use crate::geometry::convex::{Convex, Nearest, Room, nearest};
-use crate::geometry::{Mesh, Shape, HullFaces};
+use crate::geometry::{HullFaces, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
 

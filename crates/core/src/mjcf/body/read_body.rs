@@ -42,7 +42,11 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
             ("frame", Some(place)) => {
                 let p = Props::own(node);
                 let (pos, quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
-                ElementSite { frame: place.frame.of(pos, quat), childclass: class_inside(cx, node, place), ..place }
+                ElementSite {
+                    frame: place.frame.of(pos, quat),
+                    childclass: class_inside(cx, node, place),
+                    ..place
+                }
             }
             (_, Some(place)) => {
                 if let Some(body) = list.get_mut(place.body) {

@@ -20,7 +20,12 @@ use crate::mjcf::text::values::Value;
 use crate::model::Model;
 
 /// Carries out what the model asks for.
-pub(crate) fn apply(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &Tree, parts: &[AttachedModel]) {
+pub(crate) fn apply(
+    bodies: &mut Vec<BodySpec>,
+    inertias: &mut Vec<Inertia>,
+    tree: &Tree,
+    parts: &[AttachedModel],
+) {
     let Some(AttachedModel { compiler, .. }) = parts.first() else { return };
     align_free(bodies, inertias, parts);
     if compiler.fusestatic {

@@ -1,6 +1,6 @@
 //! Small texts against what MuJoCo 3.14.0 says of them: `golden/cases.py` recorded it.
 
-use crate::mjcf::{NoFiles, Severity, compile, check_xml, rules};
+use crate::mjcf::{NoFiles, Severity, check_xml, compile, rules};
 use crate::step::forward::forward;
 use crate::step::workspace::Workspace;
 

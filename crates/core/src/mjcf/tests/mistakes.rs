@@ -1,7 +1,7 @@
 //! Wrong models and what an author reads about them.
 
 use super::world;
-use crate::mjcf::{FileProblem, Files, NoFiles, compile_with, check_xml};
+use crate::mjcf::{FileProblem, Files, NoFiles, check_xml, compile_with};
 
 /// Each finding with the line it is about, the place underlined.
 fn explained(xml: &str) -> String {

@@ -44,7 +44,11 @@ fn every_supported_attribute_is_looked_up() {
         for entry in std::fs::read_dir(&folder).unwrap() {
             let path = entry.unwrap().path();
             if path.extension().is_some_and(|e| e == "xml") {
-                check_xml(&std::fs::read_to_string(&path).unwrap(), &files, path.file_name().unwrap().to_str());
+                check_xml(
+                    &std::fs::read_to_string(&path).unwrap(),
+                    &files,
+                    path.file_name().unwrap().to_str(),
+                );
             }
         }
     }

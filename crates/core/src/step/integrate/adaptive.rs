@@ -101,7 +101,15 @@ fn larger(error: f64, x: f64) -> f64 {
 }
 
 /// Gragg's method: a step of Euler's, then steps of twice the length from the state before the last, smoothed at the end.
-fn midpoint(m: &Model, d: &mut Workspace, w: &Flow, h: f64, steps: usize, scratch: &mut [f64], out: &mut [f64]) {
+fn midpoint(
+    m: &Model,
+    d: &mut Workspace,
+    w: &Flow,
+    h: f64,
+    steps: usize,
+    scratch: &mut [f64],
+    out: &mut [f64],
+) {
     let n = w.first.len();
     let (older, rest) = scratch.split_at_mut(n);
     let (old, rest) = rest.split_at_mut(n);

@@ -6,9 +6,9 @@ use crate::dynamics::subtree::subtree_vel;
 use crate::mjcf::compile;
 use crate::model::plan::PlanTable;
 use crate::sensor::body_force::rne_post_constraint;
+use crate::step::analysis::AccessSet;
 use crate::step::forward::forward;
 use crate::step::inverse::inverse;
-use crate::step::analysis::Access;
 use crate::step::{step, step1, step2};
 
 const PILE: &str = "<mujoco><option integrator='INTEGRATOR'/><worldbody><geom type='plane' size='1 1 1'/>
@@ -40,7 +40,10 @@ fn moving(m: &Model, plan: PlanTable) -> Workspace {
 #[test]
 fn what_is_restored_goes_on_bit_for_bit() {
     for m in scenes() {
-        for plan in [PlanTable::full(), PlanTable::new(&m, &Access::OBSERVE, crate::model::tree_algorithm::TreeAlgorithms::ALL)] {
+        for plan in [
+            PlanTable::full(),
+            PlanTable::new(&m, &AccessSet::OBSERVE, crate::model::tree_algorithm::TreeAlgorithms::ALL),
+        ] {
             let mut d = moving(&m, plan.clone());
             let bytes = save(&m, &d);
             let mut other = Workspace::planned(&m, plan);

@@ -24,7 +24,7 @@ use table::PAIRS;
 use super::{Bound, ModelNames, Programs, Scope, World, functions, include};
 use crate::source::Text;
 use labspec_core::reflect::{FieldId, Kind, Object, View};
-use labspec_core::{self as core, Data, Access, Error, Model, Plan};
+use labspec_core::{self as core, AccessSet, Data, Error, Model, Plan};
 use labspec_expr::{Compiler, Globals, Program};
 
 /// Some of the pairs of the table.
@@ -114,7 +114,7 @@ impl Coupled {
     pub(crate) fn changed(&self, before: &Model, now: &mut Model) {
         let mut world = World {
             model: now.clone(),
-            data: Data::planned(now, Plan::new(now, &Access::ANY)),
+            data: Data::planned(now, Plan::new(now, &AccessSet::ANY)),
             key: None,
             own: super::Functions::new(),
             shown: Vec::new(),

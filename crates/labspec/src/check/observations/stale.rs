@@ -10,7 +10,7 @@ use crate::finding::Finding;
 use crate::rules;
 use crate::run::Cell;
 use crate::spec::Lab;
-use labspec_core::Access;
+use labspec_core::AccessSet;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
 use labspec_expr::{Type, Value};
 
@@ -127,7 +127,7 @@ fn amended(
             None => return None,
         },
     }
-    let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+    let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
     programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
     programs.demand = demand;
     Some(programs)

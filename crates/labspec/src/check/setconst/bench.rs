@@ -9,7 +9,7 @@ use crate::run::{self, Breakdown, Cell, Play, Session, StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{Access, Model};
+use labspec_core::{AccessSet, Model};
 use labspec_expr::{Access, Compiler, Effects, Type, Value};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::ControlFlow;
@@ -142,7 +142,7 @@ impl<'a> Bench<'a> {
     pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
         let own = s.bound.program.effects();
         let written = |e: &Effects| {
-            let field = |a: &Access| e.writes.iter().any(|w| w.field == a.field);
+            let field = |a: &AccessSet| e.writes.iter().any(|w| w.field == a.field);
             own.calls.is_empty() && own.reads.iter().any(field)
         };
         let others = self.programs.controls.iter().filter_map(|(_, program)| match program {
@@ -388,7 +388,7 @@ impl<'a> Bench<'a> {
             },
             ProgramSite::Run(_) => {}
         }
-        let mut demand = Access { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
+        let mut demand = AccessSet { reads: FieldSet::EMPTY, writes: FieldSet::EMPTY };
         programs.bound().for_each(|b| include(b.program.effects(), &mut demand));
         programs.demand = demand;
         Some(Amended { programs, bound })

@@ -17,7 +17,7 @@ mod spatial;
 #[cfg(test)]
 mod tests;
 
-use super::{Forces, NOTHING, Assignment, Row};
+use super::{Assignment, Forces, NOTHING, Row};
 pub(super) use planar::plane_of;
 
 use crate::dynamics::{Scratch, mass, walk};
