@@ -73,6 +73,6 @@ mod tutorial;
 mod twenty;
 mod under_hands;
 mod verify;
-mod ways;
+mod tree_algorithms;
 mod zoo;
 mod zz;

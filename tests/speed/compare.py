@@ -255,7 +255,7 @@ Causes of the difference:
 
 The table shows the cost of a planned step without one specialized tree algorithm (*way*), relative to its cost with all of them, in
 instructions. A cell is empty if the scene does not use the algorithm. `dynamics/ways/` documents the algorithms,
-`labspec bench --without WAY` measures a scene, and `tests/ways.rs` compares each with the general algorithm.
+`labspec bench --without WAY` measures a scene, and `tests/tree_algorithms.rs` compares each with the general algorithm.
 
 {ways}
 

@@ -10,7 +10,6 @@ written to a folder and not measured.
 import argparse
 import json
 import pathlib
-import re
 import sys
 import tempfile
 
@@ -119,22 +118,14 @@ def main():
         if a.write:
             return
         import labs
-        heads = ["kind", "stages", "rows", "planned, ns", "every field, ns", "MuJoCo, ns", "planned to MuJoCo", "every field", "aim", ""]
-        lines = ["| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 2) + "|---|"]
-        for name, file in files.items():
+
+        def row(name, file):
             cells = labs.measure(file, a.rounds)
-            if cells is None:
-                sys.exit(f"{name} does not run")
-            cells[0] = name
-            lines.append("| " + " | ".join(cells) + " |")
-            print(lines[-1], flush=True)
+            return [name, *cells[1:]] if cells else sys.exit(f"{name} does not run")
+
+        lines = labs.table("kind", (row(name, file) for name, file in files.items()))
     if a.out:
-        text = a.out.read_text()
-        table = "\n".join(lines)
-        new = re.sub(r"(\n## Kinds of labs\n.*?\n)\| kind \|.*?\n\n", lambda m: m.group(1) + table + "\n\n", text, count=1, flags=re.S)
-        if new == text and table not in text:
-            sys.exit(f"{a.out} has no section `Kinds of labs` with a table")
-        a.out.write_text(new)
+        labs.replace_table(a.out, "Kinds of labs", lines)
 
 
 if __name__ == "__main__":

@@ -139,25 +139,38 @@ def measure(lab, rounds):
             "" if ratio >= aim and run_ratio >= 2 else "missed"]
 
 
+def table(first, rows):
+    """The lines of a table whose first column has this head; rows are printed as they come."""
+    heads = [first, "stages", "rows", "planned, ns", "every field, ns", "MuJoCo, ns", "planned to MuJoCo", "every field", "`run --full`",
+             "aim", ""]
+    lines = ["| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 2) + "|---|"]
+    for cells in rows:
+        lines.append("| " + " | ".join(cells) + " |")
+        print(lines[-1], flush=True)
+    return lines
+
+
+def replace_table(page, section, lines):
+    """Puts a table in the place of the one that a section of a page has."""
+    text, new = page.read_text(), "\n".join(lines)
+    first = lines[0].split("|")[1].strip()
+    pattern = rf"(\n## {re.escape(section)}\n.*?\n)\| {re.escape(first)} \|.*?\n\n"
+    text, count = re.subn(pattern, lambda m: m.group(1) + new + "\n\n", text, count=1, flags=re.S)
+    if not count:
+        sys.exit(f"{page} has no section `{section}` with a table")
+    page.write_text(text)
+
+
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("labs", nargs="*", type=pathlib.Path)
     p.add_argument("--out", type=pathlib.Path)
     p.add_argument("--rounds", type=int, default=5)
     a = p.parse_intermixed_args()
-    heads = ["lab", "stages", "rows", "planned, ns", "every field, ns", "MuJoCo, ns", "planned to MuJoCo", "every field", "`run --full`", "aim", ""]
-    lines = ["| " + " | ".join(heads) + " |", "|---" + "|---:" * (len(heads) - 2) + "|---|"]
-    for lab in a.labs or sorted(LABS.glob("*.json")):
-        cells = measure(lab, a.rounds)
-        lines.append("| " + " | ".join(cells or [lab.stem, "does not run"]) + " |")
-        print(lines[-1], flush=True)
+    labs = a.labs or sorted(LABS.glob("*.json"))
+    lines = table("lab", (measure(lab, a.rounds) or [lab.stem, "does not run"] for lab in labs))
     if a.out:
-        text = a.out.read_text()
-        table = "\n".join(lines)
-        new = re.sub(r"(\n## Labs\n.*?\n)\| lab \|.*?\n\n", lambda m: m.group(1) + table + "\n\n", text, count=1, flags=re.S)
-        if new == text and table not in text:
-            sys.exit(f"{a.out} has no section `Labs` with a table")
-        a.out.write_text(new)
+        replace_table(a.out, "Labs", lines)
 
 
 if __name__ == "__main__":

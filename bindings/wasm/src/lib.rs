@@ -5,7 +5,7 @@
 
 use js_sys::{Array, Error, Float64Array, JSON, Object, Reflect};
 use labspec::finding::Finding;
-use labspec::player::{ControlKind, Place, Saved};
+use labspec::player::{ControlKind, DisplayedIn, Saved};
 use labspec::{Checker, Player};
 use serde_json::{Value as Json, json};
 use std::collections::BTreeMap;
@@ -140,8 +140,8 @@ impl Lab {
     #[wasm_bindgen(getter)]
     pub fn shown(&self) -> Result<ShownList, JsValue> {
         let one = |s: &labspec::player::Shown| match s.place {
-            Place::Plot(plot) => json!({"label": s.label, "unit": s.unit, "plot": plot}),
-            Place::Readout(digits) => json!({"label": s.label, "unit": s.unit, "digits": digits}),
+            DisplayedIn::Plot(plot) => json!({"label": s.label, "unit": s.unit, "plot": plot}),
+            DisplayedIn::Readout(digits) => json!({"label": s.label, "unit": s.unit, "digits": digits}),
         };
         Ok(object(&self.player.shown().iter().map(one).collect())?.unchecked_into())
     }

@@ -10,6 +10,9 @@ use super::jacobian::{Block, by_rows};
 use super::primal::Problem;
 use crate::dynamics::mass;
 
+/// Most sweeps over the rows, whatever a model asks for: a step ends, also where nothing limits its work.
+pub(super) const MOST_SWEEPS: i32 = 100_000;
+
 impl Problem<'_> {
     /// What a sweep over the forces of the island costs.
     pub(super) fn price_of_sweep(&self) -> u64 {

@@ -6,6 +6,7 @@
 
 use super::cone::friction;
 use super::cost::Cost;
+use super::dual::MOST_SWEEPS;
 use super::delassus::RowGroup;
 use super::jacobian::{Block, by_cone_rows};
 use super::kind;
@@ -19,7 +20,7 @@ impl Problem<'_> {
         let (tolerance, scale) = (self.m.opt.noslip_tolerance, self.scale_of_all());
         let price = self.price_of_sweep();
         self.accelerate();
-        for _ in 0..self.m.opt.noslip_iterations.max(0) {
+        for _ in 0..self.m.opt.noslip_iterations.clamp(0, MOST_SWEEPS) {
             self.d.meter.add(price);
             if self.d.meter.over() {
                 break;

@@ -12,6 +12,7 @@
 
 use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
+use super::dual::MOST_SWEEPS;
 use super::delassus::RowGroup;
 use super::jacobian::{Block, by_cone_rows, by_rows};
 use super::primal::Problem;
@@ -26,7 +27,7 @@ impl Problem<'_> {
         let mut order = Order(0);
         let mut momentum = 1.0_f64;
         self.start_sweeps();
-        for _ in 0..self.m.opt.iterations.max(0) {
+        for _ in 0..self.m.opt.iterations.clamp(0, MOST_SWEEPS) {
             self.d.meter.add(price);
             if self.d.meter.over() {
                 break;

@@ -26,12 +26,16 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     if let (Some(set), Some(apply)) = (&action.set, &action.apply) {
         let label = named(control.label.as_str());
         findings.push(
-            Finding::new(APPLY_UNUSED, apply.span(), format!("{label} never runs `apply`, because it also has `set`"))
-                .related(set.span(), "the page runs this instead")
-                .help(format!(
-                    "delete `set`, and begin these statements with `{} = value;`",
-                    shorten(set.as_str())
-                )),
+            Finding::new(
+                APPLY_UNUSED,
+                apply.span(),
+                format!("{label} never runs `apply`, because it also has `set`"),
+            )
+            .related(set.span(), "the page runs this instead")
+            .help(format!(
+                "delete `set`, and begin these statements with `{} = value;`",
+                shorten(set.as_str())
+            )),
         );
     }
 }

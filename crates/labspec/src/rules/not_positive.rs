@@ -24,7 +24,8 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         if let Some(number) = number.filter(|n| !object.allows(name, n.value)) {
             let message = format!("`{name}` is {}, but it must be positive", number.value);
             findings.push(
-                Finding::new(NOT_POSITIVE, number.span.clone(), message).help(format!("write a positive value: {means}")),
+                Finding::new(NOT_POSITIVE, number.span.clone(), message)
+                    .help(format!("write a positive value: {means}")),
             );
         }
     };

@@ -26,7 +26,12 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
                 .help("delete one of the two"),
         ),
         (None, None) => findings.push(
-            Finding::new(ONE_MODEL, lab.span.start..lab.span.start + 1, "this lab has neither `model` nor `xml`").help(
+            Finding::new(
+                ONE_MODEL,
+                lab.span.start..lab.span.start + 1,
+                "this lab has neither `model` nor `xml`",
+            )
+            .help(
                 "add \"model\": \"NAME\" for a model in the model folder, or \"xml\": \"<mujoco>…</mujoco>\"",
             ),
         ),

@@ -39,9 +39,13 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
         if let Some(first) = twin {
             let [a, b] = [first, option].map(|o| named(o.text.as_str()));
             findings.push(
-                Finding::new(OPTION_VALUE_TWICE, option.value.span(), format!("{a} and {b} have the same value"))
-                    .related(first.value.span(), "the first one")
-                    .help("write the value that belongs to the text, or delete one of them"),
+                Finding::new(
+                    OPTION_VALUE_TWICE,
+                    option.value.span(),
+                    format!("{a} and {b} have the same value"),
+                )
+                .related(first.value.span(), "the first one")
+                .help("write the value that belongs to the text, or delete one of them"),
             );
         }
     }

@@ -31,7 +31,9 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let Some(first) = open.first().filter(|_| predictions.len() > 1) else { return };
     let (count, of) = (open.len(), predictions.len());
     let message = format!("{count} of {of} predictions have no `verify`; this is the first one");
-    findings.push(Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
-        "add a `verify` with what to measure in the lab of the question and one condition per option",
-    ));
+    findings.push(
+        Finding::new(PREDICTION_UNCHECKED, first.span.clone(), message).help(
+            "add a `verify` with what to measure in the lab of the question and one condition per option",
+        ),
+    );
 }

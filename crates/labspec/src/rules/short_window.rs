@@ -30,10 +30,8 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
     for window in lab.plots.iter().filter_map(|p| p.window.as_ref()) {
         let points = window.value * FRAMES / slowest;
         if window.value > 0.0 && points < POINTS {
-            let message = format!(
-                "this plot shows {} s, so a page draws at most {points:.0} points",
-                window.value
-            );
+            let message =
+                format!("this plot shows {} s, so a page draws at most {points:.0} points", window.value);
             findings.push(
                 Finding::new(SHORT_WINDOW, window.span.clone(), message)
                     .why(format!("a page samples {FRAMES} times per second; at the slowest speed, {slowest}, that is once every {:.4} s", slowest / FRAMES))

@@ -24,7 +24,8 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), .. } = &control.kind else { return };
     let range = max.value - min.value;
     if range > 0.0 && (step.value <= 0.0 || step.value > range) {
-        let message = format!("the step {} does not fit the range from {} to {}", step.value, min.value, max.value);
+        let message =
+            format!("the step {} does not fit the range from {} to {}", step.value, min.value, max.value);
         findings.push(
             Finding::new(SLIDER_STEP, step.span.clone(), message)
                 .help(format!("delete `step` for a hundredth of the range, {}", range / 100.0)),

@@ -36,9 +36,13 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
     let half = answer / 2.0;
     if tolerance >= size / 2.0 {
         findings.push(
-            Finding::new(SLIP_ACCEPTED, span, format!("the tolerance accepts {half}, but the answer is {answer}"))
-                .related(key.span.clone(), "the answer")
-                .help("write in `tol` how far an answer may be off, in its unit; delete it for 2 %"),
+            Finding::new(
+                SLIP_ACCEPTED,
+                span,
+                format!("the tolerance accepts {half}, but the answer is {answer}"),
+            )
+            .related(key.span.clone(), "the answer")
+            .help("write in `tol` how far an answer may be off, in its unit; delete it for 2 %"),
         );
     } else if (ROUND - 1.0) * size <= tolerance && plain(question.q.as_str()).contains("9.81") {
         let other = (answer * ROUND * 1e4).round() / 1e4;

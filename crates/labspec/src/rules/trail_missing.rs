@@ -44,8 +44,9 @@ fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     let more = if sites().count() > listed.len() { ", …" } else { "" };
     findings.push(match nearest(name, sites()) {
         Some(right) => found.help(format!("did you mean `{right}`?")).guess(trail.span(), encode(right)),
-        None if listed.is_empty() => found
-            .help("name a site in the model, which has none: add <site name=\"…\"/> where the path should be drawn"),
+        None if listed.is_empty() => found.help(
+            "name a site in the model, which has none: add <site name=\"…\"/> where the path should be drawn",
+        ),
         None => found.help(format!("use one of its sites: {}{more}", listed.join(", "))),
     });
 }

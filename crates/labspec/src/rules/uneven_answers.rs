@@ -56,11 +56,7 @@ pub(super) fn across(lessons: &[&Lesson]) -> Vec<Finding> {
         Finding::plain(
             UNEVEN_ANSWERS,
             span.clone(),
-            format!(
-                "of {} correct options in the course, {} have index {place}",
-                keys.len(),
-                stands(place)
-            ),
+            format!("of {} correct options in the course, {} have index {place}", keys.len(), stands(place)),
         )
         .why(format!(
             "chance gives {expected:.1} on average, and this many in one of {:.0} courses; all: {}",

@@ -25,9 +25,7 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             Finding::new(UNKNOWN_OVERLAY, name.span(), format!("{} is not an overlay", named(name.as_str())));
         findings.push(match nearest(name.as_str(), texts(&OVERLAYS)) {
             Some(right) => found.help(format!("did you mean `{right}`?")).guess(name.span(), right),
-            None => {
-                found.help(format!("use one of: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", ")))
-            }
+            None => found.help(format!("use one of: {}", texts(&OVERLAYS).collect::<Vec<_>>().join(", "))),
         });
     }
 }

@@ -56,8 +56,12 @@ fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
         if conditions > 0 && conditions != options {
             let span = verify.options.first().map_or(verify.span.clone(), Text::span);
             findings.push(
-                Finding::new(VERIFY_ANSWER, span, format!("`options` has {conditions} conditions for {options} options"))
-                    .help("write one condition per option, in their order"),
+                Finding::new(
+                    VERIFY_ANSWER,
+                    span,
+                    format!("`options` has {conditions} conditions for {options} options"),
+                )
+                .help("write one condition per option, in their order"),
             );
         }
         if let Some(wrong) = verify.wrong.first().filter(|_| verify.value.is_none()) {

@@ -272,7 +272,7 @@ mod tests {
             outcome(&select, Value::Number(3.0)),
             "3 is not an option of \"integrator\"; its options are 0 (\"Euler\"), 4 (\"discrete\")"
         );
-        assert!(outcome(&select, "Discrete".into()).starts_with("the text \"Discrete\" is no option"));
+        assert!(outcome(&select, "Discrete".into()).starts_with("the text \"Discrete\" is not an option"));
         assert!(outcome(&select, Value::Boolean(true)).starts_with("true is not an option"));
     }
 

@@ -14,7 +14,7 @@
 //! * its `mod` and its name in the table stand below, before those that are longer.
 //!
 //! Nothing else knows the names of ways: plans, steps and `labspec bench --without WAY` ask the table. Any short way can be
-//! forbidden ([`Ways`]): `tests/ways.rs` does so with each row and holds it against the general one, and
+//! forbidden ([`Ways`]): `tests/tree_algorithms.rs` does so with each row and holds it against the general one, and
 //! `docs/measured/speed.md` says what each is worth.
 
 use super::Scratch;

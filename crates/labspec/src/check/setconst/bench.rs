@@ -142,7 +142,7 @@ impl<'a> Bench<'a> {
     pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
         let own = s.bound.program.effects();
         let written = |e: &Effects| {
-            let field = |a: &AccessSet| e.writes.iter().any(|w| w.field == a.field);
+            let field = |a: &Access| e.writes.iter().any(|w| w.field == a.field);
             own.calls.is_empty() && own.reads.iter().any(field)
         };
         let others = self.programs.controls.iter().filter_map(|(_, program)| match program {
