@@ -63,7 +63,7 @@ pub(super) fn actuators_are_idle(m: &Model, linear: impl Fn(usize) -> bool) -> b
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod tests {
     use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
-    use crate::model::reflect::{FieldSet, data};
+    use crate::model::reflect::{FieldSet, data, model};
     use crate::model::stage::Stage;
     use crate::step::analysis::AccessSet;
 
@@ -93,6 +93,26 @@ mod tests {
         assert_eq!(bits(&planned.fields().qpos), bits(&full.qpos));
         assert_eq!(bits(&planned.fields().actuator_force), bits(&full.actuator_force));
         assert_eq!(bits(&planned.fields().qfrc_actuator), bits(&full.qfrc_actuator));
+    }
+
+    /// Gravity compensation that acts as a force of actuators does not act in a model without actuators (measured on MuJoCo 3.14.0),
+    /// whatever the plan keeps.
+    #[test]
+    fn without_actuators_nothing_compensates_gravity_for_them() {
+        let m = Model::from_xml(
+            "<mujoco><worldbody><site name='a' pos='0 0 .5'/><body gravcomp='.1'><freejoint/><geom size='.05' mass='1'/>\
+             <site name='s' pos='0 0 .1'/></body></worldbody><tendon><spatial><site site='a'/><site site='s'/></spatial></tendon>\
+             <sensor><accelerometer site='s'/></sensor></mujoco>",
+        )
+        .unwrap();
+        let mut everything = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
+        everything.writes.insert(model::jnt_actgravcomp);
+        let (mut planned, mut full) = (Data::planned(&m, Plan::new(&m, &everything)), Data::unplanned(&m));
+        let mut written = m.clone();
+        assert!(call::view_mut(&mut written, &mut planned, model::jnt_actgravcomp).unwrap().set(0, 1.0));
+        agree(&written, &mut planned, &mut full);
+        assert_eq!(planned.fields().qfrc_actuator, [0.0; 6]);
+        assert_eq!(planned.fields().qfrc_gravcomp[2], 9.81 * 0.1);
     }
 
     #[test]
