@@ -68,11 +68,11 @@ mod support;
 mod terminal;
 #[cfg(unix)]
 mod trace;
+mod tree_algorithms;
 mod trust;
 mod tutorial;
 mod twenty;
 mod under_hands;
 mod verify;
-mod tree_algorithms;
 mod zoo;
 mod zz;

@@ -145,7 +145,12 @@ fn difference(m: &Model, demand: &AccessSet, events: &[Event]) -> Option<String>
 }
 
 /// The same of data whose plan is already decided.
-fn difference_of(m: &Model, mut planned: Data<Planned>, demand: &AccessSet, events: &[Event]) -> Option<String> {
+fn difference_of(
+    m: &Model,
+    mut planned: Data<Planned>,
+    demand: &AccessSet,
+    events: &[Event],
+) -> Option<String> {
     let (mut m1, mut m2) = (m.clone(), m.clone());
     let mut full = Data::unplanned(m);
     for step in 0..STEPS {

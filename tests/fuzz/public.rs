@@ -160,8 +160,10 @@ fn call(m: &mut Model, d: &mut Data, saved: &mut Vec<u8>, random: &mut Random) -
             assert!(core::inverse(&other, d).is_err() && save::restore(&other, d, saved).is_err());
         }
         29 => {
-            let mut planned =
-                Data::planned(m, Plan::new(m, &AccessSet { reads: Default::default(), ..AccessSet::OBSERVE }));
+            let mut planned = Data::planned(
+                m,
+                Plan::new(m, &AccessSet { reads: Default::default(), ..AccessSet::OBSERVE }),
+            );
             drop((
                 core::step(m, &mut planned),
                 core::full_m(m, &planned),

@@ -122,7 +122,7 @@ impl fmt::Display for Error {
             Error::NoField(name) => write!(f, "model and data have no field `{name}`"),
             Error::LeftOut { field, stage } => write!(
                 f,
-                "`{}` cannot be read: the plan may skip the {stage:?} stage, so its value may be out of date; add it to the `reads` of the plan's `Demand`",
+                "`{}` cannot be read: the plan may skip the {stage:?} stage, so its value may be out of date; add it to the `reads` of the plan's `AccessSet`",
                 field.info().name
             ),
             Error::NotWritable(field) => write!(

@@ -15,13 +15,13 @@ use crate::step::analysis::{self, AccessSet};
 ///
 /// ```
 /// # fn main() -> Result<(), labspec_core::Error> {
-/// use labspec_core::{Data, Demand, Model, Plan, reflect, step};
+/// use labspec_core::{Data, AccessSet, Model, Plan, reflect, step};
 /// let model = Model::from_xml(
 ///     "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='0.1' pos='1 0 0'/></body></worldbody></mujoco>",
 /// )?;
-/// let mut demand = Demand { reads: Default::default(), writes: Default::default() };
-/// demand.reads.insert(reflect::field(reflect::Object::Data, "qpos").expect("a field of the data"));
-/// let plan = Plan::new(&model, &demand);
+/// let mut access = AccessSet { reads: Default::default(), writes: Default::default() };
+/// access.reads.insert(reflect::field(reflect::Object::Data, "qpos").expect("a field of the data"));
+/// let plan = Plan::new(&model, &access);
 /// assert!(plan.decisions().iter().any(|d| !d.keep));
 /// let mut data = Data::planned(&model, plan);
 /// step(&model, &mut data)?;

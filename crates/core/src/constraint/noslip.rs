@@ -6,8 +6,8 @@
 
 use super::cone::friction;
 use super::cost::Cost;
-use super::dual::MOST_SWEEPS;
 use super::delassus::RowGroup;
+use super::dual::MOST_SWEEPS;
 use super::jacobian::{Block, by_cone_rows};
 use super::kind;
 use super::primal::Problem;

@@ -12,8 +12,8 @@
 
 use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
-use super::dual::MOST_SWEEPS;
 use super::delassus::RowGroup;
+use super::dual::MOST_SWEEPS;
 use super::jacobian::{Block, by_cone_rows, by_rows};
 use super::primal::Problem;
 use crate::math::{Ldl, dot};

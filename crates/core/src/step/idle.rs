@@ -105,7 +105,7 @@ mod tests {
              <sensor><accelerometer site='s'/></sensor></mujoco>",
         )
         .unwrap();
-        let mut everything = Demand { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
+        let mut everything = AccessSet { reads: FieldSet::ALL, writes: FieldSet::EMPTY };
         everything.writes.insert(model::jnt_actgravcomp);
         let (mut planned, mut full) = (Data::planned(&m, Plan::new(&m, &everything)), Data::unplanned(&m));
         let mut written = m.clone();

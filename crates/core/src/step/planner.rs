@@ -40,7 +40,12 @@ impl PlanTable {
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
-    pub(crate) fn with(m: &Model, demand: &AccessSet, ways: TreeAlgorithms, more: Option<Stage>) -> PlanTable {
+    pub(crate) fn with(
+        m: &Model,
+        demand: &AccessSet,
+        ways: TreeAlgorithms,
+        more: Option<Stage>,
+    ) -> PlanTable {
         let mut scene = ModelAnalysis::new(m, demand, ways);
         scene.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = PlanTable::default();

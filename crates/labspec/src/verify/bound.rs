@@ -269,8 +269,13 @@ impl<'a> BoundVerify<'a> {
         const STEPS: usize = 20;
         let Some(BoundLab { lab, model, programs, .. }) = self.lab() else { return false };
         let start = |x: f64| {
-            let mut session =
-                Session::start_within(programs.clone(), model, lab.keyframe(), &AccessSet::ANY, Budget::TRIAL);
+            let mut session = Session::start_within(
+                programs.clone(),
+                model,
+                lab.keyframe(),
+                &AccessSet::ANY,
+                Budget::TRIAL,
+            );
             let (i, _) = programs.control(&label.value)?;
             session.set_control(i, Value::Number(x));
             Some(session)

@@ -9,7 +9,7 @@ use labspec::run::Session;
 use labspec::source::SourceFile;
 use labspec::lint::load_lesson;
 use labspec::spec::Lab;
-use labspec_core::{Data, Demand, Model, Plan, xml};
+use labspec_core::{Data, AccessSet, Model, Plan, xml};
 use labspec_expr::{Compiler, Context, FieldKey, FunctionId, Globals, Heap, Host, Program, Recording, Value};
 use std::fmt::Write;
 use std::hint::black_box;
@@ -224,7 +224,7 @@ fn main() {
         .max_by_key(|(text, ..)| text.len());
     if let Some((text, title, lab, model)) = longest {
         let programs = Programs::compile(lab, model, &mut Vec::new());
-        let mut session = Session::start(&programs, model, lab.keyframe(), &Demand::ANY);
+        let mut session = Session::start(&programs, model, lab.keyframe(), &AccessSet::ANY);
         (0..lab.controls.len()).for_each(|i| session.press(i));
         (0..200).for_each(|_| session.step());
         let controller = programs.controller.as_ref().expect("it has one");
