@@ -303,13 +303,16 @@ fn reported(session: &Session<'_>) -> Vec<Fault> {
         let Some(stat) = warned(session, warning) else { continue };
         let (who, cause) = match warning {
             Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "the moving part has no positive inertia"),
-            Warning::BadCtrl => {
-                (format!("control {}", stat.lastinfo), "a program writes a value that is not a number")
-            }
+            Warning::BadCtrl => (
+                format!("control {}", stat.lastinfo),
+                "a program writes a control that is not a number or exceeds 1e10",
+            ),
             _ => ("the whole scene".into(), "more bodies touch than the engine keeps contacts"),
         };
+        // The code that `run` and `check` report (`run/breakdown.rs`).
+        let kind = if warning == Warning::BadCtrl { FaultKind::Diverges } else { FaultKind::Warns };
         list.push(Fault {
-            kind: FaultKind::Warns,
+            kind,
             time: stat.first_time,
             who,
             cause: cause.into(),
