@@ -8,9 +8,9 @@ use crate::kinds::{enable, integrator};
 use crate::math::Spatial;
 use crate::model::Model;
 use crate::model::plan::PlanTable;
-use crate::step::forward;
 use crate::step::workspace::Work;
 use crate::step::workspace::Workspace;
+use crate::step::{calls, forward};
 use crate::step::{damping, discrete};
 
 /// What inverse dynamics cannot answer.
@@ -58,8 +58,8 @@ fn from_velocity(m: &Model, d: &mut Workspace) {
         discrete::prepare_inverse(m, &mut d.fields, metric, derivative, constraint);
     }
     constraint::inverse(m, &mut d.fields, &mut d.work.constraint, &mut d.work.dynamics);
-    forward::body_forces(m, d);
-    forward::acceleration_sensors(m, d);
+    calls::body_forces(m, d);
+    calls::acceleration_sensors(m, d);
     let f = &mut d.fields;
     mass::mul(m, &f.M, &f.qacc, &mut f.qfrc_inverse, 0..m.nv);
     if m.opt.integrator == integrator::DISCRETE {

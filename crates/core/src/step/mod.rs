@@ -6,6 +6,7 @@
 mod access;
 pub(crate) mod analysis;
 pub(crate) mod balance;
+mod calls;
 mod clocked;
 pub(crate) mod damping;
 pub(crate) mod discrete;

@@ -5,8 +5,8 @@
 //! computes stands in the field table, row by row under its [`Stage`].
 
 use super::analysis::ModelAnalysis;
+use super::calls as run;
 use super::clocked::{self, CLOCKED};
-use super::forward as run;
 use crate::dynamics::tree_algorithms;
 use crate::kinds::{disable, integrator, trntype, wraptype};
 use crate::model::reflect::{data, model};
