@@ -8,7 +8,7 @@ crates/core/tests/linear.rs.
 Each model runs for 20 steps from its first keyframe with velocities of its own, by Euler's method (`mjd_transitionFD` refuses
 Runge-Kutta) and with the solver's tolerance at 0, so that a step is a function of its state. Then `mj_fullM`, `mj_jacBody` of
 the last body, `mj_jac` of a point beside it, and `mjd_transitionFD`, centered and forward. Matrices are lists by rows; numbers
-have all their digits.
+have all their digits. Matrices without a row or a column are left out of the call.
 """
 import json
 import pathlib
@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 
 HERE = pathlib.Path(__file__).parent
-MODELS = ["servo", "gears", "hoist", "joints", "pinch"]
+MODELS = ["servo", "gears", "hoist", "joints", "pinch", "double_pendulum", "zoo/sensor_joints", "zoo/actuator_dynamics"]
 EPS = 1e-6
 
 
@@ -46,10 +46,11 @@ def record(name):
     out |= {"jac_p": jacp.ravel().tolist(), "jac_r": jacr.ravel().tolist()}
     n = 2 * m.nv + m.na
     for centered in (0, 1):
-        a, b = np.zeros((n, n)), np.zeros((n, m.nu))
-        mujoco.mjd_transitionFD(m, d, EPS, centered, a, b if m.nu else None, None, None)
+        shapes = {"a": (n, n), "b": (n, m.nu), "c": (m.nsensordata, n), "d": (m.nsensordata, m.nu)}
+        matrices = {key: np.zeros(shape) for key, shape in shapes.items()}
+        mujoco.mjd_transitionFD(m, d, EPS, centered, *(x if x.size else None for x in matrices.values()))
         way = "centered" if centered else "forward"
-        out |= {f"a_{way}": a.ravel().tolist(), f"b_{way}": b.ravel().tolist()}
+        out |= {f"{key}_{way}": x.ravel().tolist() for key, x in matrices.items()}
     return out
 
 

@@ -56,7 +56,7 @@ fn tree() -> (Model, Data) {
 fn what_mujoco_computes() {
     let text = std::fs::read_to_string(workspace("tests/golden/linear.json")).unwrap();
     let cases: Vec<Value> = serde_json::from_str(&text).unwrap();
-    assert_eq!(cases.len(), 5);
+    assert_eq!(cases.len(), 8);
     for case in &cases {
         let numbers = |key: &str| -> Vec<f64> {
             case[key].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect()
@@ -74,7 +74,7 @@ fn what_mujoco_computes() {
         edit.qacc_warmstart.copy_from_slice(&numbers("qacc_warmstart"));
         core::forward(&model, &mut data).unwrap();
 
-        let (nv, n) = (model.nv, 2 * model.nv + model.na);
+        let n = 2 * model.nv + model.na;
         let recorded = |key: &str, r, c| DMatrix::from_row_slice(r, c, &numbers(key));
         let check = |ours: &DMatrix<f64>, key: &str, tolerance: f64| {
             let theirs = recorded(key, ours.nrows(), ours.ncols());
@@ -93,12 +93,34 @@ fn what_mujoco_computes() {
         let before = data.clone();
         for (centered, way) in [(false, "forward"), (true, "centered")] {
             let eps = case["eps"].as_f64().unwrap();
-            let ours =
-                transition_fd(&model, &data, &FiniteDifferences { eps, centered, sensors: false }).unwrap();
-            assert_eq!((ours.a.shape(), ours.b.shape()), ((n, n), (n, model.nu)));
-            assert_eq!((ours.c.nrows(), ours.d.nrows(), nv), (0, 0, model.nv));
-            check(&ours.a, &format!("a_{way}"), 1e-6);
-            check(&ours.b, &format!("b_{way}"), 1e-6);
+            let how = FiniteDifferences { eps, centered, sensors: true };
+            let ours = transition_fd(&model, &data, &how).unwrap();
+            let (nu, ns) = (model.nu, model.nsensordata);
+            let shapes = [(n, n), (n, nu), (ns, n), (ns, nu)];
+            for ((matrix, shape), key) in
+                [&ours.a, &ours.b, &ours.c, &ours.d].into_iter().zip(shapes).zip("abcd".chars())
+            {
+                assert_eq!(matrix.shape(), shape);
+                let key = format!("{key}_{way}");
+                if matrix.nrows() == n {
+                    check(matrix, &key, 1e-6);
+                    continue;
+                }
+                // A sensor that shows 5e4 is rounded to 7e-12: divided by `eps`, 7e-6.
+                // The library's D has the opposite sign where differences are centered: a motor without a gear that pushes with
+                // its control has D = 1, forward, and -1, centered.
+                let sign = if key == "d_centered" { -1.0 } else { 1.0 };
+                let theirs = recorded(&key, shape.0, shape.1) * sign;
+                for (row, value) in data.sensordata.iter().enumerate() {
+                    let apart = largest(&(matrix.row(row) - theirs.row(row)));
+                    let tolerance = 1e-6 + 2.0 * f64::EPSILON * value.abs() / eps;
+                    assert!(apart <= tolerance, "{name}: {key}, row {row} differs by {apart:e}");
+                }
+                println!("{name} {key}: {:.1e}", largest(&(matrix - theirs)));
+            }
+            let fewer = transition_fd(&model, &data, &FiniteDifferences { sensors: false, ..how }).unwrap();
+            assert_eq!((fewer.c.nrows(), fewer.d.nrows()), (0, 0));
+            assert_eq!((fewer.a, fewer.b), (ours.a, ours.b));
         }
         assert!(data == before, "the data of {name} have changed");
     }
@@ -148,7 +170,7 @@ fn a_mass_on_a_spring_with_a_damper() {
 fn a_pendulum() {
     let mut model = Model::from_xml(
         "<mujoco><option timestep='0.01'/><worldbody><body><joint axis='0 1 0'/>
-         <inertial pos='0 0 -0.5' mass='2' diaginertia='.01 .03 .01'/></body></worldbody></mujoco>",
+         <inertial pos='0 0 -0.5' mass='2' diaginertia='.02 .03 .02'/></body></worldbody></mujoco>",
     )
     .unwrap();
     let (h, angle, rate) = (0.01, 0.8, 1.5);
@@ -395,6 +417,20 @@ fn errors_of_a_linearization() {
     assert!(told(&spent, 1e-6).contains("work limit"));
     let (other, _) = tree();
     assert!(matches!(transition_fd(&other, &data, &FiniteDifferences::default()), Err(Error::ForeignData)));
+}
+
+#[test]
+fn a_tree_that_sleeps_is_not_linearized() {
+    let model = Model::from_xml(
+        "<mujoco><option gravity='0 0 0'><flag sleep='enable'/></option>
+         <worldbody><body><joint type='slide' damping='1'/><geom size='.1'/></body></worldbody></mujoco>",
+    )
+    .unwrap();
+    let mut data = Data::new(&model);
+    (0..50).for_each(|_| core::step(&model, &mut data).unwrap());
+    assert!(data.tree_asleep[0] >= 0);
+    let error = transition_fd(&model, &data, &FiniteDifferences::default()).unwrap_err();
+    assert!(error.to_string().contains("awake"), "{error}");
 }
 
 /// The example runs, and the guide shows it as it is, with what it prints.

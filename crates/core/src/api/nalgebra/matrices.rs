@@ -36,6 +36,7 @@ macro_rules! jacobians {
             $($arg: $ty,)*
             which: &(impl Which<$id> + ?Sized),
         ) -> Result<PointJacobian, Error> {
+            d.belongs_to(m)?;
             let id = which.of(&d.names)?;
             call::$name(m, d, $([$arg.x, $arg.y, $arg.z],)* id).map(|j| PointJacobian::from_rows(m, &j))
         }
@@ -67,6 +68,7 @@ pub fn jac_subtree_com<S: Scope>(
     d: &Data<S>,
     which: &(impl Which<BodyId> + ?Sized),
 ) -> Result<DMatrix<f64>, Error> {
+    d.belongs_to(m)?;
     let rows = call::jac_subtree_com(m, d, which.of(&d.names)?)?;
     Ok(DMatrix::from_row_slice(3, m.nv, &rows))
 }

@@ -8,6 +8,8 @@
 //!   [`forward`](crate::forward) computes them for the state at hand.
 //! * A result that the plan of the data left out is [`Error::LeftOut`](crate::Error::LeftOut), which names the stage.
 //!
+//! The engine does not compute with nalgebra: numbers have the same bits with and without the feature.
+//!
 //! [`Data::field_vector`](crate::Data::field_vector) and [`Data::field_matrix`](crate::Data::field_matrix) are views into the
 //! data: they copy nothing.
 //!

@@ -60,6 +60,8 @@ enum Coordinate {
 /// do, Runge–Kutta too. A control at the end of its range is moved into the range; beyond it, its column is zero, as the engine
 /// clamps it. Sensors are those that the step computes, which belong to the state before it.
 ///
+/// MuJoCo 3.14.0 returns D with the opposite sign where differences are centered; here it has the sign of the derivative.
+///
 /// With constraints, `tolerance` bounds how well a step is a function of its state: set `opt.tolerance` to 0, or far below
 /// `eps`, for derivatives that are as exact as without.
 ///
