@@ -153,10 +153,9 @@ fn inside_range<S: Scope>(m: &Model, d: &Data<S>, control: usize, eps: f64) -> [
     let limited = m.actuator_ctrllimited.get(control) == Some(&true) && !m.is_disabled(disable::CLAMPCTRL);
     let range = m.actuator_ctrlrange.as_chunks::<2>().0.get(control).filter(|_| limited);
     let Some((&[low, high], &u)) = range.zip(d.fields().ctrl.get(control)) else { return [true; 2] };
-    let passes = |end: f64, from: f64, to: f64| from < end && end < to;
-    let forth = !passes(low, u, u + eps) && !(u <= high && high < u + eps);
-    let back = !(u - eps < low && low <= u) && !passes(high, u - eps, u);
-    [forth, back]
+    // Below the range, in it, above it.
+    let part = |x: f64| (x >= low, x > high);
+    [eps, -eps].map(|by| part(u + by) == part(u))
 }
 
 /// A copy of the data with one coordinate moved, a step later.
