@@ -48,6 +48,8 @@ pub use api::model::{
     ActuatorId, BodyId, Cone, GeomId, Integrator, JointId, KeyId, Model, ModelEdit, OptionsEdit, SensorId,
     SiteId, Solver, StatisticEdit, TendonId,
 };
+#[cfg(feature = "nalgebra")]
+pub use api::nalgebra;
 pub use api::planning::Plan;
 #[cfg(feature = "mjcf")]
 pub use api::reading as xml;

@@ -7,6 +7,8 @@ mod contents;
 pub(crate) mod data;
 pub(crate) mod error;
 pub(crate) mod model;
+#[cfg(feature = "nalgebra")]
+pub mod nalgebra;
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
 mod planar_chains;
