@@ -302,6 +302,13 @@ pub fn reference() -> Vec<FunctionDoc> {
     TABLE.iter().map(|f| one(f)).collect()
 }
 
+/// Whether a name at the start of an expression has a meaning, whatever the model.
+pub(crate) fn is_taken(name: &str) -> bool {
+    ["model", "data", "mj_setConst"].contains(&name)
+        || OBJECTS.contains(&name)
+        || TABLE.iter().any(|f| f.object.is_empty() && f.name == name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -40,13 +40,6 @@ pub struct ModelNames<'m> {
     shown: Option<&'m Shown>,
 }
 
-/// Whether a name at the start of an expression has a meaning, whatever the model.
-pub(crate) fn is_taken(name: &str) -> bool {
-    ["model", "data", "mj_setConst"].contains(&name)
-        || OBJECTS.contains(&name)
-        || TABLE.iter().any(|f| f.object.is_empty() && f.name == name)
-}
-
 impl<'m> ModelNames<'m> {
     /// The names of a model.
     pub fn new(model: &'m Model, scope: Scope) -> ModelNames<'m> {

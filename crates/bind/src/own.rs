@@ -1,8 +1,7 @@
 //! Functions that an embedding program brings: numbers in, a number out.
 
 use crate::Error;
-use crate::functions;
-use crate::names::is_taken;
+use crate::functions::{self, is_taken};
 use labspec_expr::{
     CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Gives, Globals, ObjectId, Param, Schema, Touch,
     Type, Value,

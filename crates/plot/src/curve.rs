@@ -5,11 +5,8 @@
 //! that a spike of one sample stays visible. Then the curve is cut at the frame (Liang and Barsky, 1984). Last,
 //! points that lie on the line between their neighbours are dropped (Ramer, 1972; Douglas and Peucker, 1973).
 
-use super::frame::Frame;
+use super::frame::{Frame, Point};
 use super::number::px;
-
-/// A place in a picture, in pixels.
-pub(super) type Point = (f64, f64);
 
 /// How far a dropped point may be from the drawn line, in pixels. Invisible, also when the picture is enlarged.
 const TOLERANCE: f64 = 0.05;

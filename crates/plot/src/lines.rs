@@ -2,8 +2,8 @@
 
 use super::axis::{Axis, Range, linear, range};
 use super::canvas::{Canvas, drop, style};
-use super::curve::{Point, path, pieces};
-use super::frame::{self, EDGE, Frame, Words, draw, margin};
+use super::curve::{path, pieces};
+use super::frame::{self, EDGE, Frame, Point, Words, draw, margin};
 use super::legend::{self, Entry, STROKE};
 use super::number::{drawable, short};
 use super::style::{AXIS, INK, SMALL, TICK, ZERO, colour, dash, extent};

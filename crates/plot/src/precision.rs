@@ -8,8 +8,8 @@
 
 use super::axis::{Axis, logarithmic};
 use super::canvas::{Canvas, Label, style};
-use super::curve::{Point, path};
-use super::frame::{self, EDGE, Frame, Words, draw, margin};
+use super::curve::path;
+use super::frame::{self, EDGE, Frame, Point, Words, draw, margin};
 use super::labels::{Wish, arrange};
 use super::legend::{self, Entry, STROKE};
 use super::number::{HUGE, px, short};

@@ -6,13 +6,15 @@ pub(crate) mod coupled;
 mod dimension;
 mod labels;
 pub mod parts;
+mod programs;
 pub mod scene;
 
-pub use compile::include;
-pub use compile::{ActionProgram, Bound, ControlProgram, Probe, Programs, to_finding};
-pub(crate) use compile::{scalar, writes_kind};
+pub(crate) use compile::scalar;
+pub use compile::to_finding;
 pub use dimension::{Dimensions, dimension_of, dimensions};
 pub(crate) use dimension::{given, given_by};
 pub(crate) use labels::{behind_heading, contradicts, of_heading, of_label, unit};
 pub(crate) use labspec_bind::named_field;
 pub use labspec_bind::{Functions, ModelNames, NUMBERS, Scope, Shown, World, functions};
+pub(crate) use programs::writes_kind;
+pub use programs::{ActionProgram, Bound, ControlProgram, Probe, Programs, include};

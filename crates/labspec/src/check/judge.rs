@@ -1,6 +1,7 @@
 //! The claims of a lesson before a second judge: what it is asked, and what its recording makes of them.
 
 use super::claims;
+use super::resolved_labs::bind_claim;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
@@ -66,7 +67,7 @@ pub fn hear(
         let narrow = owner.block().map(|block| shown.within(block, verify));
         let shown = narrow.as_ref().unwrap_or(&shown);
         hearing.left = hearing.left.and(Left::of(verify));
-        let Some(bound) = claims::bound(lesson, &ready, verify, own, &stage) else { continue };
+        let Some(bound) = bind_claim(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), Value::to_string);
             let hash: String = mark(&[text.as_bytes()]).chars().take(16).collect();

@@ -16,6 +16,7 @@ mod params;
 mod partners;
 mod programs;
 mod reproduce;
+mod resolved_labs;
 mod setconst;
 mod snapshot;
 pub mod stored;

@@ -3,6 +3,7 @@
 
 use super::Ready;
 use super::claims::{self, Owner};
+use super::resolved_labs::start_runs;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::precision::Integrator;
@@ -95,7 +96,7 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
             Owner::Question(question) => &question.span,
             Owner::Remark(remark) => &remark.span,
         };
-        let begun = claims::begun(lesson, &ready, verify, own, &stage);
+        let begun = start_runs(lesson, &ready, verify, own, &stage);
         let model = begun.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));
         let runs = begun.map_or(Vec::new(), |begun| begun.runs);
         let runs = runs.into_iter().map(|(name, model)| (name, model.map(|m| settings(&m, mark)))).collect();

@@ -36,7 +36,7 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
         joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
     );
     match g.source {
-        Source::Steps => Advice::of(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
+        Source::Steps => Advice::by_stiffness(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
         Source::LongSteps(turn) => {
             let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));
             let cause = format!("a step of {} s cannot follow a turn that fast", model.opt.timestep);

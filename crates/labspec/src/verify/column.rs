@@ -1,8 +1,8 @@
 //! Columns of tables: every cell is a number that is quoted, or words, and its row says which member of a sweep it is about.
 
-use super::grounded;
+use super::grounded::grounded_value;
 use super::quote;
-use super::says::{self, Given, Quote, QuoteChecker};
+use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::units;
 use crate::finding::Finding;
 use crate::rules;
@@ -15,9 +15,13 @@ const LOOK: u64 = 1000;
 const MOST_WORDS: usize = 20;
 
 /// Holds a column, or one cell of it, to what was measured.
-pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut Vec<Finding>) -> Vec<Quote> {
-    let stage = court.bound.stage();
-    stage.spend(LOOK * court.shown.cells() as u64);
+pub(super) fn check_column(
+    checker: QuoteChecker<'_, '_>,
+    claim: &Column,
+    findings: &mut Vec<Finding>,
+) -> Vec<Quote> {
+    let stage = checker.bound.stage();
+    stage.spend(LOOK * checker.shown.cells() as u64);
     if stage.left() == 0 {
         let spent = "the work budget ran out before this column";
         let told = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
@@ -25,7 +29,7 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
             .help("make the runs shorter, or claim fewer columns in one lesson");
         return vec![refused(&claim.column, told, findings)];
     }
-    let cells = match quote::cells(claim, court.shown) {
+    let cells = match quote::cells_of_column(claim, checker.shown) {
         Ok(cells) => cells,
         Err([message, help]) => {
             let told = Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message)
@@ -38,14 +42,14 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
     let Some((_, list)) = &claim.by else {
         return cells
             .into_iter()
-            .map(|[_, text]| cell(court, &text, &claim.is, &unit, "", findings))
+            .map(|[_, text]| cell(checker, &text, &claim.is, &unit, "", findings))
             .collect();
     };
-    let values = match values(court, list, findings) {
+    let values = match values(checker, list, findings) {
         Ok(values) => values,
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
-    let swept = units::of_claim(court.bound, &court.outcomes.nominal, &part(list, "[0]"));
+    let swept = units::of_claim(checker.bound, &checker.outcomes.nominal, &part(list, "[0]"));
     let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
     let mut all = Vec::new();
     for [key, text] in cells {
@@ -76,14 +80,14 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
             all.push(refused(&text, told, findings));
             continue;
         };
-        all.push(cell(court, &text, &claim.is, &unit, &format!("[{member}]"), findings));
+        all.push(cell(checker, &text, &claim.is, &unit, &format!("[{member}]"), findings));
     }
     all
 }
 
 /// One cell; `member` picks its number out of a list.
 fn cell(
-    court: QuoteChecker<'_, '_>,
+    checker: QuoteChecker<'_, '_>,
     text: &Text,
     is: &Stands,
     unit: &Option<quote::Unit>,
@@ -95,15 +99,16 @@ fn cell(
         Stands::Number(expr) => {
             let expr = part(expr, member);
             let places = vec![quote::QuotePlace { at: text.span(), unit: unit.clone() }];
-            let claim = quote::Claim { quote: text, part: text.as_str(), expr: &expr };
+            let claim = quote::QuoteClaim { quote: text, part: text.as_str(), expr: &expr };
             let part = quote::whole(text.as_str());
-            return match Given::of(court, &expr, findings) {
-                Ok(given) => says::number(court, &claim, &part, given, places, findings),
+            return match QuotedValue::measure(checker, &expr, findings) {
+                Ok(given) => check_number(checker, &claim, &part, given, places, findings),
                 Err(reason) => Quote::unclear(text, &reason),
             };
         }
     };
-    let Some((_, expr)) = words.iter().find(|(word, _)| quote::same(word.as_str(), text.as_str())) else {
+    let Some((_, expr)) = words.iter().find(|(word, _)| quote::reads_the_same(word.as_str(), text.as_str()))
+    else {
         let message = format!("no condition belongs to \"{}\"", text.value);
         let known: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
         let told = Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
@@ -127,17 +132,19 @@ fn cell(
         return refused(text, told, findings);
     }
     let expr = part(expr, member);
-    let given = match Given::of(court, &expr, findings) {
+    let given = match QuotedValue::measure(checker, &expr, findings) {
         Ok(given) => given,
         Err(reason) => return Quote::unclear(text, &reason),
     };
-    if !given.is_condition_of(court, &expr, findings) {
+    if !given.is_condition_of(checker, &expr, findings) {
         return Quote::unclear(text, "the expression for the word is not a condition");
     }
     if given.holds() {
-        for (word, other) in words.iter().filter(|(word, _)| !quote::same(word.as_str(), text.as_str())) {
+        for (word, other) in
+            words.iter().filter(|(word, _)| !quote::reads_the_same(word.as_str(), text.as_str()))
+        {
             let other = part(other, member);
-            if Given::of(court, &other, findings).is_ok_and(|given| !given.holds()) {
+            if QuotedValue::measure(checker, &other, findings).is_ok_and(|given| !given.holds()) {
                 continue;
             }
             let message = format!("\"{}\" may also be right in this row", word.value);
@@ -148,8 +155,8 @@ fn cell(
             return refused(text, told, findings);
         }
     }
-    let claim = quote::Claim { quote: text, part: "", expr: &expr };
-    says::describe_quote(court, &claim, &given, &[text.span()], findings)
+    let claim = quote::QuoteClaim { quote: text, part: "", expr: &expr };
+    check_words(checker, &claim, &given, &[text.span()], findings)
 }
 
 /// What was compared with nothing, and was told so.
@@ -160,9 +167,13 @@ fn refused(text: &Text, told: Finding, findings: &mut Vec<Finding>) -> Quote {
 }
 
 /// The numbers of a list.
-fn values(court: QuoteChecker<'_, '_>, list: &Text, findings: &mut Vec<Finding>) -> Result<Vec<f64>, String> {
+fn values(
+    checker: QuoteChecker<'_, '_>,
+    list: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<f64>, String> {
     let mut number = |text: &Text| {
-        grounded(court.bound, &court.outcomes.nominal, text, findings).map(|f| f.value.to_number())
+        grounded_value(checker.bound, &checker.outcomes.nominal, text, findings).map(|f| f.value.to_number())
     };
     let count = number(&part(list, ".length"))?;
     (0..count.clamp(0.0, 1000.0) as usize).map(|i| number(&part(list, &format!("[{i}]")))).collect()

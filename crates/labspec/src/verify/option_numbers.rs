@@ -1,9 +1,10 @@
 //! The number in the text of an option beside its condition: "about 7 m" cannot be right where the condition asks for 1.23 m.
 
 use super::bound::BoundVerify;
+use super::format::significant;
 use super::outcome::Outcome;
 use super::quote::{Held, OptionNumber, conversion, hold, option_ratio, option_text};
-use super::{significant, units};
+use super::units;
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::{SourceMap, Text};
@@ -24,7 +25,7 @@ struct Asked {
 }
 
 /// Holds the numbers of all options to their conditions. `held` says which of them hold. Gives a reason where one contradicts.
-pub(super) fn check(
+pub(super) fn check_option_numbers(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
     options: &[Text],

@@ -1,6 +1,6 @@
 //! What a run runs: a lab with its model and programs, as the lesson has it, or changed as the run says.
 
-use super::runner::Made;
+use super::run_result::RunResult;
 use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
@@ -64,7 +64,7 @@ const WORK: u64 = 12_000_000_000;
 pub struct Stage<'a> {
     models: &'a Models,
     changed: RefCell<Vec<BoundLab<'static>>>,
-    runs: RefCell<BTreeMap<String, Made>>,
+    runs: RefCell<BTreeMap<String, RunResult>>,
     left: Cell<u64>,
     /// A run since this was asked last left something behind.
     left_behind: Cell<bool>,
@@ -89,12 +89,12 @@ impl<'a> Stage<'a> {
     }
 
     /// What came of a run that was made before.
-    pub(super) fn known(&self, run: &str) -> Option<Made> {
+    pub(super) fn known(&self, run: &str) -> Option<RunResult> {
         self.runs.borrow().get(run).cloned()
     }
 
     /// Keeps what came of a run.
-    pub(super) fn keep(&self, run: String, made: &Made) {
+    pub(super) fn keep(&self, run: String, made: &RunResult) {
         self.runs.borrow_mut().insert(run, made.clone());
     }
 

@@ -1,14 +1,15 @@
 //! One run of a `verify` object: the order of events of its lab, then its own controls and setup, and what is measured in it.
 
-use super::bound::{BoundRun, BoundScene, Named};
-use super::measure::{Measure, Sampled};
+use super::bound_run::{BoundRun, BoundScene, CompiledText};
+use super::measure::Measure;
 use super::reads;
 use super::run_cache::Stage;
+use super::run_result::RunResult;
 use crate::bind::{include, scalar};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session, StepVariant};
+use crate::run::{self, Budget, End, Play, RunError, Session, StepVariant};
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, option};
 use labspec_expr::{Effects, Program, Value, Watch};
@@ -22,25 +23,17 @@ pub(super) struct Asked<'r, 'a> {
     pub(super) scene: &'r BoundScene<'a>,
     pub(super) run: &'r BoundRun<'a>,
     pub(super) numerics: StepVariant,
-    pub(super) measures: &'r [&'r Named<'r>],
+    pub(super) measures: &'r [&'r CompiledText<'r>],
     /// Where to tell what is wrong with the run.
     pub(super) place: Range<usize>,
 }
 
-/// What came of one run.
-#[derive(Clone, Debug)]
-pub(crate) struct Made {
-    pub(super) values: Vec<Sampled>,
-    /// Number of warnings of the engine.
-    pub(super) warnings: usize,
-    /// What broke in it.
-    pub(super) broke: Option<String>,
-    /// A program of it, or a change of its model, left behind what belongs to a parameter.
-    pub(super) left_behind: bool,
-}
-
 /// Makes a run, unless the same was made before: then what came of it is known, and was told.
-pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+pub(super) fn perform(
+    asked: &Asked<'_, '_>,
+    stage: &Stage<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<RunResult> {
     // What the lesson states is not another numerics for it; a run that states its timestep is about the numerics.
     let (timestep, integrator) = (
         states(asked.scene, asked.run, option::timestep),
@@ -174,7 +167,7 @@ pub(super) fn play<'r>(
     ready.open = open;
 }
 
-fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<RunResult> {
     let Asked { run, measures, .. } = asked;
     let mut ready = ready(asked, stage, findings)?;
     let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
@@ -187,7 +180,7 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
         let message = format!("{} (in the run {}, at t = {} s)", t.message, named(run.name), t.time);
         findings.push(Finding::error(t.rule, t.text.span_of(t.span.clone()), message));
     }
-    Some(Made {
+    Some(RunResult {
         values,
         warnings: session.warnings.iter().map(|w| w.number).sum(),
         broke: broke(&session).or_else(|| open.map(undecided_stop)),
@@ -256,7 +249,7 @@ fn undecided_stop(time: f64) -> String {
 
 /// What broke in a run, in one clause.
 fn broke(session: &Session<'_>) -> Option<String> {
-    match (Breakdown::of(session), session.troubles.first()) {
+    match (run::worst_breakdown(session), session.troubles.first()) {
         (Some(breakdown), _) => Some(breakdown.what),
         (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
         (None, None) => session.ended().map(|end| match end {

@@ -6,9 +6,9 @@
 //! the limit are looked at.
 
 use super::bound::BoundVerify;
+use super::format::significant;
 use super::run_cache::{BoundLab, Stage, misspelt};
 use super::runner::TIMESTEP;
-use super::significant;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::StepVariant;
@@ -266,7 +266,7 @@ fn holds(
     if case.scene.lab.control(&find.what.value).is_some() {
         bound.set_freely(&find.what, x);
     }
-    let outcome = bound.outcome(numerics, findings)?;
+    let outcome = bound.outcome_of_runs(numerics, findings)?;
     let found = bound.find(&outcome, &find.holds, findings)?;
     if found.broke.is_some() {
         return Some(Ok(Tried { holds: false, margin: None }));

@@ -1,9 +1,8 @@
 //! Contact bits of geoms, and what stands between them and a contact: the bits of their bodies, and the trees of bounding volumes,
 //! both made when the model is compiled.
 
-use super::Change;
-use super::repair::Statements;
-use super::table::Changes;
+use super::change::{Change, Changes};
+use super::statements::Statements;
 use labspec_core::{Model, disable};
 
 /// Bits of geoms and of bodies: the types, or the affinities.
@@ -70,7 +69,7 @@ fn repair(s: &mut Statements<'_>, geoms: &[usize], kind: &str) -> Option<()> {
         ));
     }
     for &g in geoms {
-        let body = body_of(s.model(), g)?;
+        let body = body_of(s.model, g)?;
         s.add(format!("model.body_{kind}[{body}] |= model.geom_{kind}[{g}]"));
     }
     Some(())

@@ -5,7 +5,7 @@ use super::Trial;
 use super::seen::Seen;
 use crate::check::observations::{Beyond, Mark, Record};
 use crate::finding::Finding;
-use crate::run::{self, Breakdown, Budget, End, Play, settings};
+use crate::run::{self, Budget, End, Play, settings};
 use crate::spec::Expect;
 use crate::stress::{self, Fault, StressCase};
 use labspec_core::Model;
@@ -99,7 +99,7 @@ pub(super) fn make(
     }
     let breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
     let mut tries = TRIES;
-    for breakdown in Breakdown::all(&session) {
+    for breakdown in run::breakdowns_of(&session) {
         let tried = match breaks {
             true => breakdown,
             false => stress::with_tried_timestep(case, &trial.handling, wanted, breakdown, &mut tries),

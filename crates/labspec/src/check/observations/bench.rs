@@ -4,7 +4,7 @@ use super::record::{Mark, Record};
 use super::saturated::Beyond;
 use crate::bind::Programs;
 use crate::check::Ready;
-use crate::run::{self, Breakdown, Budget, Cell, Play, Session};
+use crate::run::{self, Budget, Cell, Play, Session};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -82,7 +82,7 @@ impl Bench<'_> {
         });
         mark.close(&session.world.model);
         let (spent, sound) =
-            (session.spent(), session.ended().is_none() && Breakdown::of(&session).is_none());
+            (session.spent(), session.ended().is_none() && run::worst_breakdown(&session).is_none());
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;

@@ -6,7 +6,7 @@
 
 mod rests;
 
-use super::claims::{self, ResolvedLabs, resolve_labs};
+use super::resolved_labs::{ResolvedLabs, resolve_labs, start_runs};
 use super::{Ready, setconst};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::scene::Models;
@@ -224,7 +224,7 @@ impl<'a> Partners<'a> {
         let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut ignored)?;
         match numerics {
             Variants::Nominal => verify::check_nominal(&bound, verify, question, shown),
-            Variants::All => Some(verify::check(&bound, verify, question, shown, &mut ignored)),
+            Variants::All => Some(verify::check_verify(&bound, verify, question, shown, &mut ignored)),
         }
     }
 
@@ -232,7 +232,7 @@ impl<'a> Partners<'a> {
     fn contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
-            let begun = claims::begun(self.lesson, labs, case.verify, case.own, &stage);
+            let begun = start_runs(self.lesson, labs, case.verify, case.own, &stage);
             begun.map_or(Vec::new(), |begun| begun.runs)
         });
         let changed = |run: &str| {

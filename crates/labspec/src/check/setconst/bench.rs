@@ -5,7 +5,7 @@ use super::{ProgramSite, Suspect};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
 use crate::check::programs::choices;
-use crate::run::{self, Breakdown, Cell, Play, Session, StepVariant, settings};
+use crate::run::{self, Cell, Play, Session, StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
@@ -304,7 +304,7 @@ impl<'a> Bench<'a> {
         if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
             return Err(format!("its statements fail: {}", trouble.message));
         }
-        match (Breakdown::of(&session), session.ended()) {
+        match (run::worst_breakdown(&session), session.ended()) {
             (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
             (None, Some(_)) => Err("it ends early".to_string()),
             (None, None) => Ok(Performed { rows, left_behind: session.left_behind() }),

@@ -102,7 +102,7 @@ impl Bench<'_> {
             let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
             Some(shown.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
-        let repair = Repair::of(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
+        let repair = Repair::of_program(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
         let both = [Advice::Plain, Advice::Keep];
         let (advice, repaired) = match &repair {
             None => {

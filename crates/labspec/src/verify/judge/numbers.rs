@@ -3,8 +3,9 @@
 use super::task::own_texts;
 use super::{Judged, Reference};
 use crate::spec::Verify;
+use crate::verify::bound::BoundVerify;
+use crate::verify::numerics::{NUDGED, TIGHT};
 use crate::verify::outcome::Outcome;
-use crate::verify::{BoundVerify, NUDGED, TIGHT};
 
 /// A number that differs by less than this part of itself, and by less than a thousandth of that at zero, is the same.
 const SAME: f64 = 1e-6;

@@ -6,9 +6,10 @@ use crate::run::settings;
 use crate::source::Text;
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{ControlKind, Lab, Verify};
-use crate::verify::bound::{BoundRun, BoundScene};
+use crate::verify::bound::BoundVerify;
+use crate::verify::bound_run::{BoundRun, BoundScene};
+use crate::verify::options::is_undecided;
 use crate::verify::runner::is_timestep;
-use crate::verify::{BoundVerify, answer};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 
@@ -38,7 +39,7 @@ fn title(run: &BoundRun<'_>) -> String {
 /// The texts that look at the samples themselves.
 pub(super) fn own_texts<'v>(bound: &BoundVerify<'_>, verify: &'v Verify) -> Vec<&'v Text> {
     let all = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
-    bound.on_the_spot(all.filter(|text| !answer::is_undecided(text)))
+    bound.on_the_spot(all.filter(|text| !is_undecided(text)))
 }
 
 fn task(

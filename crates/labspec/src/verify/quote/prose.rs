@@ -2,9 +2,9 @@
 //! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
 
 use super::hidden::Hidden;
-use super::html;
-use super::rendered::Piece;
+use super::piece::Piece;
 use super::table::{Table, Tables};
+use super::tags::{APART, read_tag};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lesson, Problem};
@@ -168,15 +168,15 @@ impl Reader<'_> {
                         }
                     }
                 }
-                Event::InlineHtml(ref tag) if self.hidden.tag(tag) => self.inline = true,
+                Event::InlineHtml(ref tag) if self.hidden.take_tag(tag) => self.inline = true,
                 _ if self.hidden.is_on() => {}
                 Event::Text(part) if fence == Some(true) => self.lines(&part, range),
                 Event::Text(part) => self.add(&part, range),
                 Event::Code(part) | Event::InlineMath(part) | Event::DisplayMath(part) => {
                     self.inside(&part, range)
                 }
-                Event::InlineHtml(tag) => match html::tag(&tag) {
-                    Some((Some(html::APART), _)) | None => {}
+                Event::InlineHtml(tag) => match read_tag(&tag) {
+                    Some((Some(APART), _)) | None => {}
                     Some((shown, _)) => self.whole(shown, range),
                 },
                 Event::SoftBreak | Event::HardBreak => self.whole(Some(' '), range),
