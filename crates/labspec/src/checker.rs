@@ -101,7 +101,7 @@ impl Checker {
         lint::withhold_fixes(&lesson, &mut own);
         lesson.findings.extend(own.into_iter().map(|f| f.at(&lesson.file)));
         finding::sort(&mut lesson.findings);
-        let checked = check::check(lesson, &self.models, self.depth);
+        let checked = check::check_lesson(lesson, &self.models, self.depth);
         let mut findings = lint::check_course(&[&checked.lesson]);
         findings.extend(checked.findings.iter().cloned());
         findings.extend(self.models.take_findings());

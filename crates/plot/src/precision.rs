@@ -35,7 +35,7 @@ struct Look {
 }
 
 impl Look {
-    fn of(index: usize, method: &Method) -> Look {
+    fn of_method(index: usize, method: &Method) -> Look {
         Look { index: method.echo.unwrap_or(index), hollow: method.echo.is_some() }
     }
 }
@@ -156,7 +156,8 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
     plot(&mut canvas, chart, &placed, &outer);
     legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, at| {
-        let look = chart.methods.get(index).map_or(Look { index, hollow: false }, |m| Look::of(index, m));
+        let look =
+            chart.methods.get(index).map_or(Look { index, hollow: false }, |m| Look::of_method(index, m));
         canvas.open(&stroke(look));
         canvas.line(at, (at.0 + STROKE, at.1));
         canvas.close();
@@ -238,14 +239,14 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     for (index, (method, curve)) in chart.methods.iter().zip(&curves).enumerate() {
         let data = path(curve);
         if !data.is_empty() {
-            canvas.named(&stroke(Look::of(index, method)), &method.label);
+            canvas.named(&stroke(Look::of_method(index, method)), &method.label);
             canvas.path(&data);
             canvas.close();
         }
     }
     let mut wishes = Vec::new();
     for (index, (method, drawn)) in methods.iter().zip(&chart.methods).enumerate() {
-        let look = Look::of(index, drawn);
+        let look = Look::of_method(index, drawn);
         for (i, run) in method.iter().enumerate() {
             if let Some([low, high]) = run.bar {
                 bar(canvas, look.index, run.at.0, [low, high]);

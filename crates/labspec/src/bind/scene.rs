@@ -100,7 +100,7 @@ impl Models {
 
     /// The model of a lab. `None` when there is none or it has mistakes; those in an inline model are added to
     /// `findings`, those in a model file to the findings of the models, once.
-    pub fn of(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
+    pub fn model_of_lab(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             ModelSource::Xml(text) => {
                 let examined = xml::check_xml(&text.value, &NoFiles, None);
@@ -160,7 +160,7 @@ impl Models {
         }
         let path = self.folder.path(name)?;
         let text = read_file(&path, &self.sources).ok()?;
-        let files = Around::of(&path, self.folder.root(), &self.sources);
+        let files = Around::below(&path, self.folder.root(), &self.sources);
         Some(of(text.text(), &files, file.as_deref()))
     }
 
@@ -298,7 +298,7 @@ pub(crate) fn compile_file(
     sources: &Sources,
     mark: Option<Hash>,
 ) -> Compiled {
-    let files = Around::of(path, root, sources);
+    let files = Around::below(path, root, sources);
     compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
 }
 
@@ -320,7 +320,7 @@ struct Around<'s> {
 }
 
 impl<'s> Around<'s> {
-    fn of(model: &Path, root: &'s Path, sources: &'s Sources) -> Around<'s> {
+    fn below(model: &Path, root: &'s Path, sources: &'s Sources) -> Around<'s> {
         let place = model.parent().unwrap_or(Path::new("")).to_path_buf();
         Around { folder: Folder::at(root, &place).ok(), place, root, sources }
     }

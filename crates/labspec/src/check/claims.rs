@@ -123,13 +123,13 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
 }
 
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
-pub(super) fn check<'l>(
+pub(super) fn check_claims<'l>(
     lesson: &'l Lesson,
     ready: &mut [Ready<'l>],
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
-    let shown = ShownText::of(lesson);
+    let shown = ShownText::of_lesson(lesson);
     let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);

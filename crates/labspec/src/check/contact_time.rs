@@ -15,7 +15,7 @@ use labspec_expr::{Compiler, Program, Value};
 /// Work for the run.
 const WORK: Budget = Budget { left: 50_000_000 };
 
-pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+pub(super) fn check_contact_times(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
     let Some(controller) = &ready.programs.controller else { return };
     let text = &controller.text;
     let names = |word: &str| text.value.contains(word);

@@ -60,13 +60,13 @@ pub fn hear(
 ) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
-    let shown = ShownText::of(lesson);
+    let shown = ShownText::of_lesson(lesson);
     let mut hearing = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {
         let Some((verify, own, question)) = owner.claim(lesson) else { continue };
         let narrow = owner.block().map(|block| shown.within(block, verify));
         let shown = narrow.as_ref().unwrap_or(&shown);
-        hearing.left = hearing.left.and(Left::of(verify));
+        hearing.left = hearing.left.and(Left::count(verify));
         let Some(bound) = bind_claim(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), Value::to_string);

@@ -112,7 +112,7 @@ struct Ready<'l> {
 
 impl<'l> Ready<'l> {
     fn scene(&'l self) -> verify::BoundLab<'l> {
-        verify::BoundLab::of(self.lab, &self.model, &self.programs)
+        verify::BoundLab::new(self.lab, &self.model, &self.programs)
     }
 }
 
@@ -127,13 +127,13 @@ pub struct LabOutcome {
 
 impl LabOutcome {
     /// One finding, and nothing else.
-    pub fn of(finding: Finding) -> LabOutcome {
+    pub fn from_finding(finding: Finding) -> LabOutcome {
         LabOutcome { findings: vec![finding], ..LabOutcome::default() }
     }
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
-pub fn check(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
+pub fn check_lesson(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
     let found = examine(&lesson, models, depth);
     join(lesson, found, depth)
 }
@@ -145,19 +145,19 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcom
     let mut ready: Vec<Ready<'_>> =
         labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
-        ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
-        ready.iter().for_each(|r| contact_time::check(r, &mut findings));
+        ready.iter().for_each(|r| params::check_params(lesson, r, &mut findings));
+        ready.iter().for_each(|r| contact_time::check_contact_times(r, &mut findings));
     }
     let labs = if depth.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     deduplicate(lesson, &mut findings);
-    let snapshots = snapshot::check(lesson, &ready, depth, &mut findings);
+    let snapshots = snapshot::check_snapshots(lesson, &ready, depth, &mut findings);
     // An editor looks at a block at a time, and cannot know what the others claim.
     if depth.claims {
-        left_out::check(lesson, &mut findings);
+        left_out::check_left_out(lesson, &mut findings);
     }
     ready.extend(beside(lesson, models));
     let claims = if depth.claims {
-        claims::check(lesson, &mut ready, models, &mut findings)
+        claims::check_claims(lesson, &mut ready, models, &mut findings)
     } else {
         claims::bind(lesson, &ready, models, &mut findings);
         Vec::new()
@@ -232,9 +232,9 @@ fn prepare<'l>(
 ) -> Option<Ready<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
-        programs::check(lab, &model, &programs, findings);
-        units::check(lab, &model, &programs, findings);
-        named::check(lab, &model, &programs, findings);
+        programs::check_programs(lab, &model, &programs, findings);
+        units::check_units(lab, &model, &programs, findings);
+        named::check_names(lab, &model, &programs, findings);
     }
     Some(Ready { lab, model, programs, mistakes })
 }
@@ -245,7 +245,7 @@ pub(crate) fn bind(
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Option<(Arc<Model>, Programs, usize)> {
-    let Some(model) = models.of(lab, findings) else {
+    let Some(model) = models.model_of_lab(lab, findings) else {
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
         if let (Some(ModelSource::Model(name)), None) = (lab.scene(), models.folder().names()) {
             let folder = models.folder();

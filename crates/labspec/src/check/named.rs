@@ -52,7 +52,7 @@ pub(super) fn names(model: &Model) -> impl Iterator<Item = &str> {
     KINDS.iter().flat_map(|(kind, _)| model.names.of(*kind)).map(String::as_str).filter(|n| !n.is_empty())
 }
 
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+pub(super) fn check_names(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let all = elements(model);
     let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
     let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));

@@ -7,7 +7,7 @@ use crate::rules;
 use crate::spec::Lesson;
 use labspec_finding::nearest;
 
-pub(super) fn check(lesson: &Lesson, ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+pub(super) fn check_params(lesson: &Lesson, ready: &Ready<'_>, findings: &mut Vec<Finding>) {
     let programs = &ready.programs;
     // A text with mistakes may be what reads it.
     let unknown = ready.mistakes > 0

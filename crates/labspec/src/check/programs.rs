@@ -11,8 +11,8 @@ use labspec_core::reflect::{FieldId, Kind, Object, data};
 use labspec_expr::{FieldKey, Host, Value};
 
 /// What programs do that a page lets pass in silence.
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
-    setconst::check(lab, model, programs, findings);
+pub(super) fn check_programs(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+    setconst::check_setconst(lab, model, programs, findings);
     for (index, control) in lab.controls.iter().enumerate() {
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
         let Some(bound) = action.run.as_ref().filter(|b| !action.init && !resets(b)) else { continue };

@@ -13,7 +13,7 @@ use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{Measured, Schema};
 
 /// What units contradict.
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let found = dimensions(lab, model, programs);
     for ((labels, probe), measured) in labels(lab).zip(&programs.probes).zip(&found.probes) {
         let (Some(bound), Some(measured)) = (&probe.bound, measured) else { continue };

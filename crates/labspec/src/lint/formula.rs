@@ -176,7 +176,7 @@ fn finding(span: Range<usize>, said: String) -> Finding {
 }
 
 /// Looks into a text of a lab or a quiz.
-pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+pub(super) fn check_formulas(text: &Text, findings: &mut Vec<Finding>) {
     let html = without_code(text.as_str(), code(text.as_str()).into_iter());
     let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
     findings.extend(found.map(|(at, said)| finding(text.span_of(at), said)));

@@ -134,7 +134,7 @@ pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<F
 }
 
 /// Looks into a text of a lab or a quiz.
-pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+pub(super) fn check_html(text: &Text, findings: &mut Vec<Finding>) {
     for (tag, _) in tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
         // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.

@@ -7,8 +7,8 @@ use crate::source::Text;
 use std::ops::Range;
 
 /// Looks at a listing. An unclosed one may hold text that is no code: it is read up to an empty line or a table.
-pub(crate) fn check(language: &str, body: &Text, closed: bool, findings: &mut Vec<Finding>) {
-    let Some(language) = Language::of(language) else { return };
+pub(crate) fn check_listing(language: &str, body: &Text, closed: bool, findings: &mut Vec<Finding>) {
+    let Some(language) = Language::named(language) else { return };
     let mut end = 0;
     for line in body.value.split_inclusive('\n') {
         if !closed && end > 0 && (line.trim().is_empty() || line.starts_with('|')) {
@@ -17,7 +17,7 @@ pub(crate) fn check(language: &str, body: &Text, closed: bool, findings: &mut Ve
         end += line.len();
     }
     let code = body.value.get(..end).unwrap_or("");
-    let scan = Scan::of(code, language);
+    let scan = Scan::scan_code(code, language);
     typographic(body, &scan, findings);
     if language == Language::Python {
         python(body, code, &scan, findings);
@@ -35,7 +35,7 @@ enum Language {
 }
 
 impl Language {
-    fn of(name: &str) -> Option<Language> {
+    fn named(name: &str) -> Option<Language> {
         Some(match name.to_ascii_lowercase().as_str() {
             "python" | "py" | "python3" => Language::Python,
             "bash" | "sh" | "shell" | "yaml" | "toml" => Language::Shell,
@@ -57,7 +57,7 @@ struct Scan {
 }
 
 impl Scan {
-    fn of(code: &str, language: Language) -> Scan {
+    fn scan_code(code: &str, language: Language) -> Scan {
         let mut scan =
             Scan { bare: String::with_capacity(code.len()), quotes: Vec::new(), continued: Vec::new() };
         let mut inside: Option<&str> = None;

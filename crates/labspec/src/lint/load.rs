@@ -25,7 +25,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 /// it names, the files that it links to, its snapshot. Programs, editors and checks from memory differ only in their sources.
 pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
     let mut lesson = read_lesson(file);
-    let mut findings = super::check(&lesson, models);
+    let mut findings = super::check_rules(&lesson, models);
     super::links::check_files(&lesson, path, sources, &mut findings);
     withhold_fixes(&lesson, &mut findings);
     lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();

@@ -184,7 +184,7 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
 }
 
 /// Looks into a text of a lab or a quiz.
-pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+pub(super) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
     for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let shown = crate::json::read::shorten(text.value.get(at.clone()).unwrap_or(""));
         let (rule, message, help) = match fault {

@@ -11,7 +11,7 @@ use crate::source::Text;
 use crate::spec::{Lab, ModelSource};
 
 /// Whether the model that a lab names is there.
-pub(super) fn check(lab: &Lab, models: &ModelFolder, findings: &mut Vec<Finding>) {
+pub(super) fn check_lab_models(lab: &Lab, models: &ModelFolder, findings: &mut Vec<Finding>) {
     if let Some(ModelSource::Model(name)) = lab.scene() {
         findings.extend(missing(name, models));
     }

@@ -19,7 +19,7 @@ pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// Numbers that are as near as this, of the answer, are meant to be it.
 const NEAR: f64 = 0.02;
@@ -35,7 +35,7 @@ const SLIPS: [(f64, &str); 6] = [
     (2.0, "the explanation gives half of the answer"),
 ];
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Numeric { answer: Some(answer), unit, .. } = &question.kind else { return };
     let Some(explain) = &question.explain else { return };
     let key = answer.value;

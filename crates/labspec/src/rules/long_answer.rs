@@ -19,13 +19,13 @@ pub const LONG_ANSWER: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// So many times as long as the next, and by so many characters.
 const TIMES: usize = 2;
 const MORE: usize = 30;
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
     let Some(right) = question.right_option().and_then(|i| options.get(i)) else { return };
     let length = |text: &str| plain(text).chars().count();

@@ -16,10 +16,10 @@ pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
 /// Looks into the statements and expressions of a lab: one finding for all quotes of a text, with one repair.
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (_, code) in lab.code() {
         let (mut quoted, mut found) = (None, Vec::new());
         for (at, c) in code.value.char_indices() {

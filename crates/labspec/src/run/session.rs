@@ -113,7 +113,7 @@ impl<'p> Session<'p> {
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
             watched: None,
-            steady: programs.controller.as_ref().and_then(|bound| Steady::of(&bound.program)),
+            steady: programs.controller.as_ref().and_then(|bound| Steady::of_program(&bound.program)),
             budget: budget.left,
             before,
             sampled: 0,

@@ -26,11 +26,11 @@ const MOST: usize = 16;
 
 /// Whether a controller is of this kind.
 pub fn is_steady(program: &Program) -> bool {
-    Steady::of(program).is_some()
+    Steady::of_program(program).is_some()
 }
 
 impl Steady {
-    pub(super) fn of(program: &Program) -> Option<Steady> {
+    pub(super) fn of_program(program: &Program) -> Option<Steady> {
         let effects = program.effects();
         let looks_further = effects.reads_everything
             || effects.writes_everything

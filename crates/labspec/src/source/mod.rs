@@ -46,7 +46,7 @@ impl SourceFile {
     /// A file with this display path and text. No file system is touched.
     pub fn new(path: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceFile {
         let text = text.into();
-        let lines = Lines::of(&text);
+        let lines = Lines::new(&text);
         SourceFile { path: path.into(), text, lines }
     }
 

@@ -32,7 +32,7 @@ pub(super) enum AggregateKind {
 }
 
 impl AggregateKind {
-    pub(super) fn of(aggregate: &Aggregate) -> Option<AggregateKind> {
+    pub(super) fn of_aggregate(aggregate: &Aggregate) -> Option<AggregateKind> {
         Some(match functions::name(aggregate.function)? {
             "first" => AggregateKind::First,
             "at" => AggregateKind::At,
@@ -93,7 +93,7 @@ impl<'a> RunningAggregate<'a> {
     /// The aggregates of a program, before the first sample.
     pub(super) fn all(program: &'a Program) -> Vec<RunningAggregate<'a>> {
         let start = |a: &'a Aggregate| {
-            let kind = AggregateKind::of(a)?;
+            let kind = AggregateKind::of_aggregate(a)?;
             Some(RunningAggregate {
                 kind,
                 args: &a.args,

@@ -64,10 +64,9 @@ impl BoundVerify<'_> {
         }
         let measures = self.measures_of(claim);
         let programs = measures.iter().map(|(.., m)| &m.program).chain(&claim.program);
-        let counts = programs
-            .clone()
-            .flat_map(Program::aggregates)
-            .any(|a| matches!(AggregateKind::of(a), Some(AggregateKind::Count | AggregateKind::Crossings)));
+        let counts = programs.clone().flat_map(Program::aggregates).any(|a| {
+            matches!(AggregateKind::of_aggregate(a), Some(AggregateKind::Count | AggregateKind::Crossings))
+        });
         let texts = measures.iter().flat_map(|(.., m)| numbers_in(m.text.as_str()));
         let measured: Vec<f64> = claim.measured(self).iter().filter_map(|place| nominal.at(*place)).collect();
         let reach = reach(&measured);

@@ -38,7 +38,7 @@ pub struct BoundLab<'a> {
 
 impl<'a> BoundLab<'a> {
     /// A lab as the lesson has it.
-    pub fn of(lab: &'a Lab, model: &Arc<Model>, programs: &'a Programs) -> BoundLab<'a> {
+    pub fn new(lab: &'a Lab, model: &Arc<Model>, programs: &'a Programs) -> BoundLab<'a> {
         BoundLab {
             lab: Cow::Borrowed(lab),
             model: model.clone(),

@@ -87,7 +87,7 @@ fn program_kind(program: &Program, world: &World, context: &mut Context) -> Valu
 fn aggregate_kind(a: &Aggregate, world: &World, context: &mut Context) -> ValueKind {
     let mut of_argument =
         |i: usize| a.args.get(i).map_or(ValueKind::ANY, |p| program_kind(p, world, context));
-    match AggregateKind::of(a) {
+    match AggregateKind::of_aggregate(a) {
         Some(
             AggregateKind::First
             | AggregateKind::Last

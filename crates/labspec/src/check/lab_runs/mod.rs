@@ -128,7 +128,7 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         let all = tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
         found.extend(tour.seen.never(all));
         if all && tour.ready.mistakes == 0 && !tour.lost {
-            observations::check(tour.ready, &tour.records, tour.wanted, found);
+            observations::check_observations(tour.ready, &tour.records, tour.wanted, found);
         }
     }
     // What is beyond that has a budget of its own.

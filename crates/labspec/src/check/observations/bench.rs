@@ -34,7 +34,7 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
 }
 
-/// How often a run is looked at.
+/// How often a run is observed at.
 const SAMPLES: usize = 60;
 /// How far a state is moved, in turn.
 const NUDGES: [f64; 4] = [0.01, 0.1, 0.4, 1.0];

@@ -1,18 +1,18 @@
 //! A solver that may not iterate at all, where there is something to solve.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Play};
 use labspec_core::reflect::option;
 use std::ops::ControlFlow;
 
-/// Steps in which forces are looked for.
+/// Steps in which forces are observed for.
 const STEPS: usize = 500;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
-    let mut session = looked.bench.start();
+pub(super) fn check_solver(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let mut session = observed.bench.start();
     if session.world.model.opt.iterations != 0 {
         return;
     }

@@ -1,6 +1,6 @@
 //! Buttons that reset what they have just done.
 
-use super::Looked;
+use super::ObservedLab;
 use super::stale::parts;
 use crate::bind::{Bound, ControlProgram};
 use crate::check::setconst::{self, digits};
@@ -16,8 +16,8 @@ const STEPS: usize = 40;
 /// How a reset is written.
 const RESETS: [&str; 4] = ["mj.mj_resetData(", "mj_resetData(", "mj.mj_resetDataKeyframe(", "sim.reset("];
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     for (index, (label, program)) in ready.programs.controls.iter().enumerate() {
         let ControlProgram::Press(Some(bound)) = program else { continue };
         let Some(parts) = parts(&bound.text.value) else { continue };
@@ -34,7 +34,7 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         let (Some(first), Some(then)) = (first, then) else { continue };
         // To begin with a plain reset and then to take a keyframe loses nothing.
         let resets = before.split(';').any(|p| is_reset(p) && p.contains("Keyframe"));
-        let Some((name, set, left)) = lost(looked, &first, &then, resets) else {
+        let Some((name, set, left)) = lost(observed, &first, &then, resets) else {
             continue;
         };
         findings.push(
@@ -48,12 +48,17 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             ))
             .help("reset first, then set the values after the reset"),
         );
-        looked.reported.push(index);
+        observed.reported.push(index);
     }
 }
 
 /// The first number that the first statements set and the reset behind them takes back; `None` where anything of it is left.
-fn lost(looked: &Looked<'_>, first: &Bound, then: &Bound, resets: bool) -> Option<(String, String, String)> {
+fn lost(
+    observed: &ObservedLab<'_>,
+    first: &Bound,
+    then: &Bound,
+    resets: bool,
+) -> Option<(String, String, String)> {
     let effects = first.program.effects();
     let model = effects.writes.iter().any(|w| {
         FieldId::new(w.field.0 as usize)
@@ -62,7 +67,7 @@ fn lost(looked: &Looked<'_>, first: &Bound, then: &Bound, resets: bool) -> Optio
     if effects.any_ctx || effects.calls_values || model && !resets {
         return None;
     }
-    let mut session = looked.bench.start();
+    let mut session = observed.bench.start();
     run::play(&mut session, &Play::steps(STEPS), |_, _| ControlFlow::Continue(()));
     session.run_statements(&first.program, &first.text);
     let state = |session: &Session<'_>| -> Vec<(String, f64)> {

@@ -51,7 +51,7 @@ struct Suspect<'a> {
 }
 
 /// Checks the programs of a lab.
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+pub(super) fn check_setconst(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let suspect = |place, b, target, given| suspect(place, b, target, given, programs);
     let own = [(ProgramSite::Setup, &programs.setup), (ProgramSite::Controller, &programs.controller)];
     let mut all: Vec<Suspect<'_>> =

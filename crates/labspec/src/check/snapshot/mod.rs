@@ -132,7 +132,7 @@ fn name_of(file: &SourceFile) -> String {
 }
 
 /// Holds every lab of a lesson against its snapshot. Where none is stored, nothing is claimed.
-pub(super) fn check(
+pub(super) fn check_snapshots(
     lesson: &Lesson,
     ready: &[Ready<'_>],
     depth: CheckLevel,

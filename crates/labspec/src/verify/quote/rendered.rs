@@ -33,7 +33,7 @@ const MAX_HIDDEN: usize = 16;
 
 impl ShownText {
     /// Looks for all quotes of a lesson.
-    pub fn of(lesson: &Lesson) -> ShownText {
+    pub fn of_lesson(lesson: &Lesson) -> ShownText {
         let file = lesson.file.text();
         let mut search = Search::new();
         let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();

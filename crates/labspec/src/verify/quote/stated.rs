@@ -92,7 +92,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
 
 /// Where the text stands that the lesson quotes itself.
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
-    let shown = ShownText::of(lesson);
+    let shown = ShownText::of_lesson(lesson);
     let mut all = Vec::new();
     for (verify, block) in lesson.scoped() {
         let narrow = block.map(|block| shown.within(block, verify));

@@ -15,7 +15,7 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
         &ModelFolder::unknown(),
     );
     let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
-    let shown = ShownText::of(&lesson);
+    let shown = ShownText::of_lesson(&lesson);
     let dimension = parse(unit);
     let value = QuoteValue { computed, timestep: &[], start: &[], unit: &|| dimension };
     let claim = QuoteClaim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };

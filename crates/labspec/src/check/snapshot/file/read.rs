@@ -96,7 +96,7 @@ impl<'t> Reader<'t> {
 
     /// Two texts between quotes.
     fn names(&self, rest: &str, before: usize) -> Result<[String; 2], Fault> {
-        let words = self.words(rest, before)?;
+        let words = self.split_words(rest, before)?;
         let text = |i: usize| words.get(i).and_then(|(_, w)| serde_json::from_str::<String>(w).ok());
         match (text(0), text(1), words.len()) {
             (Some(a), Some(b), 2) => Ok([a, b]),
@@ -107,7 +107,7 @@ impl<'t> Reader<'t> {
     }
 
     /// The words of a line, each with the characters before it: what is between quotes is one.
-    fn words(&self, line: &'_ str, before: usize) -> Result<Vec<(usize, String)>, Fault> {
+    fn split_words(&self, line: &'_ str, before: usize) -> Result<Vec<(usize, String)>, Fault> {
         let mut words: Vec<(usize, String)> = Vec::new();
         let mut letters = line.chars().enumerate().peekable();
         while let Some((i, c)) = letters.next() {
@@ -154,7 +154,8 @@ impl<'t> Reader<'t> {
                 runs.push(run);
                 continue;
             }
-            let times = self.next_with("  ").map(|line| self.words(line, 2)).transpose()?.unwrap_or_default();
+            let times =
+                self.next_with("  ").map(|line| self.split_words(line, 2)).transpose()?.unwrap_or_default();
             if times.first().is_none_or(|(_, word)| word != "time") || times.len() < 2 {
                 return Err(self.fault(0, "the times of a run must follow here, after the word `time`"));
             }
@@ -173,7 +174,7 @@ impl<'t> Reader<'t> {
     }
 
     fn row(&self, line: &str, columns: usize) -> Result<StoredRow, Fault> {
-        let mut words = self.words(line, 2)?.into_iter();
+        let mut words = self.split_words(line, 2)?.into_iter();
         let name = words.next().and_then(|(_, w)| serde_json::from_str(&w).ok());
         let Some(name) = name else {
             return Err(self.fault(2, "the name of a trace or a readout must follow here, in quotes"));
