@@ -119,36 +119,13 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let inner = Frame { left: left + zero, right: right - failed, ..outer };
     let finite = all().filter_map(|r| if let Error::Finite(e) = r.error { Some(e) } else { None });
     let mut x = axis(finite, |label| (label.width(TICK) + 10.0) / inner.width().max(1.0));
-    // At the ends, the names of the strips have precedence.
-    let at = |fraction: f64| inner.at(fraction, 0.0).0;
-    let (least, most) = (
-        if zero > 0.0 { (outer.left + inner.left) / 2.0 + 12.0 } else { 0.0 },
-        if failed > 0.0 { (inner.right + outer.right - width(DIVERGED, TICK)) / 2.0 - 8.0 } else { size.0 },
-    );
-    for tick in &mut x.ticks {
-        let (middle, half) = (at(tick.at), tick.label.width(TICK) / 2.0);
-        if middle - half < least || middle + half > most {
-            tick.label = Label::default();
-        }
-    }
+    drop_labels_under_strips(&mut x, &outer, &inner, size.0);
 
     let named = if words.title.trim().is_empty() { "Cost against error" } else { words.title };
     let mut canvas = Canvas::new(size, named, &describe(chart));
-    if zero > 0.0 {
-        canvas.area((outer.left, top), (inner.left, bottom), SHADE);
-    }
-    if failed > 0.0 {
-        canvas.area((inner.right, top), (outer.right, bottom), SHADE);
-    }
+    shade_strips(&mut canvas, &outer, &inner);
     draw(&mut canvas, &outer, &inner, &x, &y, &words);
-    canvas.open(&style(TICK, SOFT, "middle"));
-    if zero > 0.0 {
-        canvas.text(((outer.left + inner.left) / 2.0, bottom + 17.0), "0");
-    }
-    if failed > 0.0 {
-        canvas.text(((inner.right + outer.right) / 2.0, bottom + 17.0), DIVERGED);
-    }
-    canvas.close();
+    name_strips(&mut canvas, &outer, &inner);
     if all().next().is_none() {
         frame::empty(&mut canvas, &outer, "no data");
     }
@@ -164,6 +141,40 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
         mark(canvas, look, (at.0 + STROKE / 2.0, at.1));
     });
     canvas.finish()
+}
+
+/// At the ends, the names of the strips have precedence over the labels of the scale.
+fn drop_labels_under_strips(x: &mut Axis, outer: &Frame, inner: &Frame, size: f64) {
+    let least = if inner.left > outer.left { (outer.left + inner.left) / 2.0 + 12.0 } else { 0.0 };
+    let name = width(DIVERGED, TICK);
+    let most = if inner.right < outer.right { (inner.right + outer.right - name) / 2.0 - 8.0 } else { size };
+    for tick in &mut x.ticks {
+        let (middle, half) = (inner.at(tick.at, 0.0).0, tick.label.width(TICK) / 2.0);
+        if middle - half < least || middle + half > most {
+            tick.label = Label::default();
+        }
+    }
+}
+
+/// The strips beside the scale: runs without an error on the left, runs that diverge on the right.
+fn shade_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
+    if inner.left > outer.left {
+        canvas.area((outer.left, outer.top), (inner.left, outer.bottom), SHADE);
+    }
+    if inner.right < outer.right {
+        canvas.area((inner.right, outer.top), (outer.right, outer.bottom), SHADE);
+    }
+}
+
+fn name_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
+    canvas.open(&style(TICK, SOFT, "middle"));
+    if inner.left > outer.left {
+        canvas.text(((outer.left + inner.left) / 2.0, outer.bottom + 17.0), "0");
+    }
+    if inner.right < outer.right {
+        canvas.text(((inner.right + outer.right) / 2.0, outer.bottom + 17.0), DIVERGED);
+    }
+    canvas.close();
 }
 
 /// The word below the strip of runs without a finite error.

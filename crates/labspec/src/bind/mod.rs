@@ -5,6 +5,7 @@ mod compile;
 pub(crate) mod coupled;
 mod dimension;
 mod labels;
+mod model_file;
 pub mod parts;
 mod programs;
 pub mod scene;

@@ -6,6 +6,8 @@
 //! rest of the block is checked too.
 
 mod gaps;
+#[cfg(test)]
+mod law_tests;
 pub(crate) mod literal;
 mod node;
 mod parse;

@@ -159,7 +159,8 @@ impl<'a> RunningAggregate<'a> {
         }
     }
 
-    /// Takes a sample into the result. Whether it decides what earlier samples left open.
+    /// Takes a sample into the result. Whether it decides what earlier samples left open. The function is long because it has one arm
+    /// for each kind of aggregate.
     fn take(&mut self, time: f64, args: &mut Arguments<'_>) -> bool {
         match self.kind {
             AggregateKind::First => self.finish_where(args, |_| time),

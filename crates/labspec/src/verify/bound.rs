@@ -66,57 +66,51 @@ impl<'a> BoundVerify<'a> {
         };
         if verify.runs.is_empty() {
             let scene = bound.add(base?);
-            bound.runs.push(BoundRun {
-                name: "run",
-                spec: None,
-                setup: None,
-                stop: None,
-                swept: None,
-                control: None,
-                freely: false,
-                scene,
-            });
+            bound.runs.push(BoundRun::new("run", None, scene));
         }
         let mut good = true;
         for (run, scenes) in verify.runs.iter().zip(scenes) {
-            for (i, scene) in scenes.iter().enumerate() {
-                let at = bound.add(scene);
-                let bound_run = bound.run(run, at, findings).map(|made| match &run.sweep {
-                    None => made,
-                    Some(Sweep { what, values }) => {
-                        let x = values.get(i).copied().unwrap_or(f64::NAN);
-                        let control = scene.lab.control(&what.value).map(|_| (what, x));
-                        BoundRun { swept: Some((i, x)), control, ..made }
-                    }
-                });
-                good &= bound_run.is_some();
-                let failed = bound_run.is_none();
-                bound.runs.extend(bound_run);
-                if failed {
-                    break;
-                }
-            }
+            good &= bound.add_runs(run, scenes, findings);
         }
         // Closed forms are those of the object's own lab.
         if !verify.exact.is_empty() {
             let first = bound.add(base?);
-            bound.scenes.swap(0, first);
-            let swap = |i: usize| {
-                if i == 0 {
-                    first
-                } else if i == first {
-                    0
-                } else {
-                    i
-                }
-            };
-            bound.runs.iter_mut().for_each(|run| run.scene = swap(run.scene));
+            bound.put_first(first);
         }
         for (name, text) in &verify.measure {
             good &= bound.measure(&name.value, text, findings);
         }
         bound.lay_out();
         good.then_some(bound)
+    }
+
+    /// Binds the members of a run, one for each of its labs; `false` when one has mistakes.
+    fn add_runs(&mut self, run: &'a Run, scenes: &[BoundLab<'a>], findings: &mut Vec<Finding>) -> bool {
+        for (i, scene) in scenes.iter().enumerate() {
+            let at = self.add(scene);
+            let Some(made) = self.run(run, at, findings) else { return false };
+            self.runs.push(match &run.sweep {
+                None => made,
+                Some(Sweep { what, values }) => {
+                    let x = values.get(i).copied().unwrap_or(f64::NAN);
+                    let control = scene.lab.control(&what.value).map(|_| (what, x));
+                    BoundRun { swept: Some((i, x)), control, ..made }
+                }
+            });
+        }
+        true
+    }
+
+    /// Lets a lab come first in the list.
+    fn put_first(&mut self, place: usize) {
+        self.scenes.swap(0, place);
+        for run in &mut self.runs {
+            run.scene = match run.scene {
+                0 => place,
+                i if i == place => 0,
+                i => i,
+            };
+        }
     }
 
     fn lay_out(&mut self) {
@@ -216,17 +210,7 @@ impl<'a> BoundVerify<'a> {
             );
             good = false;
         }
-        let name = &run.name.value;
-        good.then_some(BoundRun {
-            name,
-            spec: Some(run),
-            setup,
-            stop,
-            swept: None,
-            control: None,
-            freely: false,
-            scene,
-        })
+        good.then_some(BoundRun { setup, stop, ..BoundRun::new(&run.name.value, Some(run), scene) })
     }
 
     /// Compiles a measure for every lab. One that has no meaning in some of them is not taken there; one that has a meaning in none

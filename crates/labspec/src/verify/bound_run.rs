@@ -39,6 +39,13 @@ pub(super) struct BoundRun<'a> {
     pub(super) scene: usize,
 }
 
+impl<'a> BoundRun<'a> {
+    /// A run without texts of its own, of the lab at this place.
+    pub(super) fn new(name: &'a str, spec: Option<&'a Run>, scene: usize) -> BoundRun<'a> {
+        BoundRun { name, spec, setup: None, stop: None, swept: None, control: None, freely: false, scene }
+    }
+}
+
 impl BoundRun<'_> {
     /// How conditions call it: `fall`, `fall[2]`.
     pub(super) fn title(&self) -> String {

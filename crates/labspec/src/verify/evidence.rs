@@ -74,8 +74,52 @@ pub(super) fn could_differ(
 ) -> bool {
     let Some((now, compared)) = says(nominal) else { return false };
     let values: Vec<f64> = places.iter().filter_map(|p| nominal.at(*p)).collect();
+    let lists = values_to_try(&values, kinds, constants, &compared);
+    let mut inputs = nominal.clone();
+    let mut all: Vec<Vec<(f64, Vec<Comparison>)>> = Vec::new();
+    for (&place, list) in places.iter().zip(&lists) {
+        let mut tried = Vec::new();
+        // Any measure may have no value: its event does not happen, or the run breaks.
+        for x in list.iter().copied().chain([f64::NAN]) {
+            inputs.put(place, x);
+            if let Some((then, compared)) = says(&inputs) {
+                if then.differs(now) {
+                    return true;
+                }
+                tried.push((x, compared));
+            }
+        }
+        inputs.copy(nominal);
+        all.push(tried);
+    }
+    let mut together = Together { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
+    if together.differs(FIRST, now, says) {
+        return true;
+    }
+    // Where a comparison turns between two values, or comes near to that, the value is looked for.
+    for ((&place, kind), tried) in places.iter().zip(kinds).zip(&all) {
+        let mut alone = |x| {
+            inputs.put(place, x);
+            says(&inputs)
+        };
+        if !kind.whole && turns(tried, now, &mut alone) {
+            return true;
+        }
+        inputs.copy(nominal);
+    }
+    together.differs(JOINT - FIRST, now, says)
+}
+
+/// For each measured value the others that are tried in its place, in order: parts of it, and what lies near to everything that it is
+/// compared with.
+fn values_to_try(
+    values: &[f64],
+    kinds: &[ValueKind],
+    constants: &[f64],
+    compared: &[Comparison],
+) -> Vec<Vec<f64>> {
     let sides = compared.iter().flat_map(|c| [c.left, c.right]);
-    let reach = reach(&values);
+    let reach = reach(values);
     let others: Vec<f64> = values
         .iter()
         .copied()
@@ -85,50 +129,17 @@ pub(super) fn could_differ(
         .take(40)
         .collect();
     let list = |i: usize, kind: &ValueKind| -> Vec<f64> {
-        let own = values.get(i).copied().filter(|x| x.is_finite()).unwrap_or(1.0);
-        let mut list: Vec<f64> = FACTORS.iter().map(|f| f * own).collect();
-        list.extend([own + 1.0, own - 1.0, 0.0, 1.0, 2.0]);
+        let measured = values.get(i).copied().filter(|x| x.is_finite()).unwrap_or(1.0);
+        let mut list: Vec<f64> = FACTORS.iter().map(|f| f * measured).collect();
+        list.extend([measured + 1.0, measured - 1.0, 0.0, 1.0, 2.0]);
         list.extend(others.iter().flat_map(|x| [*x, x * 1.000_001, x * 0.999_999, x + 1.0, x - 1.0, -x]));
-        list.extend(others.iter().flat_map(|x| [x + own, own - x, 0.5 * x, 1.5 * x]));
+        list.extend(others.iter().flat_map(|x| [x + measured, measured - x, 0.5 * x, 1.5 * x]));
         list.retain(|x| kind.has(*x));
         list.sort_by(f64::total_cmp);
         list.dedup();
         list
     };
-    let lists: Vec<Vec<f64>> = kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect();
-    let mut inputs = nominal.clone();
-    let mut all: Vec<Vec<(f64, Vec<Comparison>)>> = Vec::new();
-    for (&place, list) in places.iter().zip(&lists) {
-        let mut known = Vec::new();
-        // Any measure may have no value: its event does not happen, or the run breaks.
-        for x in list.iter().copied().chain([f64::NAN]) {
-            inputs.put(place, x);
-            if let Some((then, compared)) = says(&inputs) {
-                if then.differs(now) {
-                    return true;
-                }
-                known.push((x, compared));
-            }
-        }
-        inputs.copy(nominal);
-        all.push(known);
-    }
-    let mut together = Together { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
-    if together.differs(FIRST, now, says) {
-        return true;
-    }
-    // Where a comparison turns between two values, or comes near to that, the value is looked for.
-    for ((&place, kind), known) in places.iter().zip(kinds).zip(&all) {
-        let mut alone = |x| {
-            inputs.put(place, x);
-            says(&inputs)
-        };
-        if !kind.whole && turns(known, now, &mut alone) {
-            return true;
-        }
-        inputs.copy(nominal);
-    }
-    together.differs(JOINT - FIRST, now, says)
+    kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect()
 }
 
 /// Changes several numbers at once: each stays, is one of its values, or that of another number.

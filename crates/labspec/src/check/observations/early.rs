@@ -3,6 +3,7 @@
 use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
+use crate::json::Number;
 use crate::rules;
 use crate::run::Cell;
 use labspec_core::reflect::data;
@@ -21,15 +22,7 @@ pub(super) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Ve
     let Some(stop) = &ready.lab.stop_at else { return };
     let Some((steps, timestep)) = observed.bench.steps(observed.length) else { return };
     if stop.value > 0.0 && stop.value < (1.0 - 1e-9) * timestep {
-        findings.push(
-            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
-                .why(format!(
-                    "`stopAt` is {} s, and one step takes {} s",
-                    digits(stop.value, 4),
-                    digits(timestep, 4)
-                ))
-                .help("make `stopAt` larger; for a single intended step, write the length of a step"),
-        );
+        findings.push(stops_after_first_step(stop, timestep));
         return;
     }
     if steps >= FEW || steps == 0 {
@@ -66,20 +59,26 @@ pub(super) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Ve
     if seen || time <= stop.value {
         return;
     }
-    findings.push(
-        Finding::warning(
-            rules::STOPS_EARLY,
-            stop.span.clone(),
-            "the lab stops before anything that it shows changes",
-        )
+    findings.push(stops_before_change(stop, steps, timestep, &what, time));
+}
+
+fn stops_after_first_step(stop: &Number, timestep: f64) -> Finding {
+    Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
+        .why(format!("`stopAt` is {} s, and one step takes {} s", digits(stop.value, 4), digits(timestep, 4)))
+        .help("make `stopAt` larger; for a single intended step, write the length of a step")
+}
+
+/// `what` changes first in a longer run, at this time.
+fn stops_before_change(stop: &Number, steps: usize, timestep: f64, what: &str, time: f64) -> Finding {
+    let message = "the lab stops before anything that it shows changes";
+    Finding::warning(rules::STOPS_EARLY, stop.span.clone(), message)
         .why(format!(
             "it runs for {steps} step{} of {} s; in a longer run, the first thing that changes is {what}, at t = {} s",
             if steps == 1 { "" } else { "s" },
             digits(timestep, 4),
             digits(time, 3)
         ))
-        .help("make `stopAt` larger, or delete it"),
-    );
+        .help("make `stopAt` larger, or delete it")
 }
 
 /// Whether a column reads time and nothing else.

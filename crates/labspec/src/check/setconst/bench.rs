@@ -300,15 +300,8 @@ impl<'a> Bench<'a> {
         if too_long {
             return Err("it takes too long".to_string());
         }
-        let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
-        if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
-            return Err(format!("its statements fail: {}", trouble.message));
-        }
-        match (run::worst_breakdown(&session), session.ended()) {
-            (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
-            (None, Some(_)) => Err("it ends early".to_string()),
-            (None, None) => Ok(Performed { rows, left_behind: session.left_behind() }),
-        }
+        is_sound(&session, programs)?;
+        Ok(Performed { rows, left_behind: session.left_behind() })
     }
 
     /// Whether another run of the same object is what this one would be when it is corrected: then the
@@ -444,5 +437,21 @@ fn act(session: &mut Session<'_>, what: &Move) {
     match what {
         Move::Set(i, value) => session.set_control(*i, value.clone()),
         Move::Press(i) => session.press(*i),
+    }
+}
+
+/// Whether a run came to its end as it should.
+///
+/// # Errors
+/// A statement failed, the simulation broke, or it ended early. What fails in a trace or a readout is its own matter.
+fn is_sound(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
+    let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
+    if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
+        return Err(format!("its statements fail: {}", trouble.message));
+    }
+    match (run::worst_breakdown(session), session.ended()) {
+        (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
+        (None, Some(_)) => Err("it ends early".to_string()),
+        (None, None) => Ok(()),
     }
 }

@@ -97,28 +97,40 @@ impl Bench<'_> {
         }
         let constants = all.iter().find_map(|r| {
             let columns = self.columns(s);
-            let own = columns.difference(&r.as_is, &r.anew)?;
-            let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, r.corrected())? };
+            let of_constants = columns.difference(&r.as_is, &r.anew)?;
+            let difference =
+                if matter.is_empty() { of_constants } else { columns.difference(&r.as_is, r.corrected())? };
             let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
-            Some(shown.describe(&r.trial.description, &format!("the constants recomputed{and}")))
+            Some(difference.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
+        let (advice, repaired) = self.choose_advice(s, matter, constants.is_some(), &all, steps);
+        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+    }
+
+    /// What to write, and the corrected text where there is one that gives the same runs.
+    fn choose_advice(
+        &mut self,
+        s: &Suspect<'_>,
+        matter: PairSet,
+        constants: bool,
+        all: &[Runs<'_>],
+        steps: usize,
+    ) -> (Advice, Option<String>) {
         let repair = Repair::of_program(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
         let both = [Advice::Plain, Advice::Keep];
-        let (advice, repaired) = match &repair {
+        match &repair {
             None => {
                 let source = advice::source(s);
                 let plain = format!("{source}{}", Advice::Plain.tail(&source));
-                let good =
-                    matter.is_empty() && constants.is_some() && self.gives(s, &plain, &all, steps, 0.0);
+                let good = matter.is_empty() && constants && self.gives(s, &plain, all, steps, 0.0);
                 (if good { Advice::Plain } else { Advice::Keep }, None)
             }
             Some(repair) => {
                 let texts = both.map(|advice| (advice, advice::repaired(s, repair, advice)));
-                let good = texts.into_iter().find(|(_, text)| self.gives(s, text, &all, steps, ROUNDED));
+                let good = texts.into_iter().find(|(_, text)| self.gives(s, text, all, steps, ROUNDED));
                 good.map_or((Advice::Keep, None), |(advice, text)| (advice, Some(text)))
             }
-        };
-        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+        }
     }
 
     /// The runs of one trial; why partners could not be corrected in it goes to `uncoupled`.

@@ -5,6 +5,7 @@ mod answer_unit;
 mod check_quote;
 mod clause_unit;
 mod context;
+mod context_after;
 mod denial;
 mod fold;
 mod head_unit;

@@ -113,7 +113,8 @@ struct Reader<'t> {
 }
 
 impl Reader<'_> {
-    /// Reads from `from` on. Gives where to go on when a damaged fence has swallowed what follows it.
+    /// Reads from `from` on. Gives where to go on when a damaged fence has swallowed what follows it. The function is long because it has
+    /// one arm for each event of the Markdown parser.
     fn pass(&mut self, from: usize) -> Option<usize> {
         // In a fence: whether its text is shown. In what stands before the lesson (its metadata): not.
         let mut fence: Option<bool> = None;
