@@ -9,12 +9,12 @@ use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
 use super::shown::{LABELS, Shown};
 use super::words::WORDS;
-use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, model, option};
+use labspec_core::reflect::{self, FieldId, Object, data, option};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
-    Schema, Value, Words,
+    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema, Value,
+    Words,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -143,20 +143,20 @@ impl Schema for ModelNames<'_> {
             _ => match OBJECTS.iter().position(|o| *o == name) {
                 Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
                 None => self.function_of("", name).or_else(|| {
-                    let own = self.own?.find(name)?;
-                    Some(Entry::Function(FunctionId((TABLE.len() + own) as u32)))
+                    let function = self.own?.find(name)?;
+                    Some(Entry::Function(FunctionId((TABLE.len() + function) as u32)))
                 }),
             },
         }
     }
 
     fn root_names(&self) -> Vec<String> {
-        let own = self.functions().filter(|(_, f)| f.object.is_empty()).map(|(_, f)| f.name);
+        let names_here = self.functions().filter(|(_, f)| f.object.is_empty()).map(|(_, f)| f.name);
         ["model", "data"]
             .into_iter()
             .chain(OBJECTS)
             .chain(["mj_setConst"])
-            .chain(own)
+            .chain(names_here)
             .chain(self.own.into_iter().flat_map(Functions::names))
             .map(String::from)
             .collect()
@@ -342,8 +342,8 @@ impl Schema for ModelNames<'_> {
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
         let at = i as usize;
-        let own = || self.own?.info(at.checked_sub(TABLE.len())?);
-        functions::INFO.get(at).cloned().or_else(own).unwrap_or_else(functions::none)
+        let embedded = || self.own?.info(at.checked_sub(TABLE.len())?);
+        functions::INFO.get(at).cloned().or_else(embedded).unwrap_or_else(functions::none)
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {

@@ -169,14 +169,14 @@ mod tests {
 
     /// The same, by walking over the text byte by byte, as an editor would that was handed UTF-16.
     fn walked(text: &str, offset: usize) -> EditorPosition {
-        let shown: Vec<(usize, char)> = text.char_indices().collect();
+        let chars: Vec<(usize, char)> = text.char_indices().collect();
         let (mut line, mut units): (usize, Vec<u16>) = (0, Vec::new());
         let mut place = EditorPosition { line: 0, character: 0 };
-        for (i, &(at, c)) in shown.iter().enumerate() {
+        for (i, &(at, c)) in chars.iter().enumerate() {
             if offset < at + c.len_utf8() {
                 return place;
             }
-            let next = shown.get(i + 1).map(|&(_, c)| c);
+            let next = chars.get(i + 1).map(|&(_, c)| c);
             if at == 0 && c == '\u{feff}' {
                 continue;
             }

@@ -108,7 +108,7 @@ impl CheckedText {
 }
 
 /// How a text is judged.
-struct Judge<'j> {
+struct RepairJudge<'j> {
     /// What is wrong with it.
     look: &'j dyn Fn(&str) -> CheckedText,
     /// What its labs show.
@@ -118,17 +118,17 @@ struct Judge<'j> {
 }
 
 /// A text with some repairs made, and what its labs show, once somebody asks.
-struct Stage {
+struct TextState {
     looked: CheckedText,
     shown: OnceCell<Traces>,
 }
 
-impl Stage {
-    fn new(looked: CheckedText) -> Stage {
-        Stage { looked, shown: OnceCell::new() }
+impl TextState {
+    fn new(looked: CheckedText) -> TextState {
+        TextState { looked, shown: OnceCell::new() }
     }
 
-    fn shown(&self, judge: &Judge<'_>) -> &Traces {
+    fn shown(&self, judge: &RepairJudge<'_>) -> &Traces {
         self.shown.get_or_init(|| (judge.shows)(&self.looked.text))
     }
 }
@@ -141,18 +141,18 @@ pub fn repair(
     look: &dyn Fn(&str) -> CheckedText,
     shows: &dyn Fn(&str) -> Traces,
 ) -> (String, usize) {
-    let mut now = Stage::new(now);
-    let mut made = rounds(&mut now, Applicability::Safe, &Judge { look, shows, proves: true });
+    let mut now = TextState::new(now);
+    let mut made = rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     if guesses {
-        made += rounds(&mut now, Applicability::Unsafe, &Judge { look, shows, proves: false });
+        made += rounds(&mut now, Applicability::Unsafe, &RepairJudge { look, shows, proves: false });
         // What a guess has made visible.
-        made += rounds(&mut now, Applicability::Safe, &Judge { look, shows, proves: true });
+        made += rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     }
     (now.looked.text, made)
 }
 
 /// Makes repairs of a kind until nothing changes; gives how many.
-fn rounds(now: &mut Stage, kind: Applicability, judge: &Judge<'_>) -> usize {
+fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> usize {
     let mut made = 0;
     for _ in 0..ROUNDS {
         let fixes = apart(&now.looked.findings, kind);
@@ -160,12 +160,12 @@ fn rounds(now: &mut Stage, kind: Applicability, judge: &Judge<'_>) -> usize {
             break;
         }
         let old = now.looked.text.clone();
-        let mut kept = BTreeSet::new();
-        keep(&old, &fixes, 0..fixes.len(), &mut kept, now, judge);
-        if kept.is_empty() {
+        let mut applied = BTreeSet::new();
+        keep(&old, &fixes, 0..fixes.len(), &mut applied, now, judge);
+        if applied.is_empty() {
             break;
         }
-        made += kept.len();
+        made += applied.len();
     }
     made
 }
@@ -180,8 +180,8 @@ fn keep(
     fixes: &[Repair],
     part: Range<usize>,
     kept: &mut BTreeSet<usize>,
-    now: &mut Stage,
-    judge: &Judge<'_>,
+    now: &mut TextState,
+    judge: &RepairJudge<'_>,
 ) {
     if part.is_empty() || interrupted() {
         return;
@@ -220,9 +220,9 @@ fn attempt(
     fixes: &[Repair],
     part: Range<usize>,
     kept: &BTreeSet<usize>,
-    now: &Stage,
-    judge: &Judge<'_>,
-) -> Option<Stage> {
+    now: &TextState,
+    judge: &RepairJudge<'_>,
+) -> Option<TextState> {
     let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
     let (mut text, mut at) = (String::with_capacity(old.len()), 0);
     let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || kept.contains(i));
@@ -237,7 +237,7 @@ fn attempt(
         }
     }
     text.push_str(old.get(at..)?);
-    let next = Stage::new((judge.look)(&text));
+    let next = TextState::new((judge.look)(&text));
     let (was, is) = (&now.looked, &next.looked);
     let gone = codes.iter().all(|(code, n)| is.count_of_rule(code) + n <= was.count_of_rule(code));
     if !gone || is.errors() > was.errors() || is.broken > was.broken {
@@ -304,8 +304,8 @@ mod tests {
         assert!(looks.get() <= 2 * 3 * 8 + 1 + 2 * 3, "{}", looks.get());
         // One that does not fit spoils none of the others.
         let fixes = [("a", Fix::safe(0..1, "o")), ("a", Fix::safe(9..12, "o"))];
-        let mut now = Stage::new(find_wrong("x b"));
-        let judge = Judge { look: &find_wrong, shows: &|_| Traces::new(), proves: true };
+        let mut now = TextState::new(find_wrong("x b"));
+        let judge = RepairJudge { look: &find_wrong, shows: &|_| Traces::new(), proves: true };
         let mut kept = BTreeSet::new();
         keep("x b", &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)), 0..2, &mut kept, &mut now, &judge);
         assert_eq!((now.looked.text.as_str(), kept.len()), ("o b", 1));

@@ -29,14 +29,14 @@ pub struct Method {
 
 /// How a method is drawn.
 #[derive(Clone, Copy)]
-struct Look {
+struct MarkerStyle {
     index: usize,
     hollow: bool,
 }
 
-impl Look {
-    fn of_method(index: usize, method: &Method) -> Look {
-        Look { index: method.echo.unwrap_or(index), hollow: method.echo.is_some() }
+impl MarkerStyle {
+    fn of_method(index: usize, method: &Method) -> MarkerStyle {
+        MarkerStyle { index: method.echo.unwrap_or(index), hollow: method.echo.is_some() }
     }
 }
 
@@ -133,8 +133,10 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
     plot(&mut canvas, chart, &placed, &outer);
     legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, at| {
-        let look =
-            chart.methods.get(index).map_or(Look { index, hollow: false }, |m| Look::of_method(index, m));
+        let look = chart
+            .methods
+            .get(index)
+            .map_or(MarkerStyle { index, hollow: false }, |m| MarkerStyle::of_method(index, m));
         canvas.open(&stroke(look));
         canvas.line(at, (at.0 + STROKE, at.1));
         canvas.close();
@@ -250,14 +252,14 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     for (index, (method, curve)) in chart.methods.iter().zip(&curves).enumerate() {
         let data = path(curve);
         if !data.is_empty() {
-            canvas.named(&stroke(Look::of_method(index, method)), &method.label);
+            canvas.named(&stroke(MarkerStyle::of_method(index, method)), &method.label);
             canvas.path(&data);
             canvas.close();
         }
     }
     let mut wishes = Vec::new();
     for (index, (method, drawn)) in methods.iter().zip(&chart.methods).enumerate() {
-        let look = Look::of_method(index, drawn);
+        let look = MarkerStyle::of_method(index, drawn);
         for (i, run) in method.iter().enumerate() {
             if let Some([low, high]) = run.bar {
                 bar(canvas, look.index, run.at.0, [low, high]);
@@ -292,14 +294,14 @@ fn connected(method: &[Placed]) -> Vec<Vec<Point>> {
     parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
 }
 
-fn stroke(look: Look) -> String {
+fn stroke(look: MarkerStyle) -> String {
     let pattern = if look.hollow { Some("2 3") } else { dash(look.index, false) };
     let pattern = pattern.map(|d| format!(" stroke-dasharray=\"{d}\"")).unwrap_or_default();
     format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{pattern}", colour(look.index))
 }
 
 /// The mark of a run. Its shape goes with the colour, for print without colours.
-fn mark(canvas: &mut Canvas, look: Look, at: Point) {
+fn mark(canvas: &mut Canvas, look: MarkerStyle, at: Point) {
     let [fill, edge] = match look.hollow {
         false => [colour(look.index), "#ffffff"],
         true => ["#ffffff", colour(look.index)],

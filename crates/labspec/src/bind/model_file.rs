@@ -160,3 +160,22 @@ pub fn from_mjcf(d: &Finding, span: Range<usize>) -> Finding {
     let help = if outside { Some(WIDEN.to_string()) } else { d.help.clone() };
     Finding { span, path: Arc::from(""), position: None, help, ..d.clone() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shown_paths_are_short() {
+        for (folder, path, shown) in [
+            ("models", "a.xml", "models/a.xml"),
+            ("models", "../stls/a.stl", "stls/a.stl"),
+            ("a/b", "../../c/d", "c/d"),
+            ("a", "../../c/d", "../c/d"),
+            ("../a", "../c", "../c"),
+            ("..", "../c", "../../c"),
+        ] {
+            assert_eq!(joined(folder, path), shown, "{folder} {path}");
+        }
+    }
+}

@@ -1,21 +1,22 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
 use super::Functions;
-use super::model_file::{Compiled, FilesAround, compile_file, compile_source, read_file};
-use super::parts::{self, Hash, ModelFile, Remembering};
+use super::model_file::{FilesAround, compile_source, read_file};
+use super::parts::{self, Hash, ModelFile};
 use crate::finding::{Finding, InFile, Severity};
-use crate::lint::{ModelFolder, lesson_folder, root_of};
+use crate::lint::ModelFolder;
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{SourceFile, Sources, Text};
 use crate::spec::format::Asked;
 use crate::spec::{Lab, ModelSource};
-use labspec_core::xml::{self, FileProblem, Files, Folder, NoFiles, Patch, Refusal};
+use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
+pub(crate) use super::model_file::{Compiled, compile_file};
 pub use super::model_file::{check_model_file, from_mjcf};
 
 /// Models by name, compiled once, and the files they came from. Threads may share them: whoever asks first compiles, the
@@ -207,8 +208,8 @@ impl Models {
     }
 
     fn loaded<T>(&self, name: &str, what: impl Fn(&Loaded) -> T) -> Option<T> {
-        let known = open(&self.compiled).get(name).cloned();
-        let cell = match known {
+        let cached = open(&self.compiled).get(name).cloned();
+        let cell = match cached {
             Some(cell) => cell,
             None if self.folder.has(name) => {
                 open(&self.compiled).entry(name.to_string()).or_default().clone()
@@ -236,20 +237,21 @@ impl Models {
     fn compile(&self, name: &str, path: &Path) -> Loaded {
         // The folder and the file: enough to find it, and the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
-        let shown = format!("{folder}/{name}.xml");
+        let file_name = format!("{folder}/{name}.xml");
         let read = read_file(path, &self.sources);
         let text = read.as_ref().map(SourceFile::text).map_err(String::as_str);
-        let own = |mark| ModelFile { path: String::new(), limit: 0, hash: parts::mark_of_text(mark, text) };
-        let mut made_of: Vec<ModelFile> = self.mark.map(own).into_iter().collect();
+        let main_file =
+            |mark| ModelFile { path: String::new(), limit: 0, hash: parts::mark_of_text(mark, text) };
+        let mut made_of: Vec<ModelFile> = self.mark.map(main_file).into_iter().collect();
         let (model, findings, files) = match read {
             Ok(file) => {
-                let file = SourceFile::new(shown, file.text());
+                let file = SourceFile::new(file_name, file.text());
                 let compiled = compile_file(&file, path, self.folder.root(), &self.sources, self.mark);
                 made_of.extend(compiled.parts);
                 (compiled.model.map(Arc::new), compiled.findings, compiled.files)
             }
             Err(message) => {
-                let file = SourceFile::new(shown, "");
+                let file = SourceFile::new(file_name, "");
                 (None, vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)], vec![file])
             }
         };
@@ -269,8 +271,8 @@ impl Models {
                 let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
                 // The text of a model and the bytes of the same file, attached, have marks of their own.
                 let at = (named, part.path.is_empty(), part.limit);
-                let known = open(&self.marks).get(&at).cloned();
-                let now = known.unwrap_or_else(|| {
+                let cached = open(&self.marks).get(&at).cloned();
+                let now = cached.unwrap_or_else(|| {
                     let now = parts::mark_now(mark, &path, files, &part.path, part.limit);
                     open(&self.marks).insert(at, now.clone());
                     now
@@ -362,20 +364,6 @@ mod tests {
         assert_eq!(offered(&format!(r#"{{"xml": "{model}", "trail": "to|"}}"#)), ["top"]);
         for none in [r#"{"model": "rid", "trail": "|"}"#, r#"{"xml": "<mujoco", "trail": "|"}"#] {
             assert_eq!(offered(none), Vec::<String>::new());
-        }
-    }
-
-    #[test]
-    fn shown_paths_are_short() {
-        for (folder, path, shown) in [
-            ("models", "a.xml", "models/a.xml"),
-            ("models", "../stls/a.stl", "stls/a.stl"),
-            ("a/b", "../../c/d", "c/d"),
-            ("a", "../../c/d", "../c/d"),
-            ("../a", "../c", "../c"),
-            ("..", "../c", "../../c"),
-        ] {
-            assert_eq!(joined(folder, path), shown, "{folder} {path}");
         }
     }
 }

@@ -219,8 +219,8 @@ impl ClaimChecker<'_> {
         let Some(ResolvedLabs { base, runs }) =
             resolve_labs(self.lesson, self.ready, verify, own, &self.stage, findings)
         else {
-            let told = findings.len() > before;
-            let reason = if told { "a run cannot be made" } else { "its lab cannot run" };
+            let reported = findings.len() > before;
+            let reason = if reported { "a run cannot be made" } else { "its lab cannot run" };
             return verify::unmade(verify, question, reason);
         };
         for (run, scenes) in verify.runs.iter().zip(&runs) {

@@ -27,7 +27,7 @@ pub(super) fn check_contact_times(ready: &Ready<'_>, findings: &mut Vec<Finding>
     }
     let Some((slot, time, step)) = late(ready, &effects.ctx_writes) else { return };
     let name = ready.programs.globals.name(slot);
-    let said = |x: f64| digits(x, 6);
+    let printed = |x: f64| digits(x, 6);
     findings.push(
         Finding::new(
             rules::CONTACT_TIME_LATE,
@@ -36,8 +36,8 @@ pub(super) fn check_contact_times(ready: &Ready<'_>, findings: &mut Vec<Finding>
         )
         .why(format!(
             "in a run, a contact of the positions at {} s sets it to {}: a step finds contacts at its start, but `data.time` is already the time of its end",
-            said(time - step),
-            said(time)
+            printed(time - step),
+            printed(time)
         ))
         .help("store `data.time - model.opt.timestep`"),
     );

@@ -168,8 +168,8 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcom
 /// All labs that claims of a lesson are about. What is wrong with them has been told.
 fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<Ready<'l>> {
     let labs = lesson.all_labs().into_iter();
-    let own = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
-    own.chain(beside(lesson, models)).collect()
+    let prepared = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
+    prepared.chain(beside(lesson, models)).collect()
 }
 
 /// The labs of claims that are none of the lesson's own: those of other lessons, and one in which nothing is, for formulas.

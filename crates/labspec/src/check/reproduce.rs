@@ -132,10 +132,10 @@ fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
     let Some(plain) = Model::from_xml("<mujoco/>").ok() else { return BTreeMap::new() };
     let fields = || reflect::fields().filter(|f| f.info().object == Object::Option);
     let [own, plain] = [model, &plain].map(|m| numbers(m, fields()));
-    let told = |name: &&'static str| TOLD.contains(name);
+    let is_reported = |name: &&'static str| TOLD.contains(name);
     own.into_iter()
         .zip(plain)
-        .filter(|((name, now), (_, default))| now != default && !told(name))
+        .filter(|((name, now), (_, default))| now != default && !is_reported(name))
         .map(|(own, _)| own)
         .collect()
 }

@@ -157,9 +157,10 @@ fn wrong_control(
     let message =
         format!("the control stores a value in {}, but {field} is in {}", written(&found), written(&wanted));
     let at = bound.text.span_of(stored.span.into());
-    let told = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "it stores this");
+    let finding = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "it stores this");
     Some(
-        told.why(why(&found, &wanted))
+        finding
+            .why(why(&found, &wanted))
             .help("convert `value` where it is stored, or write the unit of the field"),
     )
 }

@@ -1,21 +1,10 @@
 //! Laws of the parser: acceptance is that of `serde_json`, places are those of `jsonc-parser`, and nothing is a panic, a hang, or
 //! silence.
 
-use super::tests::{run, to_serde};
+use super::tests::{floats, run, to_serde};
 use super::*;
-use crate::source::SourceMap;
 use proptest::prelude::*;
 use std::ops::Range;
-
-fn floats(value: serde_json::Value) -> serde_json::Value {
-    use serde_json::Value;
-    match value {
-        Value::Number(n) => n.as_f64().unwrap().into(),
-        Value::Array(items) => items.into_iter().map(floats).collect(),
-        Value::Object(map) => Value::Object(map.into_iter().map(|(k, v)| (k, floats(v))).collect()),
-        other => other,
-    }
-}
 
 /// Places of all values and keys, in order.
 fn places(node: &Node, all: &mut Vec<Range<usize>>) {

@@ -30,11 +30,11 @@ pub fn parse(text: &str, below: &SourceMap) -> Parsed {
     let node = parser.root().unwrap_or(None);
     let broken = parser.broken;
     let mut problems = std::mem::take(&mut parser.placed);
-    let mut said = parser.finish();
+    let mut reported = parser.finish();
     if broken {
-        try_repairs(text, &mut said);
+        try_repairs(text, &mut reported);
     }
-    problems.extend(said.into_iter().map(|p| p.below(below)));
+    problems.extend(reported.into_iter().map(|p| p.below(below)));
     problems.sort_by_key(|p| p.span.start);
     problems.truncate(MAX_MISTAKES);
     Parsed { node, problems, broken }

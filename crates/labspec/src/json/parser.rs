@@ -1,7 +1,7 @@
 //! The state of reading: the text, the place in it, the brackets that are open, and the mistakes that were reported.
 
 use super::MAX_MISTAKES;
-use super::problem::{self, Change, Mistake, Problem, RepeatedMistake};
+use super::problem::{self, Mistake, Problem, RepeatedMistake, TextChange};
 use crate::source::SourceMap;
 use std::ops::Range;
 
@@ -21,7 +21,7 @@ pub(super) struct Parser<'a> {
     pub(super) broken: bool,
     /// Spans are bytes of `text`.
     said: Vec<Problem>,
-    pub(super) changes: [Vec<Vec<Change>>; 3],
+    pub(super) changes: [Vec<Vec<TextChange>>; 3],
     /// Problems whose spans are bytes of the file.
     pub(super) placed: Vec<Problem>,
     /// The end of the text was met inside of brackets, and said.
@@ -113,7 +113,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A mistake that is told together with others of its kind: the changes that repair it.
-    pub(super) fn change(&mut self, kind: RepeatedMistake, changes: Vec<Change>) {
+    pub(super) fn change(&mut self, kind: RepeatedMistake, changes: Vec<TextChange>) {
         self.broken = true;
         if let Some(list) = self.changes.get_mut(kind as usize) {
             list.push(changes);

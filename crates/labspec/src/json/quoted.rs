@@ -4,7 +4,7 @@
 //! should have ended it is missing; which of the two is decided by what surrounds it.
 
 use super::parser::Parser;
-use super::problem::{self, Change, Mistake, RepeatedMistake};
+use super::problem::{self, Mistake, RepeatedMistake, TextChange};
 use super::strings::{Trouble, decode};
 use crate::markdown::is_typographic;
 use crate::source::{SourceMap, Text};
@@ -41,9 +41,9 @@ impl Parser<'_> {
             self.say(problem::string_open(start, inside.end, last, quote == '"'));
         }
         let decoded = decode(self.text.get(inside.clone()).unwrap_or(""));
-        let mut lines: Vec<Change> = Vec::new();
-        let mut inner: Vec<Change> = Vec::new();
-        let mut changes: Vec<Change> = Vec::new();
+        let mut lines: Vec<TextChange> = Vec::new();
+        let mut inner: Vec<TextChange> = Vec::new();
+        let mut changes: Vec<TextChange> = Vec::new();
         if quote != '"' {
             changes.push((start..inside.start, "\"".into()));
         }

@@ -363,3 +363,13 @@ pub(super) fn to_serde(node: &Node) -> serde_json::Value {
         }
     }
 }
+
+pub(super) fn floats(value: serde_json::Value) -> serde_json::Value {
+    use serde_json::Value;
+    match value {
+        Value::Number(n) => n.as_f64().unwrap().into(),
+        Value::Array(items) => items.into_iter().map(floats).collect(),
+        Value::Object(map) => Value::Object(map.into_iter().map(|(k, v)| (k, floats(v))).collect()),
+        other => other,
+    }
+}

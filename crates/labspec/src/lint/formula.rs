@@ -193,9 +193,9 @@ pub(super) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
             continue;
         };
         let from = lesson.scan.inline_code.partition_point(|c| c.start < range.start);
-        let own = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
-        let own = own.map(|c| c.start - range.start..c.end - range.start);
-        let found = faults(&without_code(paragraph, own), true, &mut 0).into_iter().take(MAX_IN_TEXT);
+        let code_spans = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
+        let code_spans = code_spans.map(|c| c.start - range.start..c.end - range.start);
+        let found = faults(&without_code(paragraph, code_spans), true, &mut 0).into_iter().take(MAX_IN_TEXT);
         findings.extend(found.map(|(at, said)| finding(range.start + at.start..range.start + at.end, said)));
     }
 }

@@ -7,7 +7,7 @@ use crate::json::{MAX_DEPTH, MAX_VALUES, Mistake, Problem};
 use crate::rules;
 
 /// What is said about a problem: message, reason, help, and what the other place is.
-struct Words {
+struct MessageParts {
     message: String,
     why: &'static str,
     help: String,
@@ -15,17 +15,17 @@ struct Words {
 }
 
 /// A message with what to do.
-fn message_with_help(message: impl Into<String>, help: impl Into<String>) -> Words {
-    Words { message: message.into(), why: "", help: help.into(), related: String::new() }
+fn message_with_help(message: impl Into<String>, help: impl Into<String>) -> MessageParts {
+    MessageParts { message: message.into(), why: "", help: help.into(), related: String::new() }
 }
 
-impl Words {
-    fn why(self, why: &'static str) -> Words {
-        Words { why, ..self }
+impl MessageParts {
+    fn why(self, why: &'static str) -> MessageParts {
+        MessageParts { why, ..self }
     }
 
-    fn related(self, label: impl Into<String>) -> Words {
-        Words { related: label.into(), ..self }
+    fn related(self, label: impl Into<String>) -> MessageParts {
+        MessageParts { related: label.into(), ..self }
     }
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn to_finding(problem: &Problem) -> Finding {
         Mistake::Typographic(_) => rules::TYPOGRAPHIC_QUOTE,
         _ => rules::JSON_SYNTAX,
     };
-    let Words { message, why, help, related } = describe(&problem.mistake);
+    let MessageParts { message, why, help, related } = describe(&problem.mistake);
     let mut finding = Finding::new(rule, problem.span.clone(), message).help(help);
     if !why.is_empty() {
         finding = finding.why(why);
@@ -55,7 +55,7 @@ pub(crate) fn to_finding(problem: &Problem) -> Finding {
 const ONE_LINE: &str = "a JSON string must end on the line where it begins";
 
 /// What is said about a mistake: each group of mistakes has its own function.
-fn describe(mistake: &Mistake) -> Words {
+fn describe(mistake: &Mistake) -> MessageParts {
     let groups = [
         describe_limit,
         describe_separator,
@@ -69,7 +69,7 @@ fn describe(mistake: &Mistake) -> Words {
 }
 
 /// Nothing to read, too much of it, or a key that stands twice.
-fn describe_limit(mistake: &Mistake) -> Option<Words> {
+fn describe_limit(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::Nothing => message_with_help("there is no JSON here", "write one JSON object: { … }"),
         Mistake::TooDeep => message_with_help(
@@ -91,7 +91,7 @@ fn describe_limit(mistake: &Mistake) -> Option<Words> {
 }
 
 /// Commas and colons, and keys without what belongs to them.
-fn describe_separator(mistake: &Mistake) -> Option<Words> {
+fn describe_separator(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::CommaMissing => message_with_help(
             "a comma is missing here",
@@ -132,7 +132,7 @@ fn describe_separator(mistake: &Mistake) -> Option<Words> {
 }
 
 /// Brackets.
-fn describe_bracket(mistake: &Mistake) -> Option<Words> {
+fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::OpeningMissing => message_with_help("the opening `{` is missing", "write `{` here"),
         Mistake::Unclosed { open, closing } => {
@@ -178,7 +178,7 @@ fn describe_bracket(mistake: &Mistake) -> Option<Words> {
 }
 
 /// What stands where a value or a key should: comments, words, numbers in another form.
-fn describe_literal(mistake: &Mistake) -> Option<Words> {
+fn describe_literal(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::Comment => {
             message_with_help("JSON has no comments", "delete it, or write it in the text around the fence")
@@ -224,7 +224,7 @@ fn describe_literal(mistake: &Mistake) -> Option<Words> {
 }
 
 /// What stands inside of a text.
-fn describe_string(mistake: &Mistake) -> Option<Words> {
+fn describe_string(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::StringOpen { last: true } => {
             message_with_help("this string is not closed", "close it with `\"`")
@@ -269,7 +269,7 @@ fn describe_string(mistake: &Mistake) -> Option<Words> {
 }
 
 /// Quotes of other kinds, and characters that nobody sees.
-fn describe_quotes(mistake: &Mistake) -> Option<Words> {
+fn describe_quotes(mistake: &Mistake) -> Option<MessageParts> {
     Some(match mistake {
         Mistake::InnerQuotes(count) => message_with_help(
             match count {

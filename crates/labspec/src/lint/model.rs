@@ -38,8 +38,8 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
             let named = finding
                 .help(format!("write the name of the file without folder and extension: {}", shorten(stem)));
             // What the folder does not have is no repair.
-            let known = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
-            if known { named.fix(name.span(), encode(stem)) } else { named }
+            let exists = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
+            if exists { named.fix(name.span(), encode(stem)) } else { named }
         });
     }
     let names = models.names()?;

@@ -96,7 +96,7 @@ pub enum Source {
 #[derive(Clone, Debug)]
 pub struct GrowthMonitor {
     own: Data<Planned>,
-    start: Option<Start>,
+    start: Option<StartEnergy>,
     /// Roots of the diagonal of M, the largest that were seen, and looks until they are seen again.
     roots: Vec<f64>,
     weighed: u32,
@@ -115,7 +115,7 @@ pub struct GrowthMonitor {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Start {
+struct StartEnergy {
     energy: Energy,
     /// What it held, and what lifts everything by the size of the scene, J.
     held: f64,
@@ -207,7 +207,7 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
 }
 
 /// Holds what moves against the start.
-fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start) -> Option<Growth> {
+fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
     let (own, now) = (w.own.fields(), d.fields());
     let same = own.ctrl == now.ctrl
         && own.mocap_pos == now.mocap_pos
@@ -218,7 +218,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
         restart(w, m, d);
         return None;
     }
-    let Start { energy: before, held, lift } = start;
+    let StartEnergy { energy: before, held, lift } = start;
     take(&mut w.own, d);
     let now = mechanical_energy(m, &mut w.own).ok().flatten()?;
     update_inertia_scale(w, m);
@@ -287,7 +287,7 @@ fn take<S: Scope>(own: &mut Data<Planned>, d: &Data<S>) {
 }
 
 /// A start with what it holds: its motion, what is elastic, and what the constraints that it violates push back with.
-fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> Start {
+fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> StartEnergy {
     let d = d.fields();
     let places = d.efc_pos.iter().zip(&d.efc_margin).map(|(pos, margin)| pos - margin);
     let stored = places.zip(rows::<4>(&d.efc_KBIP)).zip(&d.efc_diagA);
@@ -296,7 +296,7 @@ fn start(m: &Model, d: &Data<Planned>, energy: Energy) -> Start {
     let drift = 0.5 * mass * (DRIFT * size) * (DRIFT * size);
     let weight = if m.opt.disabled(disable::GRAVITY) { 0.0 } else { mass * norm(m.opt.gravity) };
     let held = energy.kinetic + energy.elastic.abs() + stored + drift;
-    Start { energy, held, lift: weight * size }
+    StartEnergy { energy, held, lift: weight * size }
 }
 
 /// The diagonal of a box around all bodies and the origin, and the radius of the largest geom that moves, m.

@@ -27,8 +27,8 @@ fn share(a: &str, b: &str) -> bool {
         let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 1);
         parts.map(str::to_lowercase).collect()
     };
-    let known = words(b);
-    a.trim() == b.trim() || words(a).iter().any(|w| known.contains(w)) || known.is_empty()
+    let others = words(b);
+    a.trim() == b.trim() || words(a).iter().any(|w| others.contains(w)) || others.is_empty()
 }
 
 fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {

@@ -31,10 +31,10 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
             }
         }
         let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
-        let shown = code.value.get(first.clone()).unwrap_or("");
+        let quote = code.value.get(first.clone()).unwrap_or("");
         let message = match found.len() {
-            1 => format!("an expression contains the typographic quote {shown}"),
-            n => format!("an expression contains {n} typographic quotes, {shown} is the first"),
+            1 => format!("an expression contains the typographic quote {quote}"),
+            n => format!("an expression contains {n} typographic quotes, {quote} is the first"),
         };
         let part = first.start..last.end;
         let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");

@@ -72,29 +72,29 @@ fn without_zeros(text: String) -> String {
 }
 
 /// The likely cause of what breaks, and what to write instead.
-pub(super) struct Advice {
+pub(super) struct BreakdownAdvice {
     pub(super) cause: Option<String>,
     pub(super) shorter: Shorter,
     pub(super) instead: String,
 }
 
-impl Advice {
+impl BreakdownAdvice {
     /// What to write, and nothing of timesteps.
-    pub(super) fn only(instead: impl Into<String>) -> Advice {
-        Advice { cause: None, shorter: Shorter::No, instead: instead.into() }
+    pub(super) fn only(instead: impl Into<String>) -> BreakdownAdvice {
+        BreakdownAdvice { cause: None, shorter: Shorter::No, instead: instead.into() }
     }
 
     /// A shorter timestep, or something else.
-    pub(super) fn shorter(instead: impl Into<String>) -> Advice {
-        Advice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
+    pub(super) fn shorter(instead: impl Into<String>) -> BreakdownAdvice {
+        BreakdownAdvice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
     }
 
     /// By what of a model is too stiff for its timestep.
-    pub(super) fn by_stiffness(model: &Model) -> Advice {
+    pub(super) fn by_stiffness(model: &Model) -> BreakdownAdvice {
         let Some(worst) = stability::suspects(model).into_iter().next() else {
-            return Advice::shorter("softer contacts or springs, or a smaller range of the control");
+            return BreakdownAdvice::shorter("softer contacts or springs, or a smaller range of the control");
         };
-        Advice {
+        BreakdownAdvice {
             cause: Some(format!(
                 "{} is {} for a step of {} s",
                 owner(model, &worst),
@@ -107,7 +107,7 @@ impl Advice {
     }
 
     pub(super) fn breakdown(self, rule: &'static Rule, what: String, why: &'static str) -> Breakdown {
-        let Advice { cause, shorter, instead } = self;
+        let BreakdownAdvice { cause, shorter, instead } = self;
         Breakdown { rule, what, why, cause, shorter, instead }
     }
 }

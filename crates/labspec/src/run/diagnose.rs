@@ -1,6 +1,6 @@
 //! What a session met, as breakdowns: the warnings of the engine, and what goes wrong without one, the worst first.
 
-use super::breakdown::{Advice, Breakdown, joint_of, time};
+use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
 use super::session::Session;
 use super::silent;
 use crate::rules;
@@ -53,25 +53,25 @@ fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Break
             rules::SIMULATION_DIVERGES,
             no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
             RESET,
-            Advice::by_stiffness(model),
+            BreakdownAdvice::by_stiffness(model),
         ),
         Warning::BadQvel => (
             rules::SIMULATION_DIVERGES,
             no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
             RESET,
-            Advice::by_stiffness(model),
+            BreakdownAdvice::by_stiffness(model),
         ),
         Warning::BadQacc => (
             rules::SIMULATION_DIVERGES,
             no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
             RESET,
-            Advice::by_stiffness(model),
+            BreakdownAdvice::by_stiffness(model),
         ),
         Warning::BadCtrl => (
             rules::SIMULATION_DIVERGES,
             no_number(format!("control {}", stat.lastinfo)),
             "MuJoCo then sets all controls to 0: a student sees everything go limp without an explanation",
-            Advice::only("guard the expression for `data.ctrl` with a condition"),
+            BreakdownAdvice::only("guard the expression for `data.ctrl` with a condition"),
         ),
         Warning::Inertia => (
             rules::ENGINE_WARNING,
@@ -80,7 +80,7 @@ fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Break
                 joint(&model.jnt_dofadr, joint::nv)
             ),
             "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
-            Advice::only(
+            BreakdownAdvice::only(
                 "give every moving body a mass and an inertia above 0: check the model, and what writes `body_mass`, `body_inertia` or `dof_armature`",
             ),
         ),
@@ -88,13 +88,13 @@ fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Break
             rules::ENGINE_WARNING,
             format!("there are more contacts than the {} that the engine keeps {at}", stat.lastinfo),
             "the dropped contacts do not push: bodies silently sink into each other",
-            Advice::only("let fewer bodies touch, or move them apart at the start"),
+            BreakdownAdvice::only("let fewer bodies touch, or move them apart at the start"),
         ),
         Warning::ConstraintFull => (
             rules::ENGINE_WARNING,
             format!("there are more contacts, limits and other constraints than the engine keeps {at}"),
             "the dropped constraints do not act: bodies silently sink into each other, and joints pass their limits",
-            Advice::only("let fewer bodies touch, or move them apart at the start"),
+            BreakdownAdvice::only("let fewer bodies touch, or move them apart at the start"),
         ),
     };
     advice.breakdown(rule, what, why)

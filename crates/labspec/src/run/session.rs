@@ -453,8 +453,8 @@ impl<'p> Session<'p> {
     }
 
     fn note(&mut self, rule: &'static Rule, text: &Text, span: std::ops::Range<usize>, message: String) {
-        let known = |t: &Trouble| t.rule == rule && t.span == span && t.text == *text;
-        if !self.troubles.iter().any(known) {
+        let is_noted = |t: &Trouble| t.rule == rule && t.span == span && t.text == *text;
+        if !self.troubles.iter().any(is_noted) {
             let time = self.world.data.time();
             self.troubles.push(Trouble { rule, text: text.clone(), span, message, time });
         }

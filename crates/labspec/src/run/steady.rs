@@ -63,11 +63,11 @@ impl Steady {
 
     /// Keeps how things are after a run that did this work. Without it, another run follows.
     pub(super) fn keep(&mut self, world: &World, context: &Context, work: Option<u64>) {
-        let mut kept = std::mem::take(&mut self.kept);
-        kept.clear();
-        kept.extend(self.now(world, context).map_while(|number| number));
+        let mut numbers = std::mem::take(&mut self.kept);
+        numbers.clear();
+        numbers.extend(self.now(world, context).map_while(|number| number));
         self.work = work.filter(|_| self.now(world, context).all(|number| number.is_some()));
-        self.kept = kept;
+        self.kept = numbers;
     }
 
     /// All that it looks at, as bits; nothing for what is no number.

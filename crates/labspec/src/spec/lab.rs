@@ -206,8 +206,8 @@ impl Lab {
 
     /// Every text that is code, with what it is, in the order of the lab format's table.
     pub fn code(&self) -> Vec<(Form, &Text)> {
-        let own = [&self.setup, &self.controller].into_iter().flatten();
-        let mut all: Vec<(Form, &Text)> = own.map(|t| (Form::Statements, t)).collect();
+        let statements = [&self.setup, &self.controller].into_iter().flatten();
+        let mut all: Vec<(Form, &Text)> = statements.map(|t| (Form::Statements, t)).collect();
         for control in &self.controls {
             if let super::ControlKind::Button { run } = &control.kind {
                 all.push((Form::Statements, run));

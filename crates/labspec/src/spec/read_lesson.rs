@@ -38,8 +38,8 @@ pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> R
         Some(lab) => Ok(lab.clone()),
         None => {
             let all: Vec<String> = lesson.addressed().iter().take(12).map(|(a, _)| a.to_string()).collect();
-            let known = if all.is_empty() { "no labs".to_string() } else { all.join(", ") };
-            Err(format!("{path} has no lab {address}: it has {known}"))
+            let available = if all.is_empty() { "no labs".to_string() } else { all.join(", ") };
+            Err(format!("{path} has no lab {address}: it has {available}"))
         }
     }
 }

@@ -59,8 +59,8 @@ fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Op
         return Some(all);
     };
     let used = whole(lesson, used, depth - 1, left)?;
-    let own = lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()));
-    all.lab = all.lab.or(used.lab).or(own);
+    let reference = lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()));
+    all.lab = all.lab.or(used.lab).or(reference);
     add(&mut all.runs, used.runs, |run| &run.name);
     add(&mut all.measure, used.measure, |(name, _)| name);
     add(&mut all.find, used.find, |find| &find.name);

@@ -9,7 +9,7 @@ use super::outcome::{Outcome, RunOutcome};
 use super::reads;
 use super::run_cache::{BoundLab, Stage};
 use super::run_result::RunResult;
-use super::runner::{self, Asked};
+use super::runner::{self, RunRequest};
 use super::value_kind::{ValueKind, kind_of};
 use crate::bind::{ModelNames, Scope, to_finding};
 use crate::finding::Finding;
@@ -142,16 +142,16 @@ impl<'a> BoundVerify<'a> {
     /// Of which kind each number is.
     pub(super) fn kinds(&self) -> &[ValueKind] {
         self.kinds.get_or_init(|| {
-            let mut known: BTreeMap<(usize, &str), ValueKind> = BTreeMap::new();
+            let mut cached: BTreeMap<(usize, &str), ValueKind> = BTreeMap::new();
             let mut measure = |run: usize, m: usize| {
                 let (named, scene) = (self.measure_at(run, m)?, self.runs.get(run)?.scene);
                 let kind = |session: &mut Session<'a>| kind_of(named, &session.world, &session.context);
                 let place = (scene, named.text.as_str());
-                if let Some(known) = known.get(&place) {
-                    return Some(*known);
+                if let Some(cached) = cached.get(&place) {
+                    return Some(*cached);
                 }
                 let kind = self.idle_in(scene, kind)?;
-                known.insert(place, kind);
+                cached.insert(place, kind);
                 Some(kind)
             };
             let mut one = |slot: &Slot| match *slot {
@@ -216,28 +216,28 @@ impl<'a> BoundVerify<'a> {
     /// Compiles a measure for every lab. One that has no meaning in some of them is not taken there; one that has a meaning in none
     /// is told of the first.
     fn measure(&mut self, name: &'a str, text: &'a Text, findings: &mut Vec<Finding>) -> bool {
-        let mut told: Option<Vec<Finding>> = None;
-        let mut known = false;
+        let mut reported: Option<Vec<Finding>> = None;
+        let mut has_meaning = false;
         for bound in &mut self.scenes {
             let mut globals = bound.globals.clone();
             let compiled = Compiler::new(&bound.names(Scope::Measure), &mut globals).expression(&text.value);
             bound.globals = globals;
-            let said = || compiled.diagnostics.iter().map(|d| to_finding(d, text)).collect();
-            if told.is_none() || (!known && compiled.program.is_some()) {
-                told = Some(said());
+            let diagnostics = || compiled.diagnostics.iter().map(|d| to_finding(d, text)).collect();
+            if reported.is_none() || (!has_meaning && compiled.program.is_some()) {
+                reported = Some(diagnostics());
             }
-            known |= compiled.program.is_some();
+            has_meaning |= compiled.program.is_some();
             bound.measures.extend(compiled.program.map(|program| (name, CompiledText { text, program })));
         }
-        findings.extend(told.into_iter().flatten());
-        known
+        findings.extend(reported.into_iter().flatten());
+        has_meaning
     }
 
     /// The labs of every run, as [`BoundVerify::new`] takes them.
     pub(super) fn labs(&self) -> Vec<Vec<BoundLab<'a>>> {
         let of = |run: &'a Run| {
-            let own = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
-            own.filter_map(|b| self.scene_of(b).map(|s| s.scene.clone())).collect()
+            let members = self.runs.iter().filter(|b| b.spec.is_some_and(|spec| std::ptr::eq(spec, run)));
+            members.filter_map(|b| self.scene_of(b).map(|s| s.scene.clone())).collect()
         };
         self.verify.runs.iter().map(of).collect()
     }
@@ -306,7 +306,7 @@ impl<'a> BoundVerify<'a> {
         findings: &mut Vec<Finding>,
     ) -> Option<RunResult> {
         let place = run.spec.map_or(self.verify.span.clone(), |r| r.name.span());
-        let asked = Asked { scene: self.scene_of(run)?, run, numerics, measures, place };
+        let asked = RunRequest { scene: self.scene_of(run)?, run, numerics, measures, place };
         runner::perform(&asked, self.stage, findings)
     }
 

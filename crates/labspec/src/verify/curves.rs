@@ -3,7 +3,7 @@
 use super::bound::BoundVerify;
 use super::bound_run::BoundRun;
 use super::run_cache::Stage;
-use super::runner::{self, Asked};
+use super::runner::{self, RunRequest};
 use crate::run::{Session, StepVariant};
 use crate::spec::Plot;
 use labspec_expr::Value;
@@ -30,7 +30,7 @@ pub struct Curves {
 }
 
 /// Makes a run once more and looks at the lab. `None` where it cannot be made, or has no trace.
-fn record_curves(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
+fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
     let scene = &asked.scene.scene;
     let (lab, programs) = (&*scene.lab, &*scene.programs);
     let traces = lab.traces().count();
@@ -80,7 +80,7 @@ impl<'a> BoundVerify<'a> {
     pub(crate) fn curves(&self, most: usize) -> Vec<Curves> {
         let one = |run: &BoundRun<'a>| {
             let (scene, place) = (self.scene_of(run)?, self.verify.span.clone());
-            let asked = Asked { scene, run, numerics: StepVariant::NOMINAL, measures: &[], place };
+            let asked = RunRequest { scene, run, numerics: StepVariant::NOMINAL, measures: &[], place };
             record_curves(&asked, self.stage)
         };
         self.runs.iter().take(most).filter_map(one).collect()

@@ -92,7 +92,7 @@ pub(super) fn could_differ(
         inputs.copy(nominal);
         all.push(tried);
     }
-    let mut together = Together { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
+    let mut together = JointDraws { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
     if together.differs(FIRST, now, says) {
         return true;
     }
@@ -143,7 +143,7 @@ fn values_to_try(
 }
 
 /// Changes several numbers at once: each stays, is one of its values, or that of another number.
-struct Together<'t> {
+struct JointDraws<'t> {
     nominal: &'t ClaimInputs,
     places: &'t [usize],
     kinds: &'t [ValueKind],
@@ -151,7 +151,7 @@ struct Together<'t> {
     draws: Draws,
 }
 
-impl Together<'_> {
+impl JointDraws<'_> {
     /// Whether one of so many further draws changes what a claim says.
     fn differs(&mut self, count: usize, now: Outlook, says: &mut Says<'_>) -> bool {
         if self.places.len() < 2 {

@@ -215,8 +215,8 @@ fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
         .map(|b| &b.program)
         .chain(programs.probes.iter().filter_map(|p| p.bound.as_ref()).map(|b| &b.program));
     for program in running.map(Program::effects) {
-        let kept = |slot: &u32| program.any_ctx || program.ctx_writes.contains(slot);
-        if effects.any_ctx || effects.ctx_reads.iter().any(kept) {
+        let may_write = |slot: &u32| program.any_ctx || program.ctx_writes.contains(slot);
+        if effects.any_ctx || effects.ctx_reads.iter().any(may_write) {
             return Some("a variable of `ctx` that the lab writes while it runs".to_string());
         }
         let written =

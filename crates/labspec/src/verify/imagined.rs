@@ -126,8 +126,9 @@ impl BoundVerify<'_> {
             }
         }
         let measures = self.measures_of(claim);
-        let own = claim.program.as_ref().filter(|p| !p.aggregates().is_empty());
-        let mut runs: Vec<usize> = measures.iter().map(|(_, run, _)| *run).chain(own.map(|_| 0)).collect();
+        let on_the_spot = claim.program.as_ref().filter(|p| !p.aggregates().is_empty());
+        let mut runs: Vec<usize> =
+            measures.iter().map(|(_, run, _)| *run).chain(on_the_spot.map(|_| 0)).collect();
         runs.sort_unstable();
         runs.dedup();
         let nowhere = Text { map: SourceMap::whole(0, 0..0), value: String::new() };
@@ -140,7 +141,7 @@ impl BoundVerify<'_> {
                 let mut imagined = Imagined { host, context: session.context.clone() };
                 let mut running: Vec<Measure<'_>> =
                     here().map(|(.., m)| Measure::new(&m.program, m.text)).collect();
-                let mut parts = own.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
+                let mut parts = on_the_spot.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
                 let mut time = 0.0;
                 for sample in 0..samples as u64 {
                     imagined.host.seeds = [seed, seed ^ (sample + 1) << 40];

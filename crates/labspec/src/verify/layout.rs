@@ -83,8 +83,9 @@ impl Layout {
                             VALUE => Slot::Swept(*i),
                             WARNINGS => Slot::Warnings(*i),
                             _ => {
-                                let own = runs.get(*i).map_or(&[][..], |(.., measures)| measures);
-                                own.iter()
+                                let measures_of_run = runs.get(*i).map_or(&[][..], |(.., measures)| measures);
+                                measures_of_run
+                                    .iter()
                                     .position(|m| m == name)
                                     .map_or(Slot::Missing, |m| Slot::Measure(*i, m))
                             }
@@ -128,8 +129,8 @@ impl Layout {
                 units.get(*run).and_then(|own| own.get(*m)).map_or(Measure::Unknown, |(_, measure)| *measure)
             }
             Some(Slot::Swept(run)) => {
-                let own = units.get(*run).and_then(|own| own.iter().find(|(name, _)| name == VALUE));
-                own.map_or(Measure::Unknown, |(_, measure)| *measure)
+                let of_run = units.get(*run).and_then(|own| own.iter().find(|(name, _)| name == VALUE));
+                of_run.map_or(Measure::Unknown, |(_, measure)| *measure)
             }
             _ => Measure::Unknown,
         }

@@ -147,8 +147,8 @@ impl<'a> Stage<'a> {
             return None;
         }
         let with = |x: &f64| {
-            let own = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
-            let patches: Vec<_> = patches.iter().cloned().chain([own]).collect();
+            let patch = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
+            let patches: Vec<_> = patches.iter().cloned().chain([patch]).collect();
             self.changed(base, &patches, key, controller, findings)
         };
         values.iter().map(with).collect()

@@ -1,6 +1,6 @@
 //! The correction of partners behind programs, and behind changes of a model's text.
 
-use super::change::Change;
+use super::change::PartnerChange;
 use super::pair_set::{PairSet, writes_field};
 use super::table::PAIRS;
 use crate::source::Text;
@@ -95,7 +95,7 @@ fn correct_partners(pairs: PairSet, before: &Model, world: &mut World) -> Result
 
 /// Corrects partners: `None` where nothing was wrong, `true` where constants follow from what was.
 fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
-    let mut changes: Vec<(FieldId, usize, Change)> = Vec::new();
+    let mut changes: Vec<(FieldId, usize, PartnerChange)> = Vec::new();
     for (_, pair) in pairs.pairs() {
         changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (pair.partner, i, c)));
     }
@@ -103,9 +103,9 @@ fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<O
     for (partner, index, change) in changes {
         let Some(old) = core::element(&world.model, &world.data, partner, index) else { continue };
         let new = match change {
-            Change::Times(f) => old * f,
-            Change::Plus(x) => old + x,
-            Change::Becomes(x) => x,
+            PartnerChange::Times(f) => old * f,
+            PartnerChange::Plus(x) => old + x,
+            PartnerChange::Becomes(x) => x,
         };
         core::view_mut(&mut world.model, &mut world.data, partner)?.set(index, new);
         inertial = Some(inertial == Some(true) || partner.info().kind == Kind::Inertial);

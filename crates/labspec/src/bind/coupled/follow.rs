@@ -1,6 +1,6 @@
 //! How the partner of each pair follows from what a program did: the model before and after it.
 
-use super::change::{Change, Changes};
+use super::change::{Changes, PartnerChange};
 use super::shape;
 use labspec_core::math::{norm, rows, sub};
 use labspec_core::{Model, biastype, gaintype};
@@ -30,7 +30,7 @@ pub(super) fn inertia_of_mass(before: &Model, now: &Model) -> Changes {
     for body in (1..now.nbody).filter(|b| !same(mass, *b)) {
         let Some(f) = factor(mass, body) else { continue };
         let unwritten = (3 * body..3 * body + 3).filter(|i| same(inertia, *i));
-        changes.extend(unwritten.map(|i| (i, Change::Times(f))));
+        changes.extend(unwritten.map(|i| (i, PartnerChange::Times(f))));
     }
     changes
 }
@@ -72,7 +72,7 @@ pub(super) fn mass_of_inertia(before: &Model, now: &Model) -> Changes {
     let one = |body: usize| {
         let (a, b, factor) = moments(before, now, body)?;
         let wrong = same(mass, body) && !too_large(before, body, a) && too_large(now, body, b);
-        wrong.then_some((body, Change::Times(factor)))
+        wrong.then_some((body, PartnerChange::Times(factor)))
     };
     (1..now.nbody).filter_map(one).collect()
 }
@@ -89,7 +89,7 @@ pub(super) fn other_moments(before: &Model, now: &Model) -> Changes {
         let Some((a, b, factor)) = moments(before, now, body) else { continue };
         if possible(a) && !possible(b) {
             let unwritten = (3 * body..3 * body + 3).filter(|i| same(inertia, *i));
-            changes.extend(unwritten.map(|i| (i, Change::Times(factor))));
+            changes.extend(unwritten.map(|i| (i, PartnerChange::Times(factor))));
         }
     }
     changes
@@ -110,7 +110,8 @@ pub(super) fn bound_of_size(before: &Model, now: &Model) -> Changes {
     let bounds = (&*before.geom_rbound, &*now.geom_rbound);
     let one = |g: usize| {
         let radius = shape::shape_of_geom(now, g)?.radius;
-        (same(bounds, g) && now.geom_rbound.get(g) != Some(&radius)).then_some((g, Change::Becomes(radius)))
+        (same(bounds, g) && now.geom_rbound.get(g) != Some(&radius))
+            .then_some((g, PartnerChange::Becomes(radius)))
     };
     changed(before, now, |m| &m.geom_size).filter_map(one).collect()
 }
@@ -125,7 +126,7 @@ pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
         let (Some(old), Some(new)) = (old, new) else { continue };
         let elements = 3 * body..3 * body + 3;
         for ((i, a), b) in elements.zip(old).zip(new).filter(|((i, _), _)| same(inertia, *i)) {
-            changes.push((i, Change::Times(b / a)));
+            changes.push((i, PartnerChange::Times(b / a)));
         }
     }
     changes
@@ -140,7 +141,7 @@ pub(super) fn centre_of_place(before: &Model, now: &Model) -> Changes {
         for axis in 0..3 {
             let Some((a, b)) = at(place, 3 * g + axis).filter(|(a, b)| a != b) else { continue };
             if same(centre, 3 * body + axis) {
-                changes.push((3 * body + axis, Change::Plus(b - a)));
+                changes.push((3 * body + axis, PartnerChange::Plus(b - a)));
             }
         }
     }
@@ -167,7 +168,7 @@ pub(super) fn bias_of_gain(before: &Model, now: &Model) -> Changes {
     let one = |actuator: usize| {
         let (first, of_bias) = (PARAMETERS * actuator, servo(before, actuator)?);
         let wrong = !same(gain, first) && same(bias, of_bias);
-        wrong.then_some((of_bias, Change::Becomes(-*gain.1.get(first)?)))
+        wrong.then_some((of_bias, PartnerChange::Becomes(-*gain.1.get(first)?)))
     };
     (0..now.nactuator).filter_map(one).collect()
 }
@@ -177,7 +178,7 @@ pub(super) fn gain_of_bias(before: &Model, now: &Model) -> Changes {
     let one = |actuator: usize| {
         let (first, of_bias) = (PARAMETERS * actuator, servo(before, actuator)?);
         let wrong = same(gain, first) && !same(bias, of_bias);
-        wrong.then_some((first, Change::Becomes(-*bias.1.get(of_bias)?)))
+        wrong.then_some((first, PartnerChange::Becomes(-*bias.1.get(of_bias)?)))
     };
     (0..now.nactuator).filter_map(one).collect()
 }

@@ -13,14 +13,14 @@ fn over_moments(body: usize, statement: &str) -> String {
 pub(super) fn inertia_of_mass(s: &mut Statements<'_>, bodies: &[usize]) -> Option<()> {
     s.repair.constants = true;
     if bodies.is_empty() {
-        let kept = s.keep("m", "model.body_mass.slice()");
+        let masses = s.keep("m", "model.body_mass.slice()");
         s.add(format!(
-            "for (let b = 1; b < model.nbody; b++) for (let i = 3 * b; i < 3 * b + 3; i++) if ({kept}[b] > 0) model.body_inertia[i] *= model.body_mass[b] / {kept}[b]"
+            "for (let b = 1; b < model.nbody; b++) for (let i = 3 * b; i < 3 * b + 3; i++) if ({masses}[b] > 0) model.body_inertia[i] *= model.body_mass[b] / {masses}[b]"
         ));
     }
     for body in bodies {
-        let kept = s.keep("m", &format!("model.body_mass[{body}]"));
-        s.add(over_moments(*body, &format!("*= model.body_mass[{body}] / {kept}")));
+        let mass = s.keep("m", &format!("model.body_mass[{body}]"));
+        s.add(over_moments(*body, &format!("*= model.body_mass[{body}] / {mass}")));
     }
     Some(())
 }
@@ -78,8 +78,8 @@ pub(super) fn inertia_of_size(s: &mut Statements<'_>, written: &[usize]) -> Opti
         };
         let turned = shape::to_axes(s.model, g, body)?;
         for (axis, row) in turned.chunks(3).enumerate() {
-            let own = row.iter().position(|x| x.abs() > 0.999)?;
-            s.add(format!("model.body_inertia[{}] = {}", 3 * body + axis, moments.get(own)?));
+            let column = row.iter().position(|x| x.abs() > 0.999)?;
+            s.add(format!("model.body_inertia[{}] = {}", 3 * body + axis, moments.get(column)?));
         }
     }
     Some(())
@@ -92,8 +92,8 @@ pub(super) fn centre_of_place(s: &mut Statements<'_>, written: &[usize]) -> Opti
     }
     for place in written {
         let body = shape::carried(s.model, place / 3)?;
-        let kept = s.keep("p", &format!("model.geom_pos[{place}]"));
-        s.add(format!("model.body_ipos[{}] += model.geom_pos[{place}] - {kept}", 3 * body + place % 3));
+        let position = s.keep("p", &format!("model.geom_pos[{place}]"));
+        s.add(format!("model.body_ipos[{}] += model.geom_pos[{place}] - {position}", 3 * body + place % 3));
     }
     Some(())
 }

@@ -16,11 +16,12 @@ const WORDS: [&str; 3] = ["starts at rest", "begins at rest", "in equilibrium"];
 pub(super) fn check_at_rest(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     let texts: [Option<&Text>; 2] = [ready.lab.title.as_ref(), ready.lab.note.as_ref()];
-    let said = |text: &&Text| {
+    let speaks_of_rest = |text: &&Text| {
         let text = text.as_str().to_lowercase();
         WORDS.iter().any(|w| text.contains(w))
     };
-    let (Some(text), Some(key)) = (texts.into_iter().flatten().find(said), ready.lab.keyframe()) else {
+    let (Some(text), Some(key)) = (texts.into_iter().flatten().find(speaks_of_rest), ready.lab.keyframe())
+    else {
         return;
     };
     let mut session = observed.bench.start();

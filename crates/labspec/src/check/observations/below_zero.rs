@@ -24,8 +24,8 @@ const ROUNDING: f64 = -1e-9;
 pub(super) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let lab = observed.bench.ready.lab;
     let traces = lab.traces().map(|t| (&t.label, &t.expr));
-    let shown = traces.chain(lab.readouts.iter().map(|r| (&r.label, &r.expr)));
-    for (i, (label, expr)) in shown.enumerate() {
+    let displayed = traces.chain(lab.readouts.iter().map(|r| (&r.label, &r.expr)));
+    for (i, (label, expr)) in displayed.enumerate() {
         let (label, text) = (label.as_str(), expr.as_str());
         let bars = label.starts_with('|') && label.matches('|').count() == 2;
         let of_kind = |(word, code, _): &&(&str, &str, &str)| names(label, word) && text.contains(code);

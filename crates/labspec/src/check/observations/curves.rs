@@ -51,14 +51,14 @@ pub(super) fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Fi
             columns.clone().map(|c| constant(column(observed.records, c)).is_some()).collect();
         for (i, c) in columns.clone().enumerate() {
             let Some(trace) = plot.traces.get(i) else { continue };
-            let told = if still.get(i) == Some(&true) {
+            let finding = if still.get(i) == Some(&true) {
                 let others = still.iter().any(|s| !s);
                 frozen(observed, c, others).map(|f| f.at_trace(&trace.expr, rules::CONSTANT_TRACE))
             } else {
                 let twin = (columns.start..c).find(|other| is_twin(observed, *other, c));
                 let twin = twin.and_then(|other| plot.traces.get(other - columns.start));
                 twin.map(|other| {
-                    Told {
+                    CurveReport {
                         message: format!(
                             "\"{}\" and \"{}\" are the same curve",
                             other.label.value, trace.label.value
@@ -73,7 +73,7 @@ pub(super) fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Fi
                     .related(other.expr.span(), "the curve that it covers")
                 })
             };
-            match told {
+            match finding {
                 Some(finding) => findings.push(finding),
                 None => findings
                     .extend(outside(observed, plot, c).map(|t| t.at_trace(&trace.expr, rules::OUTSIDE_PLOT))),
@@ -83,20 +83,20 @@ pub(super) fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Fi
 }
 
 /// The words of a finding.
-struct Told {
+struct CurveReport {
     message: String,
     why: String,
     help: String,
 }
 
-impl Told {
+impl CurveReport {
     fn at_trace(self, text: &crate::source::Text, rule: &rules::Rule) -> Finding {
         Finding::warning(rule, text.span(), self.message).why(self.why).help(self.help)
     }
 }
 
 /// A trace that shows one number, whatever happens; `others` says that its plot has curves that move.
-fn frozen(observed: &mut ObservedLab<'_>, c: usize, others: bool) -> Option<Told> {
+fn frozen(observed: &mut ObservedLab<'_>, c: usize, others: bool) -> Option<CurveReport> {
     let ready = observed.bench.ready;
     let probe = ready.programs.probes.get(c.checked_sub(1)?)?;
     let effects = probe.bound.as_ref()?.program.effects();
@@ -108,8 +108,8 @@ fn frozen(observed: &mut ObservedLab<'_>, c: usize, others: bool) -> Option<Told
     if others && !data && place.is_none() {
         return None;
     }
-    let shown = constant(column(observed.records, c))?.clone();
-    if !observed.perturbed_rows().iter().filter_map(|row| row.get(c)).all(|cell| same(cell, &shown)) {
+    let value = constant(column(observed.records, c))?.clone();
+    if !observed.perturbed_rows().iter().filter_map(|row| row.get(c)).all(|cell| same(cell, &value)) {
         return None;
     }
     let help = match place.filter(|_| !data) {
@@ -120,8 +120,8 @@ fn frozen(observed: &mut ObservedLab<'_>, c: usize, others: bool) -> Option<Told
             "check the name and the index that it reads; use `refLines` for an intended constant line".into()
         }
     };
-    Some(Told {
-        message: format!("this trace is always {}", digits(shown.number(), 6)),
+    Some(CurveReport {
+        message: format!("this trace is always {}", digits(value.number(), 6)),
         why: format!(
             "it is the same to the last bit in {}, and also from other states of the scene",
             observed.runs()
@@ -150,7 +150,7 @@ fn is_twin(observed: &mut ObservedLab<'_>, a: usize, b: usize) -> bool {
 }
 
 /// A curve that lies outside of its plot for most of the time, in every run.
-fn outside(observed: &ObservedLab<'_>, plot: &Plot, c: usize) -> Option<Told> {
+fn outside(observed: &ObservedLab<'_>, plot: &Plot, c: usize) -> Option<CurveReport> {
     // One end alone may be there to cut off what is beyond it.
     let (low, high) = (plot.ymin.as_ref()?.value, plot.ymax.as_ref()?.value);
     if low >= high {
@@ -164,19 +164,19 @@ fn outside(observed: &ObservedLab<'_>, plot: &Plot, c: usize) -> Option<Told> {
     };
     let first = observed.records.first()?;
     let most = observed.records.iter().filter_map(share).fold(0.0, f64::max);
-    let own = share(first)?;
-    if own >= INSIDE || most >= INSIDE {
+    let nominal_share = share(first)?;
+    if nominal_share >= INSIDE || most >= INSIDE {
         return None;
     }
     let cells = first.rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite());
     let (least, largest) = cells.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let [least, largest] = [least, largest].map(|x| digits(x, 4));
     let ends = format!("from {low} to {high}");
-    Some(Told {
+    Some(CurveReport {
         message: format!("this curve is outside its plot, which goes {ends}"),
         why: format!(
             "as the lab stands it goes from {least} to {largest}, and is inside for {:.0} % of the time; in {} it is inside for at most {:.0} %",
-            100.0 * own,
+            100.0 * nominal_share,
             observed.runs(),
             100.0 * most
         ),

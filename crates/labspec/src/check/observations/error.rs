@@ -52,7 +52,7 @@ pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mu
         if middle < UNITS || good < 0 {
             continue;
         }
-        let shown = |rows: &[Vec<Cell>]| {
+        let last_text = |rows: &[Vec<Cell>]| {
             rows.last()
                 .and_then(|row| row.get(first + i))
                 .map_or(String::new(), |c| c.shown(readout.digits()))
@@ -67,8 +67,8 @@ pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mu
             .why(format!(
                 "at t = {} s it is {}, but {} in the same run at half the timestep",
                 digits(time, 4),
-                shown(&own),
-                shown(&fine)
+                last_text(&own),
+                last_text(&fine)
             ))
             .help(format!(
                 "write \"digits\": {good}, or use a shorter timestep; `labspec precision` shows how short"

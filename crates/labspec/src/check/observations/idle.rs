@@ -186,7 +186,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
             // Late, a slider comes from the first of the values.
             let mut seen: Option<Mark> = None;
             for value in &picked {
-                let own = Move {
+                let tried_move = Move {
                     step: if value.is_none() { at.max(press + 1) } else { at },
                     control: index,
                     value: value.clone(),
@@ -196,7 +196,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
                     moves.push(Move { step: 0, control: index, value: picked.first().cloned().flatten() });
                 }
                 moves.extend(setting.iter().filter(|m| m.step == 0).cloned());
-                moves.extend(presses(&own, steps));
+                moves.extend(presses(&tried_move, steps));
                 moves.extend(setting.iter().filter(|m| m.step > 0).cloned());
                 let Some(record) = bench.run(&moves, steps) else { return false };
                 if seen.is_some_and(|mark| mark != record.mark) {
@@ -265,8 +265,8 @@ fn finding(
     before: usize,
 ) -> Finding {
     let label = &control.label.value;
-    let shown: Vec<String> = part.iter().flatten().map(Value::to_string).collect();
-    let at = match shown.split_last() {
+    let values: Vec<String> = part.iter().flatten().map(Value::to_string).collect();
+    let at = match values.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("at {} and {last}", rest.join(", ")),
         _ => "pressed or not".into(),
     };
@@ -292,7 +292,7 @@ fn finding(
         ),
         None => "check what reads the stored value, and what overwrites it".into(),
     };
-    let (rule, message) = match (whole, shown.first(), shown.last()) {
+    let (rule, message) = match (whole, values.first(), values.last()) {
         (false, Some(low), Some(high)) => {
             (rules::IDLE_RANGE, format!("from {low} to {high}, \"{label}\" changes nothing visible"))
         }

@@ -50,8 +50,8 @@ pub(super) fn check_mixed_dimensions(observed: &ObservedLab<'_>, findings: &mut 
         };
         for what in MIXED.iter().filter(named) {
             let found = choices(control).into_iter().find_map(|value| {
-                let shown = value.to_string();
-                Some((shown, differs(observed, index, value, what)?))
+                let printed = value.to_string();
+                Some((printed, differs(observed, index, value, what)?))
             });
             let Some((value, ([own, other], written, has))) = found else { continue };
             let name = |g: usize| match ready.model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {

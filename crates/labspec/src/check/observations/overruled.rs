@@ -76,7 +76,7 @@ pub(super) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
         let Some(bound) = action.run.as_ref() else { continue };
         let Some(elements) = elements(bound) else { continue };
         let label = &control.label.value;
-        let told = if let Some(why) = otherwise(observed, index, own, &elements) {
+        let finding = if let Some(why) = otherwise(observed, index, own, &elements) {
             Finding::warning(rules::OVERRULED, bound.text.span(), format!("the lab does not start with the value of \"{label}\""))
                 .why(why)
                 .help("delete the code after the control that overwrites it, in the setup or in another control, or let it use the control's value")
@@ -91,7 +91,7 @@ pub(super) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
         } else {
             continue;
         };
-        findings.push(told.related(control.label.span(), "the control"));
+        findings.push(finding.related(control.label.span(), "the control"));
         observed.reported.push(index);
     }
 }

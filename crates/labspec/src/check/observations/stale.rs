@@ -147,8 +147,8 @@ fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
         )];
     }
     for value in values {
-        let said = format!("with \"{label}\" at {value}");
-        all.push((vec![Move { step: STEPS / 4, control: i, value: Some(value) }], said));
+        let description = format!("with \"{label}\" at {value}");
+        all.push((vec![Move { step: STEPS / 4, control: i, value: Some(value) }], description));
     }
     all
 }
@@ -157,13 +157,14 @@ fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
 fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs) -> Option<String> {
     let ready = observed.bench.ready;
     for (moves, said) in trials(ready.lab, place) {
-        let own = observed.bench.run(&moves, STEPS)?;
+        let with_move = observed.bench.run(&moves, STEPS)?;
         let mut other = Bench { ready, programs: amended, left: observed.bench.left, runs: 0 };
         let anew = other.run(&moves, STEPS)?;
         observed.bench.left = other.left;
         for (c, probe) in ready.programs.probes.iter().enumerate() {
             let cells = || {
-                own.rows
+                with_move
+                    .rows
                     .iter()
                     .zip(&anew.rows)
                     .filter_map(|(a, b)| Some((a.first()?, a.get(c + 1)?, b.get(c + 1)?)))

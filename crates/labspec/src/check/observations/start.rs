@@ -56,8 +56,8 @@ fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
 /// How deep these two are in each other.
 fn contact(session: &Session<'_>, pair: [usize; 2]) -> f64 {
     let all = session.world.data.fields().contact.iter();
-    let own = all.filter(|c| [c.geom1, c.geom2] == pair);
-    own.map(|c| -c.dist).fold(0.0, f64::max)
+    let of_pair = all.filter(|c| [c.geom1, c.geom2] == pair);
+    of_pair.map(|c| -c.dist).fold(0.0, f64::max)
 }
 
 /// Half of the smallest extent of a geom, m; infinite where it has none.

@@ -96,8 +96,8 @@ fn lost(
     session.run_statements(&then.program, &then.text);
     let left = state(&session);
     // What is kept beside the state is a choice that a reset leaves.
-    let kept = !resets && !effects.ctx_writes.is_empty();
+    let survives_reset = !resets && !effects.ctx_writes.is_empty();
     let gone = set.iter().zip(&left).find(|(a, b)| (a.1 - b.1).abs() > 1e-9 * a.1.abs().max(b.1.abs()));
-    let ((name, a), (_, b)) = gone.filter(|_| !kept && session.ended().is_none())?;
+    let ((name, a), (_, b)) = gone.filter(|_| !survives_reset && session.ended().is_none())?;
     Some((name.clone(), digits(*a, 4), digits(*b, 4)))
 }

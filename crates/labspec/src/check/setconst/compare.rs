@@ -1,8 +1,8 @@
 //! A lab as it is, with its constants computed anew, and with the partners of what a program changes: what the runs show.
 
 use super::Suspect;
-use super::advice::{self, Advice};
-use super::bench::{Amended, Bench, Rows, Trial};
+use super::advice::{self, SetConstAdvice};
+use super::bench::{Amended, Bench, BenchTrial, SampleRows};
 use super::difference::{BEYOND, Difference};
 use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
@@ -20,7 +20,7 @@ pub(super) struct Compared {
     /// What the partners change, in words, and which of them do; nothing where none does.
     pub(super) partners: Option<(String, PairSet)>,
     /// What to write: how constants are computed anew, and the whole program where its partners are corrected too.
-    pub(super) advice: Advice,
+    pub(super) advice: SetConstAdvice,
     pub(super) repaired: Option<String>,
     /// Why it could not be tried what partners change.
     pub(super) untried: Option<String>,
@@ -28,23 +28,23 @@ pub(super) struct Compared {
 
 /// The runs of one trial.
 struct Runs<'t> {
-    trial: &'t Trial,
-    as_is: Rows,
+    trial: &'t BenchTrial,
+    as_is: SampleRows,
     /// With constants computed anew.
-    anew: Rows,
+    anew: SampleRows,
     /// With partners corrected besides; `None` where that changes nothing, since none was left behind.
-    corrected: Option<Rows>,
+    corrected: Option<SampleRows>,
 }
 
 impl Runs<'_> {
     /// The run with partners corrected.
-    fn corrected(&self) -> &Rows {
+    fn corrected(&self) -> &SampleRows {
         self.corrected.as_ref().unwrap_or(&self.anew)
     }
 }
 
 /// The lab with what is missing.
-struct Variants {
+struct LabVariants {
     /// As it is, which observes its partners.
     as_is: Amended,
     /// With constants computed anew; `None` where they are. It observes its partners.
@@ -62,7 +62,7 @@ impl Bench<'_> {
         let as_is = self.observed(s, false);
         let refreshed = s.inertial.is_some().then(|| self.observed(s, true));
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
-        let variants = Variants { as_is, refreshed, coupled, steps };
+        let variants = LabVariants { as_is, refreshed, coupled, steps };
         let (mut untried, mut uncoupled) = (None, None);
         let mut all: Vec<Runs<'_>> = Vec::new();
         for trial in &trials {
@@ -115,20 +115,20 @@ impl Bench<'_> {
         constants: bool,
         all: &[Runs<'_>],
         steps: usize,
-    ) -> (Advice, Option<String>) {
+    ) -> (SetConstAdvice, Option<String>) {
         let repair = Repair::of_program(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
-        let both = [Advice::Plain, Advice::Keep];
+        let both = [SetConstAdvice::Plain, SetConstAdvice::Keep];
         match &repair {
             None => {
                 let source = advice::source(s);
-                let plain = format!("{source}{}", Advice::Plain.tail(&source));
+                let plain = format!("{source}{}", SetConstAdvice::Plain.tail(&source));
                 let good = matter.is_empty() && constants && self.gives(s, &plain, all, steps, 0.0);
-                (if good { Advice::Plain } else { Advice::Keep }, None)
+                (if good { SetConstAdvice::Plain } else { SetConstAdvice::Keep }, None)
             }
             Some(repair) => {
                 let texts = both.map(|advice| (advice, advice::repaired(s, repair, advice)));
                 let good = texts.into_iter().find(|(_, text)| self.gives(s, text, all, steps, ROUNDED));
-                good.map_or((Advice::Keep, None), |(advice, text)| (advice, Some(text)))
+                good.map_or((SetConstAdvice::Keep, None), |(advice, text)| (advice, Some(text)))
             }
         }
     }
@@ -137,22 +137,22 @@ impl Bench<'_> {
     fn runs<'t>(
         &mut self,
         s: &Suspect<'_>,
-        variants: &Variants,
-        trial: &'t Trial,
+        variants: &LabVariants,
+        trial: &'t BenchTrial,
         uncoupled: &mut Option<String>,
     ) -> Result<Runs<'t>, String> {
-        let told = |reason: String| format!("{}, {reason}", trial.description);
+        let describe = |reason: String| format!("{}, {reason}", trial.description);
         let steps = variants.steps;
-        let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(told)?;
+        let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(describe)?;
         let (anew, left) = match &variants.refreshed {
-            Some(refreshed) => self.observe(s, refreshed, trial, steps).map_err(told)?,
+            Some(refreshed) => self.observe(s, refreshed, trial, steps).map_err(describe)?,
             None => (as_is.clone(), left),
         };
         let coupled = variants.coupled.as_ref().filter(|_| left);
         let corrected = match coupled.map(|c| self.record(s, Some(c), trial, steps)) {
             Some(Ok(rows)) => Some(rows),
             other => {
-                *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(told));
+                *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(describe));
                 None
             }
         };
@@ -177,7 +177,7 @@ impl Bench<'_> {
         &mut self,
         s: &Suspect<'_>,
         all: &[Runs<'_>],
-        variants: &Variants,
+        variants: &LabVariants,
     ) -> Option<(String, PairSet)> {
         let columns = self.columns(s);
         let (refreshed, steps) = (variants.refreshed.as_ref(), variants.steps);

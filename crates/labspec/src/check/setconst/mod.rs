@@ -53,9 +53,9 @@ struct Suspect<'a> {
 /// Checks the programs of a lab.
 pub(super) fn check_setconst(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let suspect = |place, b, target, given| suspect(place, b, target, given, programs);
-    let own = [(ProgramSite::Setup, &programs.setup), (ProgramSite::Controller, &programs.controller)];
+    let of_lab = [(ProgramSite::Setup, &programs.setup), (ProgramSite::Controller, &programs.controller)];
     let mut all: Vec<Suspect<'_>> =
-        own.into_iter().filter_map(|(place, b)| suspect(place, b.as_ref()?, false, None)).collect();
+        of_lab.into_iter().filter_map(|(place, b)| suspect(place, b.as_ref()?, false, None)).collect();
     for (i, ((_, program), control)) in programs.controls.iter().zip(&lab.controls).enumerate() {
         let (bound, given) = match program {
             ControlProgram::Press(run) => (run.as_ref(), None),

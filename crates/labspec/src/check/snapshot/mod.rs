@@ -19,7 +19,7 @@ use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
 use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
 use compare::Difference;
-use file::{Fault, StoredLab};
+use file::{SnapshotFault, StoredLab};
 use runs::{Taken, TakenLab};
 use std::ops::Range;
 use std::path::Path;
@@ -121,7 +121,7 @@ fn stored(lesson: &Lesson) -> Option<Result<Vec<StoredLab>, String>> {
         Ok(file) => file,
         Err(message) => return Some(Err(message.clone())),
     };
-    let fault = |f: Fault| format!("{}:{}:{}: {}", name_of(file), f.line, f.column, f.message);
+    let fault = |f: SnapshotFault| format!("{}:{}:{}: {}", name_of(file), f.line, f.column, f.message);
     Some(file::read(file).map_err(fault))
 }
 
@@ -140,9 +140,9 @@ pub(super) fn check_snapshots(
 ) -> Vec<Kept> {
     let Some(stored) = stored(lesson) else { return Vec::new() };
     let all = |state: State, reason: &str| {
-        let kept =
+        let with_state =
             |(address, lab): (_, &Lab)| Kept { state, reason: reason.into(), ..unchecked(&address, lab) };
-        lesson.addressed().into_iter().map(kept).collect::<Vec<_>>()
+        lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
     if !depth.labs {
         return if depth.claims { Vec::new() } else { all(State::LeftOut, "") };
@@ -179,8 +179,8 @@ fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> Kept {
 
 /// Labs that are stored and no longer there.
 fn gone<'a>(labs: &'a [StoredLab], taken: &'a [TakenLab<'_, '_>]) -> impl Iterator<Item = Kept> + 'a {
-    let known = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
-    labs.iter().filter(known).map(|lab| Kept {
+    let is_gone = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
+    labs.iter().filter(is_gone).map(|lab| Kept {
         lab: lab.address.clone(),
         span: 0..0,
         state: State::False,
@@ -260,8 +260,8 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     let taken = runs::take(lesson, &ready);
     let one = |now: &TakenLab<'_, '_>| {
         let kept = hold(now, &old, lesson, &mut Vec::new());
-        let known = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
-        RenewedLab { kept, old: known, new: fresh(now) }
+        let stored_text = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
+        RenewedLab { kept, old: stored_text, new: fresh(now) }
     };
     let mut labs: Vec<RenewedLab> = taken.iter().map(one).collect();
     let lost = gone(&old, &taken).map(|kept| {

@@ -1,7 +1,7 @@
 //! What can be written at a place of a lab or a quiz: the keys that are not there yet, or the words that a key takes.
 
 use super::describe::{default, takes};
-use super::scan::{Scan, Scope, Spot, Step, scan};
+use super::scan::{Scan, ScanStep, Scope, Spot, scan};
 use super::{Family, Key, LAB, Named, Object, QUIZ, Together, Type, Word};
 use crate::json::encode;
 use std::borrow::Cow;
@@ -69,7 +69,7 @@ pub(super) fn completions_of(
         None => keys(&holder, scope, spot, colon),
         Some(step) => {
             let key = match (&holder, step) {
-                (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).copied(),
+                (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).copied(),
                 _ => None,
             };
             match inside(&holder, step) {
@@ -108,7 +108,7 @@ fn holder(whole: Option<&'static Object>, found: &Scan, index: usize) -> Holder 
         at = match &scope.parent {
             None if scope.list => Holder::Unknown,
             None => whole.map_or_else(|| root(scope), |object| Holder::Keys(allowed(&[object], scope))),
-            Some((_, Step::Item(_))) if outer_list && !scope.list => root(scope),
+            Some((_, ScanStep::Item(_))) if outer_list && !scope.list => root(scope),
             Some((_, step)) => match inside(&at, step) {
                 Some(of) => of_type(of, scope),
                 None => Holder::Unknown,
@@ -133,13 +133,13 @@ fn root(scope: &Scope) -> Holder {
 }
 
 /// What a place of an object or a list takes.
-fn inside(holder: &Holder, step: &Step) -> Option<Type> {
+fn inside(holder: &Holder, step: &ScanStep) -> Option<Type> {
     match (holder, step) {
-        (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
-        (Holder::Of(Type::Map(map)), Step::Key(_)) => Some(map.of),
-        (Holder::Of(Type::Switches(_)), Step::Key(_)) => Some(Type::Flag),
-        (Holder::Of(Type::List(item)), Step::Item(_)) => Some(**item),
-        (Holder::Of(Type::Pair(parts)), Step::Item(i)) => parts.get(*i).map(|p| p.of),
+        (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
+        (Holder::Of(Type::Map(map)), ScanStep::Key(_)) => Some(map.of),
+        (Holder::Of(Type::Switches(_)), ScanStep::Key(_)) => Some(Type::Flag),
+        (Holder::Of(Type::List(item)), ScanStep::Item(_)) => Some(**item),
+        (Holder::Of(Type::Pair(parts)), ScanStep::Item(i)) => parts.get(*i).map(|p| p.of),
         _ => None,
     }
 }
@@ -164,8 +164,8 @@ fn meant(family: &'static Family, scope: &Scope) -> Vec<&'static Object> {
     if let Some(object) = word.and_then(|w| family.object(Some(w))) {
         return vec![object];
     }
-    let known = family.keys();
-    let ours = |name: &str| known.iter().any(|k| k.name == name);
+    let family_keys = family.keys();
+    let ours = |name: &str| family_keys.iter().any(|k| k.name == name);
     let fits =
         |object: &&Object| scope.keys.iter().all(|(name, _)| !ours(name) || object.key(name).is_some());
     let some: Vec<&'static Object> = family.objects.iter().copied().filter(fits).collect();

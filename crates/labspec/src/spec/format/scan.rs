@@ -11,7 +11,7 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub(super) struct Scope {
     /// What it stands in, and where there.
-    pub(super) parent: Option<(usize, Step)>,
+    pub(super) parent: Option<(usize, ScanStep)>,
     /// A list rather than an object.
     pub(super) list: bool,
     /// The keys of an object and, of those that are texts, the values. Without the key at the offset.
@@ -24,7 +24,7 @@ pub(super) struct Scope {
 
 /// A place in an object or in a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Step {
+pub(super) enum ScanStep {
     /// The value of this key.
     Key(String),
     /// This item, from 0.
@@ -37,7 +37,7 @@ pub(super) struct Spot {
     /// The object or list.
     pub(super) scope: usize,
     /// Where a value stands or is to be written; `None` for a key.
-    pub(super) value: Option<Step>,
+    pub(super) value: Option<ScanStep>,
     /// The bytes of what is written there, quotes included; empty where nothing is.
     pub(super) written: Range<usize>,
 }
@@ -147,10 +147,10 @@ impl<'a> Scanner<'a> {
     }
 
     /// The place of the value that comes next.
-    fn step(&self) -> Step {
+    fn step(&self) -> ScanStep {
         match self.scope() {
-            Some(scope) if scope.list => Step::Item(scope.items),
-            _ => Step::Key(self.key.clone()),
+            Some(scope) if scope.list => ScanStep::Item(scope.items),
+            _ => ScanStep::Key(self.key.clone()),
         }
     }
 
@@ -167,8 +167,8 @@ impl<'a> Scanner<'a> {
     fn leave(&mut self, list: bool) {
         self.at += 1;
         self.key.clear();
-        let own = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
-        if let Some(i) = self.open.iter().rposition(own) {
+        let in_list = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
+        if let Some(i) = self.open.iter().rposition(in_list) {
             self.open.truncate(i);
             self.next = Next::Comma;
         }

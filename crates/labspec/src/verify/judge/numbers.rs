@@ -70,7 +70,7 @@ pub(super) fn compare(
 ) {
     let mut other: Option<Vec<Vec<f64>>> = None;
     let numbers = |outcome: &Outcome| -> Vec<(String, f64)> {
-        let own = own_texts(bound, verify).into_iter().map(|text| {
+        let own_values = own_texts(bound, verify).into_iter().map(|text| {
             let found = bound.find(outcome, text, &mut Vec::new());
             (text.value.clone(), found.map_or(f64::NAN, |f| f.value.to_number()))
         });
@@ -78,7 +78,7 @@ pub(super) fn compare(
             let title = run.title();
             run.measures.iter().map(move |(m, x)| (format!("{title}.{m}"), *x))
         });
-        titled.chain(own).collect()
+        titled.chain(own_values).collect()
     };
     for (i, ((name, a), (_, b))) in numbers(nominal).into_iter().zip(numbers(theirs)).enumerate() {
         if judged.unjudged.iter().any(|(known, _)| *known == name) {

@@ -24,10 +24,10 @@ pub(crate) struct Task {
 
 /// The runs of a `verify` object, as somebody else can make them.
 pub(crate) fn tasks(bound: &BoundVerify<'_>, verify: &Verify) -> Vec<Task> {
-    let own = own_texts(bound, verify);
+    let texts = own_texts(bound, verify);
     let task = |(run, scene): (&BoundRun<'_>, &BoundScene<'_>)| {
         let run_name = title(run);
-        Task { run: run_name, task: task(bound, run, scene, &own) }
+        Task { run: run_name, task: task(bound, run, scene, &texts) }
     };
     bound.cast().map(task).collect()
 }

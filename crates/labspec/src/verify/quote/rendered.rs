@@ -126,13 +126,13 @@ fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMa
     let folded = |text: &str| fold::fold(&html::strip(text).0, true).0;
     let wanted: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
     let labs = lesson.addressed().into_iter();
-    let shown = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
+    let displayed = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
         let ControlKind::Slider { unit, value, .. } = &control.kind else { return None };
         let number = Cell::Number(value.value).shown(control.digits()?);
         let text = unit.as_ref().map_or(number.clone(), |unit| format!("{number} {}", unit.as_str()));
         Some((*wanted.get(&folded(&text))?, value.span.clone()))
     });
-    shown.collect()
+    displayed.collect()
 }
 
 /// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.

@@ -19,18 +19,20 @@ pub(in crate::verify) fn cells_of_column(
     let mut found = shown.tables(&headings);
     let (Some(table), None) = (found.next(), found.next()) else {
         let several = shown.tables(&headings).count() > 1;
-        let mut known: Vec<&str> = shown.headings().take(24).collect();
-        known.dedup();
+        let mut headings_there: Vec<&str> = shown.headings().take(24).collect();
+        headings_there.dedup();
         return Err(if several {
             [
                 format!("several tables have the columns {}", headings.join(", ")),
                 "give the tables different headings".into(),
             ]
         } else {
-            let near =
-                headings.iter().find(|h| !known.contains(h)).and_then(|h| nearest(h, known.iter().copied()));
+            let near = headings
+                .iter()
+                .find(|h| !headings_there.contains(h))
+                .and_then(|h| nearest(h, headings_there.iter().copied()));
             let help = near.map_or_else(
-                || format!("use the columns of a table: {}", known.join(", ")),
+                || format!("use the columns of a table: {}", headings_there.join(", ")),
                 |right| format!("did you mean \"{right}\"?"),
             );
             [format!("no table has the columns {}", headings.join(", ")), help]
