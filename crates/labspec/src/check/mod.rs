@@ -1,6 +1,7 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
 mod allowed;
+mod choices;
 mod claim_id;
 mod claims;
 mod contact_time;

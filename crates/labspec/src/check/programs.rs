@@ -1,11 +1,12 @@
 //! What the programs of a lab do that a page lets pass in silence.
 
+use super::choices::choices;
 use super::setconst;
-use crate::bind::{Bound, ControlProgram, Programs, functions, scalar};
+use crate::bind::{Bound, ControlProgram, Programs, functions};
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::Session;
-use crate::spec::{Control, ControlKind, Lab};
+use crate::spec::{Control, Lab};
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Kind, Object, data};
 use labspec_expr::{FieldKey, Host, Value};
@@ -99,18 +100,4 @@ fn lost(
         ))
     };
     choices(control).iter().find_map(with)
-}
-
-/// Most options of a select that are tried.
-const MOST_OPTIONS: usize = 8;
-
-/// What a student may choose: the ends of a slider, the options of a select.
-pub(super) fn choices(control: &Control) -> Vec<Value> {
-    match &control.kind {
-        ControlKind::Slider { min, max, .. } => [max, min].map(|end| Value::Number(end.value)).to_vec(),
-        ControlKind::Select { options, .. } => {
-            options.iter().take(MOST_OPTIONS).map(|o| scalar(&o.value)).collect()
-        }
-        ControlKind::Button { .. } => Vec::new(),
-    }
 }

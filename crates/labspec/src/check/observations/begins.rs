@@ -3,7 +3,7 @@
 use super::ObservedLab;
 use super::bench::Move;
 use super::record::same;
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;

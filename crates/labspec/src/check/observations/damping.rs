@@ -69,7 +69,7 @@ fn pushes(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> 
                 ));
             }
             _ => {
-                for v in crate::check::programs::choices(c) {
+                for v in crate::check::choices::choices(c) {
                     let description = format!("with \"{label}\" at {v},");
                     all.push((Some(Move { step: 1, control, value: Some(v) }), description));
                 }

@@ -2,7 +2,7 @@
 
 use super::ObservedLab;
 use crate::bind::ControlProgram;
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;

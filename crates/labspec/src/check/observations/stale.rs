@@ -4,7 +4,7 @@
 use super::ObservedLab;
 use super::bench::{Bench, Move};
 use crate::bind::{Bound, ControlProgram, Programs, include};
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::check::setconst;
 use crate::finding::Finding;
 use crate::rules;

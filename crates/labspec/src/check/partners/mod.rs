@@ -220,7 +220,7 @@ impl<'a> Partners<'a> {
                     who,
                     pairs,
                     lab: None,
-                    own: true,
+                    in_lesson: true,
                     change: false,
                 });
             }

@@ -4,7 +4,7 @@ use super::difference::Columns;
 use super::{ProgramSite, Suspect};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::run::{self, Cell, Play, Session, StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
