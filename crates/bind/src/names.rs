@@ -4,7 +4,7 @@ use super::Functions;
 use super::elements;
 use super::enums::ENUMS;
 use super::field_entry::{field, member_name, noun, owner, short_name};
-use super::functions::{self, OBJECTS, Place, TABLE};
+use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
 use super::shown::{LABELS, Shown};
@@ -62,9 +62,9 @@ impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
         let scope = self.scope;
         TABLE.iter().copied().enumerate().filter(move |(_, f)| match f.place {
-            Place::Everywhere => scope != Scope::Claim,
-            Place::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
-            Place::Claims => scope == Scope::Claim,
+            FunctionPlace::Everywhere => scope != Scope::Claim,
+            FunctionPlace::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
+            FunctionPlace::Claims => scope == Scope::Claim,
         })
     }
 

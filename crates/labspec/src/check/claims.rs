@@ -2,7 +2,7 @@
 
 use super::partners::{self, Partners};
 use super::resolved_labs::{ResolvedLabs, resolve_labs};
-use super::{Ready, claim_id, setconst};
+use super::{PreparedLab, claim_id, setconst};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::State;
@@ -104,7 +104,7 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 }
 
 /// Looks at the texts of every `verify` object, and runs nothing.
-pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], models: &Models, findings: &mut Vec<Finding>) {
+pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, findings: &mut Vec<Finding>) {
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
         if let Some((verify, own, _)) = owner.claim(lesson)
@@ -125,7 +125,7 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
 pub(super) fn check_claims<'l>(
     lesson: &'l Lesson,
-    ready: &mut [Ready<'l>],
+    ready: &mut [PreparedLab<'l>],
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
@@ -147,7 +147,7 @@ pub(super) fn check_claims<'l>(
 
 struct ClaimChecker<'a> {
     lesson: &'a Lesson,
-    ready: &'a [Ready<'a>],
+    ready: &'a [PreparedLab<'a>],
     shown: ShownText,
     stage: Stage<'a>,
     partners: Partners<'a>,

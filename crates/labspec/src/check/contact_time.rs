@@ -3,7 +3,7 @@
 //! A step finds contacts from the positions at its start, at the time t, and ends at t + h. A controller that sees them before the
 //! next step, and keeps `data.time`, keeps t + h.
 
-use super::Ready;
+use super::PreparedLab;
 use super::setconst::digits;
 use crate::bind::{ModelNames, Scope};
 use crate::finding::Finding;
@@ -15,7 +15,7 @@ use labspec_expr::{Compiler, Program, Value};
 /// Work for the run.
 const WORK: Budget = Budget { left: 50_000_000 };
 
-pub(super) fn check_contact_times(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+pub(super) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Finding>) {
     let Some(controller) = &ready.programs.controller else { return };
     let text = &controller.text;
     let names = |word: &str| text.value.contains(word);
@@ -44,7 +44,7 @@ pub(super) fn check_contact_times(ready: &Ready<'_>, findings: &mut Vec<Finding>
 }
 
 /// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
-fn late(ready: &Ready<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
+fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, WORK);
     let timestep = session.world.model.opt.timestep;

@@ -6,7 +6,7 @@ use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Left, Reference, Taken};
+use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference};
 use crate::verify::{ShownText, Stage};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,7 +30,7 @@ pub struct Recording {
     /// `MuJoCo 3.14.0`.
     pub engine: String,
     /// By the digest of what was asked.
-    pub runs: BTreeMap<String, Taken>,
+    pub runs: BTreeMap<String, RecordedRun>,
     /// Lesson (the name of its file), claim and run of everything in it: so that one of another text is known.
     pub known: BTreeSet<[String; 3]>,
 }
@@ -91,7 +91,7 @@ fn taken<'r>(
     recording: &'r Recording,
     request: &Request,
     hearing: &mut CrossCheck,
-) -> Result<&'r Taken, String> {
+) -> Result<&'r RecordedRun, String> {
     request.task.as_ref().map_err(Clone::clone)?;
     if let Some(taken) = recording.runs.get(&request.hash) {
         return Ok(taken);

@@ -31,7 +31,7 @@ pub use entries::{evidence, ledger};
 pub use judge::{CrossCheck, Recording, Request, file_name, hear};
 pub use lab_runs::Tried;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
-pub use snapshot::{Divergence, Kept, Renewal, RenewedLab, renew};
+pub use snapshot::{Divergence, Renewal, RenewedLab, SnapshotResult, renew};
 pub(crate) use units::labels as labels_of;
 
 use crate::bind::Programs;
@@ -75,7 +75,7 @@ pub struct Checked {
     /// The questions and the labs with claims.
     pub claims: Vec<Claim>,
     /// Of each lab, whether it shows what is stored; nothing where nothing is.
-    pub snapshots: Vec<Kept>,
+    pub snapshots: Vec<SnapshotResult>,
     /// What would be found, and the author has put aside with a reason.
     pub allowed: Vec<Allowed>,
     /// What was asked for.
@@ -103,7 +103,7 @@ impl CheckLevel {
 }
 
 /// A lab with its model and programs.
-struct Ready<'l> {
+struct PreparedLab<'l> {
     lab: &'l Lab,
     model: Arc<Model>,
     programs: Programs,
@@ -111,7 +111,7 @@ struct Ready<'l> {
     mistakes: usize,
 }
 
-impl<'l> Ready<'l> {
+impl<'l> PreparedLab<'l> {
     fn scene(&'l self) -> verify::BoundLab<'l> {
         verify::BoundLab::new(self.lab, &self.model, &self.programs)
     }
@@ -123,7 +123,7 @@ pub struct LabOutcome {
     pub(crate) findings: Vec<Finding>,
     pub(crate) labs: Vec<RanLab>,
     pub(crate) claims: Vec<Claim>,
-    pub(crate) snapshots: Vec<Kept>,
+    pub(crate) snapshots: Vec<SnapshotResult>,
 }
 
 impl LabOutcome {
@@ -143,7 +143,7 @@ pub fn check_lesson(lesson: Lesson, models: &Models, depth: CheckLevel) -> Check
 pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcome {
     let mut findings = Vec::new();
     let labs = lesson.all_labs();
-    let mut ready: Vec<Ready<'_>> =
+    let mut ready: Vec<PreparedLab<'_>> =
         labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
         ready.iter().for_each(|r| params::check_params(lesson, r, &mut findings));
@@ -167,19 +167,19 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcom
 }
 
 /// All labs that claims of a lesson are about. What is wrong with them has been told.
-fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<Ready<'l>> {
+fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
     let labs = lesson.all_labs().into_iter();
     let prepared = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
     prepared.chain(beside(lesson, models)).collect()
 }
 
 /// The labs of claims that are none of the lesson's own: those of other lessons, and one in which nothing is, for formulas.
-fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = Ready<'l>> {
+fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = PreparedLab<'l>> {
     let labs = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
     let others = labs.filter_map(|lab| {
         // What is wrong with it is told where it stands.
         let (model, programs, mistakes) = bind(lab, models, &mut Vec::new())?;
-        (mistakes == 0).then_some(Ready { lab, model, programs, mistakes })
+        (mistakes == 0).then_some(PreparedLab { lab, model, programs, mistakes })
     });
     others.chain(if claims::have_formulas(lesson) { empty() } else { None })
 }
@@ -188,10 +188,10 @@ fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = Ready
 static NOTHING: LazyLock<Lab> =
     LazyLock::new(|| Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) }));
 
-fn empty() -> Option<Ready<'static>> {
+fn empty() -> Option<PreparedLab<'static>> {
     let model = Arc::new(Model::from_xml("<mujoco/>").ok()?);
     let programs = Programs::compile(&NOTHING, &model, &mut Vec::new());
-    Some(Ready { lab: &NOTHING, model, programs, mistakes: 0 })
+    Some(PreparedLab { lab: &NOTHING, model, programs, mistakes: 0 })
 }
 
 /// A control of which a reset takes everything away changes nothing, and the reset is what is told.
@@ -230,14 +230,14 @@ fn prepare<'l>(
     models: &Models,
     depth: CheckLevel,
     findings: &mut Vec<Finding>,
-) -> Option<Ready<'l>> {
+) -> Option<PreparedLab<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
         programs::check_programs(lab, &model, &programs, findings);
         units::check_units(lab, &model, &programs, findings);
         named::check_names(lab, &model, &programs, findings);
     }
-    Some(Ready { lab, model, programs, mistakes })
+    Some(PreparedLab { lab, model, programs, mistakes })
 }
 
 /// Loads the model of a lab and binds its programs; with the number of errors in its code.

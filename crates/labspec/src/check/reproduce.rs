@@ -1,7 +1,7 @@
 //! What a check rested on: models, settings and contacts of every lab and every run, so that it can be made again and that a
 //! change can be told from its cause.
 
-use super::Ready;
+use super::PreparedLab;
 use super::claims::{self, Owner};
 use super::resolved_labs::start_runs;
 use crate::bind::parts::Hash;
@@ -77,7 +77,7 @@ pub struct Basis {
 pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
     let ready = super::of_claims(lesson, models);
     let block = |span: &Range<usize>| mark(&[lesson.file.slice(span.clone()).as_bytes()]);
-    let compiled = |ready: &Ready<'_>| mark(&[&ready.model.to_bytes()]);
+    let compiled = |ready: &PreparedLab<'_>| mark(&[&ready.model.to_bytes()]);
     let labs = lesson.addressed().into_iter().map(|(address, lab)| {
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
         let settings = one.map(|r| {

@@ -1,6 +1,6 @@
 //! The labs that a `verify` object is about: its own, and that of each of its runs.
 
-use super::Ready;
+use super::PreparedLab;
 use crate::finding::Finding;
 use crate::json::read;
 use crate::rules;
@@ -18,7 +18,7 @@ pub(super) struct ResolvedLabs<'r> {
 /// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
 pub(super) fn resolve_labs<'r>(
     lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
+    ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     own: Option<&'r Lab>,
     stage: &Stage<'_>,
@@ -27,7 +27,7 @@ pub(super) fn resolve_labs<'r>(
     let base = match &verify.lab {
         // Formulas need no lab: they have one in which nothing is.
         None if own.is_none() && verify.is_formulas() => {
-            ready.iter().find(|r| r.lab.is_nothing()).map(Ready::scene)
+            ready.iter().find(|r| r.lab.is_nothing()).map(PreparedLab::scene)
         }
         None => own.and_then(|lab| scene_of(ready, lab)),
         Some(named) => named_scene(lesson, ready, named, findings),
@@ -43,14 +43,14 @@ pub(super) fn resolve_labs<'r>(
     (base.is_some() || !runs.is_empty()).then_some(ResolvedLabs { base, runs })
 }
 
-fn scene_of<'r>(ready: &'r [Ready<'r>], lab: &Lab) -> Option<BoundLab<'r>> {
-    ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(Ready::scene)
+fn scene_of<'r>(ready: &'r [PreparedLab<'r>], lab: &Lab) -> Option<BoundLab<'r>> {
+    ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(PreparedLab::scene)
 }
 
 /// The lab that is named. Why one of another lesson is not there, or cannot run, goes to `findings`.
 fn named_scene<'r>(
     lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
+    ready: &'r [PreparedLab<'r>],
     named: &'r VerifyLab,
     findings: &mut Vec<Finding>,
 ) -> Option<BoundLab<'r>> {
@@ -73,7 +73,7 @@ fn named_scene<'r>(
 /// A `verify` object bound to its labs. `None` where they have mistakes.
 pub(super) fn bind_claim<'r>(
     lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
+    ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     own: Option<&'r Lab>,
     stage: &'r Stage<'r>,
@@ -93,7 +93,7 @@ pub(super) struct StartedRuns {
 /// Sets up the runs of a `verify` object, and makes none. `None` where they have mistakes.
 pub(super) fn start_runs<'r>(
     lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
+    ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     own: Option<&'r Lab>,
     stage: &'r Stage<'r>,
@@ -106,7 +106,7 @@ pub(super) fn start_runs<'r>(
 /// What the labs show in the runs of a `verify` object, up to so many; nothing where they have mistakes.
 pub(super) fn record_curves<'r>(
     lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
+    ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
     own: Option<&'r Lab>,
     stage: &'r Stage<'r>,

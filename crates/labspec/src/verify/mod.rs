@@ -78,7 +78,7 @@ pub(crate) use numerics::{HALVED, NUDGED, NUDGED_BACK};
 pub use options::UNDECIDED;
 pub(crate) use outcomes::measure_only_run;
 pub use quote::{
-    Counted, Form, Other, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, answered,
+    Counted, Form, OtherValue, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, answered,
     claimed, counted, folded, plain, quoted, stated,
 };
 pub use quote_checker::Quote;

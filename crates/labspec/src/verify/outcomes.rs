@@ -29,7 +29,7 @@ impl BoundVerify<'_> {
         find: &Find,
         numerics: StepVariant,
         findings: &mut Vec<Finding>,
-    ) -> Option<search::Limit> {
+    ) -> Option<search::SearchLimit> {
         let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
         let mut runs = self.runs.iter().filter(named);
         let (Some(run), None) = (runs.next(), runs.next()) else {

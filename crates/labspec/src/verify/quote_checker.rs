@@ -6,7 +6,7 @@ use super::grounded::grounded_value;
 use super::outcome::Outcome;
 use super::outcomes::Outcomes;
 use super::quote::ShownText;
-use super::quote::{self, Other, QuoteState};
+use super::quote::{self, OtherValue, QuoteState};
 use super::units;
 use crate::finding::Finding;
 use crate::ledger::Evidence;
@@ -66,8 +66,8 @@ pub(super) struct QuoteChecker<'c, 'b> {
 /// The value of an expression in the lesson's own runs, and in others.
 pub(super) struct QuotedValue {
     found: MeasuredValue,
-    timestep: Vec<Other>,
-    start: Vec<Other>,
+    timestep: Vec<OtherValue>,
+    start: Vec<OtherValue>,
 }
 
 impl QuotedValue {
@@ -80,7 +80,7 @@ impl QuotedValue {
         let found = grounded_value(bound, &outcomes.nominal, expr, findings)?;
         let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
         let back = "with a start moved by -1e-14";
-        let mut start: Vec<Other> = other(2, "with a start moved by 1e-14").into_iter().collect();
+        let mut start: Vec<OtherValue> = other(2, "with a start moved by 1e-14").into_iter().collect();
         start.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
         Ok(QuotedValue { found, timestep: other(0, "at half the timestep").into_iter().collect(), start })
     }
@@ -105,9 +105,14 @@ impl QuotedValue {
     }
 }
 
-fn value_of(bound: &BoundVerify<'_>, outcome: &Outcome, expr: &Text, how: &'static str) -> Option<Other> {
+fn value_of(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    expr: &Text,
+    how: &'static str,
+) -> Option<OtherValue> {
     let found = bound.find(outcome, expr, &mut Vec::new())?;
-    Some(Other { how, value: found.value.to_number() })
+    Some(OtherValue { how, value: found.value.to_number() })
 }
 
 /// What becomes of a number.
@@ -136,7 +141,7 @@ pub(super) fn check_words(
     at: &[Range<usize>],
     findings: &mut Vec<Finding>,
 ) -> Quote {
-    let moved = |others: &[Other]| -> Vec<&'static str> {
+    let moved = |others: &[OtherValue]| -> Vec<&'static str> {
         others.iter().filter(|o| (o.value != 0.0) != given.holds()).map(|o| o.how).collect()
     };
     let condition = quote::QuotedCondition {

@@ -41,7 +41,7 @@ struct TriedValue {
 }
 
 /// A search that came to its end.
-pub(super) struct Limit {
+pub(super) struct SearchLimit {
     /// NaN when there is no one limit.
     pub(super) value: f64,
     /// Where it looked, in words.
@@ -54,7 +54,7 @@ pub(super) fn search(
     stage: &Stage<'_>,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,
-) -> Option<Limit> {
+) -> Option<SearchLimit> {
     let find = case.find;
     let is_control = case.scene.lab.control(&find.what.value).is_some() || find.what.value == "timestep";
     if let Some(unknown) = misspelt(&case.scene.lab, &find.what).filter(|_| !is_control) {
@@ -91,16 +91,16 @@ pub(super) fn search(
         );
     };
     match (found, open) {
-        (Some(Ok(value)), _) => Some(Limit { value, looked }),
+        (Some(Ok(value)), _) => Some(SearchLimit { value, looked }),
         (Some(Err((message, help))), _) => {
             none(message, help);
-            Some(Limit { value: f64::NAN, looked })
+            Some(SearchLimit { value: f64::NAN, looked })
         }
         (None, Some((x, part))) => {
             let message =
                 format!("with {} the condition is undecided: `{part}` compares NaN", significant(x));
             none(message, "search where the measure has a value, or test for it with `isNaN(x)`");
-            Some(Limit { value: f64::NAN, looked })
+            Some(SearchLimit { value: f64::NAN, looked })
         }
         (None, None) => {
             findings.extend(refused.into_iter().take(1));

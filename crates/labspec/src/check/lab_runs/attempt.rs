@@ -1,6 +1,6 @@
 //! One run that looks for what breaks.
 
-use super::super::Ready;
+use super::super::PreparedLab;
 use super::Trial;
 use super::seen::Seen;
 use crate::check::observations::{Beyond, Mark, Record};
@@ -49,7 +49,7 @@ pub(super) struct Attempt {
 /// # Errors
 /// The run cannot be made.
 pub(super) fn make(
-    ready: &Ready<'_>,
+    ready: &PreparedLab<'_>,
     case: &StressCase<'_>,
     trial: &Trial<'_>,
     budget: Budget,

@@ -3,7 +3,7 @@
 //! A gap may be meant: a text that says `NaN` itself, or reads a variable that nothing has stored yet, is silent until it
 //! is certain that no run ever fills the gap.
 
-use super::super::Ready;
+use super::super::PreparedLab;
 use crate::bind::Bound;
 use crate::finding::Finding;
 use crate::rules::{self, Rule};
@@ -72,7 +72,7 @@ fn says_gap(text: &str) -> bool {
 
 impl<'a> Seen<'a> {
     /// Nothing was seen yet.
-    pub(super) fn new(ready: &'a Ready<'a>) -> Seen<'a> {
+    pub(super) fn new(ready: &'a PreparedLab<'a>) -> Seen<'a> {
         let programs = &ready.programs;
         let displays = programs.probes.iter().enumerate().filter_map(|(i, p)| {
             let bound = p.bound.as_ref()?;

@@ -2,7 +2,8 @@
 
 use super::ObservedLab;
 use crate::bind::ControlProgram;
-use crate::check::programs::{choices, resets};
+use crate::check::choices::choices;
+use crate::check::programs::resets;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;

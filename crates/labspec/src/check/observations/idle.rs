@@ -4,7 +4,7 @@
 //! tried with the others moved, too, early and in mid-run. Where the work for that is spent before all is tried, nothing is said.
 
 use super::ObservedLab;
-use super::bench::{Bench, Move};
+use super::bench::{Move, ObservationBench};
 use super::record::Mark;
 use crate::bind::{ControlProgram, scalar};
 use crate::finding::Finding;
@@ -138,7 +138,7 @@ pub(super) fn values(control: &Control) -> Vec<Option<Value>> {
 
 /// Places in a row that look the same in short runs: the longest such row.
 fn suspicious(
-    bench: &mut Bench<'_>,
+    bench: &mut ObservationBench<'_>,
     index: usize,
     values: &[Option<Value>],
     steps: usize,
@@ -172,7 +172,7 @@ fn presses(own: &Move, steps: usize) -> Vec<Move> {
 }
 
 /// Whether it makes no difference which of these values a control has, whatever else is done.
-fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: usize) -> bool {
+fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>], steps: usize) -> bool {
     let pick = match values.len() {
         n if n > 3 => vec![0, n / 2, n - 1],
         n => (0..n).collect(),

@@ -2,7 +2,8 @@
 
 use super::ObservedLab;
 use crate::bind::{ControlProgram, functions};
-use crate::check::programs::{choices, resets, sets};
+use crate::check::choices::choices;
+use crate::check::programs::{resets, sets};
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;

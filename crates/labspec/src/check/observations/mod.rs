@@ -27,10 +27,10 @@ mod undone;
 pub(super) use record::{Mark, Record};
 pub(super) use saturated::Beyond;
 
-use super::Ready;
+use super::PreparedLab;
 use crate::finding::Finding;
 use crate::run::Cell;
-use bench::Bench;
+use bench::ObservationBench;
 
 /// Work for the runs that make sure, for each lab.
 const WORK: u64 = 600_000_000;
@@ -39,7 +39,7 @@ const WORK: u64 = 600_000_000;
 struct ObservedLab<'a> {
     /// As it stands, then with each control at its ends.
     records: &'a [Record],
-    bench: Bench<'a>,
+    bench: ObservationBench<'a>,
     /// What is shown from other states, once it was asked for.
     perturbed: Option<Vec<Vec<Cell>>>,
     /// How long each run was, s.
@@ -65,12 +65,12 @@ impl ObservedLab<'_> {
 
 /// Looks at a lab whose runs all came to their end.
 pub(super) fn check_observations(
-    ready: &Ready<'_>,
+    ready: &PreparedLab<'_>,
     records: &[Record],
     length: f64,
     findings: &mut Vec<Finding>,
 ) {
-    let bench = Bench { ready, programs: &ready.programs, left: WORK, runs: 0 };
+    let bench = ObservationBench { ready, programs: &ready.programs, left: WORK, runs: 0 };
     let mut observed = ObservedLab { records, bench, perturbed: None, length, reported: Vec::new() };
     start::check_start(&observed, findings);
     at_rest::check_at_rest(&observed, findings);

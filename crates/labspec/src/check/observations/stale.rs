@@ -2,7 +2,7 @@
 //! `mj_forward` between.
 
 use super::ObservedLab;
-use super::bench::{Bench, Move};
+use super::bench::{Move, ObservationBench};
 use crate::bind::{Bound, ControlProgram, Programs, include};
 use crate::check::choices::choices;
 use crate::check::setconst;
@@ -116,7 +116,7 @@ fn amended(
     given: Option<Type>,
 ) -> Option<Programs> {
     let ready = observed.bench.ready;
-    let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
+    let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
     let bound = bench.compile(&bound.text, text, given)?;
     let mut programs = ready.programs.clone();
     match place {
@@ -158,7 +158,7 @@ fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs)
     let ready = observed.bench.ready;
     for (moves, said) in trials(ready.lab, place) {
         let with_move = observed.bench.run(&moves, STEPS)?;
-        let mut other = Bench { ready, programs: amended, left: observed.bench.left, runs: 0 };
+        let mut other = ObservationBench { ready, programs: amended, left: observed.bench.left, runs: 0 };
         let anew = other.run(&moves, STEPS)?;
         observed.bench.left = other.left;
         for (c, probe) in ready.programs.probes.iter().enumerate() {

@@ -29,7 +29,7 @@ pub(super) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut
             continue;
         };
         let before = before.iter().map(|p| p.as_str()).collect::<Vec<_>>().join(";");
-        let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
+        let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
         let [first, then] = [before.as_str(), last.as_str()].map(|t| bench.compile(&bound.text, t, None));
         let (Some(first), Some(then)) = (first, then) else { continue };
         // To begin with a plain reset and then to take a keyframe loses nothing.

@@ -7,7 +7,7 @@
 mod rests;
 
 use super::resolved_labs::{ResolvedLabs, resolve_labs, start_runs};
-use super::{Ready, setconst};
+use super::{PreparedLab, setconst};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::scene::Models;
 use crate::bind::{ControlProgram, Programs};
@@ -51,10 +51,10 @@ impl PartnerCandidate<'_> {
 pub(super) struct Partners<'a> {
     lesson: &'a Lesson,
     models: &'a Models,
-    labs: &'a [Ready<'a>],
+    labs: &'a [PreparedLab<'a>],
     candidates: Vec<PartnerCandidate<'a>>,
     /// Made when they are asked for: most lessons change no parameter that another belongs to.
-    corrected: OnceCell<Vec<Ready<'a>>>,
+    corrected: OnceCell<Vec<PreparedLab<'a>>>,
     stage: Stage<'a>,
 }
 
@@ -77,7 +77,7 @@ struct ClaimOwner<'c> {
 }
 
 /// The programs of all labs that write a parameter which others belong to.
-fn candidates<'a>(lesson: &'a Lesson, labs: &[Ready<'a>]) -> Vec<PartnerCandidate<'a>> {
+fn candidates<'a>(lesson: &'a Lesson, labs: &[PreparedLab<'a>]) -> Vec<PartnerCandidate<'a>> {
     let all = lesson.all_labs();
     let mut candidates = Vec::new();
     for ready in labs {
@@ -116,7 +116,7 @@ fn correction(candidates: &[PartnerCandidate<'_>]) -> Coupled {
 
 /// Lets every run of the labs say whether the correction would change anything in it. Where it would not, the corrected run is the
 /// same, and need not be made. Gives the programs that are corrected.
-pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [Ready<'a>]) -> Vec<PartnerCandidate<'a>> {
+pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [PreparedLab<'a>]) -> Vec<PartnerCandidate<'a>> {
     let candidates = candidates(lesson, labs);
     let correction = correction(&candidates);
     labs.iter_mut().for_each(|ready| ready.programs.observed = Some(correction.clone()));
@@ -127,7 +127,7 @@ impl<'a> Partners<'a> {
     /// With the labs as [`observe`] has left them, and what it gave.
     pub(super) fn new(
         lesson: &'a Lesson,
-        labs: &'a [Ready<'a>],
+        labs: &'a [PreparedLab<'a>],
         models: &'a Models,
         candidates: Vec<PartnerCandidate<'a>>,
     ) -> Partners<'a> {
@@ -135,7 +135,7 @@ impl<'a> Partners<'a> {
     }
 
     /// All labs of the lesson with every partner corrected.
-    fn corrected(&self) -> &[Ready<'a>] {
+    fn corrected(&self) -> &[PreparedLab<'a>] {
         self.corrected.get_or_init(|| corrected(self.labs, &correction(&self.candidates)))
     }
 
@@ -209,7 +209,7 @@ impl<'a> Partners<'a> {
         for run in &verify.runs {
             let lab = of_run(run).and_then(|lab| self.labs.iter().find(|r| std::ptr::eq(r.lab, lab)));
             let (Some(text), Some(ready)) = (&run.setup, lab) else { continue };
-            let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
+            let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
             let Some(bound) = bench.compile(text, &text.value, None) else { continue };
             let pairs = PairSet::written_by(&bound.program);
             let pairs = pairs.without(allowed(self.lesson, text, pairs));
@@ -232,7 +232,7 @@ impl<'a> Partners<'a> {
     fn judge(
         &self,
         case: ClaimOwner<'_>,
-        labs: &[Ready<'_>],
+        labs: &[PreparedLab<'_>],
         stage: &Stage<'_>,
         numerics: TestedNumerics,
     ) -> Option<Judgement> {
@@ -314,11 +314,11 @@ fn lab_of<'c>(lesson: &'c Lesson, base: Option<&'c Lab>, run: &'c Run) -> Option
 }
 
 /// Labs whose partners are corrected.
-fn corrected<'a>(labs: &[Ready<'a>], coupled: &Coupled) -> Vec<Ready<'a>> {
-    let one = |ready: &Ready<'a>| {
+fn corrected<'a>(labs: &[PreparedLab<'a>], coupled: &Coupled) -> Vec<PreparedLab<'a>> {
+    let one = |ready: &PreparedLab<'a>| {
         let mut programs = Programs { observed: None, ..ready.programs.clone() };
         coupled.clone().install(&mut programs, &ready.model);
-        Ready { lab: ready.lab, model: ready.model.clone(), programs, mistakes: ready.mistakes }
+        PreparedLab { lab: ready.lab, model: ready.model.clone(), programs, mistakes: ready.mistakes }
     };
     labs.iter().map(one).collect()
 }
@@ -376,7 +376,7 @@ mod tests {
     }
 
     /// Every number of the state and of what the lab shows, bit for bit, after each of some steps.
-    fn bits(ready: &Ready<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
+    fn bits(ready: &PreparedLab<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
         let mut session = Session::start(programs, &ready.model, ready.lab.keyframe(), &programs.demand);
         for action in actions {
             match &action.value {
@@ -414,9 +414,9 @@ mod tests {
                 let labs = lesson.all_labs().into_iter();
                 let bound = |lab| {
                     let (model, programs, mistakes) = super::super::bind(lab, &models, &mut Vec::new())?;
-                    Some(Ready { lab, model, programs, mistakes })
+                    Some(PreparedLab { lab, model, programs, mistakes })
                 };
-                let mut labs: Vec<Ready<'_>> = labs.filter_map(bound).collect();
+                let mut labs: Vec<PreparedLab<'_>> = labs.filter_map(bound).collect();
                 let correction = correction(&observe(&lesson, &mut labs));
                 for (ready, amended) in labs.iter().zip(corrected(&labs, &correction)) {
                     let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };

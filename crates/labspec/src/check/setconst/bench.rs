@@ -42,7 +42,7 @@ pub(super) struct BenchTrial {
 }
 
 /// What is run.
-pub(in crate::check) struct Bench<'a> {
+pub(in crate::check) struct SetConstBench<'a> {
     lab: &'a Lab,
     model: &'a Model,
     programs: &'a Programs,
@@ -55,9 +55,9 @@ pub(super) type SampleRows = Vec<Vec<Cell>>;
 /// A run: its samples, or why it says nothing.
 pub(super) type Record = Result<SampleRows, String>;
 
-impl<'a> Bench<'a> {
-    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
-        Bench { lab, model, programs, work_left: WORK }
+impl<'a> SetConstBench<'a> {
+    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> SetConstBench<'a> {
+        SetConstBench { lab, model, programs, work_left: WORK }
     }
 
     /// What the samples of its runs are.

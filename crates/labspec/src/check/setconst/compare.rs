@@ -2,7 +2,7 @@
 
 use super::Suspect;
 use super::advice::{self, SetConstAdvice};
-use super::bench::{Amended, Bench, BenchTrial, SampleRows};
+use super::bench::{Amended, BenchTrial, SampleRows, SetConstBench};
 use super::difference::{BEYOND, Difference};
 use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
@@ -54,7 +54,7 @@ struct LabVariants {
     steps: usize,
 }
 
-impl Bench<'_> {
+impl SetConstBench<'_> {
     /// Runs everything. `Err` says why constants could not be tried.
     pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
         let steps = self.steps(s)?;

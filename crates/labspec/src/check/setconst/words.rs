@@ -1,7 +1,7 @@
 //! What is said of a program that leaves constants or partners behind.
 
 use super::advice::SetConstAdvice;
-use super::bench::Bench;
+use super::bench::SetConstBench;
 use super::compare::Compared;
 use super::{ProgramSite, Suspect};
 use crate::bind::coupled::{Pair, PairSet};
@@ -11,7 +11,7 @@ use crate::rules::{self, Rule};
 const CONSTANTS: &str =
     "the constants that follow from it (subtree masses, inverse weights of contacts) keep their old values";
 
-impl Bench<'_> {
+impl SetConstBench<'_> {
     /// The findings, unless nothing visible differs.
     pub(super) fn judge(&mut self, s: &Suspect<'_>) -> Vec<Finding> {
         match self.compare(s) {

@@ -8,7 +8,7 @@ mod runs;
 
 pub use compare::Divergence;
 
-use super::{CheckLevel, Ready};
+use super::{CheckLevel, PreparedLab};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
@@ -26,7 +26,7 @@ use std::path::Path;
 
 /// What became of the snapshot of one lab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct SnapshotResult {
     /// Its address: `#1`.
     pub lab: String,
     /// Bytes of the lesson; empty for a lab that is gone.
@@ -43,7 +43,7 @@ pub struct Kept {
     pub reason: String,
 }
 
-impl Kept {
+impl SnapshotResult {
     /// In one or two words.
     pub fn word(&self) -> &'static str {
         match self.state {
@@ -94,7 +94,7 @@ pub struct Renewal {
 #[derive(Clone, Debug)]
 pub struct RenewedLab {
     /// What became of it.
-    pub kept: Kept,
+    pub kept: SnapshotResult,
     /// Its lines in the file, if it is there.
     pub old: Option<String>,
     /// Its lines as they would be written now; `None` for a lab that is gone, or cannot run.
@@ -134,14 +134,17 @@ fn name_of(file: &SourceFile) -> String {
 /// Holds every lab of a lesson against its snapshot. Where none is stored, nothing is claimed.
 pub(super) fn check_snapshots(
     lesson: &Lesson,
-    ready: &[Ready<'_>],
+    ready: &[PreparedLab<'_>],
     depth: CheckLevel,
     findings: &mut Vec<Finding>,
-) -> Vec<Kept> {
+) -> Vec<SnapshotResult> {
     let Some(stored) = stored(lesson) else { return Vec::new() };
     let all = |state: State, reason: &str| {
-        let with_state =
-            |(address, lab): (_, &Lab)| Kept { state, reason: reason.into(), ..unchecked(&address, lab) };
+        let with_state = |(address, lab): (_, &Lab)| SnapshotResult {
+            state,
+            reason: reason.into(),
+            ..unchecked(&address, lab)
+        };
         lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
     if !depth.labs {
@@ -156,7 +159,7 @@ pub(super) fn check_snapshots(
         }
     };
     let taken = runs::take(lesson, ready);
-    let mut list: Vec<Kept> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
+    let mut list: Vec<SnapshotResult> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
     for kept in gone(&labs, &taken) {
         let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&kept.lab));
         findings.push(outdated(0..0, message, lesson));
@@ -165,8 +168,8 @@ pub(super) fn check_snapshots(
     list
 }
 
-fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> Kept {
-    Kept {
+fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> SnapshotResult {
+    SnapshotResult {
         lab: address.to_string(),
         span: lab.span.clone(),
         state: State::Unchecked,
@@ -178,9 +181,12 @@ fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> Kept {
 }
 
 /// Labs that are stored and no longer there.
-fn gone<'a>(labs: &'a [StoredLab], taken: &'a [TakenLab<'_, '_>]) -> impl Iterator<Item = Kept> + 'a {
+fn gone<'a>(
+    labs: &'a [StoredLab],
+    taken: &'a [TakenLab<'_, '_>],
+) -> impl Iterator<Item = SnapshotResult> + 'a {
     let is_gone = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
-    labs.iter().filter(is_gone).map(|lab| Kept {
+    labs.iter().filter(is_gone).map(|lab| SnapshotResult {
         lab: lab.address.clone(),
         span: 0..0,
         state: State::False,
@@ -192,7 +198,12 @@ fn gone<'a>(labs: &'a [StoredLab], taken: &'a [TakenLab<'_, '_>]) -> impl Iterat
 }
 
 /// One lab against what is stored of it.
-fn hold(now: &TakenLab<'_, '_>, labs: &[StoredLab], lesson: &Lesson, findings: &mut Vec<Finding>) -> Kept {
+fn hold(
+    now: &TakenLab<'_, '_>,
+    labs: &[StoredLab],
+    lesson: &Lesson,
+    findings: &mut Vec<Finding>,
+) -> SnapshotResult {
     let mut kept = unchecked(&now.address, now.lab);
     if now.runs.is_empty() {
         (kept.state, kept.reason) = (State::Unchecked, "it cannot run".into());
@@ -247,7 +258,7 @@ fn review(lesson: &Lesson) -> String {
 /// What would be stored of a lesson now, beside what is.
 pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     let mut ignored = Vec::new();
-    let ready: Vec<Ready<'_>> = lesson
+    let ready: Vec<PreparedLab<'_>> = lesson
         .all_labs()
         .into_iter()
         .filter_map(|lab| super::prepare(lab, models, CheckLevel::STATIC, &mut ignored))

@@ -33,7 +33,7 @@ use std::ops::Range;
 
 /// What a judge found in a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Taken {
+pub struct RecordedRun {
     /// Measures by name, and expressions that look at the samples themselves by their text.
     pub values: BTreeMap<String, f64>,
     /// Why the others have no value.
@@ -64,7 +64,7 @@ pub(crate) struct Reference<'w> {
     /// `MuJoCo 3.14.0`.
     pub(crate) engine: &'w str,
     /// In the order of [`tasks`]; with why nothing is there.
-    pub(crate) runs: Vec<Result<&'w Taken, String>>,
+    pub(crate) runs: Vec<Result<&'w RecordedRun, String>>,
 }
 
 /// Compares every measure, and judges every claim again with the numbers of the judge in place of ours. `None` when a run cannot be

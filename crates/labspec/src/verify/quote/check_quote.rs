@@ -2,7 +2,7 @@
 
 use super::messages;
 use super::number::Quoted;
-use super::quote_claim::{Other, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
+use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
 use super::read::{Reading, Unread};
 use super::rendered::ShownText;
 use super::unit;
@@ -99,8 +99,8 @@ struct Comparison<'q> {
     /// The expression is multiplied with this, to be in the unit of the quote.
     factor: Option<f64>,
     computed: f64,
-    timestep: Vec<Other>,
-    start: Vec<Other>,
+    timestep: Vec<OtherValue>,
+    start: Vec<OtherValue>,
     /// The reading that is what the expression gives.
     fits: Option<Quoted>,
     /// That one, or else the first.
@@ -128,7 +128,8 @@ impl<'q> Comparison<'q> {
         let apart = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
         let factor = factor.filter(|f| !apart || reading.read.is(f * value.computed));
         let scale = |x: f64| factor.map_or(x, |f| x * f);
-        let scaled = |list: &[Other]| list.iter().map(|o| Other { value: scale(o.value), ..*o }).collect();
+        let scaled =
+            |list: &[OtherValue]| list.iter().map(|o| OtherValue { value: scale(o.value), ..*o }).collect();
         let computed = scale(value.computed);
         let fits = [Some(reading.read), reading.share].into_iter().flatten().find(|q| q.is(computed));
         let (timestep, start) = (scaled(value.timestep), scaled(value.start));
@@ -137,7 +138,7 @@ impl<'q> Comparison<'q> {
     }
 
     /// The other runs in which the printed digits change, and what they print.
-    fn moved(&self, others: &[Other]) -> Vec<(&'static str, String)> {
+    fn moved(&self, others: &[OtherValue]) -> Vec<(&'static str, String)> {
         let differs = others.iter().filter(|o| self.read.differ(self.computed, o.value));
         differs.map(|o| (o.how, messages::printed(&self.read, o.value))).collect()
     }

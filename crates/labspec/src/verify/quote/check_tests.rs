@@ -12,7 +12,7 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let text = format!("It is {quote} here, and {quote} there.\n\n```lab simlab\n{lab}\n```\n");
     let lesson = load_lesson(SourceFile::new("a.md", text), &ModelFolder::unknown());
     let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
-    let other = |how| move |&value: &f64| Other { how, value };
+    let other = |how| move |&value: &f64| OtherValue { how, value };
     let half: Vec<_> = half.iter().map(other("at half the timestep")).collect();
     let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
     let mut findings = Vec::new();

@@ -39,7 +39,7 @@ pub(super) use check_quote::{check_quote, places_of_quote};
 pub(super) use head_unit::unit_of_head;
 pub use number::{Form, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
-pub use quote_claim::{Other, QuoteOutcome, QuoteState};
+pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
 pub(super) use quote_claim::{QuoteClaim, QuotePlace, QuoteValue};
 pub(super) use read::{QuotePart, parts, reading, whole};
 pub use read::{Unread, quoted};

@@ -2,7 +2,7 @@
 //! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
 
 use super::hidden::Hidden;
-use super::piece::Piece;
+use super::piece::ShownPiece;
 use super::table::{Table, Tables};
 use super::tags::{APART, read_tag};
 use crate::markdown::{self, Block, BlockKind};
@@ -26,7 +26,7 @@ const OPTIONS: Options = Options::ENABLE_TABLES
     .union(Options::ENABLE_YAML_STYLE_METADATA_BLOCKS);
 
 /// The pieces of shown prose, in order.
-pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
+pub(super) fn pieces(lesson: &Lesson) -> Vec<ShownPiece> {
     read(lesson).0
 }
 
@@ -35,7 +35,7 @@ pub(super) fn tables(lesson: &Lesson) -> Vec<Table> {
     read(lesson).1
 }
 
-fn read(lesson: &Lesson) -> (Vec<Piece>, Vec<Table>) {
+fn read(lesson: &Lesson) -> (Vec<ShownPiece>, Vec<Table>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
         return Default::default();
     }
@@ -98,7 +98,7 @@ fn notes(text: &str) -> BTreeSet<String> {
 struct Reader<'t> {
     text: &'t str,
     blocks: &'t [Block],
-    pieces: Vec<Piece>,
+    pieces: Vec<ShownPiece>,
     tables: Tables,
     /// The piece that is being read.
     open: Text,
@@ -239,7 +239,7 @@ impl Reader<'_> {
     fn close(&mut self) {
         let text = std::mem::replace(&mut self.open, empty());
         if !text.value.is_empty() {
-            self.pieces.push(Piece { text, html: self.html });
+            self.pieces.push(ShownPiece { text, html: self.html });
         }
         self.html = false;
     }

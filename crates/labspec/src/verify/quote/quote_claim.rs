@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// The value of the same expression in another run: with half the timestep, or from a start that is a hair away.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Other {
+pub struct OtherValue {
     /// What was changed: "at half the timestep", "with the solver run to convergence", "with a start moved by 1e-14".
     pub how: &'static str,
     /// What the expression then gives.
@@ -49,9 +49,9 @@ pub(in crate::verify) struct QuoteValue<'v> {
     /// In the lesson's own runs.
     pub(in crate::verify) computed: f64,
     /// With finer numerics.
-    pub(in crate::verify) timestep: &'v [Other],
+    pub(in crate::verify) timestep: &'v [OtherValue],
     /// From starts that no reader could tell from the lesson's own.
-    pub(in crate::verify) start: &'v [Other],
+    pub(in crate::verify) start: &'v [OtherValue],
     /// What it measures, where that is certain.
     pub(in crate::verify) unit: &'v dyn Fn() -> Option<Dimension>,
 }

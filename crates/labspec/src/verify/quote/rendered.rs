@@ -3,7 +3,7 @@
 
 use super::denial::is_denied;
 use super::markdown_cell::unit_of_column;
-use super::piece::Piece;
+use super::piece::ShownPiece;
 use super::pieces::shown_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::quote_claim::QuotePlace;
@@ -178,7 +178,7 @@ fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
 
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
 /// number; `words` takes them, too.
-fn join(pieces: Vec<Piece>, words: bool) -> (Readable, SourceMap) {
+fn join(pieces: Vec<ShownPiece>, words: bool) -> (Readable, SourceMap) {
     let (mut all, mut chars, mut map) = (String::new(), Vec::new(), SourceMap::default());
     for piece in pieces {
         if !words && !has_number(&piece.text.value) {

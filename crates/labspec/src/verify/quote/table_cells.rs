@@ -40,7 +40,7 @@ pub(in crate::verify) fn cells_of_column(
     };
     let at = |heading: &str| table.column(heading).unwrap_or(0);
     let (column, by) = (at(claim.column.as_str()), key.map_or(0, at));
-    let text = |cell: &table::Cell| Text {
+    let text = |cell: &table::TableCell| Text {
         value: cell.text.clone(),
         map: SourceMap::whole(cell.text.len(), cell.span.clone()),
     };
