@@ -42,7 +42,7 @@ fn cases() -> Vec<Case> {
 fn verdicts(quiz: &Value, models: &Models) -> (Vec<(usize, Verdict, String)>, Vec<String>) {
     let text = format!("# Questions\n\n```quiz\n{quiz:#}\n```\n");
     let lesson = load_lesson(SourceFile::new("quiz.md", text), models.folder());
-    let checked = check::check(lesson, models, CheckLevel { labs: false, ..CheckLevel::FULL });
+    let checked = check::check_lesson(lesson, models, CheckLevel { labs: false, ..CheckLevel::FULL });
     let mut answers = Vec::new();
     let mut quotes = Vec::new();
     for claim in &checked.claims {

@@ -312,7 +312,8 @@ fn real_labs_are_covered() {
                 continue;
             }
             let lesson = load_lesson(SourceFile::read(&path).unwrap(), models.folder());
-            let checked = check::check(lesson, &models, CheckLevel { claims: false, ..CheckLevel::FULL });
+            let checked =
+                check::check_lesson(lesson, &models, CheckLevel { claims: false, ..CheckLevel::FULL });
             for lab in &checked.labs {
                 let t = lab.tried.as_ref().unwrap();
                 // Two balls gain energy at the lower end of their damping ratio, in the library as here.

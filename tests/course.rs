@@ -44,7 +44,7 @@ pub(super) fn models() -> Models {
 
 /// What a check finds in a text.
 pub(super) fn checked(name: &str, text: &str, models: &Models, depth: CheckLevel) -> Checked {
-    check::check(load_lesson(SourceFile::new(name, text), models.folder()), models, depth)
+    check::check_lesson(load_lesson(SourceFile::new(name, text), models.folder()), models, depth)
 }
 
 /// Warnings and errors, and what the settings of the course make an error (`specs/labspec.toml`), each in a line.

@@ -38,7 +38,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
         let lesson = load_lesson(SourceFile::new(name, text), models.folder());
         let lab = lesson.all_labs()[0].clone();
         let mut findings = Vec::new();
-        let Some(model) = models.of(&lab, &mut findings) else { panic!("{}", piece.name) };
+        let Some(model) = models.model_of_lab(&lab, &mut findings) else { panic!("{}", piece.name) };
         let programs = Programs::compile(&lab, &model, &mut findings);
         let names = ModelNames::new(&model, Scope::Lab);
         let found = labspec::bind::dimensions(&lab, &model, &programs);
@@ -70,7 +70,7 @@ fn every_expression_has_a_dimension_or_none_that_is_known() {
             }
         }
         let depth = CheckLevel { programs: true, labs: false, claims: false };
-        for f in check::check(lesson, models, depth).findings {
+        for f in check::check_lesson(lesson, models, depth).findings {
             if CODES.contains(&f.code) {
                 writeln!(page, "  told: {} {}", f.code, f.message).unwrap();
             }
@@ -104,7 +104,7 @@ fn told(keys: &str) -> Vec<String> {
     let folder = ModelFolder::unknown();
     let lesson = load_lesson(SourceFile::new("t.md", text), &folder);
     let depth = CheckLevel { programs: true, labs: false, claims: false };
-    let checked = check::check(lesson, &Models::new(folder), depth);
+    let checked = check::check_lesson(lesson, &Models::new(folder), depth);
     let errors: Vec<_> = checked.findings.iter().filter(|f| f.is_error()).collect();
     assert!(errors.is_empty(), "{keys}: {errors:#?}");
     checked.findings.into_iter().filter(|f| CODES.contains(&f.code)).map(|f| f.message).collect()

@@ -43,7 +43,8 @@ impl Case {
         let lesson = load_lesson(SourceFile::new(self.name.as_str(), text), &self.models);
         let broken = lesson.broken.len();
         let models = Models::new(self.models.clone());
-        let checked = check::check(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
+        let checked =
+            check::check_lesson(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
         (checked.findings, broken)
     }
 }
@@ -445,7 +446,7 @@ fn repairs_that_change_what_a_lab_shows_are_guesses() {
         // And what is made unasked leaves the text as it shows itself.
         let look = |text: &str| {
             let (findings, broken) = case.findings(text);
-            labspec::repair::Looked { text: text.to_string(), findings, broken }
+            labspec::repair::CheckedText { text: text.to_string(), findings, broken }
         };
         let (safe, _) = labspec::repair::repair(look(&case.text), false, &look, &|text| case.shown(text));
         assert!(shown.is_subset(&case.shown(&safe)), "{mistake}");

@@ -148,7 +148,7 @@ fn names_and_layout_mean_the_same_on_random_states() {
         let done = format(&lesson, Some(&mut models));
         let after = load(&path, &done.text, &folder);
         for (lab, new) in lesson.all_labs().into_iter().zip(after.all_labs()) {
-            let Some(model) = models.of(lab, &mut Vec::new()) else { continue };
+            let Some(model) = models.model_of_lab(lab, &mut Vec::new()) else { continue };
             let worlds: Vec<World> = (0..STATES).map(|seed| random_world(&model, seed)).collect();
             let mut globals = Globals::new();
             for ((form, old), (_, new)) in lab.code().into_iter().zip(new.code()) {

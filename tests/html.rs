@@ -456,7 +456,7 @@ fn curves_are_those_of_the_runs() {
     let lesson = load_lesson(SourceFile::new("a.json", text), &models);
     let models = Models::new(models);
     let drawn = check::curves(&lesson, &models);
-    let checked = check::check(lesson, &models, check::CheckLevel::CLAIMS);
+    let checked = check::check_lesson(lesson, &models, check::CheckLevel::CLAIMS);
     let measures = &checked.claims[0].judgement.measures;
     assert_eq!(drawn.len(), 1);
     let [low, high] = drawn[0].runs.as_slice() else { panic!("{drawn:?}") };

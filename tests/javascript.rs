@@ -334,7 +334,9 @@ fn compare_lessons(lessons: &[PathBuf], models: &Path) {
         let models = Models::new(folder.clone());
         for lab in lesson.all_labs() {
             let name = format!("{} {}", path.display(), lab.title());
-            let Some(model) = models.of(lab, &mut Vec::new()) else { panic!("{name} has no model") };
+            let Some(model) = models.model_of_lab(lab, &mut Vec::new()) else {
+                panic!("{name} has no model")
+            };
             compare(&name, lab, &model, &mut count);
         }
     }

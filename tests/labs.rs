@@ -86,8 +86,9 @@ fn ours(shared: &Path, recording: &Json, how: How) -> Json {
     let lab = lesson.addressed()[0].1;
     let mut findings = Vec::new();
     let mut models = Models::new(folder);
-    let model =
-        models.of(lab, &mut findings).unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
+    let model = models
+        .model_of_lab(lab, &mut findings)
+        .unwrap_or_else(|| panic!("{name}: {:?}", models.take_findings()));
     let mut model: Model = (*model).clone();
     let [moved, pulled] = if let How::Nudged(q, g) = how { [q * NUDGE, g * NUDGE] } else { [0.0; 2] };
     let edit = model.edit();

@@ -119,7 +119,7 @@ fn counted(
 ) -> BTreeMap<&'static str, usize> {
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
     let mut count = BTreeMap::new();
-    for f in check::check(lesson, models, depth).findings {
+    for f in check::check_lesson(lesson, models, depth).findings {
         if matches!(f.severity, Severity::Error | Severity::Warning) {
             *count.entry(f.code).or_insert(0) += 1;
         }

@@ -29,7 +29,8 @@ fn open(path: &Path, models: ModelFolder) -> Opened {
 fn open_all(path: &Path, models: ModelFolder) -> Vec<Opened> {
     let lesson = load_lesson(SourceFile::read(path).unwrap(), &models);
     let models = Models::new(models);
-    let one = |lab: &Lab| Opened { lab: lab.clone(), model: models.of(lab, &mut Vec::new()).unwrap() };
+    let one =
+        |lab: &Lab| Opened { lab: lab.clone(), model: models.model_of_lab(lab, &mut Vec::new()).unwrap() };
     lesson.addressed().iter().map(|(_, lab)| one(lab)).collect()
 }
 

@@ -31,7 +31,7 @@ fn one(lesson: &Lesson) -> &Lab {
 }
 
 fn model(lab: &Lab) -> std::sync::Arc<Model> {
-    Models::new(ModelFolder::unknown()).of(lab, &mut Vec::new()).unwrap()
+    Models::new(ModelFolder::unknown()).model_of_lab(lab, &mut Vec::new()).unwrap()
 }
 
 fn report(lab: &Lab, options: &Options) -> Report {

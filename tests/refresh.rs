@@ -276,7 +276,8 @@ fn the_real_labs_are_warned_only_of_what_a_run_shows() {
             let name = path.file_stem().unwrap().to_str().unwrap();
             let models = Models::new(ModelFolder::open(&shared.join("models")).unwrap());
             let lesson = load_lesson(SourceFile::read(path).unwrap(), models.folder());
-            let checked = check::check(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
+            let checked =
+                check::check_lesson(lesson, &models, CheckLevel { programs: true, ..CheckLevel::STATIC });
             for f in &checked.findings {
                 let evidence = match f.code {
                     "missing-setconst" => " with the constants recomputed",

@@ -219,7 +219,7 @@ fn a_lab_may_stand_in_another_lesson() {
     let models = Models::new(ModelFolder::unknown());
     let check = |name: &str| {
         let lesson = load_lesson_file(&folder.path().join(name), models.folder()).unwrap();
-        check::check(lesson, &models, CheckLevel::FULL)
+        check::check_lesson(lesson, &models, CheckLevel::FULL)
     };
     write("labs.md", &format!("# Labs\n{}{}", lab(Value::Null), lab(Value::Null)));
     write("quiz.md", &quiz("labs.md#2"));

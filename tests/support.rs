@@ -93,7 +93,7 @@ pub(crate) fn numbers(recorded: &Value) -> Vec<f64> {
 pub(crate) fn check_text(name: &str, text: &str) -> Checked {
     let models = Models::new(ModelFolder::unknown());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
-    check::check(lesson, &models, CheckLevel::FULL)
+    check::check_lesson(lesson, &models, CheckLevel::FULL)
 }
 
 /// The codes of everything that was found.

@@ -81,7 +81,7 @@ fn accepted(case: &Case) -> (usize, Vec<String>) {
     }
     let lesson = case.lesson(&text);
     assert!(!lesson.has_errors(), "{:?}", lesson.findings);
-    let checked = check::check(lesson, &models, CheckLevel::CLAIMS);
+    let checked = check::check_lesson(lesson, &models, CheckLevel::CLAIMS);
     let quotes = checked.claims.iter().flat_map(|c| &c.judgement.quotes);
     let right = quotes.clone().filter(|q| q.state == QuoteState::Right).count();
     let wrong = quotes.filter(|q| q.state != QuoteState::Right).map(|q| format!("{} {}", q.text, q.reason));

@@ -103,7 +103,7 @@ pub(super) fn text(scene: &Scene, claims: &[Claim]) -> String {
 pub(super) fn check(scene: &Scene, claims: &[Claim]) -> Checked {
     let models = Models::new(ModelFolder::unknown());
     let lesson = load_lesson(SourceFile::new("claims.md", text(scene, claims)), models.folder());
-    check::check(lesson, &models, CheckLevel::CLAIMS)
+    check::check_lesson(lesson, &models, CheckLevel::CLAIMS)
 }
 
 /// The measures of both runs, by name.

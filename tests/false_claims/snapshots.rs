@@ -28,7 +28,7 @@ pub(super) fn stored(scenes: &[Scene]) -> String {
 /// Of each lab, whether it is as stored.
 pub(super) fn kept(scenes: &[Scene], snapshot: &str) -> Vec<bool> {
     let models = Models::new(ModelFolder::unknown());
-    let checked = check::check(lesson(scenes, Some(snapshot)), &models, DEPTH);
+    let checked = check::check_lesson(lesson(scenes, Some(snapshot)), &models, DEPTH);
     let of = |i: usize| {
         let address = format!("#{}", i + 1);
         let states: Vec<State> =

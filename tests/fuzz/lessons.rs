@@ -205,7 +205,7 @@ fn holds_nothing(text: &str) -> bool {
 fn said(name: &str, text: &str, models: &ModelFolder, depth: CheckLevel) -> String {
     let mut models = Models::new(models.clone());
     let lesson = load_lesson(SourceFile::new(name, text), models.folder());
-    let checked = check::check(lesson, &models, depth);
+    let checked = check::check_lesson(lesson, &models, depth);
     let of_models = models.take_findings();
     let file = &checked.lesson.file;
     let inside = |span: &Range<usize>| span.start <= span.end && file.text().get(span.clone()).is_some();

@@ -194,7 +194,7 @@ fn shown(lab: &Value) -> Vec<(&Value, &str)> {
 fn measures(json: &Value, models: &Models) -> Option<Vec<Measure>> {
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let lab = lesson.all_labs().into_iter().next()?;
-    let model = models.of(lab, &mut Vec::new())?;
+    let model = models.model_of_lab(lab, &mut Vec::new())?;
     let programs = Programs::compile(lab, &model, &mut Vec::new());
     let found = dimensions(lab, &model, &programs).probes;
     Some(found.into_iter().map(|m| m.map_or(Measure::Unknown, |m| m.value)).collect())
@@ -203,7 +203,8 @@ fn measures(json: &Value, models: &Models) -> Option<Vec<Measure>> {
 /// Words of the model that labels may use.
 fn names(json: &Value, models: &Models) -> Vec<String> {
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
-    let model = lesson.all_labs().into_iter().next().and_then(|lab| models.of(lab, &mut Vec::new()));
+    let model =
+        lesson.all_labs().into_iter().next().and_then(|lab| models.model_of_lab(lab, &mut Vec::new()));
     let kinds = [Obj::Body, Obj::Joint, Obj::Geom, Obj::Site, Obj::Actuator, Obj::Sensor];
     let of =
         |m: &labspec_core::Model| kinds.iter().flat_map(|k| m.names.of(*k).to_vec()).collect::<Vec<String>>();
@@ -292,7 +293,8 @@ fn shows_no_run(case: &Case<'_>) -> bool {
     let stop = case.json["stopAt"].as_f64().unwrap_or(0.0);
     let plots = case.json["plots"].as_array().is_some_and(|p| !p.is_empty());
     let lesson = load_lesson(SourceFile::new("piece.json", case.json.to_string()), case.models.folder());
-    let model = lesson.all_labs().into_iter().next().and_then(|lab| case.models.of(lab, &mut Vec::new()));
+    let model =
+        lesson.all_labs().into_iter().next().and_then(|lab| case.models.model_of_lab(lab, &mut Vec::new()));
     plots || model.is_some_and(|m| stop < m.opt.timestep)
 }
 

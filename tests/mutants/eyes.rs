@@ -47,7 +47,7 @@ pub(crate) fn seen(piece: &Piece, json: &Value, models: &Models) -> String {
     let mut text = shown.to_string();
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let Some(lab) = lesson.all_labs().into_iter().next() else { return text };
-    let Some(model) = models.of(lab, &mut Vec::new()) else { return text };
+    let Some(model) = models.model_of_lab(lab, &mut Vec::new()) else { return text };
     let programs = Programs::compile(lab, &model, &mut Vec::new());
     // Every stage in every step: what nobody reads is drawn all the same.
     let start =
@@ -125,7 +125,7 @@ pub(super) fn prints(json: &Value, models: &Models, readout: usize) -> std::coll
     let mut all = std::collections::BTreeSet::new();
     let lesson = load_lesson(SourceFile::new("piece.json", json.to_string()), models.folder());
     let Some(lab) = lesson.all_labs().into_iter().next() else { return all };
-    let Some(model) = models.of(lab, &mut Vec::new()) else { return all };
+    let Some(model) = models.model_of_lab(lab, &mut Vec::new()) else { return all };
     let programs = Programs::compile(lab, &model, &mut Vec::new());
     let column = 1 + lab.traces().count() + readout;
     for moved in std::iter::once(None).chain((0..lab.controls.len()).map(Some)) {

@@ -45,7 +45,7 @@ impl<'s> Look<'s> {
                 "$schema" | "title" | "description" | "$defs" | "default" | "examples" => true,
                 // What `if` decides between.
                 "then" | "else" => true,
-                // Looked at when all others have spoken.
+                // CheckedText at when all others have spoken.
                 "unevaluatedProperties" => true,
                 "const" => value == want,
                 "enum" => list(want).contains(value),

@@ -26,14 +26,14 @@ impl Engine {
     #[cfg(feature = "mjcf")]
     pub fn compile(xml: &str) -> Result<Engine, Error> {
         let model = core::xml::compile(xml).map_err(|list| findings(list, "model.xml", xml))?;
-        Engine::of(model)
+        Engine::with_model(model)
     }
 
     /// The engine of a model that is already compiled.
     ///
     /// # Errors
     /// The engine refuses the model's first pass.
-    pub fn of(model: Model) -> Result<Engine, Error> {
+    pub fn with_model(model: Model) -> Result<Engine, Error> {
         let mut data = Data::planned(&model, Plan::new(&model, &AccessSet::ANY));
         core::forward(&model, &mut data).map_err(refused)?;
         let world =

@@ -42,7 +42,7 @@ impl std::error::Error for Error {}
 
 /// A finding in a text of this name, with line and column.
 pub(crate) fn located(mut finding: Finding, path: &Arc<str>, text: &str) -> Finding {
-    finding.position = Some(Lines::of(text).position(text, finding.span.start));
+    finding.position = Some(Lines::new(text).position(text, finding.span.start));
     finding.path = path.clone();
     finding
 }

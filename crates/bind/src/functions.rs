@@ -23,7 +23,7 @@ pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
 
 /// Where a function may be called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Place {
+pub(super) enum FunctionPlace {
     /// In labs and in measures.
     Everywhere,
     /// In the measures of `verify` only: no page knows it.
@@ -108,7 +108,7 @@ pub(super) struct Function {
     pub(super) gives: Option<(FieldId, Obj)>,
     pub(super) reads: Touches,
     pub(super) writes: &'static [Touches],
-    pub(super) place: Place,
+    pub(super) place: FunctionPlace,
     pub(super) aggregate: bool,
     /// What the numbers that it gives measure.
     pub(super) unit: Unit,
@@ -130,7 +130,7 @@ pub(super) const ROW: Function = Function {
     gives: None,
     reads: Touches::Nothing,
     writes: &[],
-    place: Place::Everywhere,
+    place: FunctionPlace::Everywhere,
     aggregate: false,
     unit: Unit::Unknown,
     doc: "",
@@ -283,7 +283,7 @@ pub fn reference() -> Vec<FunctionDoc> {
         Arg::Number | Arg::Angle => "x",
         Arg::Text => "text",
         Arg::Numbers => "list",
-        Arg::Any if f.place == Place::Claims => "list",
+        Arg::Any if f.place == FunctionPlace::Claims => "list",
         Arg::Any => "options",
         Arg::Name(_) => "name",
         Arg::Label => "label",
@@ -294,12 +294,19 @@ pub fn reference() -> Vec<FunctionDoc> {
         FunctionDoc {
             signature: format!("{}({})", path(f), args.join(", ")),
             doc: f.doc,
-            measure: f.place == Place::Measures,
-            claim: f.place == Place::Claims,
+            measure: f.place == FunctionPlace::Measures,
+            claim: f.place == FunctionPlace::Claims,
             example: f.example,
         }
     };
     TABLE.iter().map(|f| one(f)).collect()
+}
+
+/// Whether a name at the start of an expression has a meaning, whatever the model.
+pub(crate) fn is_taken(name: &str) -> bool {
+    ["model", "data", "mj_setConst"].contains(&name)
+        || OBJECTS.contains(&name)
+        || TABLE.iter().any(|f| f.object.is_empty() && f.name == name)
 }
 
 #[cfg(test)]

@@ -3,17 +3,18 @@
 use super::Functions;
 use super::elements;
 use super::enums::ENUMS;
-use super::functions::{self, OBJECTS, Place, TABLE};
+use super::field_entry::{field, member_name, noun, owner, short_name};
+use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
 use super::shown::{LABELS, Shown};
 use super::words::WORDS;
-use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, model, option};
+use labspec_core::reflect::{self, FieldId, Object, data, option};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
-    Schema, Value, Words,
+    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema, Value,
+    Words,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -40,13 +41,6 @@ pub struct ModelNames<'m> {
     shown: Option<&'m Shown>,
 }
 
-/// Whether a name at the start of an expression has a meaning, whatever the model.
-pub(crate) fn is_taken(name: &str) -> bool {
-    ["model", "data", "mj_setConst"].contains(&name)
-        || OBJECTS.contains(&name)
-        || TABLE.iter().any(|f| f.object.is_empty() && f.name == name)
-}
-
 impl<'m> ModelNames<'m> {
     /// The names of a model.
     pub fn new(model: &'m Model, scope: Scope) -> ModelNames<'m> {
@@ -68,9 +62,9 @@ impl ModelNames<'_> {
     fn functions(&self) -> impl Iterator<Item = (usize, &'static functions::Function)> {
         let scope = self.scope;
         TABLE.iter().copied().enumerate().filter(move |(_, f)| match f.place {
-            Place::Everywhere => scope != Scope::Claim,
-            Place::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
-            Place::Claims => scope == Scope::Claim,
+            FunctionPlace::Everywhere => scope != Scope::Claim,
+            FunctionPlace::Measures => scope == Scope::Measure || (scope == Scope::Claim && f.name == "abs"),
+            FunctionPlace::Claims => scope == Scope::Claim,
         })
     }
 
@@ -135,155 +129,6 @@ impl ModelNames<'_> {
     }
 }
 
-/// The name of a field in a named object: without the prefix that says what it belongs to.
-fn short_name(name: &str) -> &str {
-    const PREFIXES: [&str; 22] = [
-        "body_",
-        "jnt_",
-        "dof_",
-        "geom_",
-        "site_",
-        "cam_",
-        "light_",
-        "mesh_",
-        "hfield_",
-        "tex_",
-        "mat_",
-        "pair_",
-        "exclude_",
-        "eq_",
-        "tendon_",
-        "ten_",
-        "actuator_",
-        "sensor_",
-        "numeric_",
-        "text_",
-        "tuple_",
-        "key_",
-    ];
-    PREFIXES.iter().find_map(|p| name.strip_prefix(p)).unwrap_or(name)
-}
-
-/// How a field of the table is written for one object that has a name: `data.joint('…').qpos`; `None` when it has no
-/// rows of one kind of object.
-pub fn named_field(f: FieldId) -> Option<String> {
-    let (object, name, dim) = (f.info().object, f.info().name, f.rows()?);
-    let holder = match object {
-        Object::Model => "model",
-        Object::Data => "data",
-        _ => return None,
-    };
-    let (kind, _) = KINDS.iter().find(|(kind, _)| elements::has_rows(*kind, dim))?;
-    Some(format!("{holder}.{}('…').{}", noun(*kind), member_name(object, name, *kind)))
-}
-
-/// What a field is called in a named object: in short, unless that means a field before it (`dof_solref` of a joint).
-fn member_name(object: Object, name: &'static str, kind: Obj) -> &'static str {
-    if name == "sensordata" {
-        return "data";
-    }
-    let short = short_name(name);
-    let has = |f: &FieldId| f.rows().is_some_and(|dim| elements::has_rows(kind, dim));
-    let all = reflect::fields().filter(|f| f.info().object == object && short_name(f.info().name) == short);
-    let first = all.filter(has).map(|f| f.info().name).next();
-    if first.is_none_or(|f| f == name) { short } else { name }
-}
-
-fn noun(kind: Obj) -> &'static str {
-    KINDS.iter().find(|(k, _)| *k == kind).map_or("object", |(_, noun)| noun)
-}
-
-fn field(f: FieldId, path: String, first: usize, shape: Vec<Option<usize>>, owner: String) -> Field {
-    let info = f.info();
-    let kind = match info.kind {
-        Kind::Structure => FieldKind::Structure,
-        Kind::State => FieldKind::State,
-        Kind::Input => FieldKind::Input,
-        Kind::Constant => FieldKind::Constant,
-        Kind::Inertial => FieldKind::Inertial,
-        Kind::Derived => FieldKind::Derived { by: stage_phrase(info.stage).into() },
-    };
-    Field {
-        key: FieldKey(f.index() as u32),
-        path,
-        first,
-        shape,
-        kind,
-        elem: match info.elem {
-            reflect::Elem::F64 => Elem::Double,
-            reflect::Elem::I32 | reflect::Elem::Size => Elem::Int,
-            reflect::Elem::Bool => Elem::Byte,
-        },
-        unit: f.unit().into(),
-        doc: f.doc().into(),
-        owner,
-    }
-}
-
-/// What computes a field, as the object of "computed by".
-fn stage_phrase(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Compile => "the model compiler",
-        Stage::SetConst => "mj_setConst",
-        Stage::User => "nothing",
-        Stage::Kinematics
-        | Stage::Orientations
-        | Stage::GeomPoses
-        | Stage::SitePoses
-        | Stage::CameraPoses => "forward kinematics, inside mj_step and mj_forward",
-        Stage::ComPos | Stage::ComVel => "the centre-of-mass stage, inside mj_step and mj_forward",
-        Stage::MassMatrix | Stage::Factor => "the mass-matrix stage, inside mj_step and mj_forward",
-        Stage::Tendon | Stage::TendonVel => "the tendon stage, inside mj_step and mj_forward",
-        Stage::Transmission | Stage::ActuatorVel | Stage::Actuation => {
-            "the actuation stage, inside mj_step and mj_forward"
-        }
-        Stage::Collision => "collision detection, inside mj_step and mj_forward",
-        Stage::Constraint | Stage::Reference => "the constraint stage, inside mj_step and mj_forward",
-        Stage::Passive => "the passive-force stage, inside mj_step and mj_forward",
-        Stage::Bias => "recursive Newton–Euler, inside mj_step and mj_forward",
-        Stage::Acceleration => "the acceleration stage, inside mj_step and mj_forward",
-        Stage::Solve => "the constraint solver, inside mj_step and mj_forward",
-        Stage::SubtreeVel => "mj_subtreeVel, which mj_step and mj_forward call when a sensor needs it",
-        Stage::RnePost => "mj_rnePostConstraint, which mj_step and mj_forward call when a sensor needs it",
-        Stage::Inverse => "mj_inverse",
-        Stage::Sleep => "the sleep stage, inside mj_step and mj_forward",
-        Stage::Sensors => "the sensor stage, inside mj_step and mj_forward",
-        Stage::Energy => "the energy stage, inside mj_step and mj_forward",
-    }
-}
-
-/// Whose index it is, in a sentence.
-fn owner(f: FieldId, shape: &[Option<usize>]) -> String {
-    let (Some(rows), Some(Some(count))) = (f.rows(), shape.first()) else { return String::new() };
-    let things = match rows {
-        model::nq => "coordinates (nq)",
-        model::nv => "degrees of freedom (nv)",
-        model::nu => "controls (nu)",
-        model::na => "activations (na)",
-        model::nbody => "bodies (nbody, the world is body 0)",
-        model::njnt => "joints (njnt)",
-        model::ngeom => "geoms (ngeom)",
-        model::nsite => "sites (nsite)",
-        model::nmocap => "mocap bodies (nmocap)",
-        model::nkey => "keyframes (nkey)",
-        model::ncam => "cameras (ncam)",
-        model::nlight => "lights (nlight)",
-        model::nactuator => "actuators (nactuator)",
-        model::nout => "force outputs of actuators (nout)",
-        model::nmesh => "meshes (nmesh)",
-        model::nwrap => "objects on tendon paths (nwrap)",
-        model::npair => "contact pairs (npair)",
-        model::nsensor => "sensors (nsensor)",
-        model::nsensordata => "sensor values (nsensordata)",
-        model::ntendon => "tendons (ntendon)",
-        model::neq => "equality constraints (neq)",
-        _ => return String::new(),
-    };
-    let each: usize = shape.iter().skip(1).map(|d| d.unwrap_or(1)).product();
-    let width = if shape.len() > 1 { format!(" with {each} numbers each") } else { String::new() };
-    format!("the model has {count} {things}{width}")
-}
-
 impl Schema for ModelNames<'_> {
     fn identity(&self) -> u64 {
         self.model.identity()
@@ -298,20 +143,20 @@ impl Schema for ModelNames<'_> {
             _ => match OBJECTS.iter().position(|o| *o == name) {
                 Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
                 None => self.function_of("", name).or_else(|| {
-                    let own = self.own?.find(name)?;
-                    Some(Entry::Function(FunctionId((TABLE.len() + own) as u32)))
+                    let function = self.own?.find(name)?;
+                    Some(Entry::Function(FunctionId((TABLE.len() + function) as u32)))
                 }),
             },
         }
     }
 
     fn root_names(&self) -> Vec<String> {
-        let own = self.functions().filter(|(_, f)| f.object.is_empty()).map(|(_, f)| f.name);
+        let names_here = self.functions().filter(|(_, f)| f.object.is_empty()).map(|(_, f)| f.name);
         ["model", "data"]
             .into_iter()
             .chain(OBJECTS)
             .chain(["mj_setConst"])
-            .chain(own)
+            .chain(names_here)
             .chain(self.own.into_iter().flat_map(Functions::names))
             .map(String::from)
             .collect()
@@ -497,8 +342,8 @@ impl Schema for ModelNames<'_> {
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
         let at = i as usize;
-        let own = || self.own?.info(at.checked_sub(TABLE.len())?);
-        functions::INFO.get(at).cloned().or_else(own).unwrap_or_else(functions::none)
+        let embedded = || self.own?.info(at.checked_sub(TABLE.len())?);
+        functions::INFO.get(at).cloned().or_else(embedded).unwrap_or_else(functions::none)
     }
 
     fn hint(&self, object: ObjectId, name: &str) -> Option<String> {

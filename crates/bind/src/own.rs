@@ -1,8 +1,7 @@
 //! Functions that an embedding program brings: numbers in, a number out.
 
 use crate::Error;
-use crate::functions;
-use crate::names::is_taken;
+use crate::functions::{self, is_taken};
 use labspec_expr::{
     CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Gives, Globals, ObjectId, Param, Schema, Touch,
     Type, Value,
@@ -16,10 +15,10 @@ pub(crate) const PRICE: u64 = 200;
 /// Functions by name, called as `name(x, y)`. They see their arguments and nothing else of the simulation, so that no plan
 /// depends on them; for the same arguments they should give the same number.
 #[derive(Clone, Default)]
-pub struct Functions(Arc<Vec<Own>>);
+pub struct Functions(Arc<Vec<EmbeddedFunction>>);
 
 #[derive(Clone)]
-struct Own {
+struct EmbeddedFunction {
     name: String,
     params: usize,
     doc: String,
@@ -50,8 +49,9 @@ impl Functions {
             return Err(Error::Call(format!("`{name}` already has a meaning")));
         }
         let at = self.0.len() as u32;
-        let own = Own { name: name.to_string(), params, doc: doc.to_string(), call: Arc::new(call) };
-        Arc::make_mut(&mut self.0).push(own);
+        let function =
+            EmbeddedFunction { name: name.to_string(), params, doc: doc.to_string(), call: Arc::new(call) };
+        Arc::make_mut(&mut self.0).push(function);
         // Whether a text can call it is for the language to say.
         let text = format!("{name}({})", vec!["0"; params].join(", "));
         let (names, mut globals) = (Only(&self), Globals::new());
@@ -75,10 +75,10 @@ impl Functions {
 
     /// Signature and effects of one of them.
     pub(crate) fn info(&self, at: usize) -> Option<FunctionInfo> {
-        let own = self.0.get(at)?;
+        let function = self.0.get(at)?;
         Some(FunctionInfo {
-            name: own.name.clone(),
-            params: vec![Param::Number; own.params],
+            name: function.name.clone(),
+            params: vec![Param::Number; function.params],
             optional: 0,
             implied: false,
             returns: Type::Number,
@@ -88,15 +88,15 @@ impl Functions {
             reads: Touch::Nothing,
             writes: Touch::Nothing,
             gives: Gives::Unknown,
-            doc: own.doc.clone(),
+            doc: function.doc.clone(),
         })
     }
 
     /// Calls one of them.
     pub(crate) fn call(&self, at: usize, args: &[Value]) -> Option<Result<Value, String>> {
-        let own = self.0.get(at)?;
+        let function = self.0.get(at)?;
         let numbers: Vec<f64> = args.iter().map(Value::to_number).collect();
-        Some((own.call)(&numbers).map(Value::Number))
+        Some((function.call)(&numbers).map(Value::Number))
     }
 }
 

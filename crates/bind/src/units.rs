@@ -38,7 +38,7 @@ pub fn is_unit(text: &str) -> bool {
 /// power  = [ "^" | "**" ] integer | raised digits | "squared" | "cubed"
 /// ```
 pub fn read(text: &str) -> Option<UnitText> {
-    let mut reader = Reader { text, at: 0, depth: 0 };
+    let mut reader = UnitReader { text, at: 0, depth: 0 };
     let first = reader.product()?;
     // A `1` alone is a number; before a stroke it is a part of a unit.
     let consumed = text.get(..reader.at)?;
@@ -48,31 +48,31 @@ pub fn read(text: &str) -> Option<UnitText> {
 
 /// What was read so far.
 #[derive(Clone, Copy)]
-enum Part {
+enum UnitPart {
     Known(Dimension),
     /// A unit that is none of ours, or one that may be read in two ways.
     Other,
 }
 
-impl Part {
+impl UnitPart {
     fn dimension(self) -> Option<Dimension> {
         match self {
-            Part::Known(dimension) => Some(dimension),
-            Part::Other => None,
+            UnitPart::Known(dimension) => Some(dimension),
+            UnitPart::Other => None,
         }
     }
 
-    fn with(self, other: Part, power: f64) -> Part {
+    fn with(self, other: UnitPart, power: f64) -> UnitPart {
         match (self, other) {
-            (Part::Known(a), Part::Known(b)) => {
-                b.power(power).and_then(|b| a.product(b)).map_or(Part::Other, Part::Known)
+            (UnitPart::Known(a), UnitPart::Known(b)) => {
+                b.power(power).and_then(|b| a.product(b)).map_or(UnitPart::Other, UnitPart::Known)
             }
-            _ => Part::Other,
+            _ => UnitPart::Other,
         }
     }
 }
 
-struct Reader<'t> {
+struct UnitReader<'t> {
     text: &'t str,
     at: usize,
     depth: usize,
@@ -83,12 +83,12 @@ const DEEP: usize = 4;
 const MANY: usize = 8;
 const WORD: usize = 40;
 
-impl<'t> Reader<'t> {
+impl<'t> UnitReader<'t> {
     fn rest(&self) -> &'t str {
         self.text.get(self.at..).unwrap_or("")
     }
 
-    fn product(&mut self) -> Option<Part> {
+    fn product(&mut self) -> Option<UnitPart> {
         let mut all = self.factor()?;
         let mut divided = false;
         for _ in 1..MANY {
@@ -102,8 +102,8 @@ impl<'t> Reader<'t> {
             all = match sign {
                 '/' => all.with(next, -1.0),
                 // What stands behind a stroke is one unit, or in brackets, or every one has a stroke of its own.
-                ' ' if divided => Part::Other,
-                _ if divided => Part::Other,
+                ' ' if divided => UnitPart::Other,
+                _ if divided => UnitPart::Other,
                 _ => all.with(next, 1.0),
             };
             divided |= sign == '/';
@@ -136,7 +136,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn factor(&mut self) -> Option<Part> {
+    fn factor(&mut self) -> Option<UnitPart> {
         let rest = self.rest();
         let c = rest.chars().next()?;
         let found = match c {
@@ -155,7 +155,7 @@ impl<'t> Reader<'t> {
             }
             '%' | '‰' => {
                 self.at += c.len_utf8();
-                Part::Known(Dimension::NUMBER.times(if c == '%' { 100.0 } else { 1000.0 }))
+                UnitPart::Known(Dimension::NUMBER.times(if c == '%' { 100.0 } else { 1000.0 }))
             }
             '1' => {
                 let next = rest.get(1..).unwrap_or("").trim_start_matches(' ');
@@ -164,18 +164,18 @@ impl<'t> Reader<'t> {
                     return None;
                 }
                 self.at += 1;
-                Part::Known(Dimension::NUMBER)
+                UnitPart::Known(Dimension::NUMBER)
             }
             _ => self.word()?,
         };
         Some(match self.power() {
-            Some(power) => Part::Known(Dimension::NUMBER).with(found, power),
+            Some(power) => UnitPart::Known(Dimension::NUMBER).with(found, power),
             None => found,
         })
     }
 
     /// A symbol or a name: letters up to the next character that is none.
-    fn word(&mut self) -> Option<Part> {
+    fn word(&mut self) -> Option<UnitPart> {
         let rest = self.rest();
         let wide = rest.chars().next().is_some_and(is_wide);
         let letter = |c: &char| {
@@ -196,7 +196,7 @@ impl<'t> Reader<'t> {
                 let length = tail.chars().take_while(char::is_ascii_alphabetic).count();
                 let found = tail.get(..length).and_then(symbol)?;
                 self.at += square.len() + length;
-                return Some(Part::Known(Dimension::NUMBER).with(Part::Known(found), power));
+                return Some(UnitPart::Known(Dimension::NUMBER).with(UnitPart::Known(found), power));
             }
         }
         // Where words are not parted by spaces, the longest beginning that is a unit; `°C` and `°/s` else.
@@ -206,8 +206,11 @@ impl<'t> Reader<'t> {
         }
         ends.into_iter().rev().find_map(|end| {
             let text = rest.get(..end)?;
-            let found =
-                if is_other(text) { Part::Other } else { Part::Known(symbol(&text.replace('µ', "μ"))?) };
+            let found = if is_other(text) {
+                UnitPart::Other
+            } else {
+                UnitPart::Known(symbol(&text.replace('µ', "μ"))?)
+            };
             self.at += end;
             Some(found)
         })
@@ -411,17 +414,17 @@ mod tests {
     #[test]
     fn the_longest_unit_is_read() {
         let of = |text: &str| read(text).map(|u| (u.length, u.dimension.map(|d| written(&d))));
-        let known = |length, unit: &str| Some((length, Some(unit.to_string())));
-        assert_eq!(of("s, and"), known(1, "s"));
-        assert_eq!(of("N m at"), known(3, "N m"));
-        assert_eq!(of("s / m high"), known(5, "s/m"));
-        assert_eq!(of("s per m"), known(7, "s/m"));
-        assert_eq!(of("s m"), known(3, "m s"));
-        assert_eq!(of("s-1."), known(3, "1/s"));
-        assert_eq!(of("s-0.5 s"), known(1, "s"));
-        assert_eq!(of("s 2 m"), known(1, "s"));
-        assert_eq!(of("秒的时间"), known(3, "s"));
-        assert_eq!(of("千克"), known(6, "kg"));
+        let symbol = |length, unit: &str| Some((length, Some(unit.to_string())));
+        assert_eq!(of("s, and"), symbol(1, "s"));
+        assert_eq!(of("N m at"), symbol(3, "N m"));
+        assert_eq!(of("s / m high"), symbol(5, "s/m"));
+        assert_eq!(of("s per m"), symbol(7, "s/m"));
+        assert_eq!(of("s m"), symbol(3, "m s"));
+        assert_eq!(of("s-1."), symbol(3, "1/s"));
+        assert_eq!(of("s-0.5 s"), symbol(1, "s"));
+        assert_eq!(of("s 2 m"), symbol(1, "s"));
+        assert_eq!(of("秒的时间"), symbol(3, "s"));
+        assert_eq!(of("千克"), symbol(6, "kg"));
         assert_eq!(of("°C"), Some((3, None)));
         assert_eq!(of("N m/rad s"), Some((9, None)));
         assert_eq!(of("balls"), None);

@@ -37,7 +37,7 @@ impl Host for World {
 
     fn set(&mut self, FieldKey(f): FieldKey, index: usize, value: f64) -> Result<(), String> {
         let field = FieldId::new(f as usize).ok_or("the field does not exist")?;
-        check(field, value)?;
+        check_write(field, value)?;
         // What stays as it is is no change of the model: plans were made for it.
         let same = |held: f64| held.to_bits() == value.to_bits();
         if field.info().object != Object::Data
@@ -99,7 +99,7 @@ impl World {
 }
 
 /// Values that the engine has no meaning for are refused, not ignored.
-fn check(field: FieldId, value: f64) -> Result<(), String> {
+fn check_write(field: FieldId, value: f64) -> Result<(), String> {
     let refused = |known: &str| Err(format!("`{}` cannot be {value}: {known}", field.info().name));
     let is = |allowed: &[i32]| allowed.iter().any(|&a| f64::from(a) == value);
     // What is left of a flag is a byte in JavaScript, and on or off here.

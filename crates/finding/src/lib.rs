@@ -9,9 +9,11 @@ mod nearest;
 mod pages;
 mod place;
 mod rule;
+mod severity;
 
-pub use finding::{Applicability, ClaimId, Finding, Fix, Severity, sort};
+pub use finding::{Applicability, ClaimId, Finding, Fix, sort};
 pub use nearest::{distance, nearest, ranked};
 pub use pages::list_rules;
 pub use place::{EditorPosition, Lines, Place, Position, Span, floor};
 pub use rule::{Example, Layer, Rule};
+pub use severity::Severity;

@@ -97,7 +97,7 @@ pub struct Lines {
 
 impl Lines {
     /// The lines of a text. For people only `\n` ends one.
-    pub fn of(text: &str) -> Lines {
+    pub fn new(text: &str) -> Lines {
         let after = text.match_indices('\n').map(|(i, _)| i.saturating_add(1));
         let behind = text.match_indices('\r').map(|(at, _)| at.saturating_add(1));
         let returns = behind.filter(|&at| text.as_bytes().get(at) != Some(&b'\n')).collect();
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn positions_of_every_byte() {
         for text in ["", "a", "äö\nx𝄞y\r\n\n\u{feff}z\t!", "\n\n", "𝄞𝄞\n𝄞"] {
-            let lines = Lines::of(text);
+            let lines = Lines::new(text);
             for byte in 0..text.len() + 3 {
                 let (mut line, mut column) = (1, 1);
                 for (i, c) in text.char_indices() {
@@ -169,14 +169,14 @@ mod tests {
 
     /// The same, by walking over the text byte by byte, as an editor would that was handed UTF-16.
     fn walked(text: &str, offset: usize) -> EditorPosition {
-        let shown: Vec<(usize, char)> = text.char_indices().collect();
+        let chars: Vec<(usize, char)> = text.char_indices().collect();
         let (mut line, mut units): (usize, Vec<u16>) = (0, Vec::new());
         let mut place = EditorPosition { line: 0, character: 0 };
-        for (i, &(at, c)) in shown.iter().enumerate() {
+        for (i, &(at, c)) in chars.iter().enumerate() {
             if offset < at + c.len_utf8() {
                 return place;
             }
-            let next = shown.get(i + 1).map(|&(_, c)| c);
+            let next = chars.get(i + 1).map(|&(_, c)| c);
             if at == 0 && c == '\u{feff}' {
                 continue;
             }
@@ -195,7 +195,7 @@ mod tests {
     }
 
     fn agrees(text: &str) {
-        let lines = Lines::of(text);
+        let lines = Lines::new(text);
         for offset in 0..text.len() + 3 {
             assert_eq!(lines.editor(text, offset), walked(text, offset), "byte {offset} of {text:?}");
         }
@@ -204,7 +204,7 @@ mod tests {
     #[test]
     fn an_editor_finds_the_place() {
         let text = "\u{feff}ä\tx\r\n𝄞b👩‍🔬c\rd\n";
-        let lines = Lines::of(text);
+        let lines = Lines::new(text);
         let at = |what: char| {
             let place = lines.editor(text, text.find(what).unwrap());
             (place.line, place.character)

@@ -1,6 +1,6 @@
 //! Rules: declared once, with their reasons and examples.
 
-use crate::Severity;
+use crate::severity::Severity;
 use std::ops::Range;
 
 /// What a rule needs in order to look: a layer knows what the layers before it know, and more.

@@ -97,11 +97,11 @@ impl Checker {
     pub fn check(&mut self, path: &str, text: &str) -> Report {
         let (file, folder) = (SourceFile::new(path, text), self.models.folder());
         let mut lesson = load_lesson_at(file, Path::new(path), &self.sources, folder);
-        let mut own: Vec<Finding> = self.rules.0.iter().flat_map(|rule| rule(&lesson)).collect();
-        lint::withhold_fixes(&lesson, &mut own);
-        lesson.findings.extend(own.into_iter().map(|f| f.at(&lesson.file)));
+        let mut of_rules: Vec<Finding> = self.rules.0.iter().flat_map(|rule| rule(&lesson)).collect();
+        lint::withhold_fixes(&lesson, &mut of_rules);
+        lesson.findings.extend(of_rules.into_iter().map(|f| f.at(&lesson.file)));
         finding::sort(&mut lesson.findings);
-        let checked = check::check(lesson, &self.models, self.depth);
+        let checked = check::check_lesson(lesson, &self.models, self.depth);
         let mut findings = lint::check_course(&[&checked.lesson]);
         findings.extend(checked.findings.iter().cloned());
         findings.extend(self.models.take_findings());

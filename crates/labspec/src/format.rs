@@ -29,7 +29,7 @@ pub fn format(lesson: &Lesson, mut models: Option<&mut Models>) -> Formatted {
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let mut total = 0;
     for lab in lesson.all_labs() {
-        let model = models.as_mut().and_then(|m| m.of(lab, &mut Vec::new()));
+        let model = models.as_mut().and_then(|m| m.model_of_lab(lab, &mut Vec::new()));
         let mut globals = Globals::new();
         for (form, text) in lab.code() {
             let named = model.as_ref().and_then(|m| modernized(&text.value, form, m, &mut globals));

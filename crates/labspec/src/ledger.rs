@@ -324,9 +324,9 @@ impl Ledger {
                 }
             }
         }
-        let known = self.known();
-        if known > 0 {
-            parts.push(format!("{known} already in the baseline"));
+        let baselined = self.known();
+        if baselined > 0 {
+            parts.push(format!("{baselined} already in the baseline"));
         }
         parts.join(", ")
     }

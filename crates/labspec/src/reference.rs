@@ -229,7 +229,7 @@ mod tests {
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
         let models = Models::new(ModelFolder::unknown());
-        let checked = check::check(lesson, &models, CheckLevel::CLAIMS);
+        let checked = check::check_lesson(lesson, &models, CheckLevel::CLAIMS);
         let value = checked.claims.first().and_then(|c| c.judgement.measures.first()).map(|m| m.value);
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }
@@ -242,7 +242,7 @@ mod tests {
         }});
         let lesson = load_lesson(SourceFile::new("lab.json", lab.to_string()), &ModelFolder::unknown());
         let models = Models::new(ModelFolder::unknown());
-        let checked = check::check(lesson, &models, CheckLevel::CLAIMS);
+        let checked = check::check_lesson(lesson, &models, CheckLevel::CLAIMS);
         let value = checked.claims.first().and_then(|c| c.judgement.quotes.first()).map(|q| q.computed);
         crate::verify::significant(value.unwrap_or_else(|| panic!("{code}: {:#?}", checked.findings)))
     }

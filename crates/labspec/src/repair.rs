@@ -88,7 +88,7 @@ fn written(cell: &Cell) -> String {
 
 /// A text, and what is found in it.
 #[derive(Debug)]
-pub struct Looked {
+pub struct CheckedText {
     /// The text.
     pub text: String,
     /// What is found.
@@ -97,20 +97,20 @@ pub struct Looked {
     pub broken: usize,
 }
 
-impl Looked {
+impl CheckedText {
     fn errors(&self) -> usize {
         self.findings.iter().filter(|f| f.is_error()).count()
     }
 
-    fn of(&self, code: &str) -> usize {
+    fn count_of_rule(&self, code: &str) -> usize {
         self.findings.iter().filter(|f| f.code == code).count()
     }
 }
 
 /// How a text is judged.
-struct Judge<'j> {
+struct RepairJudge<'j> {
     /// What is wrong with it.
-    look: &'j dyn Fn(&str) -> Looked,
+    look: &'j dyn Fn(&str) -> CheckedText,
     /// What its labs show.
     shows: &'j dyn Fn(&str) -> Traces,
     /// Whether safe repairs are tried, which have to be proven.
@@ -118,17 +118,17 @@ struct Judge<'j> {
 }
 
 /// A text with some repairs made, and what its labs show, once somebody asks.
-struct Stage {
-    looked: Looked,
+struct TextState {
+    looked: CheckedText,
     shown: OnceCell<Traces>,
 }
 
-impl Stage {
-    fn of(looked: Looked) -> Stage {
-        Stage { looked, shown: OnceCell::new() }
+impl TextState {
+    fn new(looked: CheckedText) -> TextState {
+        TextState { looked, shown: OnceCell::new() }
     }
 
-    fn shown(&self, judge: &Judge<'_>) -> &Traces {
+    fn shown(&self, judge: &RepairJudge<'_>) -> &Traces {
         self.shown.get_or_init(|| (judge.shows)(&self.looked.text))
     }
 }
@@ -136,23 +136,23 @@ impl Stage {
 /// The repaired text, and how many repairs that took. `look` finds what is wrong with a text, `shows` gives what its labs show. Safe
 /// repairs are made first and proven; then guesses, where they are asked for.
 pub fn repair(
-    now: Looked,
+    now: CheckedText,
     guesses: bool,
-    look: &dyn Fn(&str) -> Looked,
+    look: &dyn Fn(&str) -> CheckedText,
     shows: &dyn Fn(&str) -> Traces,
 ) -> (String, usize) {
-    let mut now = Stage::of(now);
-    let mut made = rounds(&mut now, Applicability::Safe, &Judge { look, shows, proves: true });
+    let mut now = TextState::new(now);
+    let mut made = rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     if guesses {
-        made += rounds(&mut now, Applicability::Unsafe, &Judge { look, shows, proves: false });
+        made += rounds(&mut now, Applicability::Unsafe, &RepairJudge { look, shows, proves: false });
         // What a guess has made visible.
-        made += rounds(&mut now, Applicability::Safe, &Judge { look, shows, proves: true });
+        made += rounds(&mut now, Applicability::Safe, &RepairJudge { look, shows, proves: true });
     }
     (now.looked.text, made)
 }
 
 /// Makes repairs of a kind until nothing changes; gives how many.
-fn rounds(now: &mut Stage, kind: Applicability, judge: &Judge<'_>) -> usize {
+fn rounds(now: &mut TextState, kind: Applicability, judge: &RepairJudge<'_>) -> usize {
     let mut made = 0;
     for _ in 0..ROUNDS {
         let fixes = apart(&now.looked.findings, kind);
@@ -160,12 +160,12 @@ fn rounds(now: &mut Stage, kind: Applicability, judge: &Judge<'_>) -> usize {
             break;
         }
         let old = now.looked.text.clone();
-        let mut kept = BTreeSet::new();
-        keep(&old, &fixes, 0..fixes.len(), &mut kept, now, judge);
-        if kept.is_empty() {
+        let mut applied = BTreeSet::new();
+        keep(&old, &fixes, 0..fixes.len(), &mut applied, now, judge);
+        if applied.is_empty() {
             break;
         }
-        made += kept.len();
+        made += applied.len();
     }
     made
 }
@@ -180,8 +180,8 @@ fn keep(
     fixes: &[Repair],
     part: Range<usize>,
     kept: &mut BTreeSet<usize>,
-    now: &mut Stage,
-    judge: &Judge<'_>,
+    now: &mut TextState,
+    judge: &RepairJudge<'_>,
 ) {
     if part.is_empty() || interrupted() {
         return;
@@ -220,9 +220,9 @@ fn attempt(
     fixes: &[Repair],
     part: Range<usize>,
     kept: &BTreeSet<usize>,
-    now: &Stage,
-    judge: &Judge<'_>,
-) -> Option<Stage> {
+    now: &TextState,
+    judge: &RepairJudge<'_>,
+) -> Option<TextState> {
     let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
     let (mut text, mut at) = (String::with_capacity(old.len()), 0);
     let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || kept.contains(i));
@@ -237,9 +237,9 @@ fn attempt(
         }
     }
     text.push_str(old.get(at..)?);
-    let next = Stage::of((judge.look)(&text));
+    let next = TextState::new((judge.look)(&text));
     let (was, is) = (&now.looked, &next.looked);
-    let gone = codes.iter().all(|(code, n)| is.of(code) + n <= was.of(code));
+    let gone = codes.iter().all(|(code, n)| is.count_of_rule(code) + n <= was.count_of_rule(code));
     if !gone || is.errors() > was.errors() || is.broken > was.broken {
         return None;
     }
@@ -254,7 +254,7 @@ mod tests {
     use crate::rules::UNKNOWN_KEY;
 
     /// Every `x` is wrong and is repaired to `o`; an `o` behind a `!` is worse.
-    fn look(text: &str) -> Looked {
+    fn find_wrong(text: &str) -> CheckedText {
         let wrong = text.match_indices('x');
         let mut findings: Vec<Finding> =
             wrong.map(|(at, _)| Finding::new(UNKNOWN_KEY, at..at + 1, "x").fix(at..at + 1, "o")).collect();
@@ -262,22 +262,28 @@ mod tests {
         findings.extend((0..worse).flat_map(|_| {
             [Finding::error(UNKNOWN_KEY, 0..0, "worse"), Finding::error(UNKNOWN_KEY, 0..0, "worse")]
         }));
-        Looked { text: text.to_string(), findings, broken: 0 }
+        CheckedText { text: text.to_string(), findings, broken: 0 }
     }
 
     #[test]
     fn what_repairs_is_kept_and_what_makes_it_worse_is_not() {
-        assert_eq!(repair(look("a x b x"), false, &look, &|_| Traces::new()), ("a o b o".to_string(), 2));
-        assert_eq!(repair(look("x !x x"), false, &look, &|_| Traces::new()), ("o !x o".to_string(), 2));
-        assert_eq!(repair(look("!x"), false, &look, &|_| Traces::new()), ("!x".to_string(), 0));
+        assert_eq!(
+            repair(find_wrong("a x b x"), false, &find_wrong, &|_| Traces::new()),
+            ("a o b o".to_string(), 2)
+        );
+        assert_eq!(
+            repair(find_wrong("x !x x"), false, &find_wrong, &|_| Traces::new()),
+            ("o !x o".to_string(), 2)
+        );
+        assert_eq!(repair(find_wrong("!x"), false, &find_wrong, &|_| Traces::new()), ("!x".to_string(), 0));
     }
 
     #[test]
     fn a_safe_repair_that_changes_what_is_shown_is_not_made() {
         // Only the first letter is shown.
         let shows = |text: &str| Traces::from([(0, 0, vec![text.chars().take(1).collect()])]);
-        assert_eq!(repair(look("x x"), false, &look, &shows), ("x o".to_string(), 1));
-        assert_eq!(repair(look("a x"), false, &look, &shows), ("a o".to_string(), 1));
+        assert_eq!(repair(find_wrong("x x"), false, &find_wrong, &shows), ("x o".to_string(), 1));
+        assert_eq!(repair(find_wrong("a x"), false, &find_wrong, &shows), ("a o".to_string(), 1));
     }
 
     /// Of 256 repairs with three bad ones all others are made, in about as many looks as halving takes: one by one would be 256.
@@ -290,16 +296,16 @@ mod tests {
         let looks = std::cell::Cell::new(0);
         let counted = |text: &str| {
             looks.set(looks.get() + 1);
-            look(text)
+            find_wrong(text)
         };
-        let (new, made) = repair(look(&text), false, &counted, &|_| Traces::new());
+        let (new, made) = repair(find_wrong(&text), false, &counted, &|_| Traces::new());
         assert_eq!((new.matches('o').count(), new.matches("!x").count(), made), (253, 3, 253));
         // Three ways of eight halvings, and once more to see that nothing is left.
         assert!(looks.get() <= 2 * 3 * 8 + 1 + 2 * 3, "{}", looks.get());
         // One that does not fit spoils none of the others.
         let fixes = [("a", Fix::safe(0..1, "o")), ("a", Fix::safe(9..12, "o"))];
-        let mut now = Stage::of(look("x b"));
-        let judge = Judge { look: &look, shows: &|_| Traces::new(), proves: true };
+        let mut now = TextState::new(find_wrong("x b"));
+        let judge = RepairJudge { look: &find_wrong, shows: &|_| Traces::new(), proves: true };
         let mut kept = BTreeSet::new();
         keep("x b", &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)), 0..2, &mut kept, &mut now, &judge);
         assert_eq!((now.looked.text.as_str(), kept.len()), ("o b", 1));

@@ -111,7 +111,7 @@ pub(super) fn range(data: Option<(f64, f64)>, low: Option<f64>, high: Option<f64
 /// times the range.
 pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
     let Range { mut low, mut high, free_low, free_high } = range;
-    let step = Step::over((high - low) / count.max(1) as f64);
+    let step = TickStep::over((high - low) / count.max(1) as f64);
     let room = slack * (high - low);
     let (below, above) = ((low / step.size() + 1e-9).floor(), (high / step.size() - 1e-9).ceil());
     if free_low && low - step.value(below) <= room {
@@ -134,21 +134,21 @@ pub(super) fn linear(range: Range, count: usize, slack: f64) -> Axis {
 
 /// The distance between ticks: 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy)]
-struct Step {
+struct TickStep {
     mantissa: i64,
     exponent: i32,
 }
 
-impl Step {
+impl TickStep {
     /// The smallest step that is not smaller than `least`.
-    fn over(least: f64) -> Step {
+    fn over(least: f64) -> TickStep {
         let (mantissa, exponent) = decade(least);
         // A range that is a round number of steps must not miss its step by the last bit.
         match mantissa - 1e-9 {
-            m if m <= 1.0 => Step { mantissa: 1, exponent },
-            m if m <= 2.0 => Step { mantissa: 2, exponent },
-            m if m <= 5.0 => Step { mantissa: 5, exponent },
-            _ => Step { mantissa: 1, exponent: exponent.saturating_add(1) },
+            m if m <= 1.0 => TickStep { mantissa: 1, exponent },
+            m if m <= 2.0 => TickStep { mantissa: 2, exponent },
+            m if m <= 5.0 => TickStep { mantissa: 5, exponent },
+            _ => TickStep { mantissa: 1, exponent: exponent.saturating_add(1) },
         }
     }
 

@@ -37,77 +37,18 @@ const MOST: usize = 200;
 
 /// Draws a map as a complete SVG document. Any data give a picture; without cells it says so.
 pub fn cells(chart: &Cells) -> String {
-    let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
-    let words = Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
-    let (columns, rows) = (chart.columns.len().min(MOST), chart.rows.len().min(MOST));
-    let (top, below) = (words.above(), words.below());
-    let entries = chart.kinds.iter().enumerate().map(|(index, k)| Entry { label: k.clone(), index });
-    let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, true);
-    let bottom = (size.1 - below - legend.below).max(top + 20.0);
-    let labels: Vec<String> =
-        chart.rows.iter().take(rows).map(|r| fit(&clean(r), TICK, 0.25 * size.0)).collect();
-    let widest = labels.iter().map(|l| width(l, TICK)).fold(0.0, f64::max);
-    let left = EDGE + widest + 8.0;
-    let right = (size.0 - EDGE - legend.right - 4.0).max(left + 40.0);
-    let area = Frame { left, top, right, bottom };
-
-    let named = if words.title.trim().is_empty() { "A map of cells" } else { words.title };
-    let mut canvas = Canvas::new(size, named, &describe(chart));
-    canvas.area((left, top), (right, bottom), "#ffffff");
-    let across = |i: usize| left + area.width() * i as f64 / columns.max(1) as f64;
-    let up = |j: usize| bottom - area.height() * j as f64 / rows.max(1) as f64;
-    let mut marks = Vec::new();
-    for (j, row) in chart.cells.iter().take(rows).enumerate() {
-        for (i, kind) in row.iter().take(columns).enumerate() {
-            let Some(kind) = kind.filter(|k| *k < chart.kinds.len()) else { continue };
-            canvas.area((across(i), up(j + 1)), (across(i + 1), up(j)), fill(kind));
-            if kind > 0 {
-                marks.push((kind, ((across(i) + across(i + 1)) / 2.0, (up(j) + up(j + 1)) / 2.0)));
-            }
-        }
-    }
-    let room = (area.width() / columns.max(1) as f64).min(area.height() / rows.max(1) as f64);
-    if room >= 8.0 {
-        canvas.open(&style(TICK.min(room), "#ffffff", "middle"));
-        for (kind, (x, y)) in &marks {
-            canvas.text((*x, y + drop(TICK.min(room))), &kind.to_string());
-        }
-        canvas.close();
-    }
-    if columns == 0 || rows == 0 {
+    let map = Layout::new(chart);
+    let named = if map.words.title.trim().is_empty() { "A map of cells" } else { map.words.title };
+    let mut canvas = Canvas::new(map.size, named, &describe(chart));
+    let area = map.area;
+    canvas.area((area.left, area.top), (area.right, area.bottom), "#ffffff");
+    map.draw_cells(&mut canvas, chart);
+    if map.columns == 0 || map.rows == 0 {
         frame::empty(&mut canvas, &area, "no data");
     }
-    // As many values as there is room for, the first and then every so many.
-    canvas.open(&style(TICK, SOFT, "end"));
-    let every = (1.6 * TICK * rows as f64 / area.height()).ceil().max(1.0) as usize;
-    for (j, label) in labels.iter().enumerate().step_by(every) {
-        canvas.text((left - 6.0, (up(j) + up(j + 1)) / 2.0 + drop(TICK)), label);
-    }
-    canvas.close();
-    canvas.open(&style(TICK, SOFT, "middle"));
-    let names: Vec<String> =
-        chart.columns.iter().take(columns).map(|c| fit(&clean(c), TICK, 0.25 * size.0)).collect();
-    let widest = names.iter().map(|l| width(l, TICK)).fold(0.0, f64::max) + 10.0;
-    let every = (widest * columns as f64 / area.width()).ceil().max(1.0) as usize;
-    for (i, name) in names.iter().enumerate().step_by(every) {
-        canvas.text(((across(i) + across(i + 1)) / 2.0, bottom + 17.0), name);
-    }
-    canvas.close();
-    canvas.open(&style(LABEL, INK, "start"));
-    canvas.text((EDGE, top - 8.0), &fit(&clean(words.ylabel), LABEL, size.0 - 2.0 * EDGE));
-    canvas.close();
-    if !words.title.trim().is_empty() {
-        canvas.open(&style(TITLE, INK, "start"));
-        canvas.text((EDGE, EDGE + TITLE), &fit(&clean(words.title), TITLE, size.0 - 2.0 * EDGE));
-        canvas.close();
-    }
-    if !words.xlabel.trim().is_empty() {
-        canvas.open(&style(LABEL, INK, "middle"));
-        let text = fit(&clean(words.xlabel), LABEL, area.width());
-        canvas.text(((left + right) / 2.0, bottom + 35.0), &text);
-        canvas.close();
-    }
-    legend::draw(&mut canvas, &legend, &area, below, |canvas, index, at| {
+    map.draw_values(&mut canvas, chart);
+    map.draw_titles(&mut canvas);
+    legend::draw(&mut canvas, &map.legend, &area, map.words.below(), |canvas, index, at| {
         canvas.area((at.0 + STROKE - 12.0, at.1 - 6.0), (at.0 + STROKE, at.1 + 6.0), fill(index));
         if index > 0 {
             canvas.open(&style(TICK, "#ffffff", "middle"));
@@ -116,6 +57,117 @@ pub fn cells(chart: &Cells) -> String {
         }
     });
     canvas.finish()
+}
+
+/// Where everything stands in the picture.
+struct Layout<'c> {
+    size: (f64, f64),
+    words: Words<'c>,
+    columns: usize,
+    rows: usize,
+    /// The values of the rows, as long as there is room for them.
+    row_values: Vec<String>,
+    legend: legend::Plan,
+    /// The map without what stands around it.
+    area: Frame,
+}
+
+impl<'c> Layout<'c> {
+    fn new(chart: &'c Cells) -> Layout<'c> {
+        let size = (extent(chart.width, 200.0, 640.0), extent(chart.height, 160.0, 420.0));
+        let words =
+            Words { title: &chart.title, xlabel: &chart.xlabel, ylabel: &chart.ylabel, width: size.0 };
+        let (columns, rows) = (chart.columns.len().min(MOST), chart.rows.len().min(MOST));
+        let (top, below) = (words.above(), words.below());
+        let entries = chart.kinds.iter().enumerate().map(|(index, k)| Entry { label: k.clone(), index });
+        let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, true);
+        let bottom = (size.1 - below - legend.below).max(top + 20.0);
+        let row_values: Vec<String> =
+            chart.rows.iter().take(rows).map(|r| fit(&clean(r), TICK, 0.25 * size.0)).collect();
+        let widest = row_values.iter().map(|l| width(l, TICK)).fold(0.0, f64::max);
+        let left = EDGE + widest + 8.0;
+        let right = (size.0 - EDGE - legend.right - 4.0).max(left + 40.0);
+        let area = Frame { left, top, right, bottom };
+        Layout { size, words, columns, rows, row_values, legend, area }
+    }
+
+    /// The left edge of a column.
+    fn across(&self, i: usize) -> f64 {
+        self.area.left + self.area.width() * i as f64 / self.columns.max(1) as f64
+    }
+
+    /// The lower edge of a row.
+    fn up(&self, j: usize) -> f64 {
+        self.area.bottom - self.area.height() * j as f64 / self.rows.max(1) as f64
+    }
+
+    /// The cells, with marks where there is room for them.
+    fn draw_cells(&self, canvas: &mut Canvas, chart: &Cells) {
+        let mut marks = Vec::new();
+        for (j, row) in chart.cells.iter().take(self.rows).enumerate() {
+            for (i, kind) in row.iter().take(self.columns).enumerate() {
+                let Some(kind) = kind.filter(|k| *k < chart.kinds.len()) else { continue };
+                let (left, right) = (self.across(i), self.across(i + 1));
+                let (lower, upper) = (self.up(j), self.up(j + 1));
+                canvas.area((left, upper), (right, lower), fill(kind));
+                if kind > 0 {
+                    marks.push((kind, ((left + right) / 2.0, (lower + upper) / 2.0)));
+                }
+            }
+        }
+        let cell_width = self.area.width() / self.columns.max(1) as f64;
+        let side = cell_width.min(self.area.height() / self.rows.max(1) as f64);
+        if side >= 8.0 {
+            canvas.open(&style(TICK.min(side), "#ffffff", "middle"));
+            for (kind, (x, y)) in &marks {
+                canvas.text((*x, y + drop(TICK.min(side))), &kind.to_string());
+            }
+            canvas.close();
+        }
+    }
+
+    /// As many values of rows and columns as there is room for, the first and then every so many.
+    fn draw_values(&self, canvas: &mut Canvas, chart: &Cells) {
+        canvas.open(&style(TICK, SOFT, "end"));
+        let every = (1.6 * TICK * self.rows as f64 / self.area.height()).ceil().max(1.0) as usize;
+        for (j, label) in self.row_values.iter().enumerate().step_by(every) {
+            let middle = (self.up(j) + self.up(j + 1)) / 2.0;
+            canvas.text((self.area.left - 6.0, middle + drop(TICK)), label);
+        }
+        canvas.close();
+        canvas.open(&style(TICK, SOFT, "middle"));
+        let names: Vec<String> = chart
+            .columns
+            .iter()
+            .take(self.columns)
+            .map(|c| fit(&clean(c), TICK, 0.25 * self.size.0))
+            .collect();
+        let widest = names.iter().map(|l| width(l, TICK)).fold(0.0, f64::max) + 10.0;
+        let every = (widest * self.columns as f64 / self.area.width()).ceil().max(1.0) as usize;
+        for (i, name) in names.iter().enumerate().step_by(every) {
+            canvas.text(((self.across(i) + self.across(i + 1)) / 2.0, self.area.bottom + 17.0), name);
+        }
+        canvas.close();
+    }
+
+    /// The title, and the labels of both axes.
+    fn draw_titles(&self, canvas: &mut Canvas) {
+        let (words, area, whole) = (&self.words, &self.area, self.size.0 - 2.0 * EDGE);
+        canvas.open(&style(LABEL, INK, "start"));
+        canvas.text((EDGE, area.top - 8.0), &fit(&clean(words.ylabel), LABEL, whole));
+        canvas.close();
+        if !words.title.trim().is_empty() {
+            canvas.open(&style(TITLE, INK, "start"));
+            canvas.text((EDGE, EDGE + TITLE), &fit(&clean(words.title), TITLE, whole));
+            canvas.close();
+        }
+        if !words.xlabel.trim().is_empty() {
+            canvas.open(&style(LABEL, INK, "middle"));
+            let text = fit(&clean(words.xlabel), LABEL, area.width());
+            canvas.text(((area.left + area.right) / 2.0, area.bottom + 35.0), &text);
+            canvas.close();
+        }
+    }
 }
 
 /// The colour of a kind: what is good stays light.

@@ -5,11 +5,8 @@
 //! that a spike of one sample stays visible. Then the curve is cut at the frame (Liang and Barsky, 1984). Last,
 //! points that lie on the line between their neighbours are dropped (Ramer, 1972; Douglas and Peucker, 1973).
 
-use super::frame::Frame;
+use super::frame::{Frame, Point};
 use super::number::px;
-
-/// A place in a picture, in pixels.
-pub(super) type Point = (f64, f64);
 
 /// How far a dropped point may be from the drawn line, in pixels. Invisible, also when the picture is enlarged.
 const TOLERANCE: f64 = 0.05;
@@ -32,7 +29,7 @@ pub(super) fn pieces(
 }
 
 /// The samples of one column of pixels: their count, and the ones to keep with their order.
-struct Column {
+struct PixelColumn {
     index: i64,
     count: usize,
     first: (usize, Point),
@@ -41,10 +38,10 @@ struct Column {
     last: (usize, Point),
 }
 
-impl Column {
+impl PixelColumn {
     fn new(index: i64, point: Point) -> Self {
         let only = (0, point);
-        Column { index, count: 1, first: only, low: only, high: only, last: only }
+        PixelColumn { index, count: 1, first: only, low: only, high: only, last: only }
     }
 
     fn add(&mut self, point: Point) {
@@ -62,23 +59,23 @@ impl Column {
     /// Appends the extremes in their order; with them the first and the last sample where the curve starts, ends, or
     /// comes in from outside.
     fn flush(&self, starts: bool, ends: bool, piece: &mut Vec<Point>) {
-        let mut kept = vec![self.low, self.high];
+        let mut extremes = vec![self.low, self.high];
         if starts {
-            kept.push(self.first);
+            extremes.push(self.first);
         }
         if ends {
-            kept.push(self.last);
+            extremes.push(self.last);
         }
-        kept.sort_by_key(|entry| entry.0);
-        kept.dedup_by_key(|entry| entry.0);
-        piece.extend(kept.iter().map(|entry| entry.1));
+        extremes.sort_by_key(|entry| entry.0);
+        extremes.dedup_by_key(|entry| entry.0);
+        piece.extend(extremes.iter().map(|entry| entry.1));
     }
 }
 
 fn columns(places: impl Iterator<Item = Option<Point>>, frame: &Frame) -> Vec<Vec<Point>> {
     let mut pieces = Vec::new();
     let mut piece = Vec::new();
-    let mut open: Option<Column> = None;
+    let mut open: Option<PixelColumn> = None;
     let mut gap = false;
     for place in places {
         let Some((x, y)) = place else {
@@ -97,9 +94,9 @@ fn columns(places: impl Iterator<Item = Option<Point>>, frame: &Frame) -> Vec<Ve
                 if breaks {
                     pieces.push(std::mem::take(&mut piece));
                 }
-                *column = Column::new(index, point);
+                *column = PixelColumn::new(index, point);
             }
-            None => open = Some(Column::new(index, point)),
+            None => open = Some(PixelColumn::new(index, point)),
         }
         gap = false;
     }

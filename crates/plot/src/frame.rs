@@ -2,9 +2,11 @@
 
 use super::axis::Axis;
 use super::canvas::{Canvas, Label, drop, style};
-use super::curve::Point;
 use super::style::{AXIS, FAINT, GRID, INK, LABEL, SOFT, TICK, TITLE};
 use super::text::{clean, fit, width};
+
+/// A place in a picture, in pixels.
+pub(super) type Point = (f64, f64);
 
 /// A rectangle in pixels; y grows downwards, so `top` is less than `bottom`.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! Places for labels at points: beside their point, clear of all other points, labels and, above all, curves.
 
-use super::curve::{Point, segment};
-use super::frame::Frame;
+use super::curve::segment;
+use super::frame::{Frame, Point};
 use super::style::SMALL;
 use super::text::width;
 

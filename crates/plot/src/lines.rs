@@ -2,8 +2,8 @@
 
 use super::axis::{Axis, Range, linear, range};
 use super::canvas::{Canvas, drop, style};
-use super::curve::{Point, path, pieces};
-use super::frame::{self, EDGE, Frame, Words, draw, margin};
+use super::curve::{path, pieces};
+use super::frame::{self, EDGE, Frame, Point, Words, draw, margin};
 use super::legend::{self, Entry, STROKE};
 use super::number::{drawable, short};
 use super::style::{AXIS, INK, SMALL, TICK, ZERO, colour, dash, extent};
@@ -64,15 +64,15 @@ pub fn line_chart(chart: &Chart) -> String {
         .filter(|(y, _)| drawable(*y) && (ys.free_low || *y >= ys.low) && (ys.free_high || *y <= ys.high))
         .map(|(y, label)| (*y, fit(&clean(label.as_deref().unwrap_or("")), SMALL, 0.24 * size.0)))
         .collect();
-    let aside = refs.iter().map(|(_, label)| width(label, SMALL)).fold(0.0, f64::max);
+    let label_width = refs.iter().map(|(_, label)| width(label, SMALL)).fold(0.0, f64::max);
 
     let (top, below) = (words.above(), words.below());
     let entries = chart.series.iter().enumerate().map(|(index, s)| Entry { label: s.label.clone(), index });
-    let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, aside == 0.0);
+    let legend = legend::plan(entries.collect(), size.0, size.1 - top - below, label_width == 0.0);
     let bottom = (size.1 - below - legend.below).max(top + 20.0);
     let y = linear(ys, steps(bottom - top, 34.0).max(2), 1.0);
     let left = margin(&y);
-    let beside = if aside > 0.0 { aside + 8.0 } else { legend.right };
+    let beside = if label_width > 0.0 { label_width + 8.0 } else { legend.right };
     let (right, x) = horizontal(xs, left, size.0 - EDGE - beside, beside == 0.0);
     let frame = Frame { left, top, right, bottom };
 

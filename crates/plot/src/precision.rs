@@ -8,8 +8,8 @@
 
 use super::axis::{Axis, logarithmic};
 use super::canvas::{Canvas, Label, style};
-use super::curve::{Point, path};
-use super::frame::{self, EDGE, Frame, Words, draw, margin};
+use super::curve::path;
+use super::frame::{self, EDGE, Frame, Point, Words, draw, margin};
 use super::labels::{Wish, arrange};
 use super::legend::{self, Entry, STROKE};
 use super::number::{HUGE, px, short};
@@ -29,14 +29,14 @@ pub struct Method {
 
 /// How a method is drawn.
 #[derive(Clone, Copy)]
-struct Look {
+struct MarkerStyle {
     index: usize,
     hollow: bool,
 }
 
-impl Look {
-    fn of(index: usize, method: &Method) -> Look {
-        Look { index: method.echo.unwrap_or(index), hollow: method.echo.is_some() }
+impl MarkerStyle {
+    fn of_method(index: usize, method: &Method) -> MarkerStyle {
+        MarkerStyle { index: method.echo.unwrap_or(index), hollow: method.echo.is_some() }
     }
 }
 
@@ -119,36 +119,13 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let inner = Frame { left: left + zero, right: right - failed, ..outer };
     let finite = all().filter_map(|r| if let Error::Finite(e) = r.error { Some(e) } else { None });
     let mut x = axis(finite, |label| (label.width(TICK) + 10.0) / inner.width().max(1.0));
-    // At the ends, the names of the strips have precedence.
-    let at = |fraction: f64| inner.at(fraction, 0.0).0;
-    let (least, most) = (
-        if zero > 0.0 { (outer.left + inner.left) / 2.0 + 12.0 } else { 0.0 },
-        if failed > 0.0 { (inner.right + outer.right - width(DIVERGED, TICK)) / 2.0 - 8.0 } else { size.0 },
-    );
-    for tick in &mut x.ticks {
-        let (middle, half) = (at(tick.at), tick.label.width(TICK) / 2.0);
-        if middle - half < least || middle + half > most {
-            tick.label = Label::default();
-        }
-    }
+    drop_labels_under_strips(&mut x, &outer, &inner, size.0);
 
     let named = if words.title.trim().is_empty() { "Cost against error" } else { words.title };
     let mut canvas = Canvas::new(size, named, &describe(chart));
-    if zero > 0.0 {
-        canvas.area((outer.left, top), (inner.left, bottom), SHADE);
-    }
-    if failed > 0.0 {
-        canvas.area((inner.right, top), (outer.right, bottom), SHADE);
-    }
+    shade_strips(&mut canvas, &outer, &inner);
     draw(&mut canvas, &outer, &inner, &x, &y, &words);
-    canvas.open(&style(TICK, SOFT, "middle"));
-    if zero > 0.0 {
-        canvas.text(((outer.left + inner.left) / 2.0, bottom + 17.0), "0");
-    }
-    if failed > 0.0 {
-        canvas.text(((inner.right + outer.right) / 2.0, bottom + 17.0), DIVERGED);
-    }
-    canvas.close();
+    name_strips(&mut canvas, &outer, &inner);
     if all().next().is_none() {
         frame::empty(&mut canvas, &outer, "no data");
     }
@@ -156,13 +133,50 @@ pub fn work_precision(chart: &WorkPrecision) -> String {
     let placed = place(&methods, (&outer, &inner), &x, &y, diverging);
     plot(&mut canvas, chart, &placed, &outer);
     legend::draw(&mut canvas, &legend, &outer, below, |canvas, index, at| {
-        let look = chart.methods.get(index).map_or(Look { index, hollow: false }, |m| Look::of(index, m));
+        let look = chart
+            .methods
+            .get(index)
+            .map_or(MarkerStyle { index, hollow: false }, |m| MarkerStyle::of_method(index, m));
         canvas.open(&stroke(look));
         canvas.line(at, (at.0 + STROKE, at.1));
         canvas.close();
         mark(canvas, look, (at.0 + STROKE / 2.0, at.1));
     });
     canvas.finish()
+}
+
+/// At the ends, the names of the strips have precedence over the labels of the scale.
+fn drop_labels_under_strips(x: &mut Axis, outer: &Frame, inner: &Frame, size: f64) {
+    let least = if inner.left > outer.left { (outer.left + inner.left) / 2.0 + 12.0 } else { 0.0 };
+    let name = width(DIVERGED, TICK);
+    let most = if inner.right < outer.right { (inner.right + outer.right - name) / 2.0 - 8.0 } else { size };
+    for tick in &mut x.ticks {
+        let (middle, half) = (inner.at(tick.at, 0.0).0, tick.label.width(TICK) / 2.0);
+        if middle - half < least || middle + half > most {
+            tick.label = Label::default();
+        }
+    }
+}
+
+/// The strips beside the scale: runs without an error on the left, runs that diverge on the right.
+fn shade_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
+    if inner.left > outer.left {
+        canvas.area((outer.left, outer.top), (inner.left, outer.bottom), SHADE);
+    }
+    if inner.right < outer.right {
+        canvas.area((inner.right, outer.top), (outer.right, outer.bottom), SHADE);
+    }
+}
+
+fn name_strips(canvas: &mut Canvas, outer: &Frame, inner: &Frame) {
+    canvas.open(&style(TICK, SOFT, "middle"));
+    if inner.left > outer.left {
+        canvas.text(((outer.left + inner.left) / 2.0, outer.bottom + 17.0), "0");
+    }
+    if inner.right < outer.right {
+        canvas.text(((inner.right + outer.right) / 2.0, outer.bottom + 17.0), DIVERGED);
+    }
+    canvas.close();
 }
 
 /// The word below the strip of runs without a finite error.
@@ -238,14 +252,14 @@ fn plot(canvas: &mut Canvas, chart: &WorkPrecision, methods: &[Vec<Placed>], fra
     for (index, (method, curve)) in chart.methods.iter().zip(&curves).enumerate() {
         let data = path(curve);
         if !data.is_empty() {
-            canvas.named(&stroke(Look::of(index, method)), &method.label);
+            canvas.named(&stroke(MarkerStyle::of_method(index, method)), &method.label);
             canvas.path(&data);
             canvas.close();
         }
     }
     let mut wishes = Vec::new();
     for (index, (method, drawn)) in methods.iter().zip(&chart.methods).enumerate() {
-        let look = Look::of(index, drawn);
+        let look = MarkerStyle::of_method(index, drawn);
         for (i, run) in method.iter().enumerate() {
             if let Some([low, high]) = run.bar {
                 bar(canvas, look.index, run.at.0, [low, high]);
@@ -280,14 +294,14 @@ fn connected(method: &[Placed]) -> Vec<Vec<Point>> {
     parts.filter(|p| p.len() > 1).map(|p| p.iter().map(|run| run.at).collect()).collect()
 }
 
-fn stroke(look: Look) -> String {
+fn stroke(look: MarkerStyle) -> String {
     let pattern = if look.hollow { Some("2 3") } else { dash(look.index, false) };
     let pattern = pattern.map(|d| format!(" stroke-dasharray=\"{d}\"")).unwrap_or_default();
     format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{pattern}", colour(look.index))
 }
 
 /// The mark of a run. Its shape goes with the colour, for print without colours.
-fn mark(canvas: &mut Canvas, look: Look, at: Point) {
+fn mark(canvas: &mut Canvas, look: MarkerStyle, at: Point) {
     let [fill, edge] = match look.hollow {
         false => [colour(look.index), "#ffffff"],
         true => ["#ffffff", colour(look.index)],

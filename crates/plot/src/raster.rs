@@ -38,8 +38,8 @@ pub fn png(svg: &str, scale: f32) -> Result<Vec<u8>, String> {
 
 /// Whether a file that starts so is one of these pictures.
 pub fn is_png_of_ours(start: &[u8]) -> bool {
-    let said = format!("{}\0{}", MAKER.0, MAKER.1);
-    start.starts_with(b"\x89PNG") && start.windows(said.len()).take(256).any(|w| w == said.as_bytes())
+    let comment = format!("{}\0{}", MAKER.0, MAKER.1);
+    start.starts_with(b"\x89PNG") && start.windows(comment.len()).take(256).any(|w| w == comment.as_bytes())
 }
 
 #[cfg(test)]

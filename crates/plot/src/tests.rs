@@ -193,7 +193,7 @@ fn region() -> Cells {
 #[test]
 fn pictures() {
     for (name, picture) in gallery() {
-        assert_eq!(check(&picture), Ok(()), "{name}");
+        assert_eq!(check_picture(&picture), Ok(()), "{name}");
         insta::assert_snapshot!(name, picture);
     }
 }
@@ -217,7 +217,7 @@ fn a_million_samples_are_a_small_file() {
 }
 
 /// Whether every element is closed, attributes are quoted, and no number is broken.
-fn check(picture: &str) -> Result<(), String> {
+fn check_picture(picture: &str) -> Result<(), String> {
     let mut open: Vec<&str> = Vec::new();
     let mut rest = picture;
     while let Some((text, after)) = rest.split_once('<') {
@@ -313,7 +313,7 @@ proptest! {
         let (width, height) = size;
         let picture =
             line_chart(&Chart { title, xlabel, ylabel, width, height, ymin, ymax, xmin, xmax, ref_lines, series });
-        prop_assert_eq!(check(&picture), Ok(()));
+        prop_assert_eq!(check_picture(&picture), Ok(()));
     }
 
     #[test]
@@ -328,7 +328,7 @@ proptest! {
         let (title, xlabel, ylabel) = words;
         let (width, height) = size;
         let picture = cells(&Cells { title, xlabel, ylabel, columns, rows, kinds, cells: grid, width, height });
-        prop_assert_eq!(check(&picture), Ok(()));
+        prop_assert_eq!(check_picture(&picture), Ok(()));
     }
 
     #[test]
@@ -340,6 +340,6 @@ proptest! {
         let (title, xlabel, ylabel) = words;
         let (width, height) = size;
         let picture = work_precision(&WorkPrecision { title, xlabel, ylabel, methods, width, height });
-        prop_assert_eq!(check(&picture), Ok(()));
+        prop_assert_eq!(check_picture(&picture), Ok(()));
     }
 }

@@ -220,9 +220,9 @@ pub(super) fn energy(w: &mut EngineAccess<'_>, heap: &mut Heap) -> Result<Value,
 /// The name of a geom, or of its body.
 fn label<'w>(w: &'w EngineAccess<'_>, geom: usize) -> &'w str {
     let names = w.names();
-    let own = names.geom.get(geom).map_or("", String::as_str);
+    let geom_name = names.geom.get(geom).map_or("", String::as_str);
     let body = w.body_of(geom).unwrap_or(0);
-    if own.is_empty() { names.body.get(body).map_or("", String::as_str) } else { own }
+    if geom_name.is_empty() { names.body.get(body).map_or("", String::as_str) } else { geom_name }
 }
 
 /// The six rows of the Jacobian of a site, or their first columns.

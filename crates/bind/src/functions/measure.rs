@@ -2,7 +2,7 @@
 
 use super::access::EngineAccess;
 use super::lib::eigenvalues;
-use super::{Arg, Function, Place, ROW, Touches, Unit, index, number};
+use super::{Arg, Function, FunctionPlace, ROW, Touches, Unit, index, number};
 use crate::handle;
 use labspec_core::{self as core, Obj};
 use labspec_expr::{Heap, Type, Value};
@@ -77,7 +77,8 @@ fn symmetric(heap: &Heap, value: &Value) -> Option<Vec<Vec<f64>>> {
 }
 
 /// A function over all samples of a run; what it makes of them is for whoever has the run.
-const OVER_RUN: Function = Function { args: &[Arg::Lazy], place: Place::Measures, aggregate: true, ..ROW };
+const OVER_RUN: Function =
+    Function { args: &[Arg::Lazy], place: FunctionPlace::Measures, aggregate: true, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[
     Function {
@@ -86,7 +87,7 @@ pub(super) const ROWS: &[Function] = &[
         optional: 1,
         returns: Type::Boolean,
         reads: Touches::Contacts,
-        place: Place::Measures,
+        place: FunctionPlace::Measures,
         doc: "whether two geoms are in contact, or whether one geom is in any contact",
         example: ("max(contact('bob'))", "0"),
         run: |w, _, args| {
@@ -105,7 +106,7 @@ pub(super) const ROWS: &[Function] = &[
         returns: Type::Record,
         members: CONTACT,
         reads: Touches::Contacts,
-        place: Place::Measures,
+        place: FunctionPlace::Measures,
         doc: "the deepest contact of two geoms, as the engine mixes it from both: dim, friction (5 numbers), solref (2), solimp (5), margin (m), dist (m), pos (3, m), frame (9), active (1 if it pushes) and force (6, N and N m); NaN everywhere without a contact",
         example: ("final(mixed('bob', 'bob').dim)", "NaN"),
         run: mixed,
@@ -115,7 +116,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "eigenvalues",
         args: &[Arg::Any],
         returns: Type::List,
-        place: Place::Measures,
+        place: FunctionPlace::Measures,
         doc: "eigenvalues of a symmetric matrix, given as rows or as a flat list row by row; smallest first",
         example: ("final(eigenvalues([[2, 1], [1, 2]])[1])", "3"),
         run: |_, heap, args| {
@@ -134,7 +135,7 @@ pub(super) const ROWS: &[Function] = &[
         args: &[Arg::Label],
         returns: Type::Any,
         reads: Touches::Shown,
-        place: Place::Measures,
+        place: FunctionPlace::Measures,
         doc: "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
         example: ("max(shown('time (s)'))", "0.1"),
         run: |w, _, args| Ok(w.shown(index(args)?).cloned().unwrap_or_default()),
@@ -143,7 +144,7 @@ pub(super) const ROWS: &[Function] = &[
     Function {
         name: "abs",
         args: &[Arg::Number],
-        place: Place::Measures,
+        place: FunctionPlace::Measures,
         unit: Unit::Argument(1.0),
         doc: "magnitude",
         example: ("abs(-2)", "2"),

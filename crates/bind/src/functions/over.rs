@@ -1,11 +1,11 @@
 //! Functions of what `verify` claims of several runs: over the numbers that a measure has in the members of a sweep.
 
 use super::access::EngineAccess;
-use super::{Arg, Function, Place, ROW, Unit};
+use super::{Arg, Function, FunctionPlace, ROW, Unit};
 use crate::world::NUMBERS;
 use labspec_expr::{Heap, Value};
 
-const OVER: Function = Function { args: &[Arg::Any], place: Place::Claims, ..ROW };
+const OVER: Function = Function { args: &[Arg::Any], place: FunctionPlace::Claims, ..ROW };
 
 pub(super) const ROWS: &[Function] = &[
     Function {

@@ -1,80 +1,15 @@
 //! Everything a lab computes, bound to its model: statements and expressions as programs, and what they need.
 
-use super::{Functions, ModelNames, Scope};
+use super::programs::{ActionProgram, Bound, ControlProgram, Probe, Programs, include};
 use crate::finding::{Finding, Fix};
 use crate::json::{Scalar, fix_in_code};
 use crate::rules;
 use crate::source::Text;
 use crate::spec::{Action, Control, ControlKind, Lab};
-use labspec_bind::WORDS;
-use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
+use labspec_bind::{Functions, ModelNames, Scope, WORDS};
+use labspec_core::reflect::FieldSet;
 use labspec_core::{AccessSet, Model};
-use labspec_expr::{Compiled, Compiler, Effects, Globals, Program, ProgramId, Type, Value};
-
-/// A text and the program it was compiled to.
-#[derive(Clone, Debug)]
-pub struct Bound {
-    /// The text, with its place.
-    pub text: Text,
-    /// Its meaning.
-    pub program: Program,
-}
-
-/// A trace or a readout.
-#[derive(Clone, Debug)]
-pub struct Probe {
-    /// Column name: `plot/0/label` or `readout/label`.
-    pub name: String,
-    /// `None` when the expression has mistakes, which are reported.
-    pub bound: Option<Bound>,
-}
-
-/// What a slider or a select does.
-#[derive(Clone, Debug)]
-pub struct ActionProgram {
-    /// The `ctx` variable that gets the value.
-    pub param: Option<u32>,
-    /// The statements.
-    pub run: Option<Bound>,
-    /// Apply again after every reset.
-    pub init: bool,
-    /// Reset after a change.
-    pub reset: bool,
-}
-
-/// A control, ready to be moved.
-#[derive(Clone, Debug)]
-pub enum ControlProgram {
-    /// A slider or a select, with its start value.
-    Change(Value, ActionProgram),
-    /// A button.
-    Press(Option<Bound>),
-}
-
-/// All programs of a lab.
-#[derive(Clone, Debug)]
-pub struct Programs {
-    /// After load and after every reset.
-    pub setup: Option<Bound>,
-    /// Before every step.
-    pub controller: Option<Bound>,
-    /// Label and program of each control, in order.
-    pub controls: Vec<(String, ControlProgram)>,
-    /// Traces, then readouts.
-    pub probes: Vec<Probe>,
-    /// The `ctx` variables.
-    pub globals: Globals,
-    /// What all of them read and write.
-    pub demand: AccessSet,
-    /// Functions of the embedding program, which they may call.
-    pub functions: Functions,
-    /// The model that they were compiled for ([`Model::identity`]).
-    pub model: u64,
-    /// What is corrected behind them, where somebody tries that.
-    pub(crate) coupled: Option<super::coupled::Coupled>,
-    /// What a run with them looks for and leaves as it is: whether such a correction would change anything.
-    pub(crate) observed: Option<super::coupled::Coupled>,
-}
+use labspec_expr::{Compiled, Compiler, Globals, ProgramId, Type, Value};
 
 impl Programs {
     /// Compiles a lab's texts against its model. What is wrong goes to `findings`, with places in the lesson.
@@ -137,51 +72,6 @@ impl Programs {
         }
         programs.demand = demand;
         programs
-    }
-
-    /// Every program with its text.
-    pub fn bound(&self) -> impl Iterator<Item = &Bound> {
-        let controls = self.controls.iter().filter_map(|(_, c)| match c {
-            ControlProgram::Change(_, action) => action.run.as_ref(),
-            ControlProgram::Press(run) => run.as_ref(),
-        });
-        let probes = self.probes.iter().filter_map(|p| p.bound.as_ref());
-        self.setup.iter().chain(&self.controller).chain(controls).chain(probes)
-    }
-
-    /// What the control with this label touches.
-    pub(crate) fn effects_of(&self, label: &str) -> Option<&Effects> {
-        match self.control(label)?.1 {
-            ControlProgram::Change(_, action) => Some(action.run.as_ref()?.program.effects()),
-            ControlProgram::Press(run) => Some(run.as_ref()?.program.effects()),
-        }
-    }
-
-    /// The control with this label, and its place in the list.
-    pub fn control(&self, label: &str) -> Option<(usize, &ControlProgram)> {
-        self.controls.iter().enumerate().find(|(_, (l, _))| l == label).map(|(i, (_, c))| (i, c))
-    }
-}
-
-/// Adds what a program touches to a demand.
-pub fn include(effects: &Effects, demand: &mut AccessSet) {
-    if effects.reads_everything {
-        demand.reads = FieldSet::ALL;
-    }
-    if effects.writes_everything {
-        demand.writes = FieldSet::ALL;
-    }
-    for access in &effects.reads {
-        if let Some(field) = FieldId::new(access.field.0 as usize) {
-            demand.reads.insert_elements(field, access.first, access.count);
-        }
-    }
-    for access in &effects.writes {
-        // What a function recomputes is not set by hand: derived fields do not change a plan.
-        if let Some(field) = FieldId::new(access.field.0 as usize).filter(|f| f.info().kind != Kind::Derived)
-        {
-            demand.writes.insert(field);
-        }
     }
 }
 
@@ -272,10 +162,4 @@ pub fn to_finding(d: &Finding, text: &Text) -> Finding {
         .as_ref()
         .map(|f| Fix { applicability: f.applicability, ..fix_in_code(text, f.span.clone(), &f.text) });
     Finding { span: text.span_of(d.span.clone()), fix, ..d.clone() }
-}
-
-/// Whether a program writes a field of this kind, and the first such field.
-pub(crate) fn writes_kind(bound: &Bound, object: Object, kinds: &[Kind]) -> Option<FieldId> {
-    let mut fields = bound.program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize));
-    fields.find(|f| f.info().object == object && kinds.contains(&f.info().kind))
 }

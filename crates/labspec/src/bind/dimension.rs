@@ -120,8 +120,8 @@ impl Work<'_> {
                     (None, None) => return None,
                 };
                 if let Some(slot) = action.param {
-                    let known = measured.variables.entry(slot).or_insert(Measure::Anything);
-                    *known = known.or(of_value);
+                    let recorded = measured.variables.entry(slot).or_insert(Measure::Anything);
+                    *recorded = recorded.or(of_value);
                 }
                 Some(measured)
             }
@@ -133,8 +133,8 @@ impl Work<'_> {
         let mut all = BTreeMap::new();
         let texts = found.probes.iter().chain(&found.controls).chain(&found.others).flatten();
         for (slot, measure) in texts.flat_map(|m| &m.variables) {
-            let known = all.entry(*slot).or_insert(Measure::Anything);
-            *known = Measure::or(*known, *measure);
+            let recorded = all.entry(*slot).or_insert(Measure::Anything);
+            *recorded = Measure::or(*recorded, *measure);
         }
         all
     }

@@ -1,19 +1,23 @@
 //! The model of a lab: from the model folder or from the lab itself, with every mistake at its place.
 
 use super::Functions;
-use super::parts::{self, Hash, ModelFile, Remembering};
+use super::model_file::{FilesAround, compile_source, read_file};
+use super::parts::{self, Hash, ModelFile};
 use crate::finding::{Finding, InFile, Severity};
-use crate::lint::{ModelFolder, lesson_folder, root_of};
+use crate::lint::ModelFolder;
 use crate::models::{self, FilesOf};
 use crate::rules;
 use crate::source::{SourceFile, Sources, Text};
 use crate::spec::format::Asked;
 use crate::spec::{Lab, ModelSource};
-use labspec_core::xml::{self, FileProblem, Files, Folder, NoFiles, Patch, Refusal};
+use labspec_core::xml::{self, Files, Folder, NoFiles, Patch, Refusal};
 use labspec_core::{Model, Obj};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+pub(crate) use super::model_file::{Compiled, compile_file};
+pub use super::model_file::{check_model_file, from_mjcf};
 
 /// Models by name, compiled once, and the files they came from. Threads may share them: whoever asks first compiles, the
 /// others wait.
@@ -100,7 +104,7 @@ impl Models {
 
     /// The model of a lab. `None` when there is none or it has mistakes; those in an inline model are added to
     /// `findings`, those in a model file to the findings of the models, once.
-    pub fn of(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
+    pub fn model_of_lab(&self, lab: &Lab, findings: &mut Vec<Finding>) -> Option<Arc<Model>> {
         match lab.scene()? {
             ModelSource::Xml(text) => {
                 let examined = xml::check_xml(&text.value, &NoFiles, None);
@@ -160,7 +164,7 @@ impl Models {
         }
         let path = self.folder.path(name)?;
         let text = read_file(&path, &self.sources).ok()?;
-        let files = Around::of(&path, self.folder.root(), &self.sources);
+        let files = FilesAround::below(&path, self.folder.root(), &self.sources);
         Some(of(text.text(), &files, file.as_deref()))
     }
 
@@ -204,8 +208,8 @@ impl Models {
     }
 
     fn loaded<T>(&self, name: &str, what: impl Fn(&Loaded) -> T) -> Option<T> {
-        let known = open(&self.compiled).get(name).cloned();
-        let cell = match known {
+        let cached = open(&self.compiled).get(name).cloned();
+        let cell = match cached {
             Some(cell) => cell,
             None if self.folder.has(name) => {
                 open(&self.compiled).entry(name.to_string()).or_default().clone()
@@ -233,20 +237,21 @@ impl Models {
     fn compile(&self, name: &str, path: &Path) -> Loaded {
         // The folder and the file: enough to find it, and the same on every machine.
         let folder = path.parent().and_then(|p| p.file_name()).and_then(|f| f.to_str()).unwrap_or("models");
-        let shown = format!("{folder}/{name}.xml");
+        let file_name = format!("{folder}/{name}.xml");
         let read = read_file(path, &self.sources);
         let text = read.as_ref().map(SourceFile::text).map_err(String::as_str);
-        let own = |mark| ModelFile { path: String::new(), limit: 0, hash: parts::mark_of_text(mark, text) };
-        let mut made_of: Vec<ModelFile> = self.mark.map(own).into_iter().collect();
+        let main_file =
+            |mark| ModelFile { path: String::new(), limit: 0, hash: parts::mark_of_text(mark, text) };
+        let mut made_of: Vec<ModelFile> = self.mark.map(main_file).into_iter().collect();
         let (model, findings, files) = match read {
             Ok(file) => {
-                let file = SourceFile::new(shown, file.text());
+                let file = SourceFile::new(file_name, file.text());
                 let compiled = compile_file(&file, path, self.folder.root(), &self.sources, self.mark);
                 made_of.extend(compiled.parts);
                 (compiled.model.map(Arc::new), compiled.findings, compiled.files)
             }
             Err(message) => {
-                let file = SourceFile::new(shown, "");
+                let file = SourceFile::new(file_name, "");
                 (None, vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)], vec![file])
             }
         };
@@ -266,8 +271,8 @@ impl Models {
                 let named = if part.path.is_empty() { format!("{name}.xml") } else { part.path.clone() };
                 // The text of a model and the bytes of the same file, attached, have marks of their own.
                 let at = (named, part.path.is_empty(), part.limit);
-                let known = open(&self.marks).get(&at).cloned();
-                let now = known.unwrap_or_else(|| {
+                let cached = open(&self.marks).get(&at).cloned();
+                let now = cached.unwrap_or_else(|| {
                     let now = parts::mark_now(mark, &path, files, &part.path, part.limit);
                     open(&self.marks).insert(at, now.clone());
                     now
@@ -277,153 +282,8 @@ impl Models {
     }
 }
 
-/// What came of a model file: the model, what is wrong with it or doubtful, and the files that this is about.
-#[derive(Debug)]
-pub(crate) struct Compiled {
-    /// `None` when there are errors.
-    pub(crate) model: Option<Model>,
-    pub(crate) findings: Vec<Finding>,
-    /// Empty when there are no findings.
-    pub(crate) files: Vec<SourceFile>,
-    /// The other files that it was made of.
-    pub(crate) parts: Vec<ModelFile>,
-}
-
-/// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
-/// `path`, and opened when it lies below `root`.
-pub(crate) fn compile_file(
-    file: &SourceFile,
-    path: &Path,
-    root: &Path,
-    sources: &Sources,
-    mark: Option<Hash>,
-) -> Compiled {
-    let files = Around::of(path, root, sources);
-    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
-}
-
-/// A model file, as an editor holds it or else as it is saved.
-fn read_file(path: &Path, sources: &Sources) -> Result<SourceFile, String> {
-    match sources.held(path) {
-        Some((_, text)) => Ok(SourceFile::new(path.display().to_string(), text)),
-        None => SourceFile::read(path),
-    }
-}
-
-/// The files around a model, each as an editor holds it or else as it is saved.
-struct Around<'s> {
-    /// `None` where the model lies outside of the root.
-    folder: Option<Folder>,
-    place: PathBuf,
-    root: &'s Path,
-    sources: &'s Sources,
-}
-
-impl<'s> Around<'s> {
-    fn of(model: &Path, root: &'s Path, sources: &'s Sources) -> Around<'s> {
-        let place = model.parent().unwrap_or(Path::new("")).to_path_buf();
-        Around { folder: Folder::at(root, &place).ok(), place, root, sources }
-    }
-}
-
-impl Files for Around<'_> {
-    fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
-        let Some(folder) = &self.folder else { return NoFiles.read(path, limit) };
-        match self.sources.held(&self.place.join(path)) {
-            Some((real, _)) if !real.starts_with(self.root) => Err(FileProblem::Outside),
-            Some((_, text)) if text.len() > limit => Err(FileProblem::TooLarge),
-            Some((_, text)) => Ok(text.into_bytes()),
-            None => folder.read(path, limit),
-        }
-    }
-}
-
-/// Compiles the text of a model, which `files` has as `name`.
-fn compile_source(file: &SourceFile, files: &dyn Files, name: Option<&str>, mark: Option<Hash>) -> Compiled {
-    let remembering = Remembering::new(files, mark);
-    let examined = xml::check_xml(file.text(), &remembering, name);
-    let mut sources = Vec::new();
-    if !examined.findings.is_empty() {
-        sources.push(file.clone());
-    }
-    let place_of = |d: &Finding| {
-        let at = if d.path.is_empty() { 0 } else { part_of(&mut sources, files, &d.path) };
-        let finding = from_mjcf(d, d.span.clone());
-        sources.get(at).map_or(finding.clone(), |source| finding.at(source))
-    };
-    let findings = examined.findings.iter().map(place_of).collect();
-    Compiled { model: examined.model, findings, files: sources, parts: remembering.parts() }
-}
-
-/// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
-/// cannot be read is a finding, too. `root` is what it may read; by default the nearest folder around it that is marked as one.
-pub fn check_model_file(
-    path: &Path,
-    root: Option<&Path>,
-) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {
-    let file = match SourceFile::read(path) {
-        Ok(file) => file,
-        Err(message) => {
-            let file = SourceFile::new(path.display().to_string(), "");
-            return (
-                None,
-                vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)],
-                vec![file],
-            );
-        }
-    };
-    let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
-    let sources = Sources::Disk;
-    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root, &sources, None);
-    if files.is_empty() {
-        files.push(file);
-    }
-    (model.map(Arc::new), findings, files)
-}
-
-/// The index of a file that a model names in the list, to which it is added the first time. A file that is no text
-/// (a mesh) is shown empty.
-fn part_of(sources: &mut Vec<SourceFile>, files: &dyn Files, part: &str) -> usize {
-    let shown = match sources.first().and_then(|main| main.path().rsplit_once('/')) {
-        Some((folder, _)) => joined(folder, part),
-        None => part.to_string(),
-    };
-    if let Some(known) = sources.iter().position(|f| **f.path() == *shown) {
-        return known;
-    }
-    let read = files.read(part, xml::MAX_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
-    sources.push(SourceFile::new(shown, read.unwrap_or_default()));
-    sources.len() - 1
-}
-
-/// A path from a folder, without the steps that only lead back.
-fn joined(folder: &str, path: &str) -> String {
-    let (mut folder, mut path) = (folder, path);
-    while let Some(rest) = path.strip_prefix("../") {
-        match folder.rsplit_once('/') {
-            _ if folder.is_empty() || folder == "." || folder.ends_with("..") => break,
-            Some((above, _)) => folder = above,
-            None => folder = "",
-        }
-        path = rest;
-    }
-    if folder.is_empty() { path.to_string() } else { format!("{folder}/{path}") }
-}
-
-/// How to open more.
-const WIDEN: &str =
-    "put an empty file `labspec.toml` into the folder that holds both, or name that folder with --root";
-
 fn inline(d: &Finding, text: &Text) -> Finding {
     from_mjcf(d, text.span_of(d.span.clone()))
-}
-
-/// A mistake in a model, at a place of the file that holds it.
-pub fn from_mjcf(d: &Finding, span: std::ops::Range<usize>) -> Finding {
-    // The engine knows no program: how to widen the root is said here.
-    let outside = d.code == xml::rules::OUTSIDE.code;
-    let help = if outside { Some(WIDEN.to_string()) } else { d.help.clone() };
-    Finding { span, path: Arc::from(""), position: None, help, ..d.clone() }
 }
 
 #[cfg(test)]
@@ -504,20 +364,6 @@ mod tests {
         assert_eq!(offered(&format!(r#"{{"xml": "{model}", "trail": "to|"}}"#)), ["top"]);
         for none in [r#"{"model": "rid", "trail": "|"}"#, r#"{"xml": "<mujoco", "trail": "|"}"#] {
             assert_eq!(offered(none), Vec::<String>::new());
-        }
-    }
-
-    #[test]
-    fn shown_paths_are_short() {
-        for (folder, path, shown) in [
-            ("models", "a.xml", "models/a.xml"),
-            ("models", "../stls/a.stl", "stls/a.stl"),
-            ("a/b", "../../c/d", "c/d"),
-            ("a", "../../c/d", "../c/d"),
-            ("../a", "../c", "../c"),
-            ("..", "../c", "../../c"),
-        ] {
-            assert_eq!(joined(folder, path), shown, "{folder} {path}");
         }
     }
 }

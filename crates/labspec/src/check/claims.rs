@@ -1,17 +1,14 @@
 //! What a lesson claims: every `verify` object judged, every question without one named.
 
 use super::partners::{self, Partners};
-use super::{Ready, claim_id, setconst};
+use super::resolved_labs::{ResolvedLabs, resolve_labs};
+use super::{PreparedLab, claim_id, setconst};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
-use crate::json::read;
 use crate::ledger::State;
-use crate::rules;
-use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify, VerifyLab};
+use crate::spec::{Lab, Lesson, Question, QuestionKind, Remark, Verify};
 use crate::verify::{self, Answer, BoundLab, BoundVerify, Judgement, QuoteState, ShownText, Stage};
-use labspec_core::Model;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// A question, or a lab with a `verify` object, and what became of its claims.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,7 +104,7 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 }
 
 /// Looks at the texts of every `verify` object, and runs nothing.
-pub(super) fn bind(lesson: &Lesson, ready: &[Ready<'_>], models: &Models, findings: &mut Vec<Finding>) {
+pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, findings: &mut Vec<Finding>) {
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
         if let Some((verify, own, _)) = owner.claim(lesson)
@@ -125,124 +122,14 @@ pub(super) fn have_formulas(lesson: &Lesson) -> bool {
     claims.into_iter().any(|(verify, own, _)| verify.lab.is_none() && own.is_none() && verify.is_formulas())
 }
 
-/// The labs of a `verify` object: its own, and that of each of its runs.
-pub(super) struct ResolvedLabs<'r> {
-    pub(super) base: Option<BoundLab<'r>>,
-    pub(super) runs: Vec<Vec<BoundLab<'r>>>,
-}
-
-/// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
-pub(super) fn resolve_labs<'r>(
-    lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
-    verify: &'r Verify,
-    own: Option<&'r Lab>,
-    stage: &Stage<'_>,
-    findings: &mut Vec<Finding>,
-) -> Option<ResolvedLabs<'r>> {
-    let base = match &verify.lab {
-        // Formulas need no lab: they have one in which nothing is.
-        None if own.is_none() && verify.is_formulas() => {
-            ready.iter().find(|r| r.lab.is_nothing()).map(Ready::scene)
-        }
-        None => own.and_then(|lab| scene_of(ready, lab)),
-        Some(named) => named_scene(lesson, ready, named, findings),
-    };
-    let mut runs = Vec::new();
-    for run in &verify.runs {
-        let lab = match &run.lab {
-            None => base.clone(),
-            Some(named) => named_scene(lesson, ready, named, findings),
-        };
-        runs.push(stage.of_run(&lab?, run, findings)?);
-    }
-    (base.is_some() || !runs.is_empty()).then_some(ResolvedLabs { base, runs })
-}
-
-fn scene_of<'r>(ready: &'r [Ready<'r>], lab: &Lab) -> Option<BoundLab<'r>> {
-    ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(Ready::scene)
-}
-
-/// The lab that is named. Why one of another lesson is not there, or cannot run, goes to `findings`.
-fn named_scene<'r>(
-    lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
-    named: &'r VerifyLab,
-    findings: &mut Vec<Finding>,
-) -> Option<BoundLab<'r>> {
-    let scene = lesson.named(named).and_then(|lab| scene_of(ready, lab));
-    let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
-    let name = read::named(text.as_str());
-    let message = match lesson.other(&text.span()).map(|other| &other.lab) {
-        Some(Ok(_)) => format!("{name} cannot run, because its model or its code has errors"),
-        Some(Err(why)) => format!("{name} does not exist: {why}"),
-        None => format!("{name} does not exist: only this lesson was given, or it names too many others"),
-    };
-    findings.push(
-        Finding::error(rules::UNKNOWN_LAB, text.span(), message)
-            .why("claims about it cannot be checked")
-            .help("check that lesson; name a lab of another lesson by its path from this one: other.md#2"),
-    );
-    None
-}
-
-/// A `verify` object bound to its labs. `None` where they have mistakes.
-pub(super) fn bound<'r>(
-    lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
-    verify: &'r Verify,
-    own: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
-) -> Option<BoundVerify<'r>> {
-    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
-    BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())
-}
-
-/// What a `verify` object rests on.
-pub(super) struct Begun {
-    /// The model of its lab.
-    pub(super) model: Option<Arc<Model>>,
-    /// The model of every run as it begins.
-    pub(super) runs: Vec<(String, Option<Model>)>,
-}
-
-/// Sets up the runs of a `verify` object, and makes none. `None` where they have mistakes.
-pub(super) fn begun<'r>(
-    lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
-    verify: &'r Verify,
-    own: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
-) -> Option<Begun> {
-    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
-    let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
-    Some(Begun { runs: bound.begun(), model: base.map(|scene| scene.model) })
-}
-
-/// What the labs show in the runs of a `verify` object, up to so many; nothing where they have mistakes.
-pub(super) fn curves<'r>(
-    lesson: &'r Lesson,
-    ready: &'r [Ready<'r>],
-    verify: &'r Verify,
-    own: Option<&'r Lab>,
-    stage: &'r Stage<'r>,
-    most: usize,
-) -> Vec<verify::Curves> {
-    let ignored = &mut Vec::new();
-    let cast = resolve_labs(lesson, ready, verify, own, stage, ignored);
-    let bound =
-        cast.and_then(|cast| BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, stage, ignored));
-    bound.map_or(Vec::new(), |bound| bound.curves(most))
-}
-
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
-pub(super) fn check<'l>(
+pub(super) fn check_claims<'l>(
     lesson: &'l Lesson,
-    ready: &mut [Ready<'l>],
+    ready: &mut [PreparedLab<'l>],
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
-    let shown = ShownText::of(lesson);
+    let shown = ShownText::of_lesson(lesson);
     let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);
@@ -260,7 +147,7 @@ pub(super) fn check<'l>(
 
 struct ClaimChecker<'a> {
     lesson: &'a Lesson,
-    ready: &'a [Ready<'a>],
+    ready: &'a [PreparedLab<'a>],
     shown: ShownText,
     stage: Stage<'a>,
     partners: Partners<'a>,
@@ -332,8 +219,8 @@ impl ClaimChecker<'_> {
         let Some(ResolvedLabs { base, runs }) =
             resolve_labs(self.lesson, self.ready, verify, own, &self.stage, findings)
         else {
-            let told = findings.len() > before;
-            let reason = if told { "a run cannot be made" } else { "its lab cannot run" };
+            let reported = findings.len() > before;
+            let reason = if reported { "a run cannot be made" } else { "its lab cannot run" };
             return verify::unmade(verify, question, reason);
         };
         for (run, scenes) in verify.runs.iter().zip(&runs) {
@@ -344,7 +231,7 @@ impl ClaimChecker<'_> {
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => {
                 self.stage.take_left_behind();
-                let mut judgement = verify::check(&bound, verify, question, shown, findings);
+                let mut judgement = verify::check_verify(&bound, verify, question, shown, findings);
                 // Where no partner was left behind, there is nothing to correct, and every run with corrections is the same.
                 if self.stage.take_left_behind() {
                     self.partners.settle(verify, own, question, shown, &mut judgement, findings);

@@ -3,7 +3,7 @@
 //! A step finds contacts from the positions at its start, at the time t, and ends at t + h. A controller that sees them before the
 //! next step, and keeps `data.time`, keeps t + h.
 
-use super::Ready;
+use super::PreparedLab;
 use super::setconst::digits;
 use crate::bind::{ModelNames, Scope};
 use crate::finding::Finding;
@@ -15,7 +15,7 @@ use labspec_expr::{Compiler, Program, Value};
 /// Work for the run.
 const WORK: Budget = Budget { left: 50_000_000 };
 
-pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+pub(super) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Finding>) {
     let Some(controller) = &ready.programs.controller else { return };
     let text = &controller.text;
     let names = |word: &str| text.value.contains(word);
@@ -27,7 +27,7 @@ pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
     }
     let Some((slot, time, step)) = late(ready, &effects.ctx_writes) else { return };
     let name = ready.programs.globals.name(slot);
-    let said = |x: f64| digits(x, 6);
+    let printed = |x: f64| digits(x, 6);
     findings.push(
         Finding::new(
             rules::CONTACT_TIME_LATE,
@@ -36,15 +36,15 @@ pub(super) fn check(ready: &Ready<'_>, findings: &mut Vec<Finding>) {
         )
         .why(format!(
             "in a run, a contact of the positions at {} s sets it to {}: a step finds contacts at its start, but `data.time` is already the time of its end",
-            said(time - step),
-            said(time)
+            printed(time - step),
+            printed(time)
         ))
         .help("store `data.time - model.opt.timestep`"),
     );
 }
 
 /// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
-fn late(ready: &Ready<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
+fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, WORK);
     let timestep = session.world.model.opt.timestep;

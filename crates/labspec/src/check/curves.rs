@@ -1,6 +1,7 @@
 //! What the labs show in the runs that the claims of a lesson rest on, for a report that draws it.
 
 use super::claims;
+use super::resolved_labs::record_curves;
 use crate::bind::scene::Models;
 use crate::spec::Lesson;
 use crate::verify::{Curves, Stage};
@@ -25,7 +26,7 @@ pub fn curves(lesson: &Lesson, models: &Models) -> Vec<Drawn> {
     let owners = claims::owners(lesson).into_iter();
     let drawn = owners.filter_map(|(_, owner)| {
         let (verify, own, _) = owner.claim(lesson)?;
-        let runs = claims::curves(lesson, &ready, verify, own, &stage, RUNS);
+        let runs = record_curves(lesson, &ready, verify, own, &stage, RUNS);
         (!runs.is_empty()).then(|| Drawn { span: verify.span.clone(), runs })
     });
     drawn.collect()

@@ -51,7 +51,12 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
 /// Everything that stands in one lesson.
 fn lesson(c: &Checked, ledger: &mut Ledger) {
     let mut all = Vec::new();
-    claimed(c, &mut all);
+    let mut entries = LessonEntries { checked: c, entries: &mut all };
+    entries.add_labs();
+    entries.add_unread_questions();
+    entries.add_widgets();
+    entries.add_snapshots();
+    entries.add_claims();
     left_out(c, &mut all);
     for mut entry in all {
         // A page cannot read a block whose JSON is broken, whatever was found by reading on behind the mistakes.
@@ -63,74 +68,116 @@ fn lesson(c: &Checked, ledger: &mut Ledger) {
     }
 }
 
-fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
-    let path = c.lesson.file.path();
-    let entry = |subject, owner: &str, span: &Range<usize>, state, word| Entry {
-        subject,
-        owner: owner.to_string(),
-        path: path.clone(),
-        span: span.clone(),
-        state,
-        word,
-        what: String::new(),
-        remark: String::new(),
-    };
-    for ran in &c.labs {
-        let span = c.lesson.lab(&ran.address).map_or(0..0, |lab| lab.span.clone());
-        let (state, word, remark) = lab(ran);
-        let owner = format!("lab {}", ran.address);
-        ledger.push(Entry {
-            what: ran.title.clone(),
-            remark,
-            ..entry(Subject::Lab, &owner, &span, state, word)
-        });
-    }
-    for lab in c.lesson.labs.iter().filter(|entry| entry.lab.is_none()) {
-        let owner = format!("lab #{}", lab.number);
-        let remark = "it cannot be read".into();
-        ledger.push(Entry { remark, ..entry(Subject::Lab, &owner, &lab.span, State::Unchecked, "unread") });
-    }
-    for quiz in &c.lesson.quizzes {
-        let id = quiz.id.as_ref().map_or("", |t| t.as_str());
-        for (i, _) in quiz.questions.iter().enumerate().filter(|(_, q)| q.is_none()) {
-            let owner = format!("quiz {id}, question {}", i + 1);
-            let remark = "it cannot be read".into();
-            ledger.push(Entry {
-                remark,
-                ..entry(Subject::Answer, &owner, &quiz.span, State::Unchecked, "unread")
-            });
+/// The entries of one lesson, one for each claim.
+struct LessonEntries<'c> {
+    checked: &'c Checked,
+    entries: &'c mut Vec<Entry>,
+}
+
+impl LessonEntries<'_> {
+    /// An entry without words of its own.
+    fn entry(
+        &self,
+        subject: Subject,
+        owner: &str,
+        span: &Range<usize>,
+        state: State,
+        word: &'static str,
+    ) -> Entry {
+        Entry {
+            subject,
+            owner: owner.to_string(),
+            path: self.checked.lesson.file.path().clone(),
+            span: span.clone(),
+            state,
+            word,
+            what: String::new(),
+            remark: String::new(),
         }
     }
-    for widget in &c.lesson.widgets {
-        let owner = format!("widget {}", widget.name);
-        // Where the claims alone are verified, nothing is said of what the page shows.
-        let (state, word, remark) = match c.depth.claims && !c.depth.labs {
-            true => (State::NotClaimed, "not run", String::new()),
-            false => (State::LeftOut, "unknown", unknown_widget(&widget.name)),
-        };
-        ledger.push(Entry { remark, ..entry(Subject::Widget, &owner, &widget.span, state, word) });
+
+    /// The labs that ran, and those that could not be read.
+    fn add_labs(&mut self) {
+        let lesson = &self.checked.lesson;
+        for ran in &self.checked.labs {
+            let span = lesson.lab(&ran.address).map_or(0..0, |lab| lab.span.clone());
+            let (state, word, remark) = lab(ran);
+            let owner = format!("lab {}", ran.address);
+            let about = self.entry(Subject::Lab, &owner, &span, state, word);
+            self.entries.push(Entry { what: ran.title.clone(), remark, ..about });
+        }
+        for lab in lesson.labs.iter().filter(|entry| entry.lab.is_none()) {
+            let owner = format!("lab #{}", lab.number);
+            self.add_unread(Subject::Lab, &owner, &lab.span);
+        }
     }
-    for kept in &c.snapshots {
-        let owner = format!("lab {}", kept.lab);
-        let about = entry(Subject::Snapshot, &owner, &kept.span, kept.state, kept.word());
-        ledger.push(Entry { remark: kept.remark(), ..about });
-    }
-    for claim in &c.claims {
-        let judgement = &claim.judgement;
-        if let Some(answer) = &judgement.answer {
-            let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
-            let remark = answer.reason.clone();
-            ledger.push(Entry { remark, ..entry(Subject::Answer, &claim.name, &claim.span, state, word) });
-            for open in answer.weights.iter().filter(|w| w.holds.is_none()) {
-                let what = open.option.map_or(String::new(), |i| i.to_string());
-                let about = entry(Subject::Option, &claim.name, &claim.span, State::NotClaimed, "undecided");
-                ledger.push(Entry { what, ..about });
+
+    /// The questions that could not be read.
+    fn add_unread_questions(&mut self) {
+        for quiz in &self.checked.lesson.quizzes {
+            let id = quiz.id.as_ref().map_or("", |t| t.as_str());
+            for (i, _) in quiz.questions.iter().enumerate().filter(|(_, q)| q.is_none()) {
+                let owner = format!("quiz {id}, question {}", i + 1);
+                self.add_unread(Subject::Answer, &owner, &quiz.span);
             }
         }
+    }
+
+    fn add_unread(&mut self, subject: Subject, owner: &str, span: &Range<usize>) {
+        let about = self.entry(subject, owner, span, State::Unchecked, "unread");
+        self.entries.push(Entry { remark: "it cannot be read".into(), ..about });
+    }
+
+    /// The widgets that are not ours. Where the claims alone are verified, nothing is said of what the page shows.
+    fn add_widgets(&mut self) {
+        let depth = &self.checked.depth;
+        for widget in &self.checked.lesson.widgets {
+            let owner = format!("widget {}", widget.name);
+            let (state, word, remark) = match depth.claims && !depth.labs {
+                true => (State::NotClaimed, "not run", String::new()),
+                false => (State::LeftOut, "unknown", unknown_widget(&widget.name)),
+            };
+            let about = self.entry(Subject::Widget, &owner, &widget.span, state, word);
+            self.entries.push(Entry { remark, ..about });
+        }
+    }
+
+    fn add_snapshots(&mut self) {
+        for snapshot in &self.checked.snapshots {
+            let owner = format!("lab {}", snapshot.lab);
+            let about =
+                self.entry(Subject::Snapshot, &owner, &snapshot.span, snapshot.state, snapshot.word());
+            self.entries.push(Entry { remark: snapshot.remark(), ..about });
+        }
+    }
+
+    fn add_claims(&mut self) {
+        for claim in &self.checked.claims {
+            self.add_answer(claim);
+            self.add_statements(claim);
+        }
+    }
+
+    /// The answer of a question, and the options that its evidence does not decide.
+    fn add_answer(&mut self, claim: &Claim) {
+        let Some(answer) = &claim.judgement.answer else { return };
+        let (state, word) = (answer.verdict.state(), answer.verdict.as_str());
+        let about = self.entry(Subject::Answer, &claim.name, &claim.span, state, word);
+        self.entries.push(Entry { remark: answer.reason.clone(), ..about });
+        for open in answer.weights.iter().filter(|w| w.holds.is_none()) {
+            let what = open.option.map_or(String::new(), |i| i.to_string());
+            let about = self.entry(Subject::Option, &claim.name, &claim.span, State::NotClaimed, "undecided");
+            self.entries.push(Entry { what, ..about });
+        }
+    }
+
+    /// The quotes, the closed forms and the runs of a claim.
+    fn add_statements(&mut self, claim: &Claim) {
+        let judgement = &claim.judgement;
         for q in &judgement.quotes {
             let (state, word) = quote(q);
-            let (what, remark) = (q.text.clone(), q.reason.clone());
-            ledger.push(Entry { what, remark, ..entry(Subject::Quote, &claim.name, &q.span, state, word) });
+            let about = self.entry(Subject::Quote, &claim.name, &q.span, state, word);
+            self.entries.push(Entry { what: q.text.clone(), remark: q.reason.clone(), ..about });
         }
         for form in &judgement.exact {
             let word = match form.state {
@@ -138,14 +185,13 @@ fn claimed(c: &Checked, ledger: &mut Vec<Entry>) {
                 State::False => "refuted",
                 _ => "failed",
             };
-            let (what, remark) = (form.trace.clone(), form.remark.clone());
-            let about = entry(Subject::ClosedForm, &claim.name, &form.span, form.state, word);
-            ledger.push(Entry { what, remark, ..about });
+            let about = self.entry(Subject::ClosedForm, &claim.name, &form.span, form.state, word);
+            self.entries.push(Entry { what: form.trace.clone(), remark: form.remark.clone(), ..about });
         }
         for r in &judgement.runs {
             let (state, word, remark) = run(r, judgement.unmade.as_deref());
-            let what = r.name.clone();
-            ledger.push(Entry { what, remark, ..entry(Subject::Run, &claim.name, &r.span, state, word) });
+            let about = self.entry(Subject::Run, &claim.name, &r.span, state, word);
+            self.entries.push(Entry { what: r.name.clone(), remark, ..about });
         }
     }
 }

@@ -28,10 +28,10 @@ const LIKELY: [&str; 5] = [
 /// many were made.
 pub(super) fn settle(lab: &Lab, runs: usize, findings: &mut Vec<Finding>, first: usize) {
     let Some(Expect::Breaks(place)) = &lab.expect else { return };
-    let own = findings.split_off(first.min(findings.len()));
-    let broke = own.iter().any(|f| BROKE.contains(&f.code));
-    let impossible = own.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
-    findings.extend(own.into_iter().filter(|f| !BROKE.contains(&f.code) && !LIKELY.contains(&f.code)));
+    let of_lab = findings.split_off(first.min(findings.len()));
+    let broke = of_lab.iter().any(|f| BROKE.contains(&f.code));
+    let impossible = of_lab.iter().any(|f| f.code == rules::RUN_IMPOSSIBLE.code);
+    findings.extend(of_lab.into_iter().filter(|f| !BROKE.contains(&f.code) && !LIKELY.contains(&f.code)));
     // What was not run shows nothing, and is said elsewhere.
     if broke || impossible || runs == 0 {
         return;

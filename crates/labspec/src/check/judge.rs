@@ -1,11 +1,12 @@
 //! The claims of a lesson before a second judge: what it is asked, and what its recording makes of them.
 
 use super::claims;
+use super::resolved_labs::bind_claim;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::spec::Lesson;
-use crate::verify::judge::{self, Judged, Left, Reference, Taken};
+use crate::verify::judge::{self, Judged, Left, RecordedRun, Reference};
 use crate::verify::{ShownText, Stage};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -29,7 +30,7 @@ pub struct Recording {
     /// `MuJoCo 3.14.0`.
     pub engine: String,
     /// By the digest of what was asked.
-    pub runs: BTreeMap<String, Taken>,
+    pub runs: BTreeMap<String, RecordedRun>,
     /// Lesson (the name of its file), claim and run of everything in it: so that one of another text is known.
     pub known: BTreeSet<[String; 3]>,
 }
@@ -59,14 +60,14 @@ pub fn hear(
 ) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
-    let shown = ShownText::of(lesson);
+    let shown = ShownText::of_lesson(lesson);
     let mut hearing = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {
         let Some((verify, own, question)) = owner.claim(lesson) else { continue };
         let narrow = owner.block().map(|block| shown.within(block, verify));
         let shown = narrow.as_ref().unwrap_or(&shown);
-        hearing.left = hearing.left.and(Left::of(verify));
-        let Some(bound) = claims::bound(lesson, &ready, verify, own, &stage) else { continue };
+        hearing.left = hearing.left.and(Left::count(verify));
+        let Some(bound) = bind_claim(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
             let text = one.task.as_ref().map_or(String::new(), Value::to_string);
             let hash: String = mark(&[text.as_bytes()]).chars().take(16).collect();
@@ -90,7 +91,7 @@ fn taken<'r>(
     recording: &'r Recording,
     request: &Request,
     hearing: &mut CrossCheck,
-) -> Result<&'r Taken, String> {
+) -> Result<&'r RecordedRun, String> {
     request.task.as_ref().map_err(Clone::clone)?;
     if let Some(taken) = recording.runs.get(&request.hash) {
         return Ok(taken);

@@ -15,7 +15,7 @@ const FEWEST: usize = 3;
 const LONGEST: usize = 2 << 20;
 
 /// Tells each number on its own where nearly all are claimed, and else the first one of the text, with how many there are.
-pub(super) fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+pub(super) fn check_left_out(lesson: &Lesson, findings: &mut Vec<Finding>) {
     // Where nothing can be claimed nothing is left out; and who writes megabytes is not looked at word by word.
     let nothing = lesson.labs.is_empty() && lesson.verifies().next().is_none();
     if nothing || lesson.file.text().len() > LONGEST {

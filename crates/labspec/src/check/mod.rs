@@ -1,6 +1,7 @@
 //! The whole check of a lesson: structure, names, runs of every lab, verdicts of every question.
 
 mod allowed;
+mod choices;
 mod claim_id;
 mod claims;
 mod contact_time;
@@ -16,6 +17,7 @@ mod params;
 mod partners;
 mod programs;
 mod reproduce;
+mod resolved_labs;
 mod setconst;
 mod snapshot;
 pub mod stored;
@@ -29,7 +31,7 @@ pub use entries::{evidence, ledger};
 pub use judge::{CrossCheck, Recording, Request, file_name, hear};
 pub use lab_runs::Tried;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
-pub use snapshot::{Divergence, Kept, Renewal, RenewedLab, renew};
+pub use snapshot::{Divergence, Renewal, RenewedLab, SnapshotResult, renew};
 pub(crate) use units::labels as labels_of;
 
 use crate::bind::Programs;
@@ -73,7 +75,7 @@ pub struct Checked {
     /// The questions and the labs with claims.
     pub claims: Vec<Claim>,
     /// Of each lab, whether it shows what is stored; nothing where nothing is.
-    pub snapshots: Vec<Kept>,
+    pub snapshots: Vec<SnapshotResult>,
     /// What would be found, and the author has put aside with a reason.
     pub allowed: Vec<Allowed>,
     /// What was asked for.
@@ -101,7 +103,7 @@ impl CheckLevel {
 }
 
 /// A lab with its model and programs.
-struct Ready<'l> {
+struct PreparedLab<'l> {
     lab: &'l Lab,
     model: Arc<Model>,
     programs: Programs,
@@ -109,9 +111,9 @@ struct Ready<'l> {
     mistakes: usize,
 }
 
-impl<'l> Ready<'l> {
+impl<'l> PreparedLab<'l> {
     fn scene(&'l self) -> verify::BoundLab<'l> {
-        verify::BoundLab::of(self.lab, &self.model, &self.programs)
+        verify::BoundLab::new(self.lab, &self.model, &self.programs)
     }
 }
 
@@ -121,18 +123,18 @@ pub struct LabOutcome {
     pub(crate) findings: Vec<Finding>,
     pub(crate) labs: Vec<RanLab>,
     pub(crate) claims: Vec<Claim>,
-    pub(crate) snapshots: Vec<Kept>,
+    pub(crate) snapshots: Vec<SnapshotResult>,
 }
 
 impl LabOutcome {
     /// One finding, and nothing else.
-    pub fn of(finding: Finding) -> LabOutcome {
+    pub fn from_finding(finding: Finding) -> LabOutcome {
         LabOutcome { findings: vec![finding], ..LabOutcome::default() }
     }
 }
 
 /// Checks a lesson that has been read. Findings of model files are left in `models`.
-pub fn check(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
+pub fn check_lesson(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
     let found = examine(&lesson, models, depth);
     join(lesson, found, depth)
 }
@@ -141,22 +143,22 @@ pub fn check(lesson: Lesson, models: &Models, depth: CheckLevel) -> Checked {
 pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcome {
     let mut findings = Vec::new();
     let labs = lesson.all_labs();
-    let mut ready: Vec<Ready<'_>> =
+    let mut ready: Vec<PreparedLab<'_>> =
         labs.into_iter().filter_map(|lab| prepare(lab, models, depth, &mut findings)).collect();
     if depth.programs {
-        ready.iter().for_each(|r| params::check(lesson, r, &mut findings));
-        ready.iter().for_each(|r| contact_time::check(r, &mut findings));
+        ready.iter().for_each(|r| params::check_params(lesson, r, &mut findings));
+        ready.iter().for_each(|r| contact_time::check_contact_times(r, &mut findings));
     }
     let labs = if depth.labs { lab_runs::run_labs(lesson, &ready, &mut findings) } else { Vec::new() };
     deduplicate(lesson, &mut findings);
-    let snapshots = snapshot::check(lesson, &ready, depth, &mut findings);
+    let snapshots = snapshot::check_snapshots(lesson, &ready, depth, &mut findings);
     // An editor looks at a block at a time, and cannot know what the others claim.
     if depth.claims {
-        left_out::check(lesson, &mut findings);
+        left_out::check_left_out(lesson, &mut findings);
     }
     ready.extend(beside(lesson, models));
     let claims = if depth.claims {
-        claims::check(lesson, &mut ready, models, &mut findings)
+        claims::check_claims(lesson, &mut ready, models, &mut findings)
     } else {
         claims::bind(lesson, &ready, models, &mut findings);
         Vec::new()
@@ -165,19 +167,19 @@ pub fn examine(lesson: &Lesson, models: &Models, depth: CheckLevel) -> LabOutcom
 }
 
 /// All labs that claims of a lesson are about. What is wrong with them has been told.
-fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<Ready<'l>> {
+fn of_claims<'l>(lesson: &'l Lesson, models: &Models) -> Vec<PreparedLab<'l>> {
     let labs = lesson.all_labs().into_iter();
-    let own = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
-    own.chain(beside(lesson, models)).collect()
+    let prepared = labs.filter_map(|lab| prepare(lab, models, CheckLevel::STATIC, &mut Vec::new()));
+    prepared.chain(beside(lesson, models)).collect()
 }
 
 /// The labs of claims that are none of the lesson's own: those of other lessons, and one in which nothing is, for formulas.
-fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = Ready<'l>> {
+fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = PreparedLab<'l>> {
     let labs = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
     let others = labs.filter_map(|lab| {
         // What is wrong with it is told where it stands.
         let (model, programs, mistakes) = bind(lab, models, &mut Vec::new())?;
-        (mistakes == 0).then_some(Ready { lab, model, programs, mistakes })
+        (mistakes == 0).then_some(PreparedLab { lab, model, programs, mistakes })
     });
     others.chain(if claims::have_formulas(lesson) { empty() } else { None })
 }
@@ -186,10 +188,10 @@ fn beside<'l>(lesson: &'l Lesson, models: &Models) -> impl Iterator<Item = Ready
 static NOTHING: LazyLock<Lab> =
     LazyLock::new(|| Lab::of_model(Text { value: String::new(), map: SourceMap::point(0) }));
 
-fn empty() -> Option<Ready<'static>> {
+fn empty() -> Option<PreparedLab<'static>> {
     let model = Arc::new(Model::from_xml("<mujoco/>").ok()?);
     let programs = Programs::compile(&NOTHING, &model, &mut Vec::new());
-    Some(Ready { lab: &NOTHING, model, programs, mistakes: 0 })
+    Some(PreparedLab { lab: &NOTHING, model, programs, mistakes: 0 })
 }
 
 /// A control of which a reset takes everything away changes nothing, and the reset is what is told.
@@ -228,14 +230,14 @@ fn prepare<'l>(
     models: &Models,
     depth: CheckLevel,
     findings: &mut Vec<Finding>,
-) -> Option<Ready<'l>> {
+) -> Option<PreparedLab<'l>> {
     let (model, programs, mistakes) = bind(lab, models, findings)?;
     if depth.programs {
-        programs::check(lab, &model, &programs, findings);
-        units::check(lab, &model, &programs, findings);
-        named::check(lab, &model, &programs, findings);
+        programs::check_programs(lab, &model, &programs, findings);
+        units::check_units(lab, &model, &programs, findings);
+        named::check_names(lab, &model, &programs, findings);
     }
-    Some(Ready { lab, model, programs, mistakes })
+    Some(PreparedLab { lab, model, programs, mistakes })
 }
 
 /// Loads the model of a lab and binds its programs; with the number of errors in its code.
@@ -244,7 +246,7 @@ pub(crate) fn bind(
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Option<(Arc<Model>, Programs, usize)> {
-    let Some(model) = models.of(lab, findings) else {
+    let Some(model) = models.model_of_lab(lab, findings) else {
         // A folder that has no such model is a matter of the lesson's structure, which knows what the folder has.
         if let (Some(ModelSource::Model(name)), None) = (lab.scene(), models.folder().names()) {
             let folder = models.folder();

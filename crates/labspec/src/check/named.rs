@@ -24,7 +24,7 @@ const KINDS: [(Obj, &str); 6] = [
 const MOST: usize = 400;
 
 /// A name of the model.
-struct Named {
+struct NamedObject {
     kind: Obj,
     noun: &'static str,
     index: usize,
@@ -34,7 +34,7 @@ struct Named {
 }
 
 /// A label, and what its expression reads.
-struct Shown<'l> {
+struct DisplayedValue<'l> {
     label: &'l Text,
     bound: &'l Bound,
     /// The names in it, the longest where one is a part of another.
@@ -52,11 +52,11 @@ pub(super) fn names(model: &Model) -> impl Iterator<Item = &str> {
     KINDS.iter().flat_map(|(kind, _)| model.names.of(*kind)).map(String::as_str).filter(|n| !n.is_empty())
 }
 
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+pub(super) fn check_names(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let all = elements(model);
     let traces = lab.plots.iter().flat_map(|p| &p.traces).map(|t| &t.label);
     let labels = traces.chain(lab.readouts.iter().map(|r| &r.label));
-    let shown: Vec<Shown<'_>> = labels
+    let displays: Vec<DisplayedValue<'_>> = labels
         .zip(&programs.probes)
         .take(MOST)
         .filter_map(|(label, probe)| shown(label, probe.bound.as_ref()?, model, &all))
@@ -75,13 +75,13 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
         };
         findings.extend(bound.and_then(|bound| quotes_another(&control.label, bound, model)));
     }
-    for one in &shown {
+    for one in &displays {
         let ([name], Some(&body)) = (one.names.as_slice(), one.bodies.first()) else { continue };
         let Some(named) = all.get(*name).filter(|n| n.body != body && one.bodies.len() == 1) else {
             continue;
         };
         if !(alone(one, named)
-            || beside(one, named, body, &shown, &all)
+            || beside(one, named, body, &displays, &all)
             || in_the_place_of_a_name(one, named))
         {
             continue;
@@ -107,7 +107,7 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
 }
 
 /// Whether a label is something and then, behind a comma, a joint, and the expression reads another joint: `force, shoulder (N)`.
-fn in_the_place_of_a_name(one: &Shown<'_>, named: &Named) -> bool {
+fn in_the_place_of_a_name(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
     let last = one.label.as_str().rsplit_once(", ").map(|(_, last)| words_of(last));
     let joint = named.kind == Obj::Joint && one.reads.iter().all(|(kind, _)| *kind == Obj::Joint);
     joint && last.is_some_and(|words| words == named.words)
@@ -144,11 +144,11 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
     if effects.writes_everything || effects.calls_values || model.nq == 0 {
         return None;
     }
-    let own: Vec<_> =
+    let written: Vec<_> =
         bound.program.own_writes().into_iter().filter(|w| w.field.0 as usize == field.index()).collect();
     let outside = |i: usize| !(first..end).contains(&i);
     // What is written one by one: every element that the label names, and none besides.
-    let all: Option<Vec<usize>> = own.iter().map(|w| (w.count == Some(1)).then_some(w.first)).collect();
+    let all: Option<Vec<usize>> = written.iter().map(|w| (w.count == Some(1)).then_some(w.first)).collect();
     let all = all.filter(|all| !all.is_empty())?;
     let other = all.iter().find(|i| outside(**i)).filter(|_| all.iter().all(|i| outside(*i)))?;
     let message = format!("the label names `{name}[{inside}]`, but the control writes `{name}[{other}]`");
@@ -160,7 +160,7 @@ fn quotes_another(label: &Text, bound: &Bound, model: &Model) -> Option<Finding>
 }
 
 /// A trace that is called by the name of something in the model, and is a number.
-fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[Named]) -> Option<Finding> {
+fn a_number(trace: &Trace, bound: Option<&Bound>, all: &[NamedObject]) -> Option<Finding> {
     let bound = bound.filter(|b| b.program.effects().constant())?;
     let words = words_of(trace.label.as_str());
     let named = all.iter().find(|n| n.words == words)?;
@@ -180,14 +180,20 @@ fn words_of(label: &str) -> Vec<String> {
 }
 
 /// Whether the label is a name and nothing else, of something that has what the expression reads.
-fn alone(one: &Shown<'_>, named: &Named) -> bool {
+fn alone(one: &DisplayedValue<'_>, named: &NamedObject) -> bool {
     let same_kind = |kind: Obj| kind == named.kind || named.kind == Obj::Body && kind == Obj::Joint;
     one.rest.is_empty() && one.reads.iter().all(|(kind, _)| same_kind(*kind))
 }
 
 /// Whether another label is the same but for its name, which is that of what this one reads. Where that one reads a third thing, the
 /// names may mean something else.
-fn beside(one: &Shown<'_>, named: &Named, body: usize, shown: &[Shown<'_>], all: &[Named]) -> bool {
+fn beside(
+    one: &DisplayedValue<'_>,
+    named: &NamedObject,
+    body: usize,
+    shown: &[DisplayedValue<'_>],
+    all: &[NamedObject],
+) -> bool {
     shown.iter().any(|other| {
         let [name] = other.names.as_slice() else { return false };
         let Some(its) = all.get(*name) else { return false };
@@ -198,7 +204,12 @@ fn beside(one: &Shown<'_>, named: &Named, body: usize, shown: &[Shown<'_>], all:
 }
 
 /// A label with what it names and reads; `None` when it is not known of all that is read where it belongs.
-fn shown<'l>(label: &'l Text, bound: &'l Bound, model: &Model, all: &[Named]) -> Option<Shown<'l>> {
+fn shown<'l>(
+    label: &'l Text,
+    bound: &'l Bound,
+    model: &Model,
+    all: &[NamedObject],
+) -> Option<DisplayedValue<'l>> {
     let effects = bound.program.effects();
     if effects.reads_everything || effects.any_ctx || effects.calls_values || !effects.ctx_reads.is_empty() {
         return None;
@@ -237,7 +248,14 @@ fn shown<'l>(label: &'l Text, bound: &'l Bound, model: &Model, all: &[Named]) ->
     if let [(_, from, to)] = names.as_slice() {
         rest.drain(*from..*to);
     }
-    Some(Shown { label, bound, names: names.into_iter().map(|n| n.0).collect(), rest, reads, bodies })
+    Some(DisplayedValue {
+        label,
+        bound,
+        names: names.into_iter().map(|n| n.0).collect(),
+        rest,
+        reads,
+        bodies,
+    })
 }
 
 /// The words of a label or a name, in small letters.
@@ -247,7 +265,7 @@ fn split_words(text: &str) -> Vec<String> {
 }
 
 /// Everything that has a name of its own and belongs to a body that is not the world. A letter is no name that a label would have.
-fn elements(model: &Model) -> Vec<Named> {
+fn elements(model: &Model) -> Vec<NamedObject> {
     let mut all = Vec::new();
     for (kind, noun) in KINDS {
         for (index, name) in
@@ -255,9 +273,16 @@ fn elements(model: &Model) -> Vec<Named> {
         {
             let body = body_of(model, kind, index).filter(|b| *b != 0);
             // A space of names stands before a stroke.
-            let own = name.rsplit('/').next().unwrap_or(name);
-            if let (Some(body), false) = (body, split_words(own).is_empty()) {
-                all.push(Named { kind, noun, index, name: name.clone(), words: split_words(own), body });
+            let short_name = name.rsplit('/').next().unwrap_or(name);
+            if let (Some(body), false) = (body, split_words(short_name).is_empty()) {
+                all.push(NamedObject {
+                    kind,
+                    noun,
+                    index,
+                    name: name.clone(),
+                    words: split_words(short_name),
+                    body,
+                });
             }
         }
     }

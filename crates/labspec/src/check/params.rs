@@ -1,13 +1,13 @@
 //! Values that a control stores under a name, and nothing reads.
 
-use super::Ready;
+use super::PreparedLab;
 use crate::bind::ControlProgram;
 use crate::finding::Finding;
 use crate::rules;
 use crate::spec::Lesson;
 use labspec_finding::nearest;
 
-pub(super) fn check(lesson: &Lesson, ready: &Ready<'_>, findings: &mut Vec<Finding>) {
+pub(super) fn check_params(lesson: &Lesson, ready: &PreparedLab<'_>, findings: &mut Vec<Finding>) {
     let programs = &ready.programs;
     // A text with mistakes may be what reads it.
     let unknown = ready.mistakes > 0

@@ -1,18 +1,19 @@
 //! What the programs of a lab do that a page lets pass in silence.
 
+use super::choices::choices;
 use super::setconst;
-use crate::bind::{Bound, ControlProgram, Programs, functions, scalar};
+use crate::bind::{Bound, ControlProgram, Programs, functions};
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::Session;
-use crate::spec::{Control, ControlKind, Lab};
+use crate::spec::{Control, Lab};
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Kind, Object, data};
 use labspec_expr::{FieldKey, Host, Value};
 
 /// What programs do that a page lets pass in silence.
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
-    setconst::check(lab, model, programs, findings);
+pub(super) fn check_programs(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+    setconst::check_setconst(lab, model, programs, findings);
     for (index, control) in lab.controls.iter().enumerate() {
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
         let Some(bound) = action.run.as_ref().filter(|b| !action.init && !resets(b)) else { continue };
@@ -99,18 +100,4 @@ fn lost(
         ))
     };
     choices(control).iter().find_map(with)
-}
-
-/// Most options of a select that are tried.
-const MOST_OPTIONS: usize = 8;
-
-/// What a student may choose: the ends of a slider, the options of a select.
-pub(super) fn choices(control: &Control) -> Vec<Value> {
-    match &control.kind {
-        ControlKind::Slider { min, max, .. } => [max, min].map(|end| Value::Number(end.value)).to_vec(),
-        ControlKind::Select { options, .. } => {
-            options.iter().take(MOST_OPTIONS).map(|o| scalar(&o.value)).collect()
-        }
-        ControlKind::Button { .. } => Vec::new(),
-    }
 }

@@ -1,8 +1,9 @@
 //! What a check rested on: models, settings and contacts of every lab and every run, so that it can be made again and that a
 //! change can be told from its cause.
 
-use super::Ready;
+use super::PreparedLab;
 use super::claims::{self, Owner};
+use super::resolved_labs::start_runs;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
 use crate::precision::Integrator;
@@ -76,7 +77,7 @@ pub struct Basis {
 pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
     let ready = super::of_claims(lesson, models);
     let block = |span: &Range<usize>| mark(&[lesson.file.slice(span.clone()).as_bytes()]);
-    let compiled = |ready: &Ready<'_>| mark(&[&ready.model.to_bytes()]);
+    let compiled = |ready: &PreparedLab<'_>| mark(&[&ready.model.to_bytes()]);
     let labs = lesson.addressed().into_iter().map(|(address, lab)| {
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
         let settings = one.map(|r| {
@@ -95,7 +96,7 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
             Owner::Question(question) => &question.span,
             Owner::Remark(remark) => &remark.span,
         };
-        let begun = claims::begun(lesson, &ready, verify, own, &stage);
+        let begun = start_runs(lesson, &ready, verify, own, &stage);
         let model = begun.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));
         let runs = begun.map_or(Vec::new(), |begun| begun.runs);
         let runs = runs.into_iter().map(|(name, model)| (name, model.map(|m| settings(&m, mark)))).collect();
@@ -131,10 +132,10 @@ fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
     let Some(plain) = Model::from_xml("<mujoco/>").ok() else { return BTreeMap::new() };
     let fields = || reflect::fields().filter(|f| f.info().object == Object::Option);
     let [own, plain] = [model, &plain].map(|m| numbers(m, fields()));
-    let told = |name: &&'static str| TOLD.contains(name);
+    let is_reported = |name: &&'static str| TOLD.contains(name);
     own.into_iter()
         .zip(plain)
-        .filter(|((name, now), (_, default))| now != default && !told(name))
+        .filter(|((name, now), (_, default))| now != default && !is_reported(name))
         .map(|(own, _)| own)
         .collect()
 }

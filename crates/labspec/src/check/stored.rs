@@ -2,7 +2,7 @@
 //!
 //! Reading takes nothing for granted: what is not exactly what was written gives `None`.
 
-use super::{Claim, Divergence, Kept, LabOutcome, RanLab, Tried};
+use super::{Claim, Divergence, LabOutcome, RanLab, SnapshotResult, Tried};
 use crate::finding::{Applicability, ClaimId, Finding, Fix, Place, Severity};
 use crate::ledger::{Evidence, State};
 use crate::rules;
@@ -156,7 +156,7 @@ fn read_lab(value: &Value) -> Option<RanLab> {
     })
 }
 
-fn kept(k: &Kept) -> Value {
+fn kept(k: &SnapshotResult) -> Value {
     let divergence = |d: &Divergence| {
         json!([d.run, d.trace, bits(d.time), d.stored, d.now, d.tolerance.map(bits), d.line, d.picture])
     };
@@ -164,7 +164,7 @@ fn kept(k: &Kept) -> Value {
     json!([k.lab, span(&k.span), state, k.changes, k.divergence.as_ref().map(divergence), k.rows, k.reason])
 }
 
-fn read_kept(value: &Value) -> Option<Kept> {
+fn read_kept(value: &Value) -> Option<SnapshotResult> {
     let [lab, at, state, changes, divergence, rows, reason] = parts(value)?;
     let read_divergence = |value: &Value| {
         let [run, trace, time, stored, now, tolerance, line, picture] = parts(value)?;
@@ -179,7 +179,7 @@ fn read_kept(value: &Value) -> Option<Kept> {
             picture: list(picture, text)?,
         })
     };
-    Some(Kept {
+    Some(SnapshotResult {
         lab: text(lab)?,
         span: read_span(at)?,
         state: one_of(&STATES, state)?,

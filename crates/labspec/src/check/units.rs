@@ -13,7 +13,7 @@ use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{Measured, Schema};
 
 /// What units contradict.
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let found = dimensions(lab, model, programs);
     for ((labels, probe), measured) in labels(lab).zip(&programs.probes).zip(&found.probes) {
         let (Some(bound), Some(measured)) = (&probe.bound, measured) else { continue };
@@ -157,9 +157,10 @@ fn wrong_control(
     let message =
         format!("the control stores a value in {}, but {field} is in {}", written(&found), written(&wanted));
     let at = bound.text.span_of(stored.span.into());
-    let told = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "it stores this");
+    let finding = Finding::new(rules::LABEL_UNIT, label.span(), message).related(at, "it stores this");
     Some(
-        told.why(why(&found, &wanted))
+        finding
+            .why(why(&found, &wanted))
             .help("convert `value` where it is stored, or write the unit of the field"),
     )
 }

@@ -341,7 +341,7 @@ fn overview(course: &Course, with_evidence: bool) -> String {
             let kept = c.snapshots.iter().find(|k| {
                 entry.subject == Subject::Snapshot && entry.owner.strip_prefix("lab ") == Some(&*k.lab)
             });
-            for shown in kept.into_iter().flat_map(check::Kept::shown) {
+            for shown in kept.into_iter().flat_map(check::SnapshotResult::shown) {
                 let _ = writeln!(text, "  {:<10}   {}", "", printable(&shown));
             }
             let last = all.get(told).is_none_or(|next| next.owner != entry.owner);

@@ -10,7 +10,7 @@ use super::{Failure, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::check;
 use crate::lint::{load_lesson_file, reload_lesson};
-use crate::repair::{Looked, repair, traces};
+use crate::repair::{CheckedText, repair, traces};
 use crate::report::{printable, printable_path};
 use crate::spec::{FileKind, Lesson, kind_of};
 use similar::TextDiff;
@@ -59,7 +59,7 @@ pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
             let checked = check::join(lesson, found, plan.depth);
             let mut findings = checked.findings;
             policy.apply(&mut findings);
-            Looked { text: checked.lesson.file.text().to_string(), findings, broken }
+            CheckedText { text: checked.lesson.file.text().to_string(), findings, broken }
         };
         let old = lesson.file.text().to_string();
         let first = lesson.clone();

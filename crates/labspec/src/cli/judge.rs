@@ -10,7 +10,7 @@ use crate::check::{CrossCheck, Recording, file_name};
 use crate::printable::printable_lines;
 use crate::report::{printable_path, set_number};
 use crate::source::read_text;
-use crate::verify::judge::{Judged, Left, Taken, shown_as};
+use crate::verify::judge::{Judged, Left, RecordedRun, shown_as};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -86,8 +86,8 @@ fn no_finite(name: &str) -> Option<f64> {
 }
 
 /// What is recorded of a run.
-fn taken(run: &Value) -> Result<Taken, String> {
-    let mut taken = Taken::default();
+fn taken(run: &Value) -> Result<RecordedRun, String> {
+    let mut taken = RecordedRun::default();
     let values = run["values"].as_object().ok_or("it has no \"values\"")?;
     for (name, value) in values {
         let x = value.as_f64().or_else(|| no_finite(value.as_str()?));

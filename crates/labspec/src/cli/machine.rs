@@ -1,7 +1,7 @@
 //! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
 
 use super::scheduler::Course;
-use crate::check::{Checked, Claim, Divergence, Kept, RanLab};
+use crate::check::{Checked, Claim, Divergence, RanLab, SnapshotResult};
 use crate::ledger::{Count, Entry, Evidence, Outcome, State, Subject};
 use crate::report::{self, key, set_number, set_place};
 use crate::source::SourceFile;
@@ -58,7 +58,7 @@ fn lesson(c: &Checked) -> Value {
 }
 
 /// What became of the snapshot of a lab.
-pub(super) fn kept(k: &Kept) -> Value {
+pub(super) fn kept(k: &SnapshotResult) -> Value {
     let first = |d: &Divergence| {
         let mut value = json!({"run": d.run, "trace": d.trace, "time": null});
         set_number(&mut value, "time", d.time);

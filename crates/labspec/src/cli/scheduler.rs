@@ -450,7 +450,7 @@ fn one(plan: &Plan<'_>, cache: &Cache, task: &Task, path: &Path, named: bool, by
             let found = Finding::error(rules::UNREADABLE_FILE, 0..0, failed(&why))
                 .why("no lab of this lesson was run to its end, and no claim was checked")
                 .help("report it with this lesson; the other lessons were checked");
-            let checked = Box::new(check::join(lesson, LabOutcome::of(found), CheckLevel::STATIC));
+            let checked = Box::new(check::join(lesson, LabOutcome::from_finding(found), CheckLevel::STATIC));
             let aside = Aside { failed: true, ..Aside::default() };
             return Done::Lesson(checked, aside, Basis::default(), Vec::new(), CrossCheck::default());
         }

@@ -69,7 +69,7 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
     let lab = choose(&lesson, address.as_ref(), argument)?.clone();
     let mut models = Models::new(folder);
     let mut findings: Vec<Finding> = lesson.findings.clone();
-    let model = models.of(&lab, &mut findings);
+    let model = models.model_of_lab(&lab, &mut findings);
     let programs = model.as_ref().map(|m| Programs::compile(&lab, m, &mut findings));
     let mut findings: Vec<Finding> =
         findings.into_iter().map(|f| if f.path.is_empty() { f.at(&lesson.file) } else { f }).collect();

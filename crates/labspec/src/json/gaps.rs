@@ -1,7 +1,7 @@
 //! What stands between values: spaces, and what authors take for spaces or for comments.
 
-use super::parse::{Kind, Parser};
-use super::problem::{Mistake, Problem};
+use super::parser::Parser;
+use super::problem::{Mistake, Problem, RepeatedMistake};
 
 impl Parser<'_> {
     /// Walks to the next character that means something. Comments and invisible characters are reported.
@@ -22,7 +22,7 @@ impl Parser<'_> {
                         self.bump();
                     }
                     let range = start..self.at;
-                    self.change(Kind::Invisible, vec![(range, " ".to_string())]);
+                    self.change(RepeatedMistake::Invisible, vec![(range, " ".to_string())]);
                 }
                 _ => return,
             }

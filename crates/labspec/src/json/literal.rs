@@ -1,7 +1,7 @@
 //! Values without quotes: numbers, `true`, `false`, `null`, and what authors write for them.
 
 use super::node::{Json, Node};
-use super::parse::Parser;
+use super::parser::Parser;
 use super::problem::{self, Mistake, Problem};
 use crate::source::Text;
 use std::ops::Range;

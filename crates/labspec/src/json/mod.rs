@@ -6,10 +6,14 @@
 //! rest of the block is checked too.
 
 mod gaps;
+#[cfg(test)]
+mod law_tests;
 pub(crate) mod literal;
 mod node;
 mod parse;
+mod parser;
 mod problem;
+mod punctuation;
 mod quoted;
 pub(crate) mod read;
 mod strings;

@@ -1,10 +1,19 @@
 //! What can be wrong with JSON, where, and the change that repairs it where that is certain. The words are those of `lint`.
 
-use super::parse::{Change, Kind};
-use super::quoted::{quoted, rewritten};
-use super::strings::Trouble;
+use super::strings::{Trouble, quoted};
 use crate::source::SourceMap;
 use std::ops::Range;
+
+/// A replacement of some bytes.
+pub(super) type TextChange = (Range<usize>, String);
+
+/// Mistakes that come in crowds and are told once for a whole text.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum RepeatedMistake {
+    Typographic,
+    Single,
+    Invisible,
+}
 
 /// Something that is wrong with a JSON text.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,12 +218,12 @@ pub(super) fn unclosed(open: &[(char, usize)], end: usize) -> Problem {
 
 /// What stands behind the value.
 pub(super) fn behind(rest: Range<usize>, text: &str) -> Problem {
-    let shown = text.get(rest.clone()).unwrap_or("");
-    if shown.chars().all(|c| matches!(c, '}' | ']') || c.is_whitespace()) {
-        let first = shown.chars().next().unwrap_or('}');
+    let behind = text.get(rest.clone()).unwrap_or("");
+    if behind.chars().all(|c| matches!(c, '}' | ']') || c.is_whitespace()) {
+        let first = behind.chars().next().unwrap_or('}');
         return Problem::replaced(Mistake::StrayBrackets(first), rest, "");
     }
-    let line = rest.start + shown.find(['\n', '\r']).unwrap_or(shown.len());
+    let line = rest.start + behind.find(['\n', '\r']).unwrap_or(behind.len());
     Problem::new(Mistake::Behind, rest.start..line)
 }
 
@@ -258,7 +267,7 @@ pub(super) fn in_string(span: Range<usize>, trouble: Trouble) -> Problem {
 }
 
 /// All line breaks, or all double quotes, of one text.
-pub(super) fn inside(mistake: fn(usize) -> Mistake, changes: &[Change], text: &str) -> Option<Problem> {
+pub(super) fn inside(mistake: fn(usize) -> Mistake, changes: &[TextChange], text: &str) -> Option<Problem> {
     let (first, _) = changes.first()?;
     let problem = Problem::new(mistake(changes.len()), first.clone());
     Some(match rewritten(&changes.iter().collect::<Vec<_>>(), text) {
@@ -268,12 +277,17 @@ pub(super) fn inside(mistake: fn(usize) -> Mistake, changes: &[Change], text: &s
 }
 
 /// One problem for all mistakes of a kind; one for each where one change cannot repair them all.
-pub(super) fn together(kind: Kind, list: &[Vec<Change>], text: &str, below: &SourceMap) -> Vec<Problem> {
-    let all: Vec<&Change> = list.iter().flatten().collect();
+pub(super) fn together(
+    kind: RepeatedMistake,
+    list: &[Vec<TextChange>],
+    text: &str,
+    below: &SourceMap,
+) -> Vec<Problem> {
+    let all: Vec<&TextChange> = list.iter().flatten().collect();
     let Some((region, right)) = rewritten(&all, text) else { return Vec::new() };
     if below.is_unbroken(region.clone()) || list.len() == 1 {
         let count = match kind {
-            Kind::Typographic => all.iter().filter(|(_, right)| right == "\"").count(),
+            RepeatedMistake::Typographic => all.iter().filter(|(_, right)| right == "\"").count(),
             _ => list.len(),
         };
         let problem = crowd(kind, count, first(list, text), text).repair(region, right);
@@ -282,9 +296,9 @@ pub(super) fn together(kind: Kind, list: &[Vec<Change>], text: &str, below: &Sou
             None => problem,
         }];
     }
-    let each = |changes: &Vec<Change>| {
+    let each = |changes: &Vec<TextChange>| {
         let (region, right) = rewritten(&changes.iter().collect::<Vec<_>>(), text)?;
-        let count = if kind == Kind::Typographic { changes.len() } else { 1 };
+        let count = if kind == RepeatedMistake::Typographic { changes.len() } else { 1 };
         let at = first(std::slice::from_ref(changes), text);
         Some(crowd(kind, count, at, text).repair(region, right))
     };
@@ -292,18 +306,30 @@ pub(super) fn together(kind: Kind, list: &[Vec<Change>], text: &str, below: &Sou
 }
 
 /// The place of the first mistake.
-fn first(list: &[Vec<Change>], text: &str) -> Range<usize> {
+fn first(list: &[Vec<TextChange>], text: &str) -> Range<usize> {
     let span = list.first().and_then(|c| c.first()).map_or(0..0, |(span, _)| span.clone());
     let length = text.get(span.start..).and_then(|t| t.chars().next()).map_or(0, char::len_utf8);
     span.start..span.start + length
 }
 
-fn crowd(kind: Kind, count: usize, span: Range<usize>, text: &str) -> Problem {
+fn crowd(kind: RepeatedMistake, count: usize, span: Range<usize>, text: &str) -> Problem {
     let c = text.get(span.clone()).and_then(|t| t.chars().next()).unwrap_or(' ');
     let mistake = match kind {
-        Kind::Typographic => Mistake::Typographic(count),
-        Kind::Single => Mistake::SingleQuotes { quote: c, count },
-        Kind::Invisible => Mistake::Invisible { first: c, count },
+        RepeatedMistake::Typographic => Mistake::Typographic(count),
+        RepeatedMistake::Single => Mistake::SingleQuotes { quote: c, count },
+        RepeatedMistake::Invisible => Mistake::Invisible { first: c, count },
     };
     Problem::new(mistake, span)
+}
+
+/// The changes of several texts as one text, from the first to the last.
+fn rewritten(changes: &[&TextChange], text: &str) -> Option<TextChange> {
+    let range = changes.first()?.0.start..changes.last()?.0.end;
+    let (mut new, mut at) = (String::new(), range.start);
+    for (span, right) in changes {
+        new.push_str(text.get(at..span.start)?);
+        new.push_str(right);
+        at = span.end;
+    }
+    Some((range, new))
 }

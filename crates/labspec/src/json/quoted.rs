@@ -3,9 +3,9 @@
 //! A quote ends a text when JSON goes on behind it. One that does not was meant as part of the text, or the quote that
 //! should have ended it is missing; which of the two is decided by what surrounds it.
 
-use super::parse::{Change, Kind, Parser};
-use super::problem::{self, Mistake};
-use super::strings::{Trouble, decode, encode};
+use super::parser::Parser;
+use super::problem::{self, Mistake, RepeatedMistake, TextChange};
+use super::strings::{Trouble, decode};
 use crate::markdown::is_typographic;
 use crate::source::{SourceMap, Text};
 use std::ops::Range;
@@ -41,9 +41,9 @@ impl Parser<'_> {
             self.say(problem::string_open(start, inside.end, last, quote == '"'));
         }
         let decoded = decode(self.text.get(inside.clone()).unwrap_or(""));
-        let mut lines: Vec<Change> = Vec::new();
-        let mut inner: Vec<Change> = Vec::new();
-        let mut changes: Vec<Change> = Vec::new();
+        let mut lines: Vec<TextChange> = Vec::new();
+        let mut inner: Vec<TextChange> = Vec::new();
+        let mut changes: Vec<TextChange> = Vec::new();
         if quote != '"' {
             changes.push((start..inside.start, "\"".into()));
         }
@@ -64,7 +64,10 @@ impl Parser<'_> {
         let quotes = problem::inside(Mistake::InnerQuotes, &inner, self.text);
         breaks.into_iter().chain(quotes).for_each(|problem| self.say(problem));
         if !changes.is_empty() {
-            self.change(if is_typographic(quote) { Kind::Typographic } else { Kind::Single }, changes);
+            self.change(
+                if is_typographic(quote) { RepeatedMistake::Typographic } else { RepeatedMistake::Single },
+                changes,
+            );
         }
         let map = if decoded.map.derived_len() == 0 {
             SourceMap::point(inside.start)
@@ -225,21 +228,4 @@ fn begins_word(text: &str) -> bool {
     let behind = text.trim_start_matches(|c: char| c.is_alphanumeric());
     let token = text.get(..text.len() - behind.len()).unwrap_or("");
     super::literal::is_word(token) && behind.trim_start().starts_with([',', '}', ']'])
-}
-
-/// The changes of several texts as one text, from the first to the last.
-pub(super) fn rewritten(changes: &[&Change], text: &str) -> Option<Change> {
-    let range = changes.first()?.0.start..changes.last()?.0.end;
-    let (mut new, mut at) = (String::new(), range.start);
-    for (span, right) in changes {
-        new.push_str(text.get(at..span.start)?);
-        new.push_str(right);
-        at = span.end;
-    }
-    Some((range, new))
-}
-
-/// A text as JSON writes it, quotes included.
-pub(super) fn quoted(text: &str) -> String {
-    format!("\"{}\"", encode(text))
 }

@@ -151,6 +151,11 @@ pub(crate) fn encode(text: &str) -> String {
     quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or("").to_string()
 }
 
+/// A text as JSON writes it, quotes included.
+pub(super) fn quoted(text: &str) -> String {
+    format!("\"{}\"", encode(text))
+}
+
 /// The change that puts `replacement` in the place of a part of a text that stands in JSON.
 pub(crate) fn fix_in(text: &Text, part: Range<usize>, replacement: &str) -> Fix {
     Fix::safe(text.span_of(part), encode(replacement))

@@ -1,13 +1,10 @@
-//! What the parser says of broken JSON, and laws: acceptance is that of `serde_json`, places are those of
-//! `jsonc-parser`, and nothing is a panic, a hang, or silence.
+//! What the parser says of broken JSON.
 
 use super::*;
 use crate::lint::json::to_finding;
 use crate::source::SourceMap;
-use proptest::prelude::*;
-use std::ops::Range;
 
-fn run(text: &str) -> Parsed {
+pub(super) fn run(text: &str) -> Parsed {
     parse(text, &SourceMap::verbatim(0..text.len()))
 }
 
@@ -352,7 +349,7 @@ fn hostile_texts_are_read_in_one_pass() {
     }
 }
 
-fn to_serde(node: &Node) -> serde_json::Value {
+pub(super) fn to_serde(node: &Node) -> serde_json::Value {
     use serde_json::Value;
     match &node.json {
         Json::Null | Json::Broken => Value::Null,
@@ -367,168 +364,12 @@ fn to_serde(node: &Node) -> serde_json::Value {
     }
 }
 
-fn floats(value: serde_json::Value) -> serde_json::Value {
+pub(super) fn floats(value: serde_json::Value) -> serde_json::Value {
     use serde_json::Value;
     match value {
         Value::Number(n) => n.as_f64().unwrap().into(),
         Value::Array(items) => items.into_iter().map(floats).collect(),
         Value::Object(map) => Value::Object(map.into_iter().map(|(k, v)| (k, floats(v))).collect()),
         other => other,
-    }
-}
-
-/// Places of all values and keys, in order.
-fn places(node: &Node, all: &mut Vec<Range<usize>>) {
-    all.push(node.span.clone());
-    if let Json::Array(items) = &node.json {
-        items.iter().for_each(|n| places(n, all));
-    }
-    for member in node.members() {
-        let key = member.key.span();
-        all.push(key.start - 1..key.end + 1);
-        places(&member.value, all);
-    }
-}
-
-/// The same, as `jsonc-parser` sees them.
-fn their_places(value: &jsonc_parser::ast::Value<'_>, all: &mut Vec<Range<usize>>) {
-    use jsonc_parser::ast::{ObjectPropName, Value};
-    use jsonc_parser::common::Ranged;
-    all.push(value.range().start..value.range().end);
-    match value {
-        Value::Array(array) => array.elements.iter().for_each(|v| their_places(v, all)),
-        Value::Object(object) => {
-            for property in &object.properties {
-                let ObjectPropName::String(name) = &property.name else { panic!() };
-                all.push(name.range.start..name.range.end);
-                their_places(&property.value, all);
-            }
-        }
-        _ => {}
-    }
-}
-
-/// Fragments that make JSON and nearly-JSON often.
-fn nearly_json() -> impl Strategy<Value = String> {
-    let piece = prop::sample::select(vec![
-        "{",
-        "}",
-        "[",
-        "]",
-        ",",
-        ":",
-        "\"a\"",
-        "\"b\\n\"",
-        "\"\\u00e9\"",
-        "\"\\ud83d\"",
-        "1",
-        "-2.5",
-        "1e5",
-        "01",
-        "-",
-        "+1",
-        ".5",
-        "5.",
-        "0x1",
-        "1e",
-        "1e999",
-        "true",
-        "null",
-        "nul",
-        "falsee",
-        "NaN",
-        " ",
-        "\n",
-        "\u{b}",
-        "\u{a0}",
-        "'a'",
-        "a",
-        "\"",
-        "\\",
-        "//x\n",
-        "/**/",
-        "“",
-        "\"\t\"",
-        "\u{feff}",
-        "\"é\u{7f}\"",
-        "{}",
-        "[]",
-        "{\"a\":1}",
-        "[1,2]",
-        "\"a\":",
-        ",\"a\":",
-        "“b”",
-        "‘",
-        "=",
-        ";",
-        "\r\n",
-        "\"a, \"",
-        "x y",
-        "(1, 2)",
-    ]);
-    prop::collection::vec(piece, 0..12).prop_map(|pieces| pieces.concat())
-}
-
-/// JSON, with all its spaces.
-fn strict_json() -> impl Strategy<Value = String> {
-    let text = prop::sample::select(vec![
-        r#""""#,
-        r#""a""#,
-        r#""a, \"b\": “c” 'd' // #""#,
-        r#""é\ud83d\ude00\n}]""#,
-        r#""\\""#,
-        r#""x: y = {z}, ""#,
-        r#"" , ""#,
-    ]);
-    let leaf = prop_oneof![
-        text.clone().prop_map(str::to_string),
-        prop::sample::select(vec!["1", "-0.5e-3", "0", "true", "false", "null", "12E+2"])
-            .prop_map(str::to_string),
-    ];
-    let space = || prop::sample::select(vec!["", " ", "\n  ", "\t", "\r\n"]);
-    leaf.prop_recursive(4, 40, 5, move |inner| {
-        let item = (space(), inner.clone(), space()).prop_map(|(a, v, b)| format!("{a}{v}{b}"));
-        let member =
-            (space(), text.clone(), space(), item.clone()).prop_map(|(a, k, b, v)| format!("{a}{k}{b}:{v}"));
-        prop_oneof![
-            prop::collection::vec(item, 0..5).prop_map(|all| format!("[{}]", all.join(","))),
-            prop::collection::vec(member, 0..5).prop_map(|all| format!("{{{}}}", all.join(","))),
-        ]
-    })
-}
-
-proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
-    /// What is not broken is what serde_json accepts, with the same values; all else has a finding.
-    #[test]
-    fn acceptance_is_that_of_serde(text in nearly_json()) {
-        let ours = run(&text);
-        let theirs: Option<serde_json::Value> = serde_json::from_str(&text).ok();
-        prop_assert_eq!(!ours.broken, theirs.is_some(), "{:?}", text);
-        prop_assert_eq!(ours.broken, ours.problems.iter().any(|p| !matches!(p.mistake, Mistake::Twice(_))));
-        if let Some(theirs) = theirs {
-            prop_assert_eq!(to_serde(&ours.node.unwrap()), floats(theirs));
-        }
-    }
-
-    /// Strict JSON: the values of serde_json, the places of jsonc-parser.
-    #[test]
-    fn strict_json_is_read_exactly(text in strict_json()) {
-        let ours = run(&text);
-        prop_assert!(!ours.broken, "{:?}: {:?}", text, ours.problems);
-        let node = ours.node.unwrap();
-        prop_assert_eq!(to_serde(&node), floats(serde_json::from_str(&text).unwrap()));
-        let theirs = jsonc_parser::parse_to_ast(&text, &Default::default(), &Default::default()).unwrap().value.unwrap();
-        let (mut a, mut b) = (Vec::new(), Vec::new());
-        places(&node, &mut a);
-        their_places(&theirs, &mut b);
-        prop_assert_eq!(a, b);
-    }
-
-    #[test]
-    fn any_text_is_survived(text in any::<String>()) {
-        let ours = run(&text);
-        prop_assert_eq!(ours.broken, serde_json::from_str::<serde_json::Value>(&text).is_err());
-        prop_assert_eq!(ours.broken, !ours.problems.is_empty());
     }
 }

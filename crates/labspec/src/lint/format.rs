@@ -21,6 +21,7 @@ pub(super) fn to_finding(misfit: &Misfit) -> Finding {
     finding
 }
 
+/// One row for each mistake: a table of texts, which is long because the format has many rules.
 fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
     let open = || span.start..span.end.min(span.start + 1);
     let wrong = |message: String| Finding::new(rules::WRONG_TYPE, span.clone(), message);
@@ -36,24 +37,9 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
                 .why(*why)
                 .help(format!("add \"{key}\": …"))
         }
-        Mistake::ControlType(word) => {
-            let finding = wrong(format!("{} is not a type of control", named(word)))
-                .why("the page knows sliders, selects and buttons; it shows nothing for other types");
-            let help = "write \"select\" or \"button\", or delete `type` for a slider";
-            one_of(finding, word, texts(CONTROL.words), help.to_string())
-        }
-        Mistake::QuestionKind(word) => {
-            let finding = wrong(format!("{} is not a kind of question", named(word)))
-                .why("the page can neither ask nor grade it");
-            let kinds: Vec<&str> = texts(QUESTION.words).collect();
-            one_of(finding, word, texts(QUESTION.words), format!("use one of the kinds {}", kinds.join(", ")))
-        }
-        Mistake::LabExpects(word) => {
-            let finding = wrong(format!("`expect` cannot be {}", named(word)))
-                .why("`expect` describes the result of a run, and \"breaks\" is its only value");
-            let help = "write \"breaks\" if the lab shows a simulation that breaks, or delete it";
-            one_of(finding, word, ["breaks"].into_iter(), help.to_string())
-        }
+        Mistake::ControlType(word) => unknown_control_type(span, word),
+        Mistake::QuestionKind(word) => unknown_question_kind(span, word),
+        Mistake::LabExpects(word) => unknown_expectation(span, word),
         Mistake::RunExpects(word) => wrong(format!("the `expect` of a run cannot be {}", named(word)))
             .help("write \"expect\": \"breaks\" for a run that the lesson shows breaking, or delete it"),
         Mistake::NoChoice => {
@@ -110,6 +96,29 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
             Finding::new(rules::LESSON_LIMIT, span, format!("this file is larger than {limit} MB"))
         }
     }
+}
+
+fn unknown_control_type(span: Range<usize>, word: &str) -> Finding {
+    let message = format!("{} is not a type of control", named(word));
+    let finding = Finding::new(rules::WRONG_TYPE, span, message)
+        .why("the page knows sliders, selects and buttons; it shows nothing for other types");
+    let help = "write \"select\" or \"button\", or delete `type` for a slider";
+    one_of(finding, word, texts(CONTROL.words), help.to_string())
+}
+
+fn unknown_question_kind(span: Range<usize>, word: &str) -> Finding {
+    let message = format!("{} is not a kind of question", named(word));
+    let finding = Finding::new(rules::WRONG_TYPE, span, message).why("the page can neither ask nor grade it");
+    let kinds: Vec<&str> = texts(QUESTION.words).collect();
+    one_of(finding, word, texts(QUESTION.words), format!("use one of the kinds {}", kinds.join(", ")))
+}
+
+fn unknown_expectation(span: Range<usize>, word: &str) -> Finding {
+    let message = format!("`expect` cannot be {}", named(word));
+    let finding = Finding::new(rules::WRONG_TYPE, span, message)
+        .why("`expect` describes the result of a run, and \"breaks\" is its only value");
+    let help = "write \"breaks\" if the lab shows a simulation that breaks, or delete it";
+    one_of(finding, word, ["breaks"].into_iter(), help.to_string())
 }
 
 /// A value of another type. "5" for 5 is the common case, and it has one repair.

@@ -176,7 +176,7 @@ fn finding(span: Range<usize>, said: String) -> Finding {
 }
 
 /// Looks into a text of a lab or a quiz.
-pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+pub(super) fn check_formulas(text: &Text, findings: &mut Vec<Finding>) {
     let html = without_code(text.as_str(), code(text.as_str()).into_iter());
     let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
     findings.extend(found.map(|(at, said)| finding(text.span_of(at), said)));
@@ -193,9 +193,9 @@ pub(super) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
             continue;
         };
         let from = lesson.scan.inline_code.partition_point(|c| c.start < range.start);
-        let own = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
-        let own = own.map(|c| c.start - range.start..c.end - range.start);
-        let found = faults(&without_code(paragraph, own), true, &mut 0).into_iter().take(MAX_IN_TEXT);
+        let code_spans = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
+        let code_spans = code_spans.map(|c| c.start - range.start..c.end - range.start);
+        let found = faults(&without_code(paragraph, code_spans), true, &mut 0).into_iter().take(MAX_IN_TEXT);
         findings.extend(found.map(|(at, said)| finding(range.start + at.start..range.start + at.end, said)));
     }
 }

@@ -106,9 +106,9 @@ fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
 }
 
 fn finding(tag: &str, span: Range<usize>) -> Finding {
-    let shown = crate::json::read::shorten(tag);
+    let short_tag = crate::json::read::shorten(tag);
     let escaped = tag.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
-    Finding::new(rules::UNESCAPED_ELEMENT, span.clone(), format!("a browser reads `{shown}` as HTML"))
+    Finding::new(rules::UNESCAPED_ELEMENT, span.clone(), format!("a browser reads `{short_tag}` as HTML"))
         .help(format!("write {}", crate::json::read::shorten(&escaped)))
         .fix(span, escaped)
 }
@@ -124,17 +124,17 @@ pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<F
         .take(most)
         .map(|(tag, _)| {
             let span = range.start + tag.start..range.start + tag.end;
-            let shown = html.get(tag).unwrap_or("");
-            finding(shown, span).help(format!(
-                "write it as code, `{shown}` between backticks, or as {}",
-                shown.replace('<', "&lt;").replace('>', "&gt;")
+            let text_of_tag = html.get(tag).unwrap_or("");
+            finding(text_of_tag, span).help(format!(
+                "write it as code, `{text_of_tag}` between backticks, or as {}",
+                text_of_tag.replace('<', "&lt;").replace('>', "&gt;")
             ))
         })
         .collect()
 }
 
 /// Looks into a text of a lab or a quiz.
-pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+pub(super) fn check_html(text: &Text, findings: &mut Vec<Finding>) {
     for (tag, _) in tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
         // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.

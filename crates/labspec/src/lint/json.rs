@@ -7,7 +7,7 @@ use crate::json::{MAX_DEPTH, MAX_VALUES, Mistake, Problem};
 use crate::rules;
 
 /// What is said about a problem: message, reason, help, and what the other place is.
-struct Words {
+struct MessageParts {
     message: String,
     why: &'static str,
     help: String,
@@ -15,17 +15,17 @@ struct Words {
 }
 
 /// A message with what to do.
-fn message_with_help(message: impl Into<String>, help: impl Into<String>) -> Words {
-    Words { message: message.into(), why: "", help: help.into(), related: String::new() }
+fn message_with_help(message: impl Into<String>, help: impl Into<String>) -> MessageParts {
+    MessageParts { message: message.into(), why: "", help: help.into(), related: String::new() }
 }
 
-impl Words {
-    fn why(self, why: &'static str) -> Words {
-        Words { why, ..self }
+impl MessageParts {
+    fn why(self, why: &'static str) -> MessageParts {
+        MessageParts { why, ..self }
     }
 
-    fn related(self, label: impl Into<String>) -> Words {
-        Words { related: label.into(), ..self }
+    fn related(self, label: impl Into<String>) -> MessageParts {
+        MessageParts { related: label.into(), ..self }
     }
 }
 
@@ -37,7 +37,7 @@ pub(crate) fn to_finding(problem: &Problem) -> Finding {
         Mistake::Typographic(_) => rules::TYPOGRAPHIC_QUOTE,
         _ => rules::JSON_SYNTAX,
     };
-    let Words { message, why, help, related } = describe(&problem.mistake);
+    let MessageParts { message, why, help, related } = describe(&problem.mistake);
     let mut finding = Finding::new(rule, problem.span.clone(), message).help(help);
     if !why.is_empty() {
         finding = finding.why(why);
@@ -51,23 +51,48 @@ pub(crate) fn to_finding(problem: &Problem) -> Finding {
     }
 }
 
-fn describe(mistake: &Mistake) -> Words {
-    const ONE_LINE: &str = "a JSON string must end on the line where it begins";
-    match mistake {
+/// Why a text ends on its line.
+const ONE_LINE: &str = "a JSON string must end on the line where it begins";
+
+/// What is said about a mistake: each group of mistakes has its own function.
+fn describe(mistake: &Mistake) -> MessageParts {
+    let groups = [
+        describe_limit,
+        describe_separator,
+        describe_bracket,
+        describe_literal,
+        describe_string,
+        describe_quotes,
+    ];
+    let words = groups.iter().find_map(|describe| describe(mistake));
+    words.unwrap_or_else(|| message_with_help("this is not JSON", "correct it, or delete it"))
+}
+
+/// Nothing to read, too much of it, or a key that stands twice.
+fn describe_limit(mistake: &Mistake) -> Option<MessageParts> {
+    Some(match mistake {
         Mistake::Nothing => message_with_help("there is no JSON here", "write one JSON object: { … }"),
         Mistake::TooDeep => message_with_help(
             format!("the JSON has more than {MAX_DEPTH} nested brackets"),
             "look for a bracket that is not closed: a lab needs about eight levels",
         ),
-        Mistake::TooMany => {
-            message_with_help(format!("the JSON has more than {MAX_VALUES} values"), "split it into several labs")
-        }
+        Mistake::TooMany => message_with_help(
+            format!("the JSON has more than {MAX_VALUES} values"),
+            "split it into several labs",
+        ),
         Mistake::Twice(key) => {
-            let key = if key.is_empty() { "a key without a name".into() } else { format!("`{}`", shorten(key)) };
+            let key =
+                if key.is_empty() { "a key without a name".into() } else { format!("`{}`", shorten(key)) };
             message_with_help(format!("{key} appears twice in one object"), "keep one of the two")
                 .related("the first one, which the page ignores")
         }
+        _ => return None,
+    })
+}
 
+/// Commas and colons, and keys without what belongs to them.
+fn describe_separator(mistake: &Mistake) -> Option<MessageParts> {
+    Some(match mistake {
         Mistake::CommaMissing => message_with_help(
             "a comma is missing here",
             "write `,` between two items of a list or two keys of an object",
@@ -84,8 +109,12 @@ fn describe(mistake: &Mistake) -> Words {
         Mistake::DecimalComma => {
             message_with_help("a number has a decimal comma", "write decimals with a point: 0.5")
         }
-        Mistake::ColonMissing => message_with_help("a colon is missing after this key", "write \"key\": value"),
-        Mistake::Equals => message_with_help("an equals sign is used where JSON needs a colon", "write \"key\": value"),
+        Mistake::ColonMissing => {
+            message_with_help("a colon is missing after this key", "write \"key\": value")
+        }
+        Mistake::Equals => {
+            message_with_help("an equals sign is used where JSON needs a colon", "write \"key\": value")
+        }
         Mistake::SecondColon => message_with_help("there is an extra colon", "write \"key\": value"),
         Mistake::ValueMissing { colon } => message_with_help(
             "the value of this key is missing",
@@ -98,14 +127,22 @@ fn describe(mistake: &Mistake) -> Words {
             "a key or the closing `}` of the object must follow here",
             "write a key as a text in double quotes, then a colon: \"label\": …",
         ),
+        _ => return None,
+    })
+}
 
+/// Brackets.
+fn describe_bracket(mistake: &Mistake) -> Option<MessageParts> {
+    Some(match mistake {
         Mistake::OpeningMissing => message_with_help("the opening `{` is missing", "write `{` here"),
         Mistake::Unclosed { open, closing } => {
             let what = if *open == '{' { "object" } else { "list" };
             let one = closing.chars().next().unwrap_or('}');
             let help = match closing.len() {
                 1 => format!("write `{one}` where it ends"),
-                n => format!("write `{one}` where it ends; {n} brackets are still open at the end: `{closing}`"),
+                n => format!(
+                    "write `{one}` where it ends; {n} brackets are still open at the end: `{closing}`"
+                ),
             };
             message_with_help(format!("this {what} is not closed"), help).related("the text ends here")
         }
@@ -136,7 +173,13 @@ fn describe(mistake: &Mistake) -> Words {
             "delete it, move it after the closing ```, or look for a bracket that closes too early",
         )
         .why("one fence holds one object, so nothing reads the rest"),
+        _ => return None,
+    })
+}
 
+/// What stands where a value or a key should: comments, words, numbers in another form.
+fn describe_literal(mistake: &Mistake) -> Option<MessageParts> {
+    Some(match mistake {
         Mistake::Comment => {
             message_with_help("JSON has no comments", "delete it, or write it in the text around the fence")
         }
@@ -176,7 +219,13 @@ fn describe(mistake: &Mistake) -> Words {
             format!("`{}` does not belong here", shorten(text)),
             "delete it, or look for a missing quote, comma or bracket before it",
         ),
+        _ => return None,
+    })
+}
 
+/// What stands inside of a text.
+fn describe_string(mistake: &Mistake) -> Option<MessageParts> {
+    Some(match mistake {
         Mistake::StringOpen { last: true } => {
             message_with_help("this string is not closed", "close it with `\"`")
         }
@@ -191,7 +240,9 @@ fn describe(mistake: &Mistake) -> Words {
             "write the text on one line, with `\\n` where it breaks",
         )
         .why(ONE_LINE),
-        Mistake::Escape('\\') => message_with_help("a backslash escapes nothing", "write `\\\\` for a backslash"),
+        Mistake::Escape('\\') => {
+            message_with_help("a backslash escapes nothing", "write `\\\\` for a backslash")
+        }
         Mistake::Escape(c) => message_with_help(
             format!("`\\{c}` is not a JSON escape"),
             format!("write `\\\\{c}` for a backslash"),
@@ -209,8 +260,17 @@ fn describe(mistake: &Mistake) -> Words {
             format!("a string contains a control character (U+{:04X})", u32::from(*c)),
             if *c == '\t' { "write `\\t`, or a space" } else { "delete it" },
         ),
-        Mistake::JoinedLines => message_with_help("a text contains a line break", "write the text on one line")
-            .why("a JSON string must end on the line where it begins; a backslash does not continue it"),
+        Mistake::JoinedLines => {
+            message_with_help("a text contains a line break", "write the text on one line")
+                .why("a JSON string must end on the line where it begins; a backslash does not continue it")
+        }
+        _ => return None,
+    })
+}
+
+/// Quotes of other kinds, and characters that nobody sees.
+fn describe_quotes(mistake: &Mistake) -> Option<MessageParts> {
+    Some(match mistake {
         Mistake::InnerQuotes(count) => message_with_help(
             match count {
                 1 => "a text contains a double quote".to_string(),
@@ -249,5 +309,6 @@ fn describe(mistake: &Mistake) -> Words {
             "delete it and type an ordinary space; it often comes from copying a web page",
         )
         .related("the last one"),
-    }
+        _ => return None,
+    })
 }

@@ -24,10 +24,10 @@ fn has_anchor(text: &str, scan: &Scan, anchor: &str) -> bool {
     // `fall-1` is the second heading "Fall".
     let plain = meant.trim_end_matches(|c: char| c.is_ascii_digit());
     let heading = scan.headings.iter().filter_map(|h| text.get(h.clone())).any(|heading| {
-        let own = letters(heading);
-        own == meant
-            || own == plain
-            || own.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
+        let heading_letters = letters(heading);
+        heading_letters == meant
+            || heading_letters == plain
+            || heading_letters.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
             || heading.contains(&format!("{{#{anchor}}}"))
     });
     let id = |html: &str| {
@@ -183,7 +183,7 @@ fn decoded(text: &str) -> String {
 }
 
 fn finding(link: &Link, said: &str) -> Finding {
-    let shown = crate::json::read::shorten(&link.target);
-    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{shown}`: {said}"))
+    let short_target = crate::json::read::shorten(&link.target);
+    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{short_target}`: {said}"))
         .help("correct the link, or add its target")
 }

@@ -7,8 +7,8 @@ use crate::source::Text;
 use std::ops::Range;
 
 /// Looks at a listing. An unclosed one may hold text that is no code: it is read up to an empty line or a table.
-pub(crate) fn check(language: &str, body: &Text, closed: bool, findings: &mut Vec<Finding>) {
-    let Some(language) = Language::of(language) else { return };
+pub(crate) fn check_listing(language: &str, body: &Text, closed: bool, findings: &mut Vec<Finding>) {
+    let Some(language) = Language::named(language) else { return };
     let mut end = 0;
     for line in body.value.split_inclusive('\n') {
         if !closed && end > 0 && (line.trim().is_empty() || line.starts_with('|')) {
@@ -17,7 +17,7 @@ pub(crate) fn check(language: &str, body: &Text, closed: bool, findings: &mut Ve
         end += line.len();
     }
     let code = body.value.get(..end).unwrap_or("");
-    let scan = Scan::of(code, language);
+    let scan = CodeScan::scan_code(code, language);
     typographic(body, &scan, findings);
     if language == Language::Python {
         python(body, code, &scan, findings);
@@ -35,7 +35,7 @@ enum Language {
 }
 
 impl Language {
-    fn of(name: &str) -> Option<Language> {
+    fn named(name: &str) -> Option<Language> {
         Some(match name.to_ascii_lowercase().as_str() {
             "python" | "py" | "python3" => Language::Python,
             "bash" | "sh" | "shell" | "yaml" | "toml" => Language::Shell,
@@ -48,7 +48,7 @@ impl Language {
 }
 
 /// Code with its comments and strings blanked out, and the typographic quotes outside of them.
-struct Scan {
+struct CodeScan {
     /// As long as the code; what is not code is a space.
     bare: String,
     quotes: Vec<Range<usize>>,
@@ -56,10 +56,10 @@ struct Scan {
     continued: Vec<usize>,
 }
 
-impl Scan {
-    fn of(code: &str, language: Language) -> Scan {
+impl CodeScan {
+    fn scan_code(code: &str, language: Language) -> CodeScan {
         let mut scan =
-            Scan { bare: String::with_capacity(code.len()), quotes: Vec::new(), continued: Vec::new() };
+            CodeScan { bare: String::with_capacity(code.len()), quotes: Vec::new(), continued: Vec::new() };
         let mut inside: Option<&str> = None;
         let mut depth = 0i64;
         let mut at = 0;
@@ -131,7 +131,7 @@ fn opens(rest: &str, language: Language) -> Option<(&'static str, &'static str)>
     marks.iter().find(|(open, _)| rest.starts_with(open)).copied()
 }
 
-fn typographic(body: &Text, scan: &Scan, findings: &mut Vec<Finding>) {
+fn typographic(body: &Text, scan: &CodeScan, findings: &mut Vec<Finding>) {
     let Some(first) = scan.quotes.first() else { return };
     // The first quote of every line.
     let mut lines: Vec<&Range<usize>> = Vec::new();
@@ -157,7 +157,7 @@ fn typographic(body: &Text, scan: &Scan, findings: &mut Vec<Finding>) {
     findings.push(finding);
 }
 
-fn python(body: &Text, code: &str, scan: &Scan, findings: &mut Vec<Finding>) {
+fn python(body: &Text, code: &str, scan: &CodeScan, findings: &mut Vec<Finding>) {
     let mut at = 0;
     let mut header: Option<(usize, Range<usize>)> = None;
     for line in code.split_inclusive('\n') {

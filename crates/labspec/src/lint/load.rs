@@ -25,7 +25,7 @@ pub fn load_lesson(file: SourceFile, models: &ModelFolder) -> Lesson {
 /// it names, the files that it links to, its snapshot. Programs, editors and checks from memory differ only in their sources.
 pub fn load_lesson_at(file: SourceFile, path: &Path, sources: &Sources, models: &ModelFolder) -> Lesson {
     let mut lesson = read_lesson(file);
-    let mut findings = super::check(&lesson, models);
+    let mut findings = super::check_rules(&lesson, models);
     super::links::check_files(&lesson, path, sources, &mut findings);
     withhold_fixes(&lesson, &mut findings);
     lesson.findings = findings.into_iter().map(|f| f.at(&lesson.file)).collect();
@@ -99,12 +99,12 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
     });
     let mut read = |(span, file, address): (Range<usize>, &String, &LabAddress)| {
         let there = folder.join(file);
-        let shown = there.display().to_string();
+        let displayed_path = there.display().to_string();
         // A lesson of somebody else may name any file of this machine.
         let inside = Path::new(file).is_relative();
-        let known = texts.entry(there.clone());
+        let cached = texts.entry(there.clone());
         let found = match inside {
-            true => known.or_insert_with(|| read_other_file(path, &there, sources)).clone(),
+            true => cached.or_insert_with(|| read_other_file(path, &there, sources)).clone(),
             false => Err(NOT_FROM_HERE.into()),
         };
         let found = found.and_then(|text| {
@@ -120,7 +120,7 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
             }
             Err(why) => (String::new(), Err(why)),
         };
-        Other { span, path: shown, text, lab }
+        Other { span, path: displayed_path, text, lab }
     };
     named.map(&mut read).collect()
 }

@@ -92,7 +92,7 @@ const MOST: usize = 3000;
 
 /// What is wrong with a tag.
 #[derive(Debug, PartialEq)]
-enum Fault {
+enum MarkupFault {
     /// HTML has no such element.
     Unknown,
     /// Nothing closes it.
@@ -141,7 +141,7 @@ fn tags(html: &str) -> Vec<Tag> {
     all
 }
 
-fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
+fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
     let mut faults = Vec::new();
     let mut open: Vec<Tag> = Vec::new();
     let all = tags(html);
@@ -149,29 +149,29 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
     for tag in all.into_iter().take(MOST) {
         let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
         let name = tag.name.as_str();
-        let known = VOID.contains(&name)
+        let is_void = VOID.contains(&name)
             || ENDS_ITSELF.contains(&name)
             || KNOWN.contains(&name)
             || KNOWN_TOO.contains(&name);
-        let own = open.iter().rposition(|t| t.name == tag.name);
+        let opening = open.iter().rposition(|t| t.name == tag.name);
         if tag.closing {
-            match own {
+            match opening {
                 // `</p>` alone makes an empty paragraph, `</br>` a break: nobody sees a difference.
                 None if is_of_models(name) || VOID.contains(&name) => {}
-                None if !known && !foreign => faults.push((tag.at, tag.name, Fault::Unknown)),
-                None => faults.push((tag.at, tag.name, Fault::Unopened)),
+                None if !is_void && !foreign => faults.push((tag.at, tag.name, MarkupFault::Unknown)),
+                None => faults.push((tag.at, tag.name, MarkupFault::Unopened)),
                 Some(i) => {
                     let inner = open.split_off(i);
                     let crossed = inner.iter().skip(1).find(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
                     if let Some(other) = crossed {
-                        faults.push((other.at.clone(), other.name.clone(), Fault::Crossed(tag.name)));
+                        faults.push((other.at.clone(), other.name.clone(), MarkupFault::Crossed(tag.name)));
                     }
                 }
             }
         } else if is_of_models(name) && !foreign {
             // Told as what it is: an element of models.
-        } else if !known && !foreign && !name.contains('-') {
-            faults.push((tag.at, tag.name, Fault::Unknown));
+        } else if !is_void && !foreign && !name.contains('-') {
+            faults.push((tag.at, tag.name, MarkupFault::Unknown));
         } else if !(VOID.contains(&name) || tag.alone && foreign) {
             open.push(tag);
         }
@@ -179,33 +179,33 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, Fault)> {
     // Where not all was looked at, what is open may be closed yet.
     open.retain(|_| !cut);
     let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
-    faults.extend(left.map(|t| (t.at, t.name, Fault::Unclosed)));
+    faults.extend(left.map(|t| (t.at, t.name, MarkupFault::Unclosed)));
     faults
 }
 
 /// Looks into a text of a lab or a quiz.
-pub(super) fn check(text: &Text, findings: &mut Vec<Finding>) {
+pub(super) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
     for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
-        let shown = crate::json::read::shorten(text.value.get(at.clone()).unwrap_or(""));
+        let short_text = crate::json::read::shorten(text.value.get(at.clone()).unwrap_or(""));
         let (rule, message, help) = match fault {
-            Fault::Unknown => (
+            MarkupFault::Unknown => (
                 rules::HTML_ELEMENT,
                 format!("HTML has no element `{}`", crate::json::read::shorten(&name)),
                 "write `&lt;` for `<` if this is not an element".to_string(),
             ),
-            Fault::Unclosed => (
+            MarkupFault::Unclosed => (
                 rules::HTML_NESTING,
-                format!("`{shown}` is not closed"),
+                format!("`{short_text}` is not closed"),
                 format!("write </{name}> where it ends"),
             ),
-            Fault::Unopened => (
+            MarkupFault::Unopened => (
                 rules::HTML_NESTING,
-                format!("`{shown}` closes nothing"),
+                format!("`{short_text}` closes nothing"),
                 format!("delete it, or write <{name}> where the element begins"),
             ),
-            Fault::Crossed(outer) => (
+            MarkupFault::Crossed(outer) => (
                 rules::HTML_NESTING,
-                format!("`{shown}` is still open where `</{outer}>` closes the element around it"),
+                format!("`{short_text}` is still open where `</{outer}>` closes the element around it"),
                 format!("write </{name}> before </{outer}>"),
             ),
         };
@@ -224,11 +224,11 @@ mod tests {
         let named = |name: &str, fault| vec![(name.to_string(), fault)];
         assert_eq!(of("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
         assert_eq!(of("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
-        assert_eq!(of("<p>a <code>x</p>"), named("code", Fault::Crossed("p".into())));
-        assert_eq!(of("a <code>x"), named("code", Fault::Unclosed));
-        assert_eq!(of("a</b>"), named("b", Fault::Unopened));
+        assert_eq!(of("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
+        assert_eq!(of("a <code>x"), named("code", MarkupFault::Unclosed));
+        assert_eq!(of("a</b>"), named("b", MarkupFault::Unopened));
         assert_eq!(of("<strnog>a</strnog>").len(), 2);
-        assert_eq!(of("if a<bc and d>e"), named("bc", Fault::Unknown));
+        assert_eq!(of("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
         // What another rule tells.
         assert_eq!(of("set in <option>, <geom size='1'/>"), []);
     }

@@ -33,7 +33,7 @@ use crate::spec::{Lesson, Problem};
 const MAX_TAGS: usize = 500;
 
 /// Everything that the rules of structure say of a lesson, in no order.
-fn check(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
+fn check_rules(lesson: &Lesson, models: &ModelFolder) -> Vec<Finding> {
     let mut findings: Vec<Finding> =
         lesson.problems.iter().map(|problem| to_finding(lesson, problem)).collect();
     check_text(lesson, &mut findings);
@@ -66,7 +66,7 @@ fn check_text(lesson: &Lesson, findings: &mut Vec<Finding>) {
     links::check_anchors(lesson, findings);
     for block in &lesson.scan.blocks {
         if let BlockKind::Code { language, .. } = &block.kind {
-            listing::check(language, &block.body, block.whole, findings);
+            listing::check_listing(language, &block.body, block.whole, findings);
         }
     }
 }
@@ -93,15 +93,15 @@ fn check_objects(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let notes = labs.iter().filter_map(|lab| lab.note.as_ref());
     let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
     for text in notes.chain(questions.flat_map(|(_, question)| question.html())) {
-        html::check(text, findings);
-        markup::check(text, findings);
-        formula::check(text, findings);
+        html::check_html(text, findings);
+        markup::check_markup(text, findings);
+        formula::check_formulas(text, findings);
     }
 }
 
 /// The models that it names.
 fn check_models(lesson: &Lesson, models: &ModelFolder, findings: &mut Vec<Finding>) {
-    lesson.all_labs().into_iter().for_each(|lab| model::check(lab, models, findings));
+    lesson.all_labs().into_iter().for_each(|lab| model::check_lab_models(lab, models, findings));
     let named = lesson.widgets.iter().filter_map(|widget| widget.model.as_ref());
     findings.extend(named.filter_map(|name| model::missing(name, models)));
 }

@@ -11,7 +11,7 @@ use crate::source::Text;
 use crate::spec::{Lab, ModelSource};
 
 /// Whether the model that a lab names is there.
-pub(super) fn check(lab: &Lab, models: &ModelFolder, findings: &mut Vec<Finding>) {
+pub(super) fn check_lab_models(lab: &Lab, models: &ModelFolder, findings: &mut Vec<Finding>) {
     if let Some(ModelSource::Model(name)) = lab.scene() {
         findings.extend(missing(name, models));
     }
@@ -38,8 +38,8 @@ pub(crate) fn missing(name: &Text, models: &ModelFolder) -> Option<Finding> {
             let named = finding
                 .help(format!("write the name of the file without folder and extension: {}", shorten(stem)));
             // What the folder does not have is no repair.
-            let known = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
-            if known { named.fix(name.span(), encode(stem)) } else { named }
+            let exists = models.names().is_none_or(|names| names.iter().any(|n| n == stem));
+            if exists { named.fix(name.span(), encode(stem)) } else { named }
         });
     }
     let names = models.names()?;

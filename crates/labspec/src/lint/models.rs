@@ -21,9 +21,9 @@ pub struct ModelFolder {
 impl fmt::Debug for ModelFolder {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let ModelFolder { folder, root, names, given } = self;
-        let mut shown = f.debug_struct("ModelFolder");
-        shown.field("folder", folder).field("root", root).field("names", names);
-        shown.field("given", &given.is_some()).finish()
+        let mut debug = f.debug_struct("ModelFolder");
+        debug.field("folder", folder).field("root", root).field("names", names);
+        debug.field("given", &given.is_some()).finish()
     }
 }
 

@@ -6,7 +6,7 @@ use crate::bind::scene::Models;
 use crate::check::{self, CheckLevel};
 use crate::finding::{Applicability, Finding, Fix};
 use crate::lint::reload_lesson;
-use crate::repair::{Looked, repair as repair_text, traces};
+use crate::repair::{CheckedText, repair as repair_text, traces};
 use crate::spec::{FileKind, Lesson};
 use serde_json::{Value, json};
 use std::ops::Range;
@@ -90,11 +90,16 @@ fn everything(document: &Document, lesson: &Lesson, models: &Models) -> Option<V
     let look = |text: &str| {
         let lesson = load(text);
         let broken = lesson.broken.len();
-        Looked { text: text.to_string(), findings: check::check(lesson, models, depth).findings, broken }
+        CheckedText {
+            text: text.to_string(),
+            findings: check::check_lesson(lesson, models, depth).findings,
+            broken,
+        }
     };
     let old = lesson.file.text();
     // What only a run of the labs finds has been found already.
-    let now = Looked { text: old.to_string(), findings: look(old).findings, broken: lesson.broken.len() };
+    let now =
+        CheckedText { text: old.to_string(), findings: look(old).findings, broken: lesson.broken.len() };
     let (new, made) = repair_text(now, false, &look, &|text| traces(&load(text), models));
     if made == 0 {
         return None;

@@ -193,8 +193,12 @@ mod tests {
 
     /// What a lesson says without anything kept: what [`look`] must find, too.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
-        check::check(load_lesson_at(file, path, &Sources::Disk, models.folder()), models, CheckLevel::STATIC)
-            .findings
+        check::check_lesson(
+            load_lesson_at(file, path, &Sources::Disk, models.folder()),
+            models,
+            CheckLevel::STATIC,
+        )
+        .findings
     }
 
     /// Claims that name others: one in a comment, one of another lesson's lab, one that uses the runs of another.

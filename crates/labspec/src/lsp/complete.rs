@@ -28,7 +28,7 @@ pub(super) fn completions(document: &mut Document, around: &Around, byte: usize)
     let Some(lesson) = lesson(document, around) else { return json!([]) };
     let file = &document.file;
     if let Some((piece, inside)) = code::at(&lesson, byte) {
-        let Some(model) = around.models.of(piece.lab, &mut Vec::new()) else { return json!([]) };
+        let Some(model) = around.models.model_of_lab(piece.lab, &mut Vec::new()) else { return json!([]) };
         let shown = crate::verify::labels(piece.lab);
         let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let texts = piece.lab.code().into_iter().map(|(_, text)| text.value.as_str());

@@ -19,7 +19,7 @@ pub(super) fn hints(document: &mut Document, around: &Around, range: &Range<usiz
         if span.end < range.start || range.end < span.start {
             continue;
         }
-        let Some(model) = around.models.of(piece.lab, &mut Vec::new()) else { continue };
+        let Some(model) = around.models.model_of_lab(piece.lab, &mut Vec::new()) else { continue };
         let shown = crate::verify::labels(piece.lab);
         let names = ModelNames::new(&model, piece.scope).showing(&shown);
         for mention in fields_in(&names, &piece.text.value) {

@@ -81,7 +81,7 @@ impl Ground<'_> {
 /// The name at a byte of a lesson.
 pub(super) fn name_in_lesson(lesson: &Lesson, path: &Path, models: &Models, byte: usize) -> Option<Name> {
     if let Some((piece, inside)) = code::at(lesson, byte) {
-        let model = models.of(piece.lab, &mut Vec::new())?;
+        let model = models.model_of_lab(piece.lab, &mut Vec::new())?;
         let shown = crate::verify::labels(piece.lab);
         let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let all = names_in(&names, &piece.text.value);
@@ -211,7 +211,7 @@ fn in_lesson(name: &Name, lesson: &Lesson, path: &Path, models: &Models, found: 
     };
     let mut doubts = Vec::new();
     for piece in code::pieces(lesson).into_iter().filter(|piece| about(piece.lab)) {
-        let Some(model) = models.of(piece.lab, &mut Vec::new()) else { continue };
+        let Some(model) = models.model_of_lab(piece.lab, &mut Vec::new()) else { continue };
         let shown = crate::verify::labels(piece.lab);
         let names = ModelNames::new(&model, piece.scope).showing(&shown);
         let known = names_in(&names, &piece.text.value);

@@ -45,7 +45,7 @@ impl Job {
         let work = move || {
             let findings = interrupt::until(asked.clone(), || {
                 let lesson = load_lesson_at(file, &path, &sources, models.folder());
-                check::check(lesson, &models, CheckLevel::FULL).findings
+                check::check_lesson(lesson, &models, CheckLevel::FULL).findings
             });
             // What a run that was stopped says is not used.
             if !asked.load(Ordering::Relaxed) {

@@ -33,7 +33,7 @@ pub(super) fn started<'a>(around: &'a mut Around, lab: &Lab, key: &str) -> Optio
     if let Some(at) = around.started.iter().position(|s| s.key == key) {
         return around.started.get(at);
     }
-    let model = around.models.of(lab, &mut Vec::<Finding>::new())?;
+    let model = around.models.model_of_lab(lab, &mut Vec::<Finding>::new())?;
     let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
     let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
     if around.started.len() >= MOST {

@@ -1,113 +1,10 @@
-//! One fence: its opening line, whether it is closed, and where a damaged one really ends.
+//! One fence: which kind a misspelt one was meant to have, whether it is closed, and where a damaged one really ends.
 
+use super::loose::bare_json;
+use super::opener::{Opener, opener};
 use super::{BlockKind, extent};
 use labspec_finding::nearest;
 use std::ops::Range;
-
-/// The opening line of a fence.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Opener {
-    /// The fence character.
-    mark: char,
-    /// How many of them.
-    count: usize,
-    /// Bytes of the line from the first mark, without its end.
-    pub(crate) line: Range<usize>,
-    /// Bytes of the marks and the info string, without what does not belong there.
-    pub(crate) head: Range<usize>,
-    /// Words of the info string.
-    words: Vec<String>,
-    /// Bytes of JSON or code that stands on this line and belongs below it.
-    pub(crate) rest: Option<Range<usize>>,
-}
-
-impl Opener {
-    /// What the fence holds.
-    pub(crate) fn kind(&self) -> BlockKind {
-        match self.words.first().map(String::as_str) {
-            Some("lab") => BlockKind::Lab(self.words.get(1).cloned().unwrap_or_else(|| "simlab".into())),
-            Some("quiz") => BlockKind::Quiz,
-            first => BlockKind::Code {
-                language: first.unwrap_or("").to_string(),
-                file: self.words.iter().find_map(|w| w.strip_prefix("file=")).map(str::to_string),
-            },
-        }
-    }
-
-    /// What the lines below the opening line begin with: the `> ` of a quote, the indentation of a list.
-    pub(crate) fn prefix(&self, text: &str) -> String {
-        let line = super::line_start(text, self.line.start);
-        let before = text.get(line..self.line.start).unwrap_or("");
-        before.chars().map(|c| if c == '>' || c.is_whitespace() { c } else { ' ' }).collect()
-    }
-
-    /// The line that closes this fence.
-    pub(crate) fn closing(&self) -> String {
-        self.mark.to_string().repeat(self.count)
-    }
-}
-
-/// Reads the opening line that begins at `at` (perhaps indented).
-pub(super) fn opener(text: &str, at: usize) -> Option<Opener> {
-    let line = text.get(at..)?.lines().next()?;
-    let start = at + line.len() - line.trim_start().len();
-    let line = line.trim();
-    let mark = line.chars().next().filter(|c| matches!(c, '`' | '~'))?;
-    let info = line.trim_start_matches(mark);
-    let count = line.len() - info.len();
-    if count < 3 {
-        return None;
-    }
-    let end = start + line.len();
-    let info_at = end - info.len();
-    let rest = belongs_below(info).map(|i| info_at + i..end);
-    let head_end = rest.as_ref().map_or(end, |r| r.start);
-    let head = text.get(start..head_end)?.trim_end();
-    let words = text.get(info_at..head_end)?.split_whitespace().map(str::to_string).collect();
-    Some(Opener { mark, count, line: start..end, head: start..start + head.len(), words, rest })
-}
-
-/// Where in an info string something begins that is no info: the JSON of a lab or quiz, or a listing.
-fn belongs_below(info: &str) -> Option<usize> {
-    let first = info.split_whitespace().next()?;
-    if first == "lab" || first == "quiz" || first.starts_with("lab{") || first.starts_with("quiz{") {
-        return info.find(['{', '[']).filter(|&at| !is_attributes(info.get(at..).unwrap_or("")));
-    }
-    if first.starts_with("{.") || first.starts_with("{lab") || first.starts_with("{quiz") {
-        return None;
-    }
-    // Attributes are words, key=value pairs and {…}; anything else is code.
-    let mut at = info.len() - info.trim_start().len() + first.len();
-    let mut plain = 0;
-    let mut candidate = None;
-    while let Some(word) = info.get(at..).and_then(|rest| rest.split_whitespace().next()) {
-        let begin = at + info.get(at..)?.find(word)?;
-        let key = word.split('=').next().unwrap_or("");
-        let is_name = !key.is_empty()
-            && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.' | ':'));
-        let is_attribute = (is_name && word.contains('=') && !word.ends_with('=')) || word.starts_with('{');
-        if !is_attribute {
-            candidate = candidate.or(Some(begin));
-            plain += if is_name { 1 } else { 3 };
-        }
-        at = begin + word.len();
-    }
-    // One or two plain words after the language are common (`title`, `numbered`); a listing has more. Behind the
-    // name of a file, nothing but a listing is left.
-    candidate.filter(|_| plain >= if info.contains("file=") { 2 } else { 3 })
-}
-
-/// Whether these are the attributes of some Markdown dialects, `{.class #id key=value}`, and no JSON.
-fn is_attributes(text: &str) -> bool {
-    let Some(inside) =
-        text.strip_prefix('{').and_then(|t| t.split_once('}')).map(|(inside, _)| inside.trim())
-    else {
-        return false;
-    };
-    let key = inside.split('=').next().unwrap_or("");
-    let is_name = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || matches!(c, '-' | '_'));
-    inside.starts_with(['.', '#']) || (is_name && inside.contains('='))
-}
 
 /// `lab` or `quiz`, where a fence says so in the way of another Markdown dialect: ```{lab}, ```{.lab}, ```json lab.
 fn in_other_words(words: &[String]) -> Option<&'static str> {
@@ -157,7 +54,7 @@ pub(super) fn meant(open: &Opener, kind: &BlockKind, body: &str) -> Option<(&'st
             }
             match nearest(language, ["lab", "quiz", "simlab"])? {
                 // A language of a similar name is none of our business, unless it holds what we know.
-                _ if super::loose::bare_json(body).next().is_none() => None,
+                _ if bare_json(body).next().is_none() => None,
                 "quiz" => Some(quiz),
                 _ => Some(lab),
             }
@@ -239,7 +136,7 @@ pub(super) fn cut_json(body: &str, open: &Opener, closed: bool) -> Option<Cut> {
 pub(super) fn cut_listing(body: &str, open: &Opener, closed: bool) -> Option<Cut> {
     let mut end = inner_opener(body, open, false);
     if end.is_none() && !closed {
-        end = super::loose::bare_json(body).next().map(|found| found.line);
+        end = bare_json(body).next().map(|found| found.line);
     }
     end.map(|end| Cut { end, resume: Some(end) })
 }

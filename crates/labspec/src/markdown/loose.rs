@@ -1,7 +1,7 @@
 //! Labs and quizzes that stand in the text without a fence that Markdown sees.
 
 use super::Problem;
-use super::fence::opener;
+use super::opener::opener;
 use super::{Block, BlockKind, Scan, extent, line_start};
 use crate::source::{SourceMap, Text};
 use std::ops::Range;

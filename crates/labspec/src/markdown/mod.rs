@@ -8,12 +8,13 @@
 mod extent;
 mod fence;
 mod loose;
+mod opener;
 
 pub(crate) use extent::is_typographic;
-pub use fence::Opener;
+pub use opener::Opener;
 
 use crate::source::{SourceFile, SourceMap, Text};
-use fence::opener;
+use opener::opener;
 use pulldown_cmark::{CodeBlockKind, Event, Parser, Tag, TagEnd};
 use std::ops::Range;
 

@@ -107,18 +107,19 @@ fn springs(m: &Model, list: &mut Vec<Suspect>) {
     let on = |x: f64, flag: i32| if m.opt.disabled(flag) { 0.0 } else { x };
     for j in (0..m.njnt).filter(|&j| matches!(m.jnt_type[j], joint::SLIDE | joint::HINGE)) {
         let k = m.jnt_dofadr[j] as usize;
-        let own = [on(m.jnt_stiffness[j], disable::SPRING), on(m.dof_damping[k], disable::DAMPER)];
+        let attributes = [on(m.jnt_stiffness[j], disable::SPRING), on(m.dof_damping[k], disable::DAMPER)];
         let along = |a: usize| {
             matches!(m.actuator_trntype[a], trntype::JOINT | trntype::JOINTINPARENT)
                 && m.actuator_trnid[2 * a] == j as i32
         };
-        judge(m, list, (Obj::Joint, j), own, [joints, others], m.dof_invweight0[k], along);
+        judge(m, list, (Obj::Joint, j), attributes, [joints, others], m.dof_invweight0[k], along);
     }
     for t in 0..m.ntendon {
-        let own = [on(m.tendon_stiffness[t], disable::SPRING), on(m.tendon_damping[t], disable::DAMPER)];
+        let attributes =
+            [on(m.tendon_stiffness[t], disable::SPRING), on(m.tendon_damping[t], disable::DAMPER)];
         let along =
             |a: usize| m.actuator_trntype[a] == trntype::TENDON && m.actuator_trnid[2 * a] == t as i32;
-        judge(m, list, (Obj::Tendon, t), own, [others; 2], m.tendon_invweight0[t], along);
+        judge(m, list, (Obj::Tendon, t), attributes, [others; 2], m.tendon_invweight0[t], along);
     }
 }
 

@@ -139,8 +139,8 @@ fn deepest(w: &mut SinkMonitor, m: &Model, f: &Fields) -> Option<Sunk> {
 /// How long a contact takes to push out, s.
 fn time_constant(m: &Model, c: &Contact) -> f64 {
     let [time, ratio] = c.solref;
-    let own = if time > 0.0 { time * ratio.max(1.0) } else { (-time).sqrt().recip() };
-    own.max(2.0 * m.opt.timestep)
+    let constant = if time > 0.0 { time * ratio.max(1.0) } else { (-time).sqrt().recip() };
+    constant.max(2.0 * m.opt.timestep)
 }
 
 /// The force of a contact along its normal, N: of a pyramidal cone the sum of its edges.

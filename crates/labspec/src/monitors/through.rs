@@ -50,9 +50,9 @@ pub struct TunnellingMonitor {
 /// The geoms of a model; none where nothing touches or their poses are not known.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> TunnellingMonitor {
     let plan = d.plan();
-    let known = plan.keeps(Stage::Collision) && plan.keeps(Stage::GeomPoses);
+    let has_poses = plan.keeps(Stage::Collision) && plan.keeps(Stage::GeomPoses);
     let touches = |g: &usize| m.geom_contype[*g] != 0 || m.geom_conaffinity[*g] != 0;
-    let geoms: Vec<usize> = (0..m.ngeom).filter(touches).filter(|_| known).collect();
+    let geoms: Vec<usize> = (0..m.ngeom).filter(touches).filter(|_| has_poses).collect();
     let sizes: Vec<Size> = (0..m.ngeom).map(|g| size(m, g)).collect();
     let thinnest = geoms.iter().map(|&g| sizes[g].thickness).fold(f64::INFINITY, f64::min);
     let poses = |n: usize| vec![0.0; n * m.ngeom];

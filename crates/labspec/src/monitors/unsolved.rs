@@ -42,7 +42,7 @@ pub struct Unsolved {
 /// Looks at the steps in which the solver stopped at its limit.
 #[derive(Clone, Debug, Default)]
 pub struct SolverMonitor {
-    own: Option<Box<Own>>,
+    own: Option<Box<SolverScratch>>,
     left: u32,
     looks: u32,
     missed: u32,
@@ -51,7 +51,7 @@ pub struct SolverMonitor {
 
 /// The same scene solved as the model says, and to the end.
 #[derive(Clone, Debug)]
-struct Own {
+struct SolverScratch {
     model: Model,
     exact: Data<Planned>,
     data: Data<Planned>,
@@ -79,8 +79,8 @@ pub fn observe<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Optio
 fn compare<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Unsolved> {
     w.looks += 1;
     w.left = if w.looks < 2 * TIMES { FIRST } else { EVERY };
-    let own = w.own.get_or_insert_with(|| Box::new(own(m)));
-    let (part, dof) = residual(own, m, d)?;
+    let scratch = w.own.get_or_insert_with(|| Box::new(own(m)));
+    let (part, dof) = residual(scratch, m, d)?;
     if part < PART {
         w.missed = 0;
         return None;
@@ -93,18 +93,18 @@ fn compare<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Un
     (w.missed >= TIMES).then_some(Unsolved { time: w.since, iterations, part, dof })
 }
 
-fn own(m: &Model) -> Own {
+fn own(m: &Model) -> SolverScratch {
     let mut model = m.clone();
     let opt = model.edit().opt;
     (*opt.iterations, *opt.tolerance) = (ITERATIONS, TOLERANCE);
     *opt.solver = solver::NEWTON;
     let exact = Data::planned(&model, Plan::awake());
     let data = Data::planned(m, Plan::awake());
-    Own { model, exact, data, a: vec![0.0; m.nv], product: vec![0.0; m.nv] }
+    SolverScratch { model, exact, data, a: vec![0.0; m.nv], product: vec![0.0; m.nv] }
 }
 
 /// The part that is missing, and where most of it is.
-fn residual<S: Scope>(own: &mut Own, m: &Model, d: &Data<S>) -> Option<(f64, usize)> {
+fn residual<S: Scope>(own: &mut SolverScratch, m: &Model, d: &Data<S>) -> Option<(f64, usize)> {
     for data in [&mut own.exact, &mut own.data] {
         state::copy(m, d, data, state::INTEGRATION).ok()?;
         limit(data, work_left(d));

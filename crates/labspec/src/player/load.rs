@@ -56,11 +56,11 @@ impl Player {
         let Some(lab) = LabAddress::parse(address).and_then(|address| lesson.lab(&address)) else {
             let errors = lesson.findings.iter().filter(|f| f.is_error()).cloned();
             let errors: Vec<Finding> = errors.map(|f| located(f, &lesson.file)).collect();
-            let known: Vec<String> =
+            let addresses: Vec<String> =
                 lesson.addressed().iter().map(|(address, _)| address.to_string()).collect();
-            return Err(match (known.is_empty(), errors.is_empty()) {
+            return Err(match (addresses.is_empty(), errors.is_empty()) {
                 (false, _) => {
-                    Error::Call(format!("this lesson has no lab {address}; it has {}", known.join(", ")))
+                    Error::Call(format!("this lesson has no lab {address}; it has {}", addresses.join(", ")))
                 }
                 (true, false) => Error::Findings(errors),
                 (true, true) => Error::Call(format!("{path} has no lab")),

@@ -13,7 +13,7 @@ pub use displayed::{DisplayedIn, Shown};
 use crate::error::{Error, located};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, Cell, End, Play, Session, settings};
+use crate::run::{self, Budget, Cell, End, Play, Session, settings};
 use crate::source::SourceFile;
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldSet, Object};
@@ -184,7 +184,7 @@ impl Player {
         let done = self.done();
         let mut all = self.loaded.clone();
         let troubles = session.troubles.iter().map(|t| run::threw(t, &done));
-        let breakdowns = Breakdown::all(session).into_iter();
+        let breakdowns = run::breakdowns_of(session).into_iter();
         let broken = breakdowns.map(|b| run::broke(&b, &done, self.lab.place()));
         all.extend(troubles.chain(broken).chain(self.spent()).map(|f| located(f, &self.file)));
         all

@@ -8,7 +8,7 @@ use crate::bind::{
     Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
 };
 use crate::finding::Finding;
-use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session};
+use crate::run::{self, Budget, End, Play, RunError, Session};
 use crate::spec::{Lab, Plot};
 use labspec_bind::units::written;
 use labspec_core::reflect::{FieldId, option};
@@ -410,7 +410,7 @@ impl Run {
     /// What became of the run that ends here.
     fn judge(&mut self, session: &Session<'_>) {
         let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
-        self.reported = Breakdown::all(session).into_iter().map(|b| b.what).collect();
+        self.reported = run::breakdowns_of(session).into_iter().map(|b| b.what).collect();
         self.fate = match session.ended() {
             _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
             _ if session.growth().is_some() => Fate::Grows,

@@ -19,7 +19,7 @@ pub const ANSWER_AGAINST_EXPLANATION: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// Numbers that are as near as this, of the answer, are meant to be it.
 const NEAR: f64 = 0.02;
@@ -35,7 +35,7 @@ const SLIPS: [(f64, &str); 6] = [
     (2.0, "the explanation gives half of the answer"),
 ];
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Numeric { answer: Some(answer), unit, .. } = &question.kind else { return };
     let Some(explain) = &question.explain else { return };
     let key = answer.value;
@@ -60,13 +60,13 @@ fn check(question: &Question, findings: &mut Vec<Finding>) {
             Some((_, words)) => words,
             None => continue,
         };
-        let shown = html.get(n.at.clone()).unwrap_or("");
+        let printed = html.get(n.at.clone()).unwrap_or("");
         let sign = if n.value < 0.0 { "-" } else { "" };
         findings.push(
             Finding::new(
                 ANSWER_AGAINST_EXPLANATION,
                 answer.span.clone(),
-                format!("the answer is {key}, but its explanation gives {sign}{shown}: {why}"),
+                format!("the answer is {key}, but its explanation gives {sign}{printed}: {why}"),
             )
             .related(explain.span_of(n.at.clone()), "the explanation")
             .help("compute it again, and write the same number in both places"),
@@ -87,8 +87,8 @@ fn is_result(html: &str, n: &Number, unit: &str) -> bool {
     let after = bare(&plain(&after));
     // Another unit, another number.
     let ends = after.is_empty() || after.starts_with(['.', ',', ';', ')', ':']);
-    let own = !unit.is_empty() && after.starts_with(unit);
-    behind && (ends || own)
+    let in_its_unit = !unit.is_empty() && after.starts_with(unit);
+    behind && (ends || in_its_unit)
 }
 
 /// A unit, or what stands behind a number, without spaces and marks of formulas.

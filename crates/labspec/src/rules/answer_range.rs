@@ -18,9 +18,9 @@ pub const ANSWER_RANGE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
     if question.right_option().is_none() && options.len() >= 2 {
         let last = options.len() - 1;

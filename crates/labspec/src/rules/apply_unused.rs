@@ -19,9 +19,9 @@ pub const APPLY_UNUSED: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let Some(action) = control.action() else { return };
     if let (Some(set), Some(apply)) = (&action.set, &action.apply) {
         let label = named(control.label.as_str());

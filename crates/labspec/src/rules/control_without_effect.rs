@@ -19,9 +19,9 @@ pub const CONTROL_WITHOUT_EFFECT: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let Some(action) = control.action() else { return };
     if action.set.is_none() && action.apply.is_none() && action.param.is_none() {
         let message = format!("{} changes nothing", named(control.label.as_str()));

@@ -19,9 +19,9 @@ pub const DIGITS_RANGE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     let of_control = |kind: &ControlKind| match kind {
         ControlKind::Slider { digits, .. } => digits.clone(),
         _ => None,

@@ -19,9 +19,9 @@ pub const DUPLICATE_CONTROL: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     repeated(
         DUPLICATE_CONTROL,
         "controls have the label",

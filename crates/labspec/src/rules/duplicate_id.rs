@@ -21,9 +21,9 @@ pub const DUPLICATE_ID: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut first: HashMap<&str, &Text> = HashMap::new();
     for id in lesson.quizzes.iter().filter_map(|q| q.id.as_ref()) {
         match first.get(id.as_str()) {

@@ -19,9 +19,9 @@ pub const DUPLICATE_OPTION: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     if let QuestionKind::Choice { options, .. } = &question.kind {
         let help = "change or delete one of them";
         repeated(DUPLICATE_OPTION, "options have the text", help, options.iter(), findings);

@@ -19,9 +19,9 @@ pub const DUPLICATE_TRACE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for plot in &lab.plots {
         let labels = plot.traces.iter().map(|t| &t.label);
         repeated(DUPLICATE_TRACE, "traces of this plot have the label", DISTINCT, labels, findings);

@@ -16,9 +16,9 @@ pub const EMPTY_QUIZ: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Quiz(check);
+pub(super) const CHECK: Check = Check::Quiz(check_quiz);
 
-fn check(quiz: &Quiz, findings: &mut Vec<Finding>) {
+fn check_quiz(quiz: &Quiz, findings: &mut Vec<Finding>) {
     if quiz.questions.is_empty() {
         findings.push(
             Finding::new(EMPTY_QUIZ, quiz.span.start..quiz.span.start + 1, "this quiz has no questions")

@@ -19,9 +19,9 @@ pub const EMPTY_RANGE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for control in &lab.controls {
         if let ControlKind::Slider { min, max, .. } = &control.kind {
             findings.extend(ends(min, max, ["min", "max"]).map(|found| {

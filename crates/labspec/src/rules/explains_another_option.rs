@@ -19,7 +19,7 @@ pub const EXPLAINS_ANOTHER_OPTION: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
 const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
 /// Options that have a letter.
@@ -27,7 +27,7 @@ const MOST: usize = 26;
 const THINGS: [&str; 3] = ["option", "answer", "choice"];
 const RIGHT: [&str; 2] = ["right", "correct"];
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, answer: Some(answer), .. } = &question.kind else { return };
     let (Some(explain), Some(key)) = (&question.explain, question.right_option()) else { return };
     let text = format!(" {} ", loose(explain.as_str()));

@@ -21,9 +21,9 @@ pub const IMPOSSIBLE_TOLERANCE: &Rule = &Rule {
 /// The smallest part of an answer that somebody may know it to.
 const TYPED: f64 = 1e-9;
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Numeric { answer: Some(answer), tol: Some(tol), .. } = &question.kind else { return };
     let whole = answer.value.fract() == 0.0;
     let too_small = tol.value > 0.0 && tol.value < TYPED * answer.value.abs();

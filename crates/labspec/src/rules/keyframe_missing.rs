@@ -19,9 +19,9 @@ pub const KEYFRAME_MISSING: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Model(check);
+pub(super) const CHECK: Check = Check::Model(check_lab);
 
-fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     let Some(key) = lab.key.as_ref().filter(|k| k.value >= model.nkey as f64) else { return };
     let message = format!("the model has no keyframe {}", key.value);
     findings.push(

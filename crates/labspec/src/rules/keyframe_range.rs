@@ -15,9 +15,9 @@ pub const KEYFRAME_RANGE: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "key": 0}"#),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     if let Some(key) = lab.key.as_ref().filter(|k| !LAB.allows("key", k.value)) {
         let message = format!("`key` is {}, but keyframes are counted from 0", key.value);
         findings.push(

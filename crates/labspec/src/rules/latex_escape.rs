@@ -15,7 +15,7 @@ pub const LATEX_ESCAPE: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "note": "the time constant $\\tau$"}"#),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
 /// What an escape makes of the commands that begin with its letter.
 const COMMANDS: [(char, char, &[&str]); 5] = [
@@ -57,7 +57,7 @@ fn check_text(text: &Text, findings: &mut Vec<Finding>) {
     }
 }
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     lesson
         .all_labs()
         .into_iter()

@@ -19,24 +19,26 @@ pub const LONG_ANSWER: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// So many times as long as the next, and by so many characters.
 const TIMES: usize = 2;
 const MORE: usize = 30;
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
     let Some(right) = question.right_option().and_then(|i| options.get(i)) else { return };
     let length = |text: &str| plain(text).chars().count();
-    let own = length(right.as_str());
+    let right_length = length(right.as_str());
     let others = options.iter().filter(|o| !std::ptr::eq(*o, right)).map(|o| length(o.as_str())).max();
-    if let Some(next) = others.filter(|n| own >= TIMES * n && own >= n + MORE) {
+    if let Some(next) = others.filter(|n| right_length >= TIMES * n && right_length >= n + MORE) {
         findings.push(
             Finding::new(
                 LONG_ANSWER,
                 right.span(),
-                format!("the correct option has {own} characters, the longest other option has {next}"),
+                format!(
+                    "the correct option has {right_length} characters, the longest other option has {next}"
+                ),
             )
             .help("move the reason into `explain`, or give reasons in the other options too"),
         );

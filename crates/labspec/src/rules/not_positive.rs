@@ -17,9 +17,9 @@ pub const NOT_POSITIVE: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "stopAt": 1.5}"#),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let mut positive = |object: &Object, name: &str, number: Option<&Number>, means: &str| {
         if let Some(number) = number.filter(|n| !object.allows(name, n.value)) {
             let message = format!("`{name}` is {}, but it must be positive", number.value);

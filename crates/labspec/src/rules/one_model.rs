@@ -16,9 +16,9 @@ pub const ONE_MODEL: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     match (&lab.model, &lab.xml) {
         (Some(model), Some(xml)) => findings.push(
             Finding::new(ONE_MODEL, xml.span(), "this lab has both `model` and `xml`")

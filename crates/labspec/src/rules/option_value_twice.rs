@@ -20,7 +20,7 @@ pub const OPTION_VALUE_TWICE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
 fn same(a: &Scalar, b: &Scalar) -> bool {
     match (a, b) {
@@ -31,7 +31,7 @@ fn same(a: &Scalar, b: &Scalar) -> bool {
     }
 }
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Select { options, .. } = &control.kind else { return };
     for (i, option) in options.iter().enumerate().take(MOST) {
         // Two options of one text are one, and another rule's.

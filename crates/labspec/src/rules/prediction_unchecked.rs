@@ -18,10 +18,10 @@ pub const PREDICTION_UNCHECKED: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
 /// One note for a lesson, with the count, at the first of them.
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let all = lesson.quizzes.iter().flat_map(|q| q.numbered()).map(|(_, q)| q);
     let predictions: Vec<&Question> = all
         .filter(|q| matches!(&q.kind, QuestionKind::Choice { style: ChoiceStyle::Predict, sim: Some(_), .. }))

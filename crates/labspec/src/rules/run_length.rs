@@ -19,9 +19,9 @@ pub const RUN_LENGTH: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for run in claims::all(lesson).flat_map(|claim| &claim.verify.runs) {
         if let (Some(until), Some(steps)) = (&run.until, &run.steps) {
             findings.push(

@@ -22,9 +22,9 @@ pub const SAME_OPTION: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
     let mut first: HashMap<String, &Text> = HashMap::new();
     for option in options {

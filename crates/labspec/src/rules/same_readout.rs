@@ -19,7 +19,7 @@ pub const SAME_READOUT: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
 /// Whether two labels have a word in common.
 fn share(a: &str, b: &str) -> bool {
@@ -27,11 +27,11 @@ fn share(a: &str, b: &str) -> bool {
         let parts = text.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 1);
         parts.map(str::to_lowercase).collect()
     };
-    let known = words(b);
-    a.trim() == b.trim() || words(a).iter().any(|w| known.contains(w)) || known.is_empty()
+    let others = words(b);
+    a.trim() == b.trim() || words(a).iter().any(|w| others.contains(w)) || others.is_empty()
 }
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (i, readout) in lab.readouts.iter().enumerate() {
         // More decimals of the same number may be the lesson; another name for it is not.
         let more =

@@ -18,9 +18,9 @@ pub const SELECT_VALUE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Select { options, value, .. } = &control.kind else { return };
     if !options.is_empty() && !options.iter().any(|o| o.value.same(value)) {
         let all: Vec<String> = options.iter().take(8).map(|o| o.value.show()).collect();

@@ -18,14 +18,14 @@ pub const SHORT_WINDOW: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
 /// Pictures that a page draws in a second, at most of them.
 const FRAMES: f64 = 60.0;
 /// A curve of fewer points is none.
 const POINTS: f64 = 10.0;
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     let slowest = lab.speeds().into_iter().filter(|s| *s > 0.0).fold(f64::INFINITY, f64::min);
     for window in lab.plots.iter().filter_map(|p| p.window.as_ref()) {
         let points = window.value * FRAMES / slowest;

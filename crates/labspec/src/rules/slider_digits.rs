@@ -26,9 +26,9 @@ fn tidy(x: f64) -> f64 {
     format!("{x:.12e}").parse().unwrap_or(x)
 }
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), digits: Some(digits), .. } = &control.kind else {
         return;
     };
@@ -39,14 +39,14 @@ fn check(control: &Control, findings: &mut Vec<Finding>) {
     let decimals = digits.value as usize;
     // Small and large numbers are printed with an exponent, which has digits of its own.
     let plain = |x: f64| x == 0.0 || (1e-3..1e5).contains(&x.abs());
-    let shown = |x: f64| format!("{x:.decimals$}");
+    let printed = |x: f64| format!("{x:.decimals$}");
     let steps = ((max.value - min.value) / step.value).min(MOST) as usize;
     let pairs = (0..steps).map(|i| [i, i + 1].map(|i| tidy(min.value + i as f64 * step.value)));
-    let Some([a, b]) = pairs.into_iter().find(|[a, b]| plain(*a) && plain(*b) && shown(*a) == shown(*b))
+    let Some([a, b]) = pairs.into_iter().find(|[a, b]| plain(*a) && plain(*b) && printed(*a) == printed(*b))
     else {
         return;
     };
-    let text = shown(a);
+    let text = printed(a);
     findings.push(
         Finding::new(SLIDER_DIGITS, digits.span.clone(), format!("{a} and {b} are both displayed as {text}"))
             .why("a student moves the slider by one step, and the number beside it does not change")

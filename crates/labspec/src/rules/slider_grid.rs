@@ -18,12 +18,12 @@ pub const SLIDER_GRID: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
 /// How far from a step a value may be, in steps: what rounding makes.
 const ROUNDING: f64 = 1e-6;
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), value, .. } = &control.kind else { return };
     let inside = (min.value..=max.value).contains(&value.value) && step.value > 0.0;
     let steps = (value.value - min.value) / step.value;

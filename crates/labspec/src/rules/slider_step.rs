@@ -18,9 +18,9 @@ pub const SLIDER_STEP: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, step: Some(step), .. } = &control.kind else { return };
     let range = max.value - min.value;
     if range > 0.0 && (step.value <= 0.0 || step.value > range) {

@@ -18,9 +18,9 @@ pub const SLIDER_VALUE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Control(check);
+pub(super) const CHECK: Check = Check::Control(check_control);
 
-fn check(control: &Control, findings: &mut Vec<Finding>) {
+fn check_control(control: &Control, findings: &mut Vec<Finding>) {
     let ControlKind::Slider { min, max, value, .. } = &control.kind else { return };
     // An empty range is another rule's.
     if min.value < max.value && !(min.value..=max.value).contains(&value.value) {

@@ -19,12 +19,12 @@ pub const SLIP_ACCEPTED: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
 /// What an answer becomes when 10 stands for 9.81.
 const ROUND: f64 = 10.0 / 9.81;
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let Some((answer, tolerance)) = question.numeric() else { return };
     let QuestionKind::Numeric { answer: Some(key), tol, .. } = &question.kind else { return };
     let size = answer.abs();

@@ -18,9 +18,9 @@ pub const TOO_FEW_OPTIONS: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
     if options.len() < 2 {
         let plural = if options.len() == 1 { "" } else { "s" };

@@ -20,12 +20,12 @@ pub const TRAIL_MISSING: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Model(check);
+pub(super) const CHECK: Check = Check::Model(check_lab);
 
 /// Most sites that are listed.
 const MOST_LISTED: usize = 12;
 
-fn check(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     // Without a name no path is asked for.
     let Some(trail) = lab.trail.as_ref().filter(|t| !t.as_str().is_empty()) else { return };
     let name = trail.as_str();
@@ -67,7 +67,7 @@ mod tests {
         let lab = serde_json::json!({"xml": model, "trail": trail});
         let folder = ModelFolder::unknown();
         let lesson = load_lesson(SourceFile::new("t.md", format!("```lab simlab\n{lab}\n```\n")), &folder);
-        check::check(lesson, &Models::new(folder), CheckLevel::STATIC).findings
+        check::check_lesson(lesson, &Models::new(folder), CheckLevel::STATIC).findings
     }
 
     #[test]

@@ -16,10 +16,10 @@ pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
     good: Example::Lesson("```lab simlab\n{\"model\": \"ball\", \"note\": \"a “ball”\"}\n```\n"),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
 /// Looks into the statements and expressions of a lab: one finding for all quotes of a text, with one repair.
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     for (_, code) in lab.code() {
         let (mut quoted, mut found) = (None, Vec::new());
         for (at, c) in code.value.char_indices() {
@@ -31,10 +31,10 @@ fn check(lab: &Lab, findings: &mut Vec<Finding>) {
             }
         }
         let (Some(first), Some(last)) = (found.first(), found.last()) else { continue };
-        let shown = code.value.get(first.clone()).unwrap_or("");
+        let quote = code.value.get(first.clone()).unwrap_or("");
         let message = match found.len() {
-            1 => format!("an expression contains the typographic quote {shown}"),
-            n => format!("an expression contains {n} typographic quotes, {shown} is the first"),
+            1 => format!("an expression contains the typographic quote {quote}"),
+            n => format!("an expression contains {n} typographic quotes, {quote} is the first"),
         };
         let part = first.start..last.end;
         let right = code.value.get(part.clone()).unwrap_or("").replace(is_typographic, "'");

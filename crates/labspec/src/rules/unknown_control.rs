@@ -21,13 +21,13 @@ pub const UNKNOWN_CONTROL: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
 /// A hostile object can set thousands of controls; the first mistakes are enough.
 const MOST: usize = 50;
 const LOOKED_AT: usize = 200;
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson) {
         let labels = claim.verify.runs.iter().filter_map(|run| Some((run, claim.lab_of(run, lesson)?)));
         let labels = labels.flat_map(|(run, lab)| {

@@ -20,9 +20,9 @@ pub const UNKNOWN_LAB: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let named = claims::all(lesson).flat_map(|claim| claim.verify.labs());
     for claim in claims::all(lesson) {
         let Some((text, address)) = &claim.verify.uses else { continue };

@@ -16,9 +16,9 @@ pub const UNKNOWN_OVERLAY: &Rule = &Rule {
     good: Example::Lab(r#"{"model": "ball", "toggles": ["contacts"]}"#),
 };
 
-pub(super) const CHECK: Check = Check::Lab(check);
+pub(super) const CHECK: Check = Check::Lab(check_lab);
 
-fn check(lab: &Lab, findings: &mut Vec<Finding>) {
+fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
     let written = lab.toggles.iter().chain(lab.overlays.iter().map(|(name, _)| name));
     for name in written.filter(|name| texts(&OVERLAYS).all(|known| known != name.as_str())) {
         let found =

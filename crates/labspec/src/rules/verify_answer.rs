@@ -20,9 +20,9 @@ pub const VERIFY_ANSWER: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     for claim in claims::all(lesson) {
         let verify = claim.verify;
         if let Some((label, _)) = verify.over.first().filter(|_| verify.options.is_empty()) {

@@ -19,9 +19,9 @@ pub const VERIFY_WITHOUT_LAB: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Lesson(check);
+pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 
-fn check(lesson: &Lesson, findings: &mut Vec<Finding>) {
+fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let without = |c: &claims::Claim<'_>| {
         lesson.whole(c.verify).lab.is_none()
             && c.own.is_none()

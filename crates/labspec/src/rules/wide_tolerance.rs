@@ -18,9 +18,9 @@ pub const WIDE_TOLERANCE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Numeric { answer: Some(answer), tol: Some(tol), .. } = &question.kind else { return };
     if answer.value != 0.0 && tol.value >= answer.value.abs() {
         let [low, high] = [answer.value - tol.value, answer.value + tol.value];

@@ -12,8 +12,8 @@ pub(super) fn plain(html: &str) -> String {
             rest = rest.get(length..).unwrap_or("");
             continue;
         }
-        let known = [("&lt;", '<'), ("&gt;", '>'), ("&amp;", '&'), ("&nbsp;", ' '), ("&quot;", '"')];
-        let entity = known.iter().find(|(name, _)| rest.starts_with(name));
+        let entities = [("&lt;", '<'), ("&gt;", '>'), ("&amp;", '&'), ("&nbsp;", ' '), ("&quot;", '"')];
+        let entity = entities.iter().find(|(name, _)| rest.starts_with(name));
         out.push(entity.map_or(c, |(_, c)| *c));
         rest = rest.get(entity.map_or(c.len_utf8(), |(name, _)| name.len())..).unwrap_or("");
     }
@@ -49,8 +49,9 @@ pub(super) fn said(html: &str) -> String {
 /// The words of a text without capitals and marks, code and formulas too.
 pub(super) fn loose(html: &str) -> String {
     let lower = plain(html).to_lowercase();
-    let kept: String = lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
-    let words = kept.split_whitespace().map(|w| w.trim_end_matches('.'));
+    let without_marks: String =
+        lower.chars().map(|c| if ",;:!?'\"“”‘’()".contains(c) { ' ' } else { c }).collect();
+    let words = without_marks.split_whitespace().map(|w| w.trim_end_matches('.'));
     words.filter(|w| !w.is_empty()).collect::<Vec<_>>().join(" ")
 }
 

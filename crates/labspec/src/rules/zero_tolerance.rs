@@ -18,9 +18,9 @@ pub const ZERO_TOLERANCE: &Rule = &Rule {
     ),
 };
 
-pub(super) const CHECK: Check = Check::Question(check);
+pub(super) const CHECK: Check = Check::Question(check_question);
 
-fn check(question: &Question, findings: &mut Vec<Finding>) {
+fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     if let QuestionKind::Numeric { answer: Some(answer), tol: None, .. } = &question.kind
         && answer.value == 0.0
     {

@@ -1,10 +1,9 @@
-//! What the engine's warnings, and what goes wrong without one, mean for a lesson: what broke, when, the likely cause,
-//! and what to write instead.
+//! What went wrong in a run, in a teacher's words: what broke, when, the likely cause, and what to write instead.
 
-use super::{Session, silent};
+use super::cell::shown;
 use crate::monitors::stability::{self, StiffPart, Suspect};
-use crate::rules::{self, Rule};
-use labspec_core::{Model, Obj, Warning, WarningStat, joint};
+use crate::rules::Rule;
+use labspec_core::{Model, Obj};
 
 /// What went wrong in a run, loudly or silently, in a teacher's words.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,102 +52,6 @@ impl Breakdown {
     }
 }
 
-const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
-
-/// Warnings that may follow from each other, the cause first: only the first of them is told.
-const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
-/// Warnings that stand for themselves.
-const OTHERS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];
-
-impl Breakdown {
-    /// The worst of what a session met; `None` when it met nothing.
-    pub fn of(session: &Session<'_>) -> Option<Breakdown> {
-        Breakdown::all(session).into_iter().next()
-    }
-
-    /// Everything that a session met, the worst first; without what follows from something else.
-    pub fn all(session: &Session<'_>) -> Vec<Breakdown> {
-        let met = |w: &Warning| {
-            let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
-            Some(Breakdown::by_warning(&session.world.model, *w, stat))
-        };
-        let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
-        let mut since = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
-        let mut state = STATE.iter().find_map(met);
-        if let Some(growth) = session.growth() {
-            // What has grown for a while becomes no number in the end.
-            if growth.time < since {
-                since = growth.time;
-                let grows = silent::growth(&session.world.model, growth);
-                let then = state.map_or(String::new(), |s| format!("; in the end {}", s.what));
-                let what = format!("{}{then}", grows.what);
-                state = Some(Breakdown { what, ..grows });
-            }
-        }
-        // Where energy grows, or numbers are none, anything may follow from it; not what was before.
-        let noticed = silent::first(&session.world.model, &session.noticed());
-        let before = noticed.filter(|(time, _)| *time < since).map(|(_, b)| b);
-        before.into_iter().chain(state).chain(OTHERS.iter().filter_map(met)).collect()
-    }
-
-    /// A warning of the engine.
-    fn by_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Breakdown {
-        let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
-        let at = format!("at t = {} s", time(stat.first_time));
-        let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {at}");
-        let (rule, what, why, advice) = match warning {
-            Warning::BadQpos => (
-                rules::SIMULATION_DIVERGES,
-                no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
-                RESET,
-                Advice::of(model),
-            ),
-            Warning::BadQvel => (
-                rules::SIMULATION_DIVERGES,
-                no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
-                RESET,
-                Advice::of(model),
-            ),
-            Warning::BadQacc => (
-                rules::SIMULATION_DIVERGES,
-                no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
-                RESET,
-                Advice::of(model),
-            ),
-            Warning::BadCtrl => (
-                rules::SIMULATION_DIVERGES,
-                no_number(format!("control {}", stat.lastinfo)),
-                "MuJoCo then sets all controls to 0: a student sees everything go limp without an explanation",
-                Advice::only("guard the expression for `data.ctrl` with a condition"),
-            ),
-            Warning::Inertia => (
-                rules::ENGINE_WARNING,
-                format!(
-                    "the parts that {} moves have no positive inertia {at}",
-                    joint(&model.jnt_dofadr, joint::nv)
-                ),
-                "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
-                Advice::only(
-                    "give every moving body a mass and an inertia above 0: check the model, and what writes `body_mass`, `body_inertia` or `dof_armature`",
-                ),
-            ),
-            Warning::ContactFull => (
-                rules::ENGINE_WARNING,
-                format!("there are more contacts than the {} that the engine keeps {at}", stat.lastinfo),
-                "the dropped contacts do not push: bodies silently sink into each other",
-                Advice::only("let fewer bodies touch, or move them apart at the start"),
-            ),
-            Warning::ConstraintFull => (
-                rules::ENGINE_WARNING,
-                format!("there are more contacts, limits and other constraints than the engine keeps {at}"),
-                "the dropped constraints do not act: bodies silently sink into each other, and joints pass their limits",
-                Advice::only("let fewer bodies touch, or move them apart at the start"),
-            ),
-        };
-        advice.breakdown(rule, what, why)
-    }
-}
-
 /// A time to a tenth of a millisecond.
 pub fn time(t: f64) -> String {
     without_zeros(format!("{t:.4}"))
@@ -158,7 +61,7 @@ pub fn time(t: f64) -> String {
 pub fn two_digits(x: f64) -> String {
     let size = x.abs();
     if size == 0.0 || !(1e-6..1e7).contains(&size) {
-        return super::shown(x, 2);
+        return shown(x, 2);
     }
     let places = (1.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
     without_zeros(format!("{x:.places$}"))
@@ -169,29 +72,29 @@ fn without_zeros(text: String) -> String {
 }
 
 /// The likely cause of what breaks, and what to write instead.
-pub(super) struct Advice {
+pub(super) struct BreakdownAdvice {
     pub(super) cause: Option<String>,
     pub(super) shorter: Shorter,
     pub(super) instead: String,
 }
 
-impl Advice {
+impl BreakdownAdvice {
     /// What to write, and nothing of timesteps.
-    pub(super) fn only(instead: impl Into<String>) -> Advice {
-        Advice { cause: None, shorter: Shorter::No, instead: instead.into() }
+    pub(super) fn only(instead: impl Into<String>) -> BreakdownAdvice {
+        BreakdownAdvice { cause: None, shorter: Shorter::No, instead: instead.into() }
     }
 
     /// A shorter timestep, or something else.
-    pub(super) fn shorter(instead: impl Into<String>) -> Advice {
-        Advice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
+    pub(super) fn shorter(instead: impl Into<String>) -> BreakdownAdvice {
+        BreakdownAdvice { cause: None, shorter: Shorter::Maybe(None), instead: instead.into() }
     }
 
     /// By what of a model is too stiff for its timestep.
-    pub(super) fn of(model: &Model) -> Advice {
+    pub(super) fn by_stiffness(model: &Model) -> BreakdownAdvice {
         let Some(worst) = stability::suspects(model).into_iter().next() else {
-            return Advice::shorter("softer contacts or springs, or a smaller range of the control");
+            return BreakdownAdvice::shorter("softer contacts or springs, or a smaller range of the control");
         };
-        Advice {
+        BreakdownAdvice {
             cause: Some(format!(
                 "{} is {} for a step of {} s",
                 owner(model, &worst),
@@ -204,7 +107,7 @@ impl Advice {
     }
 
     pub(super) fn breakdown(self, rule: &'static Rule, what: String, why: &'static str) -> Breakdown {
-        let Advice { cause, shorter, instead } = self;
+        let BreakdownAdvice { cause, shorter, instead } = self;
         Breakdown { rule, what, why, cause, shorter, instead }
     }
 }

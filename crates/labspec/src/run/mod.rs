@@ -2,6 +2,9 @@
 
 mod breakdown;
 mod budget;
+mod cell;
+mod diagnose;
+mod evaluate;
 mod held;
 mod messages;
 mod play;
@@ -11,17 +14,24 @@ pub mod settings;
 mod silent;
 mod steady;
 mod table;
+mod trouble;
+mod variant;
+mod watched;
 
 pub use breakdown::{Breakdown, Shorter, how_stiff, owner, softer, time, two_digits};
 pub use budget::{Budget, End};
+pub use cell::{Cell, printed, shown};
+pub use diagnose::{breakdowns_of, worst_breakdown};
 pub use held::Held;
 pub use messages::{broke, threw};
 pub use play::{Play, play};
 pub use samples::Samples;
-pub use session::{Session, StepVariant, Trouble};
+pub use session::Session;
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
-pub use table::{Cell, Table, printed, shown};
+pub use table::Table;
+pub use trouble::Trouble;
+pub use variant::StepVariant;
 
 use crate::bind::Programs;
 use crate::spec::Lab;

@@ -3,51 +3,18 @@
 use super::budget::{Budget, End};
 use super::held::Held;
 use super::steady::Steady;
-use super::table::Cell;
+use super::trouble::Trouble;
+use super::variant::StepVariant;
+use super::watched::Watched;
 use crate::bind::coupled::{self, Coupled};
-use crate::bind::{ActionProgram, Bound, ControlProgram, Programs, World};
+use crate::bind::{ActionProgram, ControlProgram, Programs, World};
 use crate::interrupt;
 use crate::monitors::growth::Growth;
-use crate::monitors::watch::{self, Monitors, Noticed};
+use crate::monitors::watch::{self, Noticed};
 use crate::source::Text;
-use labspec_core::reflect::{FieldId, Kind, data, option};
 use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
-use labspec_expr::{Context, FieldKey, Program, RuntimeError, Value};
-
-/// Something that went wrong in a program while the lab ran; JavaScript would have thrown, or said nothing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Trouble {
-    /// What was broken.
-    pub rule: &'static Rule,
-    /// The text and the bytes of it that failed.
-    pub text: Text,
-    /// Bytes of `text`.
-    pub span: std::ops::Range<usize>,
-    /// What happened.
-    pub message: String,
-    /// Simulated time of the first occurrence, s.
-    pub time: f64,
-}
-
-/// A change of the numerics that a lesson does not mention, to see whether its answers depend on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StepVariant {
-    /// The timestep is multiplied by this.
-    pub timestep: f64,
-    /// The constraint problem is solved to rounding.
-    pub tight: bool,
-    /// Every coordinate of the start is moved by this: far less than anybody could measure.
-    pub perturbation: f64,
-    /// Another integrator, where the scene has the one that it has unless somebody says otherwise.
-    pub integrator: Option<i32>,
-}
-
-impl StepVariant {
-    /// As the lesson states it.
-    pub const NOMINAL: StepVariant =
-        StepVariant { timestep: 1.0, tight: false, perturbation: 0.0, integrator: None };
-}
+use labspec_expr::{Context, Program, RuntimeError, Value};
 
 /// A running lab. Its clone goes on as it would.
 #[derive(Clone, Debug)]
@@ -60,7 +27,7 @@ pub struct Session<'p> {
     pub troubles: Vec<Trouble>,
     /// Warnings of the engine, also those of before a reset.
     pub warnings: [WarningStat; Warning::COUNT],
-    programs: Held<'p>,
+    pub(super) programs: Held<'p>,
     key: Option<usize>,
     /// The current value of each control.
     values: Vec<Value>,
@@ -70,41 +37,10 @@ pub struct Session<'p> {
     /// Work that may be done from the start on, that of the data before, and that of samples.
     budget: u64,
     before: u64,
-    sampled: u64,
-    end: Option<End>,
+    pub(super) sampled: u64,
+    pub(super) end: Option<End>,
     /// A program left a partner of its parameter behind, as far as that is observed.
     left_behind: bool,
-}
-
-/// What a sample of a trace counts besides its own work.
-const SAMPLE: u64 = 100;
-
-/// What a program may write in every step that moves nothing by itself.
-const PUSHES: [FieldId; 3] = [data::ctrl, data::qfrc_applied, data::xfrc_applied];
-
-/// Whether a field is one that pushes.
-fn pushes(field: FieldKey) -> bool {
-    FieldId::new(field.0 as usize).is_some_and(|f| PUSHES.contains(&f))
-}
-
-/// Whether a field follows from others, or says what of them is computed: writing it moves nothing.
-fn follows(field: FieldKey) -> bool {
-    FieldId::new(field.0 as usize).is_some_and(|f| f.info().kind == Kind::Derived || f == option::enableflags)
-}
-
-/// Whether a program may move things by itself, or change the model.
-fn moves(bound: &Bound) -> bool {
-    let effects = bound.program.effects();
-    let still = |field: FieldKey| pushes(field) || follows(field);
-    effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| still(a.field))
-}
-
-/// A run that is watched for what goes wrong without a word.
-#[derive(Clone, Debug)]
-struct Watched {
-    watch: Monitors,
-    /// Something from outside changed the state or the model since the last step.
-    disturbed: bool,
 }
 
 impl<'p> Session<'p> {
@@ -177,7 +113,7 @@ impl<'p> Session<'p> {
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
             watched: None,
-            steady: programs.controller.as_ref().and_then(|bound| Steady::of(&bound.program)),
+            steady: programs.controller.as_ref().and_then(|bound| Steady::of_program(&bound.program)),
             budget: budget.left,
             before,
             sampled: 0,
@@ -246,7 +182,7 @@ impl<'p> Session<'p> {
         self.end.as_ref()
     }
 
-    fn left(&self) -> u64 {
+    pub(super) fn left(&self) -> u64 {
         self.budget.saturating_sub(self.spent())
     }
 
@@ -261,7 +197,7 @@ impl<'p> Session<'p> {
     }
 
     /// Ends the run when its budget is spent; what it did since this time is of no use then.
-    fn settle(&mut self, time: f64) -> bool {
+    pub(super) fn settle(&mut self, time: f64) -> bool {
         if self.end.is_none() && (core::exhausted(&self.world.data) || self.left() == 0) {
             self.end = Some(End::Budget { time });
         }
@@ -373,15 +309,7 @@ impl<'p> Session<'p> {
         if self.end.is_some() {
             return;
         }
-        let probes = self.programs.probes.iter().filter_map(|p| p.bound.as_ref());
-        let programs: Vec<&Bound> = probes.chain(&self.programs.controller).collect();
-        if programs.iter().any(|bound| moves(bound)) {
-            return;
-        }
-        let pushed =
-            programs.iter().any(|bound| bound.program.effects().writes.iter().any(|a| pushes(a.field)));
-        let watch = watch::watch(&self.world.model, &self.world.data, pushed);
-        self.watched = Some(Watched { watch, disturbed: false });
+        self.watched = Watched::begin(&self.programs, &self.world);
     }
 
     /// Energy that nothing gave, when the run was watched and has gained any.
@@ -394,38 +322,6 @@ impl<'p> Session<'p> {
         self.watched.as_ref().map(|w| *watch::noticed(&w.watch)).unwrap_or_default()
     }
 
-    /// Time and every probe. What throws is nothing, as on the page.
-    pub fn sample(&mut self) -> Vec<Cell> {
-        let mut row = Vec::with_capacity(self.programs.probes.len() + 1);
-        row.push(Cell::Number(self.world.data.time()));
-        let programs = self.programs.clone();
-        for probe in &programs.probes {
-            let value = probe.bound.as_ref().and_then(|b| self.evaluate(&b.program, &b.text));
-            row.push(value.map_or(Cell::Nothing, Cell::from));
-        }
-        row
-    }
-
-    /// The value of an expression now; `None` when it throws, and when the budget is spent. One that came to no end before is
-    /// not tried again.
-    pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
-        let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
-        if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {
-            return None;
-        }
-        self.sampled += SAMPLE;
-        let (time, left) = (self.world.data.time(), self.left());
-        core::limit(&mut self.world.data, left);
-        self.context.allow(left.min(Budget::SAMPLE.left));
-        match program.run(&mut self.world, &mut self.context, None) {
-            Ok(value) => self.settle(time).then_some(value),
-            Err(e) => {
-                self.threw(e, text, time);
-                None
-            }
-        }
-    }
-
     /// A run in which the engine refuses a call has nothing to go on from.
     fn refused(&mut self, done: Result<(), core::Error>) {
         if done.is_err() {
@@ -434,7 +330,7 @@ impl<'p> Session<'p> {
     }
 
     /// Notes what threw, unless it is the budget of the run that was spent.
-    fn threw(&mut self, e: RuntimeError, text: &Text, time: f64) {
+    pub(super) fn threw(&mut self, e: RuntimeError, text: &Text, time: f64) {
         let spent = e.rule == rules::BUDGET && (self.left() == 0 || core::exhausted(&self.world.data));
         if spent {
             self.end.get_or_insert(End::Budget { time });
@@ -451,22 +347,10 @@ impl<'p> Session<'p> {
 
     /// Changes the numerics. What the lesson states itself is left alone: `mentioned` says that it states the
     /// timestep.
-    pub fn perturb(&mut self, numerics: StepVariant, mentioned: bool) {
-        let opt = self.world.model.edit().opt;
-        if !mentioned {
-            *opt.timestep *= numerics.timestep;
-        }
-        if let Some(other) =
-            numerics.integrator.filter(|_| *opt.integrator == labspec_core::integrator::EULER)
-        {
-            *opt.integrator = other;
-        }
-        if numerics.tight {
-            (*opt.tolerance, *opt.ls_tolerance) = (0.0, 1e-10);
-            (*opt.iterations, *opt.ls_iterations) = (200, 100);
-        }
-        if numerics.perturbation != 0.0 {
-            self.world.data.edit().qpos.iter_mut().for_each(|q| *q += numerics.perturbation);
+    pub fn perturb(&mut self, variant: StepVariant, mentioned: bool) {
+        variant.change_options(&mut self.world.model, mentioned);
+        if variant.perturbation != 0.0 {
+            self.world.data.edit().qpos.iter_mut().for_each(|q| *q += variant.perturbation);
             self.forward();
         }
     }
@@ -569,8 +453,8 @@ impl<'p> Session<'p> {
     }
 
     fn note(&mut self, rule: &'static Rule, text: &Text, span: std::ops::Range<usize>, message: String) {
-        let known = |t: &Trouble| t.rule == rule && t.span == span && t.text == *text;
-        if !self.troubles.iter().any(known) {
+        let is_noted = |t: &Trouble| t.rule == rule && t.span == span && t.text == *text;
+        if !self.troubles.iter().any(is_noted) {
             let time = self.world.data.time();
             self.troubles.push(Trouble { rule, text: text.clone(), span, message, time });
         }

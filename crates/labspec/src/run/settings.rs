@@ -234,13 +234,13 @@ fn number(x: f64) -> String {
 /// That there is no control with this label, and which there are.
 pub(crate) fn unknown(label: &str, programs: &Programs) -> RunError {
     let labels: Vec<&str> = programs.controls.iter().map(|(l, _)| l.as_str()).collect();
-    let known = match labels.as_slice() {
+    let available = match labels.as_slice() {
         [] => "this lab has no controls".to_string(),
         all => format!("the controls are: \"{}\"", printable(&all.join("\", \""))),
     };
     let hint = crate::json::nearest(label, labels)
         .map_or(String::new(), |l| format!("; did you mean \"{}\"?", printable(l)));
-    RunError(format!("the lab has no control \"{}\"{hint} ({known})", printable(label)))
+    RunError(format!("the lab has no control \"{}\"{hint} ({available})", printable(label)))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! What goes wrong without a word, in a teacher's words: what happens, why it matters, and what to write instead.
 
-use super::breakdown::{Advice, Breakdown, joint_of, time, two_digits};
+use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time, two_digits};
 use crate::monitors::growth::{Growth, Source};
 use crate::monitors::limits::Past;
 use crate::monitors::sunk::Sunk;
@@ -36,11 +36,11 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
         joint_of(model, g.dof, &model.jnt_dofadr, joint::nv)
     );
     match g.source {
-        Source::Steps => Advice::of(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
+        Source::Steps => BreakdownAdvice::by_stiffness(model).breakdown(rules::ENERGY_GROWS, numbers, GROWS),
         Source::LongSteps(turn) => {
             let what = format!("{numbers}, which turns by {} rad in a step", two_digits(turn));
             let cause = format!("a step of {} s cannot follow a turn that fast", model.opt.timestep);
-            let advice = Advice { cause: Some(cause), ..Advice::shorter("a slower start") };
+            let advice = BreakdownAdvice { cause: Some(cause), ..BreakdownAdvice::shorter("a slower start") };
             advice.breakdown(rules::ENERGY_GROWS, what, GROWS)
         }
         Source::Damper(dof) => {
@@ -54,11 +54,8 @@ pub(super) fn growth(model: &Model, g: Growth) -> Breakdown {
                 two_digits(g.held)
             );
             let why = "the faster a part moves, the harder a negative damper pushes it: a student sees a swing that grows forever without a motor";
-            Advice::only("write a `damping` of 0 or more; use an actuator to drive the joint").breakdown(
-                rules::DAMPER_PUSHES,
-                what,
-                why,
-            )
+            BreakdownAdvice::only("write a `damping` of 0 or more; use an actuator to drive the joint")
+                .breakdown(rules::DAMPER_PUSHES, what, why)
         }
     }
 }
@@ -74,9 +71,9 @@ fn past(model: &Model, p: Past) -> Breakdown {
                 time(p.time),
                 two_digits(step)
             ),
-            Advice {
+            BreakdownAdvice {
                 cause: Some("a limit pushes only after a step ends beyond it".into()),
-                ..Advice::shorter("a slower arrival at the limit")
+                ..BreakdownAdvice::shorter("a slower arrival at the limit")
             },
         ),
         None => (
@@ -84,7 +81,7 @@ fn past(model: &Model, p: Past) -> Breakdown {
                 "{of} is pressed {beyond} {unit} beyond its limit from t = {} s on, and its range is {range} {unit}",
                 time(p.time)
             ),
-            Advice::only(
+            BreakdownAdvice::only(
                 "make the limit stiffer (a smaller first number of `solreflimit`), the motor or load weaker, or the range wider",
             ),
         ),
@@ -101,9 +98,9 @@ fn through(model: &Model, t: Through) -> Breakdown {
         two_digits(t.moved),
         two_digits(t.thickness)
     );
-    let advice = Advice {
+    let advice = BreakdownAdvice {
         cause: Some("the engine finds contacts only where bodies overlap at a step".into()),
-        ..Advice::shorter("something thicker, or a lower speed")
+        ..BreakdownAdvice::shorter("something thicker, or a lower speed")
     };
     let why = "no step finds the two in contact from the right side: a student sees a wall that holds nothing, and MuJoCo gives no warning";
     advice.breakdown(rules::PASSES_THROUGH, what, why)
@@ -129,7 +126,7 @@ fn sunk(model: &Model, s: Sunk) -> Breakdown {
         "make the contact stiffer (a smaller first number of `solref`, with a shorter timestep), the body below heavier, the one above lighter, or the pull weaker".into()
     };
     let why = "the contact is too soft for the load: a student sees bodies sunk into each other instead of resting on each other";
-    Advice::only(help).breakdown(rules::SINKS_IN, what, why)
+    BreakdownAdvice::only(help).breakdown(rules::SINKS_IN, what, why)
 }
 
 fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
@@ -147,7 +144,7 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
         "write `solver=\"Newton\"` and `iterations=\"100\"`, the defaults"
     };
     let why = "forces that should hold things are missing, step after step: a student sees stacks collapse, and MuJoCo gives no warning";
-    Advice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
+    BreakdownAdvice::only(help).breakdown(rules::SOLVER_STOPS_EARLY, what, why)
 }
 
 /// A geom by its name, or by its body's.

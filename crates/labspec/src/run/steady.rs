@@ -26,11 +26,11 @@ const MOST: usize = 16;
 
 /// Whether a controller is of this kind.
 pub fn is_steady(program: &Program) -> bool {
-    Steady::of(program).is_some()
+    Steady::of_program(program).is_some()
 }
 
 impl Steady {
-    pub(super) fn of(program: &Program) -> Option<Steady> {
+    pub(super) fn of_program(program: &Program) -> Option<Steady> {
         let effects = program.effects();
         let looks_further = effects.reads_everything
             || effects.writes_everything
@@ -63,11 +63,11 @@ impl Steady {
 
     /// Keeps how things are after a run that did this work. Without it, another run follows.
     pub(super) fn keep(&mut self, world: &World, context: &Context, work: Option<u64>) {
-        let mut kept = std::mem::take(&mut self.kept);
-        kept.clear();
-        kept.extend(self.now(world, context).map_while(|number| number));
+        let mut numbers = std::mem::take(&mut self.kept);
+        numbers.clear();
+        numbers.extend(self.now(world, context).map_while(|number| number));
         self.work = work.filter(|_| self.now(world, context).all(|number| number.is_some()));
-        self.kept = kept;
+        self.kept = numbers;
     }
 
     /// All that it looks at, as bits; nothing for what is no number.

@@ -246,7 +246,7 @@ pub fn written(lesson: &Lesson, all: &[Scaffold]) -> String {
 fn judge(lesson: &Lesson, models: &Models, all: &mut [Scaffold]) {
     let text = written(lesson, all);
     let depth = CheckLevel { labs: false, ..CheckLevel::FULL };
-    let checked = check::check(reload_lesson(lesson, &text, models.folder()), models, depth);
+    let checked = check::check_lesson(reload_lesson(lesson, &text, models.folder()), models, depth);
     for one in all {
         let ScaffoldOutcome::Proposed { verdict, .. } = &mut one.found else { continue };
         let claim = checked.claims.iter().find(|c| c.name == one.name);

@@ -46,7 +46,7 @@ impl SourceFile {
     /// A file with this display path and text. No file system is touched.
     pub fn new(path: impl Into<Arc<str>>, text: impl Into<Arc<str>>) -> SourceFile {
         let text = text.into();
-        let lines = Lines::of(&text);
+        let lines = Lines::new(&text);
         SourceFile { path: path.into(), text, lines }
     }
 
@@ -88,19 +88,19 @@ impl SourceFile {
     /// A sentence for the author: the file cannot be read, is no file, or is too large.
     pub fn read_lossy(path: &Path) -> Result<(SourceFile, Option<BadText>), String> {
         use std::io::Read;
-        let shown = path.display();
-        let cannot = |e: std::io::Error| format!("cannot read {shown}: {e}");
+        let displayed = path.display();
+        let cannot = |e: std::io::Error| format!("cannot read {displayed}: {e}");
         // Asked for before it is opened: to open a pipe may wait for ever.
         if !std::fs::metadata(path).map_err(cannot)?.is_file() {
-            return Err(format!("{shown} is not a file"));
+            return Err(format!("{displayed} is not a file"));
         }
         let mut bytes = Vec::new();
         let file = std::fs::File::open(path).map_err(cannot)?;
         file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(cannot)?;
         if bytes.len() as u64 > MAX_FILE {
-            return Err(format!("{shown} is larger than {} MB, the limit for a lesson", MAX_FILE >> 20));
+            return Err(format!("{displayed} is larger than {} MB, the limit for a lesson", MAX_FILE >> 20));
         }
-        Ok(SourceFile::from_bytes(shown.to_string(), &bytes))
+        Ok(SourceFile::from_bytes(displayed.to_string(), &bytes))
     }
 
     /// The path as it is shown to people.
@@ -158,14 +158,14 @@ impl SourceFile {
 /// A sentence for the author: the file cannot be read, is too large, or is not UTF-8 (and where).
 pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> {
     use std::io::Read;
-    let shown = printable_path(path);
-    let cannot = |e: std::io::Error| format!("cannot read {shown}: {e}");
+    let displayed = printable_path(path);
+    let cannot = |e: std::io::Error| format!("cannot read {displayed}: {e}");
     let check = |meta: std::fs::Metadata| {
         if meta.is_file() {
             return Ok(());
         }
         let kind = if meta.is_dir() { "it is a folder" } else { "it is a device or a pipe" };
-        Err(format!("{shown} is not a file: {kind}"))
+        Err(format!("{displayed} is not a file: {kind}"))
     };
     // Opening a pipe waits for somebody to write, and opening a device may do anything: the kind is looked at first.
     // Who swaps the file between the two looks owns the folder and can stop the program in simpler ways.
@@ -175,12 +175,12 @@ pub fn read_text(path: &Path, limit: u64, what: &str) -> Result<String, String> 
     let mut bytes = Vec::new();
     file.take(limit.saturating_add(1)).read_to_end(&mut bytes).map_err(cannot)?;
     if bytes.len() as u64 > limit {
-        return Err(format!("{shown} is larger than {} MB, the limit for {what}", limit >> 20));
+        return Err(format!("{displayed} is larger than {} MB, the limit for {what}", limit >> 20));
     }
     String::from_utf8(bytes).map_err(|e| {
         let good = e.utf8_error().valid_up_to();
         let line = 1 + e.as_bytes().iter().take(good).filter(|&&b| b == b'\n').count();
-        format!("{shown}, line {line}: not UTF-8; save the file as UTF-8")
+        format!("{displayed}, line {line}: not UTF-8; save the file as UTF-8")
     })
 }
 

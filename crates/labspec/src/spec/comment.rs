@@ -1,11 +1,12 @@
 //! Comments of ours in the text of a lesson, each about the block that follows: `<!-- labspec allow … -->`,
 //! `<!-- labspec verify {…} -->`.
 
+use super::lab::Verify;
 use super::problem::Problem;
-use super::{Lesson, Verify, verify};
+use super::read_lab::read_verify;
 use crate::json;
 use crate::markdown::{self, MAX_BLOCKS, Scan};
-use crate::source::SourceMap;
+use crate::source::{SourceFile, SourceMap};
 use std::ops::Range;
 
 const OPENS: &str = "<!--";
@@ -35,35 +36,32 @@ pub struct Remark {
     pub verify: Verify,
 }
 
-impl Lesson {
-    /// The comments of ours that begin with this word. Each is about the block that follows: a fence whole, or the text up to the
-    /// next empty line.
-    pub(super) fn comments(&self, word: &str) -> Vec<Comment> {
-        let mut paragraph = 0..0;
-        let all = ours(self.file.text(), &self.scan, word).into_iter();
-        all.map(|(span, inside)| Comment { over: self.following(span.end, &mut paragraph), span, inside })
-            .collect()
-    }
+/// The comments of ours that begin with this word. Each is about the block that follows: a fence whole, or the text up to the
+/// next empty line.
+pub(super) fn comments(file: &SourceFile, scan: &Scan, word: &str) -> Vec<Comment> {
+    let mut paragraph = 0..0;
+    let all = ours(file.text(), scan, word).into_iter();
+    all.map(|(span, inside)| Comment { over: following(file, scan, span.end, &mut paragraph), span, inside })
+        .collect()
+}
 
-    /// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
-    /// where it does, and is not read again.
-    fn following(&self, from: usize, paragraph: &mut Range<usize>) -> Range<usize> {
-        let rest = self.file.text().get(from..).unwrap_or_default();
-        let text = rest.trim_start();
-        let start = from + rest.len() - text.len();
-        let blocks = &self.scan.blocks;
-        let last = blocks.partition_point(|b| b.span.start <= start).checked_sub(1);
-        if let Some(block) = last.and_then(|at| blocks.get(at)).filter(|b| b.span.contains(&start)) {
-            return start..block.span.end;
-        }
-        if !paragraph.contains(&start) {
-            let empty = |line: &str| line.trim().is_empty();
-            let length =
-                text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
-            *paragraph = start..start + length;
-        }
-        start..paragraph.end
+/// The block that follows a place of the text. `paragraph` is the last text that was read to its end: what begins in it ends
+/// where it does, and is not read again.
+fn following(file: &SourceFile, scan: &Scan, from: usize, paragraph: &mut Range<usize>) -> Range<usize> {
+    let rest = file.text().get(from..).unwrap_or_default();
+    let text = rest.trim_start();
+    let start = from + rest.len() - text.len();
+    let blocks = &scan.blocks;
+    let last = blocks.partition_point(|b| b.span.start <= start).checked_sub(1);
+    if let Some(block) = last.and_then(|at| blocks.get(at)).filter(|b| b.span.contains(&start)) {
+        return start..block.span.end;
     }
+    if !paragraph.contains(&start) {
+        let empty = |line: &str| line.trim().is_empty();
+        let length = text.split_inclusive('\n').take_while(|line| !empty(line)).map(str::len).sum::<usize>();
+        *paragraph = start..start + length;
+    }
+    start..paragraph.end
 }
 
 /// The bytes of every comment of ours that begins with this word, and of what stands behind it.
@@ -98,20 +96,25 @@ fn behind(text: &str, inside: Range<usize>, word: &str) -> Option<Range<usize>> 
     rest.starts_with(|c: char| c.is_whitespace() || c == '{').then(|| inside.end - rest.len()..inside.end)
 }
 
-/// The claims that stand in comments.
-pub(super) fn read(lesson: &mut Lesson) -> Vec<Remark> {
+/// The claims that stand in comments. What is wrong in them goes to `problems`, the comments that a page cannot read to `broken`.
+pub(super) fn read_remarks(
+    file: &SourceFile,
+    scan: &Scan,
+    broken: &mut Vec<Range<usize>>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Remark> {
     let mut all = Vec::new();
-    for Comment { span, inside, over } in lesson.comments(CLAIM) {
+    for Comment { span, inside, over } in comments(file, scan, CLAIM) {
         if all.len() >= MAX_BLOCKS {
-            lesson.problems.push(Problem::Fence(markdown::Problem::TooManyBlocks(span.start)));
+            problems.push(Problem::Fence(markdown::Problem::TooManyBlocks(span.start)));
             break;
         }
-        let parsed = json::parse(lesson.file.slice(inside.clone()), &SourceMap::verbatim(inside.clone()));
+        let parsed = json::parse(file.slice(inside.clone()), &SourceMap::verbatim(inside.clone()));
         if parsed.broken {
-            lesson.broken.push(span.clone());
+            broken.push(span.clone());
         }
-        lesson.problems.extend(parsed.problems.into_iter().map(Problem::Json));
-        let found = parsed.node.and_then(|node| verify::read(&node, &mut lesson.problems));
+        problems.extend(parsed.problems.into_iter().map(Problem::Json));
+        let found = parsed.node.and_then(|node| read_verify(&node, problems));
         all.extend(found.map(|verify| Remark { span, over, verify }));
     }
     all

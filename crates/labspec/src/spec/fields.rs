@@ -197,14 +197,14 @@ impl<'n, 'f> Fields<'n, 'f> {
                 continue;
             }
             // Suggestions for the first ones only: a hostile object can have thousands.
-            let known = || self.keys.iter().take(if reported < 20 { usize::MAX } else { 0 });
+            let candidates = || self.keys.iter().take(if reported < 20 { usize::MAX } else { 0 });
             let meant = self.meant.iter().find(|(right, at)| *at == i && self.key(right).is_some());
             let there =
                 |right: &str| self.members.iter().any(|m| m.key.value == right) || misspelt.contains(&right);
             let fitting =
-                || nearest(key, known().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name));
+                || nearest(key, candidates().filter(|k| fits(&k.of, &member.value.json)).map(|k| k.name));
             let near = meant.map(|(right, _)| *right).or_else(fitting);
-            let meant = match near.or_else(|| nearest(key, known().map(|k| k.name))) {
+            let meant = match near.or_else(|| nearest(key, candidates().map(|k| k.name))) {
                 Some(right) if there(right) => Meant::There(right),
                 Some(right) => {
                     misspelt.push(right);

@@ -1,11 +1,12 @@
 //! The lab object.
 
-use super::fields::Fields;
+use super::address::LabAddress;
+use super::allow::Allowance;
+use super::claim::{Change, Column, Exact, Find, Said, Sweep};
+use super::control::Control;
 use super::format::{CAMERA, LAB};
-use super::problem::{Mistake, Problem};
-use super::read;
-use super::{Allowance, Control, Plot, Readout, Verify, allow, control, plot, verify};
-use crate::json::{Json, Node, Number};
+use super::plot::{Plot, Readout};
+use crate::json::{Number, Scalar};
 use crate::source::Text;
 use std::ops::Range;
 
@@ -205,8 +206,8 @@ impl Lab {
 
     /// Every text that is code, with what it is, in the order of the lab format's table.
     pub fn code(&self) -> Vec<(Form, &Text)> {
-        let own = [&self.setup, &self.controller].into_iter().flatten();
-        let mut all: Vec<(Form, &Text)> = own.map(|t| (Form::Statements, t)).collect();
+        let statements = [&self.setup, &self.controller].into_iter().flatten();
+        let mut all: Vec<(Form, &Text)> = statements.map(|t| (Form::Statements, t)).collect();
         for control in &self.controls {
             if let super::ControlKind::Button { run } = &control.kind {
                 all.push((Form::Statements, run));
@@ -233,92 +234,77 @@ pub enum Form {
     Target,
 }
 
-/// Reads a lab.
-pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Lab> {
-    let mut fields = Fields::open(node, &LAB, problems)?;
-    let f = &mut fields;
-    let lab = Lab {
-        span: f.span(),
-        model: f.text("model"),
-        xml: f.text("xml"),
-        key: f.whole("key"),
-        title: f.text("title"),
-        kind: f.text("kind"),
-        note: f.text("note"),
-        height: f.number("height"),
-        dock: f.flag("dock"),
-        autoplay: f.flag("autoplay"),
-        camera: f.node("camera").and_then(|n| camera(n, f.problems)).unwrap_or_default(),
-        overlays: overlays(f),
-        toggles: f.list("toggles").iter().filter_map(|n| read::text(n, "a toggle", f.problems)).collect(),
-        force_scale: f.number("forceScale"),
-        trail: f.text("trail"),
-        speeds: f.list("speeds").iter().filter_map(|n| read::number(n, "a speed", f.problems)).collect(),
-        stop_at: f.number("stopAt"),
-        setup: f.text("setup"),
-        controller: f.text("controller"),
-        unread_controls: false,
-        controls: f.list("controls").iter().filter_map(|n| control::read(n, f.problems)).collect(),
-        plots: f.list("plots").iter().filter_map(|n| plot::read(n, f.problems)).collect(),
-        readouts: f.list("readouts").iter().filter_map(|n| plot::readout(n, f.problems)).collect(),
-        verify: f.node("verify").and_then(|n| verify::read(n, f.problems)),
-        lint: allow::read(f.node("lint"), f.span(), f.problems),
-        expect: f.text("expect").and_then(|t| expected(&t, f.problems)),
-    };
-    let listed = f.list("controls").len();
-    fields.finish();
-    Some(Lab { unread_controls: lab.controls.len() < listed || no_list_of_controls(node), ..lab })
+/// Runs, measures over them, and what must hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verify {
+    /// Bytes of the file, braces included.
+    pub span: Range<usize>,
+    /// The lab that runs; `None` means the question's `sim`, or the lab that carries this object.
+    pub lab: Option<VerifyLab>,
+    /// Whose runs and measures are those of this one, too: the lab or the question that carries them.
+    pub uses: Option<(Text, LabAddress)>,
+    /// The runs. Empty means one run of the lab as it stands.
+    pub runs: Vec<Run>,
+    /// Measures: name and expression, taken in every run.
+    pub measure: Vec<(Text, Text)>,
+    /// Values that are searched for.
+    pub find: Vec<Find>,
+    /// One condition per option of the question.
+    pub options: Vec<Text>,
+    /// Sliders by label, and the range of each over which the answer must hold.
+    pub over: Vec<(Text, [f64; 2])>,
+    /// The value of a numeric answer.
+    pub value: Option<Text>,
+    /// Values that the tolerance of a numeric answer must refuse: what a mistake leads to.
+    pub wrong: Vec<Text>,
+    /// Numbers quoted in the text, each with the expression it must equal as printed.
+    pub says: Vec<Said>,
+    /// Columns and cells of tables, each with what it must state.
+    pub table: Vec<Column>,
+    /// Closed forms that traces must follow.
+    pub exact: Vec<Exact>,
 }
 
-/// Whether the list of controls itself could not be read.
-fn no_list_of_controls(node: &Node) -> bool {
-    node.get("controls").is_some_and(|n| !matches!(n.json, Json::Array(_)))
+/// The lab of a [`Verify`].
+#[derive(Clone, Debug, PartialEq)]
+pub enum VerifyLab {
+    /// Written out.
+    Inline(Box<Lab>),
+    /// Another lab of the lesson: `#2`, `#quiz-id.1`.
+    Reference(Text, LabAddress),
+    /// A lab of another lesson: `other.md#2`. The path of its file is from the folder of this one.
+    Elsewhere(Text, String, LabAddress),
+    /// Something that is no lab, which is reported.
+    Broken,
 }
 
-fn expected(text: &Text, problems: &mut Vec<Problem>) -> Option<Expect> {
-    if text.as_str() == "breaks" {
-        return Some(Expect::Breaks(text.span()));
-    }
-    problems.push(Mistake::LabExpects(text.value.clone()).at(text.span()));
-    None
-}
-
-fn camera(node: &Node, problems: &mut Vec<Problem>) -> Option<Camera> {
-    let mut fields = Fields::open(node, &CAMERA, problems)?;
-    let standard = Camera::default();
-    let camera = Camera {
-        azimuth: fields.number("azimuth").map_or(standard.azimuth, |n| n.value),
-        elevation: fields.number("elevation").map_or(standard.elevation, |n| n.value),
-        distance: fields.number("distance").map(|n| n.value),
-        target: fields.node("target").and_then(|n| point(n, fields.problems)),
-    };
-    fields.finish();
-    Some(camera)
-}
-
-/// Three numbers.
-fn point(node: &Node, problems: &mut Vec<Problem>) -> Option<[f64; 3]> {
-    if let Json::Array(items) = &node.json
-        && let [Json::Number(x), Json::Number(y), Json::Number(z)] =
-            items.iter().map(|n| &n.json).collect::<Vec<_>>()[..]
-    {
-        return Some([*x, *y, *z]);
-    }
-    if node.is_broken() || matches!(&node.json, Json::Array(items) if items.iter().any(Node::is_broken)) {
-        return None;
-    }
-    problems.push(Mistake::NoPoint.at(node.span.clone()));
-    None
-}
-
-fn overlays(fields: &mut Fields<'_, '_>) -> Vec<(Text, bool)> {
-    let mut all = Vec::new();
-    for member in fields.map("overlays") {
-        match member.value.json {
-            Json::Bool(on) => all.push((member.key.clone(), on)),
-            Json::Broken => {}
-            _ => fields.problems.push(Mistake::NoSwitch.at(member.value.span.clone())),
-        }
-    }
-    all
+/// A named run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Its name, which measures are read by: `name.measure`.
+    pub name: Text,
+    /// The lab that it runs, where it is not that of the object.
+    pub lab: Option<VerifyLab>,
+    /// Changes of the model's text, before it is compiled.
+    pub model: Vec<Change>,
+    /// The keyframe to start from, instead of the lab's.
+    pub key: Option<Scalar>,
+    /// Statements before every step, instead of the lab's; empty for none.
+    pub controller: Option<Text>,
+    /// Control labels and the values they are set to before the run.
+    pub set: Vec<(Text, Scalar)>,
+    /// Button labels and the times (s) of their presses.
+    pub press: Vec<(Text, Number)>,
+    /// Further statements, after the lab's own setup.
+    pub setup: Option<Text>,
+    /// Length in seconds.
+    pub until: Option<Number>,
+    /// Length in steps.
+    pub steps: Option<Number>,
+    /// The run ends at the first sample at which this holds.
+    pub stop: Option<Text>,
+    /// What is tried with several values: a run for each.
+    pub sweep: Option<Sweep>,
+    /// The lesson says that this run breaks, and then it must.
+    pub breaks: bool,
 }

@@ -1,10 +1,12 @@
 //! The quiz object and its kinds of questions.
 
+use super::allow::{self, Allowance};
 use super::fields::Fields;
 use super::format::{CODE, DEBUG, MCQ, NUMERIC, OPEN, PREDICT, QUESTION, QUIZ, TOLERANCE};
+use super::lab::{Lab, Verify};
 use super::problem::{Mistake, Problem};
 use super::read;
-use super::{Allowance, Lab, Verify, allow, lab, verify};
+use super::read_lab::{read_lab, read_verify};
 use crate::json::{Node, Number};
 use crate::source::Text;
 use std::ops::Range;
@@ -141,14 +143,14 @@ impl Quiz {
 }
 
 /// Reads a quiz.
-pub(super) fn read(node: &Node, problems: &mut Vec<Problem>) -> Option<Quiz> {
+pub(super) fn read_quiz(node: &Node, problems: &mut Vec<Problem>) -> Option<Quiz> {
     let mut fields = Fields::open(node, &QUIZ, problems)?;
     let id = fields.text("id");
     let title = fields.text("title");
     let questions = fields.items("questions");
     let questions = questions.unwrap_or_default().iter().map(|n| question(n, fields.problems)).collect();
     let span = fields.span();
-    let lint = allow::read(fields.node("lint"), span.clone(), fields.problems);
+    let lint = allow::read_allowance(fields.node("lint"), span.clone(), fields.problems);
     fields.finish();
     Some(Quiz { span, id, title, questions, lint })
 }
@@ -174,9 +176,9 @@ fn question(node: &Node, problems: &mut Vec<Problem>) -> Option<Question> {
             return None;
         }
     };
-    let verify = fields.node("verify").and_then(|n| verify::read(n, fields.problems));
+    let verify = fields.node("verify").and_then(|n| read_verify(n, fields.problems));
     let span = fields.span();
-    let lint = allow::read(fields.node("lint"), span.clone(), fields.problems);
+    let lint = allow::read_allowance(fields.node("lint"), span.clone(), fields.problems);
     fields.finish();
     Some(Question { span, q: q?, explain, label, kind: asked?, verify, lint })
 }
@@ -194,7 +196,7 @@ fn choice(fields: &mut Fields<'_, '_>, style: ChoiceStyle) -> Option<QuestionKin
         ChoiceStyle::Debug => fields.narrow(&DEBUG),
         ChoiceStyle::Predict => {
             fields.narrow(&PREDICT);
-            sim = fields.node("sim").and_then(|n| lab::read(n, fields.problems)).map(Box::new);
+            sim = fields.node("sim").and_then(|n| read_lab(n, fields.problems)).map(Box::new);
         }
     }
     Some(QuestionKind::Choice { style, options: options?, answer, sim })

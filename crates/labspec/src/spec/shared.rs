@@ -1,7 +1,8 @@
 //! `verify` objects that use the runs and the measures of another one: `"use": "#1"`.
 
-use super::verify::VerifyLab;
-use super::{LabAddress, Lesson, Verify};
+use super::address::LabAddress;
+use super::lab::{Verify, VerifyLab};
+use super::lesson::Lesson;
 use crate::source::Text;
 use std::collections::BTreeSet;
 
@@ -41,7 +42,7 @@ impl Lesson {
 }
 
 /// Every object that uses others, with what it uses; as many as may be.
-pub(super) fn wholes(lesson: &Lesson) -> Vec<Verify> {
+pub(super) fn resolve_uses(lesson: &Lesson) -> Vec<Verify> {
     let mut left = MOST;
     let users = lesson.verifies().filter(|v| v.uses.is_some());
     let mut all: Vec<Verify> = users.map_while(|v| whole(lesson, v, LONGEST, &mut left)).collect();
@@ -58,8 +59,8 @@ fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Op
         return Some(all);
     };
     let used = whole(lesson, used, depth - 1, left)?;
-    let own = lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()));
-    all.lab = all.lab.or(used.lab).or(own);
+    let reference = lesson.lab(address).map(|_| VerifyLab::Reference(text.clone(), address.clone()));
+    all.lab = all.lab.or(used.lab).or(reference);
     add(&mut all.runs, used.runs, |run| &run.name);
     add(&mut all.measure, used.measure, |(name, _)| name);
     add(&mut all.find, used.find, |find| &find.name);

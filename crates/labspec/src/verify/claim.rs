@@ -3,77 +3,78 @@
 //! came out.
 
 use super::bound::BoundVerify;
+use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue, looks_at_data, looks_over_run};
+use super::condition;
+use super::format::shorten;
 use super::layout::Slot;
-use super::outcome::{Named, Outcome, OutcomeNames};
-use crate::bind::{NUMBERS, Scope, functions};
+use super::outcome::Outcome;
+use super::outcome_names::OutcomeNames;
+use crate::bind::{NUMBERS, Scope, to_finding};
+use crate::finding::Finding;
+use crate::rules;
 use crate::run::Budget;
-use labspec_core::reflect::{FieldId, Object, data};
-use labspec_expr::{Comparison, Compiler, Effects, Finding, Program, RuntimeError, Span, Value, Watch};
+use crate::source::Text;
+use labspec_expr::{Compiler, RuntimeError, Watch};
+use std::collections::BTreeSet;
+use std::rc::Rc;
 
-/// A claim of a lesson, compiled.
-#[derive(Debug)]
-pub(super) struct Claim {
-    /// `None` where it has mistakes.
-    pub(super) program: Option<Program>,
-    pub(super) diagnostics: Vec<Finding>,
-    /// The places of the numbers that it may read.
-    pub(super) reads: Vec<usize>,
-    /// Where it looks at the simulation outside of what is taken over a run.
-    pub(super) outside: bool,
-    /// What of the runs it names; with no place among `reads`, the text never comes to it.
-    pub(super) names: Named,
-    /// Numbers that stand in the text.
-    pub(super) constants: Vec<f64>,
-}
-
-/// The numbers that a claim is evaluated with.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Inputs {
-    /// By the places of the layout.
-    pub(super) numbers: Vec<f64>,
-    /// What the aggregates in its own text give, in order.
-    pub(super) parts: Vec<f64>,
-}
-
-impl Inputs {
-    /// Takes the numbers of others, in the memory that it has.
-    pub(super) fn copy(&mut self, other: &Inputs) {
-        self.numbers.clone_from(&other.numbers);
-        self.parts.clone_from(&other.parts);
+impl<'a> BoundVerify<'a> {
+    /// The names of the runs that texts read; of one run that it is read on the spot.
+    pub(super) fn runs_read(&self, texts: &[Text]) -> BTreeSet<&'a str> {
+        let mut names = BTreeSet::new();
+        for claim in texts.iter().filter_map(|text| self.claim(text)) {
+            let slots = claim.reads.iter().filter_map(|place| self.layout().slots.get(*place));
+            for slot in slots {
+                if let Slot::Measure(run, _) | Slot::Warnings(run) = *slot {
+                    names.extend(self.runs.get(run).map(|run| run.name));
+                }
+            }
+            let on_the_spot = claim.program.as_ref().is_some_and(|p| !p.aggregates().is_empty());
+            names.extend(self.runs.first().filter(|_| on_the_spot).map(|run| run.name));
+        }
+        names
     }
 
-    /// The number at a place: of the layout, and then of the parts.
-    pub(super) fn at(&self, place: usize) -> Option<f64> {
-        match place.checked_sub(self.numbers.len()) {
-            None => self.numbers.get(place).copied(),
-            Some(part) => self.parts.get(part).copied(),
+    /// The numbers that texts read of an outcome, by their bits.
+    pub(super) fn read_by(&self, outcome: &Outcome, texts: &[Text]) -> Vec<u64> {
+        let numbers = self.layout().numbers(outcome);
+        let claims = texts.iter().filter_map(|text| self.claim(text));
+        let places: BTreeSet<usize> = claims.flat_map(|claim| claim.reads.clone()).collect();
+        places.iter().filter_map(|place| numbers.get(*place)).map(|x| x.to_bits()).collect()
+    }
+
+    /// Whether a text reads a value that is searched for.
+    pub(super) fn reads_found(&self, text: &Text, index: usize) -> bool {
+        let is = |place: &usize| self.layout().slots.get(*place) == Some(&Slot::Found(index));
+        self.claim(text).is_some_and(|claim| claim.reads.iter().any(is))
+    }
+
+    /// An expression over the measures, compiled the first time that it is asked for.
+    pub(super) fn claim(&self, text: &Text) -> Option<Rc<CompiledClaim>> {
+        if let Some(cached) = self.claims.borrow().get(&text.value) {
+            return Some(cached.clone());
+        }
+        let claim = Rc::new(CompiledClaim::compile(self, &text.value)?);
+        self.claims.borrow_mut().insert(text.value.clone(), claim.clone());
+        Some(claim)
+    }
+
+    /// Looks at the names of expressions over the outcome before there is one.
+    pub(super) fn lint_texts<'t>(&self, texts: impl Iterator<Item = &'t Text>, findings: &mut Vec<Finding>) {
+        for text in texts {
+            let Some(claim) = self.claim(text) else { return };
+            let errors = claim.diagnostics.iter().filter(|d| d.is_error());
+            findings.extend(errors.map(|d| to_finding(d, text)));
+            if claim.outside && claim.program.is_some() {
+                findings.push(reads_outside_run(text));
+            }
         }
     }
-
-    /// Puts another number at a place.
-    pub(super) fn put(&mut self, place: usize, x: f64) {
-        let number = match place.checked_sub(self.numbers.len()) {
-            None => self.numbers.get_mut(place),
-            Some(part) => self.parts.get_mut(part),
-        };
-        if let Some(number) = number {
-            *number = x;
-        }
-    }
 }
 
-/// An evaluation.
-#[derive(Clone, Debug)]
-pub(super) struct Traced {
-    pub(super) value: Value,
-    /// The part of the text where a NaN, or nothing, was turned into something else.
-    pub(super) lost: Option<Span>,
-    pub(super) comparisons: Vec<Comparison>,
-}
-
-impl Claim {
+impl CompiledClaim {
     /// Compiles a text for the runs and measures of an object.
-    pub(super) fn of(bound: &BoundVerify<'_>, text: &str) -> Option<Claim> {
+    pub(super) fn compile(bound: &BoundVerify<'_>, text: &str) -> Option<CompiledClaim> {
         let base = bound.base()?;
         let layout = bound.layout();
         let names = OutcomeNames::new(layout, base.names(Scope::Measure));
@@ -89,10 +90,10 @@ impl Claim {
             }
             reads.sort_unstable();
             reads.dedup();
-            outside = looks(effects) || effects.any_ctx || !effects.ctx_reads.is_empty();
+            outside = looks_at_data(effects) || effects.any_ctx || !effects.ctx_reads.is_empty();
         }
-        let constants = super::condition::numbers_in(text);
-        Some(Claim {
+        let constants = condition::numbers_in(text);
+        Some(CompiledClaim {
             program: compiled.program,
             diagnostics: compiled.diagnostics,
             reads,
@@ -103,8 +104,8 @@ impl Claim {
     }
 
     /// The numbers of an outcome that it is evaluated with.
-    pub(super) fn inputs(&self, bound: &BoundVerify<'_>, outcome: &Outcome, parts: Vec<f64>) -> Inputs {
-        Inputs { numbers: bound.layout().numbers(outcome), parts }
+    pub(super) fn inputs(&self, bound: &BoundVerify<'_>, outcome: &Outcome, parts: Vec<f64>) -> ClaimInputs {
+        ClaimInputs { numbers: bound.layout().numbers(outcome), parts }
     }
 
     /// The places of what was measured, among the numbers and then among the parts.
@@ -115,11 +116,11 @@ impl Claim {
             Some(Slot::Warnings(_) | Slot::Found(_)) => true,
             Some(Slot::Swept(_) | Slot::Missing) | None => false,
         };
-        let own = self.program.iter().flat_map(|p| p.aggregates().iter().enumerate());
+        let taken_here = self.program.iter().flat_map(|p| p.aggregates().iter().enumerate());
         let stops = bound.runs.first().is_some_and(|run| run.stop.is_some());
-        let own = own.filter(|(_, a)| a.args.iter().any(|arg| looks_over_run(arg, stops)));
-        let own = own.map(|(i, _)| slots.len() + i);
-        self.reads.iter().copied().filter(simulated).chain(own).collect()
+        let taken_here = taken_here.filter(|(_, a)| a.args.iter().any(|arg| looks_over_run(arg, stops)));
+        let taken_here = taken_here.map(|(i, _)| slots.len() + i);
+        self.reads.iter().copied().filter(simulated).chain(taken_here).collect()
     }
 
     /// Its value with these numbers.
@@ -129,9 +130,9 @@ impl Claim {
     pub(super) fn evaluate(
         &self,
         bound: &BoundVerify<'_>,
-        inputs: &Inputs,
+        inputs: &ClaimInputs,
         turned: Option<usize>,
-    ) -> Option<Result<Traced, RuntimeError>> {
+    ) -> Option<Result<TracedValue, RuntimeError>> {
         let program = self.program.as_ref()?;
         bound.idle(|session| {
             session.world.numbers.clone_from(&inputs.numbers);
@@ -144,29 +145,19 @@ impl Claim {
             let missing = session.context.events().first().map(|event| event.span);
             let watch = session.context.watch(None).map_or(Watch::default(), |watch| *watch);
             let lost = watch.lost.or(missing);
-            value.map(|value| Traced { value, lost, comparisons: watch.comparisons })
+            value.map(|value| TracedValue { value, lost, comparisons: watch.comparisons })
         })
     }
 }
 
-/// Whether effects look at the data of a simulation.
-pub(super) fn looks(e: &Effects) -> bool {
-    looks_at(e, &|field| field.info().object == Object::Data)
-}
-
-/// Whether effects read a field of which this holds, or what may be any.
-fn looks_at(e: &Effects, counts: &dyn Fn(FieldId) -> bool) -> bool {
-    let read = |a: &labspec_expr::Access| FieldId::new(a.field.0 as usize).is_some_and(counts);
-    e.reads_everything
-        || e.calls.iter().any(|&f| functions::reads(f))
-        || e.calls_values
-        || e.reads.iter().any(read)
-}
-
-/// Whether a program looks at what a simulation gives, itself or in what it takes over a run. The time goes on whatever is
-/// simulated: it says something only where the run ends by its own `stop`.
-pub(super) fn looks_over_run(program: &Program, stops: bool) -> bool {
-    let counts = |field: FieldId| field.info().object == Object::Data && (stops || field != data::time);
-    looks_at(program.effects(), &counts)
-        || program.aggregates().iter().flat_map(|a| &a.args).any(|arg| looks_over_run(arg, stops))
+/// A field that is read outside of what is taken over a run.
+pub(super) fn reads_outside_run(text: &Text) -> Finding {
+    let written = shorten(text.value.trim());
+    Finding::error(
+        rules::READ_OUTSIDE_RUN,
+        text.span(),
+        format!("`{written}` reads the simulation at no time of the run"),
+    )
+    .why("a run has many samples, and this does not say which one it means: the number would be that of the lab before the run")
+    .help("choose a sample: `final(…)` at the end, `initial(…)` at the start, `max(…)`, `mean(…)`, or `at(condition, …)`")
 }

@@ -1,13 +1,14 @@
 //! Columns of tables: every cell is a number that is quoted, or words, and its row says which member of a sweep it is about.
 
-use super::grounded;
+use super::grounded::grounded_value;
 use super::quote;
-use super::says::{self, Given, Quote, QuoteChecker};
+use super::quote_checker::{Quote, QuoteChecker, QuotedValue, check_number, check_words};
 use super::units;
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::{SourceMap, Text};
 use crate::spec::{Column, Stands};
+use labspec_expr::dimension::Dimension;
 
 /// The work of looking at a cell.
 const LOOK: u64 = 1000;
@@ -15,47 +16,76 @@ const LOOK: u64 = 1000;
 const MOST_WORDS: usize = 20;
 
 /// Holds a column, or one cell of it, to what was measured.
-pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut Vec<Finding>) -> Vec<Quote> {
-    let stage = court.bound.stage();
-    stage.spend(LOOK * court.shown.cells() as u64);
+pub(super) fn check_column(
+    checker: QuoteChecker<'_, '_>,
+    claim: &Column,
+    findings: &mut Vec<Finding>,
+) -> Vec<Quote> {
+    let stage = checker.bound.stage();
+    stage.spend(LOOK * checker.shown.cells() as u64);
     if stage.left() == 0 {
         let spent = "the work budget ran out before this column";
-        let told = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
+        let finding = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
             .why("nothing was compared")
             .help("make the runs shorter, or claim fewer columns in one lesson");
-        return vec![refused(&claim.column, told, findings)];
+        return vec![refused(&claim.column, finding, findings)];
     }
-    let cells = match quote::cells(claim, court.shown) {
+    let cells = match quote::cells_of_column(claim, checker.shown) {
         Ok(cells) => cells,
         Err([message, help]) => {
-            let told = Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message)
+            let finding = Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message)
                 .why("nothing was compared: the text has changed, or uses other words")
                 .help(help);
-            return vec![refused(&claim.column, told, findings)];
+            return vec![refused(&claim.column, finding, findings)];
         }
     };
     let unit = quote::unit_of_head(claim.column.as_str());
     let Some((_, list)) = &claim.by else {
         return cells
             .into_iter()
-            .map(|[_, text]| cell(court, &text, &claim.is, &unit, "", findings))
+            .map(|[_, text]| check_cell(checker, &text, &claim.is, &unit, "", findings))
             .collect();
     };
-    let values = match values(court, list, findings) {
+    let values = match values(checker, list, findings) {
         Ok(values) => values,
         Err(reason) => return vec![Quote::unclear(&claim.column, &reason)],
     };
-    let swept = units::of_claim(court.bound, &court.outcomes.nominal, &part(list, "[0]"));
+    let swept = units::of_claim(checker.bound, &checker.outcomes.nominal, &part(list, "[0]"));
     let key_head = claim.by.as_ref().and_then(|(head, _)| quote::unit_of_head(head.as_str()));
+    let rows = SweepRows { list, values, swept, key_head };
     let mut all = Vec::new();
     for [key, text] in cells {
+        all.push(match rows.member(&key) {
+            Ok(member) => check_cell(checker, &text, &claim.is, &unit, &format!("[{member}]"), findings),
+            Err(finding) => refused(&text, finding, findings),
+        });
+    }
+    all
+}
+
+/// The members of a sweep that the rows of a table are about.
+struct SweepRows<'c> {
+    /// The list that the rows are told apart by, and its numbers.
+    list: &'c Text,
+    values: Vec<f64>,
+    /// What they measure.
+    swept: Option<Dimension>,
+    /// The unit in the heading of the column that tells the rows apart.
+    key_head: Option<quote::Unit>,
+}
+
+impl SweepRows<'_> {
+    /// The member that a row is about, by the cell that tells it.
+    ///
+    /// # Errors
+    /// No value of the sweep is that of the cell.
+    fn member(&self, key: &Text) -> Result<usize, Finding> {
         let read = quote::reading(&key.value).ok();
-        let unit_of_key = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| key_head.clone());
+        let unit = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| self.key_head.clone());
         // Cells in millimetres beside values in metres are converted; another dimension is nobody's value.
-        let held =
-            unit_of_key.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, swept.as_ref()));
-        let wanted = unit_of_key.as_ref().and_then(|unit| unit.dimension);
-        let converted = wanted.zip(swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
+        let held = unit.as_ref().map_or(quote::Held::Unknown, |unit| quote::hold(unit, self.swept.as_ref()));
+        let wanted = unit.as_ref().and_then(|unit| unit.dimension);
+        let converted = wanted.zip(self.swept).and_then(|(wanted, found)| quote::conversion(&wanted, &found));
         let factor = match (held, converted) {
             (_, Some(factor)) => Some(factor),
             (quote::Held::Wrong, None) => None,
@@ -63,106 +93,124 @@ pub(super) fn check(court: QuoteChecker<'_, '_>, claim: &Column, findings: &mut 
         };
         let is_key =
             |x: f64| read.as_ref().zip(factor).is_some_and(|(read, factor)| read.number().is(factor * x));
-        let member = values.iter().position(|x| is_key(*x));
-        let Some(member) = member else {
-            let other = unit_of_key.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
+        self.values.iter().position(|x| is_key(*x)).ok_or_else(|| {
+            let other = unit.filter(|_| factor.is_none()).map_or(String::new(), |unit| {
                 format!(": the column is in {}, but the values are in another unit", unit.text)
             });
             let message = format!("no run covers the row \"{}\"{other}", key.value);
-            let told = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
+            Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
                 .why("the number in this row was compared with nothing")
                 .help("add this value to the sweep, or correct the row")
-                .related(list.span(), "the values of the sweep");
-            all.push(refused(&text, told, findings));
-            continue;
-        };
-        all.push(cell(court, &text, &claim.is, &unit, &format!("[{member}]"), findings));
+                .related(self.list.span(), "the values of the sweep")
+        })
     }
-    all
 }
 
 /// One cell; `member` picks its number out of a list.
-fn cell(
-    court: QuoteChecker<'_, '_>,
+fn check_cell(
+    checker: QuoteChecker<'_, '_>,
     text: &Text,
     is: &Stands,
     unit: &Option<quote::Unit>,
     member: &str,
     findings: &mut Vec<Finding>,
 ) -> Quote {
-    let words = match is {
-        Stands::Words(words) => words,
+    match is {
+        Stands::Words(words) => check_word_cell(checker, text, words, member, findings),
         Stands::Number(expr) => {
             let expr = part(expr, member);
             let places = vec![quote::QuotePlace { at: text.span(), unit: unit.clone() }];
-            let claim = quote::Claim { quote: text, part: text.as_str(), expr: &expr };
+            let claim = quote::QuoteClaim { quote: text, part: text.as_str(), expr: &expr };
             let part = quote::whole(text.as_str());
-            return match Given::of(court, &expr, findings) {
-                Ok(given) => says::number(court, &claim, &part, given, places, findings),
+            match QuotedValue::measure(checker, &expr, findings) {
+                Ok(given) => check_number(checker, &claim, &part, given, places, findings),
                 Err(reason) => Quote::unclear(text, &reason),
-            };
+            }
         }
+    }
+}
+
+/// A cell that holds a word: its condition holds, and that of no other word.
+fn check_word_cell(
+    checker: QuoteChecker<'_, '_>,
+    text: &Text,
+    words: &[(Text, Text)],
+    member: &str,
+    findings: &mut Vec<Finding>,
+) -> Quote {
+    let expr = match condition_of_word(text, words) {
+        Ok(expr) => part(expr, member),
+        Err(finding) => return refused(text, finding, findings),
     };
-    let Some((_, expr)) = words.iter().find(|(word, _)| quote::same(word.as_str(), text.as_str())) else {
+    let given = match QuotedValue::measure(checker, &expr, findings) {
+        Ok(given) => given,
+        Err(reason) => return Quote::unclear(text, &reason),
+    };
+    if !given.is_condition_of(checker, &expr, findings) {
+        return Quote::unclear(text, "the expression for the word is not a condition");
+    }
+    if given.holds() {
+        for (word, other) in words.iter().filter(|(w, _)| !quote::reads_the_same(w.as_str(), text.as_str())) {
+            let other = part(other, member);
+            if QuotedValue::measure(checker, &other, findings).is_ok_and(|given| !given.holds()) {
+                continue;
+            }
+            let message = format!("\"{}\" may also be right in this row", word.value);
+            let finding = Finding::error(rules::QUOTE_UNCLEAR, other.span(), message)
+                .why("one of several words can be right only if the others are wrong")
+                .help("write conditions that exclude each other")
+                .related(text.span(), "the row");
+            return refused(text, finding, findings);
+        }
+    }
+    let claim = quote::QuoteClaim { quote: text, part: "", expr: &expr };
+    check_words(checker, &claim, &given, &[text.span()], findings)
+}
+
+/// The condition of the word in a cell.
+///
+/// # Errors
+/// There is none, there are too many words, or the cell holds a number that no condition checks.
+fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w Text, Finding> {
+    let is_word = |(word, _): &&(Text, Text)| quote::reads_the_same(word.as_str(), text.as_str());
+    let Some((_, expr)) = words.iter().find(is_word) else {
         let message = format!("no condition belongs to \"{}\"", text.value);
-        let known: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
-        let told = Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
+        let claimed: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
+        return Err(Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("this cell was compared with nothing")
-            .help(format!("write one of {}, or add a condition for this word", known.join(", ")));
-        return refused(text, told, findings);
+            .help(format!("write one of {}, or add a condition for this word", claimed.join(", "))));
     };
     if words.len() > MOST_WORDS {
         let message =
             format!("a column has {} different words, but at most {MOST_WORDS} are allowed", words.len());
-        let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
+        return Err(Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("nothing was compared")
-            .help("claim its cells one by one, with `row`");
-        return refused(text, told, findings);
+            .help("claim its cells one by one, with `row`"));
     }
     if !quote::parts(text.as_str(), 0).is_empty() {
         let message = format!("\"{}\" contains a number that no condition checks", text.value);
-        let told = Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
+        return Err(Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
             .why("the cell would count as right whatever its number")
-            .help("quote it under `says`: an expression for its number, and a condition for its words");
-        return refused(text, told, findings);
+            .help("quote it under `says`: an expression for its number, and a condition for its words"));
     }
-    let expr = part(expr, member);
-    let given = match Given::of(court, &expr, findings) {
-        Ok(given) => given,
-        Err(reason) => return Quote::unclear(text, &reason),
-    };
-    if !given.is_condition_of(court, &expr, findings) {
-        return Quote::unclear(text, "the expression for the word is not a condition");
-    }
-    if given.holds() {
-        for (word, other) in words.iter().filter(|(word, _)| !quote::same(word.as_str(), text.as_str())) {
-            let other = part(other, member);
-            if Given::of(court, &other, findings).is_ok_and(|given| !given.holds()) {
-                continue;
-            }
-            let message = format!("\"{}\" may also be right in this row", word.value);
-            let told = Finding::error(rules::QUOTE_UNCLEAR, other.span(), message)
-                .why("one of several words can be right only if the others are wrong")
-                .help("write conditions that exclude each other")
-                .related(text.span(), "the row");
-            return refused(text, told, findings);
-        }
-    }
-    let claim = quote::Claim { quote: text, part: "", expr: &expr };
-    says::describe_quote(court, &claim, &given, &[text.span()], findings)
+    Ok(expr)
 }
 
-/// What was compared with nothing, and was told so.
-fn refused(text: &Text, told: Finding, findings: &mut Vec<Finding>) -> Quote {
-    let quote = Quote::unclear(text, &told.message);
-    findings.push(told);
+/// What was compared with nothing, which is reported.
+fn refused(text: &Text, finding: Finding, findings: &mut Vec<Finding>) -> Quote {
+    let quote = Quote::unclear(text, &finding.message);
+    findings.push(finding);
     quote
 }
 
 /// The numbers of a list.
-fn values(court: QuoteChecker<'_, '_>, list: &Text, findings: &mut Vec<Finding>) -> Result<Vec<f64>, String> {
+fn values(
+    checker: QuoteChecker<'_, '_>,
+    list: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<f64>, String> {
     let mut number = |text: &Text| {
-        grounded(court.bound, &court.outcomes.nominal, text, findings).map(|f| f.value.to_number())
+        grounded_value(checker.bound, &checker.outcomes.nominal, text, findings).map(|f| f.value.to_number())
     };
     let count = number(&part(list, ".length"))?;
     (0..count.clamp(0.0, 1000.0) as usize).map(|i| number(&part(list, &format!("[{i}]")))).collect()

@@ -1,8 +1,10 @@
 //! What a lab shows in a run: its traces over time, for a report that draws them.
 
+use super::bound::BoundVerify;
+use super::bound_run::BoundRun;
 use super::run_cache::Stage;
-use super::runner::{self, Asked};
-use crate::run::Session;
+use super::runner::{self, RunRequest};
+use crate::run::{Session, StepVariant};
 use crate::spec::Plot;
 use labspec_expr::Value;
 use std::ops::Range;
@@ -28,7 +30,7 @@ pub struct Curves {
 }
 
 /// Makes a run once more and looks at the lab. `None` where it cannot be made, or has no trace.
-pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
+fn record_curves(asked: &RunRequest<'_, '_>, stage: &Stage<'_>) -> Option<Curves> {
     let scene = &asked.scene.scene;
     let (lab, programs) = (&*scene.lab, &*scene.programs);
     let traces = lab.traces().count();
@@ -70,4 +72,17 @@ pub(super) fn of_run(asked: &Asked<'_, '_>, stage: &Stage<'_>) -> Option<Curves>
         times,
         values,
     })
+}
+
+impl<'a> BoundVerify<'a> {
+    /// What the traces of its lab show in every run, up to so many; a run that cannot be made, or whose lab shows nothing, is left
+    /// out.
+    pub(crate) fn curves(&self, most: usize) -> Vec<Curves> {
+        let one = |run: &BoundRun<'a>| {
+            let (scene, place) = (self.scene_of(run)?, self.verify.span.clone());
+            let asked = RunRequest { scene, run, numerics: StepVariant::NOMINAL, measures: &[], place };
+            record_curves(&asked, self.stage)
+        };
+        self.runs.iter().take(most).filter_map(one).collect()
+    }
 }

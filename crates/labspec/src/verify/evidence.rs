@@ -1,112 +1,20 @@
 //! Whether a claim could have come out otherwise. What was measured is replaced by other values of its kind: where none of
 //! them changes what the claim says, it says nothing about the simulation, however it is written.
 
-use super::bound::Named;
-use super::claim::Inputs;
-use super::imagined::{Anything, Draws};
-use super::measure::How;
-use crate::bind::World;
-use labspec_expr::{Aggregate, Comparison, Context, Program};
-
-/// Which values a measure can have at all.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Kind {
-    /// It is never below zero.
-    pub(super) positive: bool,
-    /// It is a whole number.
-    pub(super) whole: bool,
-    /// It is never above one.
-    pub(super) truth: bool,
-}
-
-impl Kind {
-    pub(super) const ANY: Kind = Kind { positive: false, whole: false, truth: false };
-    pub(super) const COUNT: Kind = Kind { positive: true, whole: true, ..Kind::ANY };
-    const TIME: Kind = Kind { positive: true, ..Kind::ANY };
-    const TRUTH: Kind = Kind { truth: true, ..Kind::COUNT };
-
-    /// Whether it can have this value.
-    fn has(self, x: f64) -> bool {
-        (!self.positive || x >= 0.0)
-            && (!self.whole || x.fract() == 0.0)
-            && (!self.truth || x <= 1.0)
-            && x.is_finite()
-    }
-
-    /// The nearest value that it can have.
-    pub(super) fn nearest(self, x: f64) -> f64 {
-        let x = if self.positive { x.abs() } else { x };
-        let x = if self.whole { x.round() } else { x };
-        if self.truth { x.min(1.0) } else { x }
-    }
-
-    /// What a list of tried values shows.
-    fn of(values: &[f64]) -> Kind {
-        let some = values.iter().filter(|x| !x.is_nan());
-        if some.clone().count() == 0 {
-            return Kind::ANY;
-        }
-        let all = |f: fn(f64) -> bool| some.clone().all(|x| f(*x));
-        let (positive, whole) = (all(|x| x >= 0.0), all(|x| x.fract() == 0.0));
-        Kind { positive, whole, truth: positive && whole && all(|x| x <= 1.0) }
-    }
-}
-
-/// Values that are tried of a program to see of which kind it is.
-const DRAWS: usize = 48;
-
-/// The kind of a measure: what its program gives where everything that it looks at has any value.
-pub(super) fn kind_of(measure: &Named<'_>, world: &World, context: &Context) -> Kind {
-    kind(&measure.program, world, &mut context.clone())
-}
-
-/// The kinds of the aggregates of a program, in order.
-pub(super) fn kinds_of(program: &Program, world: &World, context: &Context) -> Vec<Kind> {
-    let mut context = context.clone();
-    program.aggregates().iter().map(|a| of_aggregate(a, world, &mut context)).collect()
-}
-
-fn kind(program: &Program, world: &World, context: &mut Context) -> Kind {
-    let kinds: Vec<Kind> = program.aggregates().iter().map(|a| of_aggregate(a, world, context)).collect();
-    // A measure that is one aggregate, and nothing besides, is of its kind.
-    let mut values = Vec::new();
-    let mut draws = Draws::new(1);
-    for seed in 0..DRAWS as u64 {
-        for (a, kind) in program.aggregates().iter().zip(&kinds) {
-            context.set_aggregate(a.slot, kind.nearest(draws.any()));
-        }
-        let mut host = Anything::of(world, seed);
-        context.allow(100_000);
-        if let Ok(value) = program.run(&mut host, context, None) {
-            values.push(value.to_number());
-        }
-    }
-    Kind::of(&values)
-}
-
-fn of_aggregate(a: &Aggregate, world: &World, context: &mut Context) -> Kind {
-    let mut of = |i: usize| a.args.get(i).map_or(Kind::ANY, |p| kind(p, world, context));
-    match How::of(a) {
-        Some(How::First | How::Last | How::Peak | How::Crossing | How::Period | How::Settles) => Kind::TIME,
-        Some(How::Count | How::Crossings) => Kind::COUNT,
-        Some(How::Holds) => Kind::TRUTH,
-        Some(How::At | How::Before) => of(1),
-        Some(How::Initial | How::Final | How::Previous | How::Min | How::Max) => of(0),
-        Some(How::Mean | How::Integral) => Kind { whole: false, truth: false, ..of(0) },
-        Some(How::Rms) => Kind { positive: true, ..Kind::ANY },
-        Some(How::Rate) | None => Kind::ANY,
-    }
-}
+use super::compiled_claim::ClaimInputs;
+use super::draws::Draws;
+use super::value_kind::ValueKind;
+use labspec_expr::Comparison;
 
 /// Values that are drawn in place of what was measured.
 const DRAWN: usize = 16;
 
 /// The numbers of a claim with others of their kinds in place of what was measured, again and again.
 pub(super) fn draws<'i>(
-    nominal: &'i Inputs,
+    nominal: &'i ClaimInputs,
     places: &'i [usize],
-    kinds: &'i [Kind],
-) -> impl Iterator<Item = Inputs> + 'i {
+    kinds: &'i [ValueKind],
+) -> impl Iterator<Item = ClaimInputs> + 'i {
     let mut draws = Draws::new(3);
     (0..DRAWN).map(move |_| {
         let mut inputs = nominal.clone();
@@ -118,7 +26,7 @@ pub(super) fn draws<'i>(
 }
 
 /// What a claim says with some numbers: `None` where it says nothing.
-pub(super) type Says<'s> = dyn FnMut(&Inputs) -> Option<(Outlook, Vec<Comparison>)> + 's;
+pub(super) type Says<'s> = dyn FnMut(&ClaimInputs) -> Option<(Outlook, Vec<Comparison>)> + 's;
 
 /// What a claim says: the truth of a condition, or a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,16 +66,60 @@ const HALVINGS: usize = 60;
 /// Whether other values of what was measured change what a claim says. `places` are those of the numbers, and then of the
 /// parts; `kinds` are theirs.
 pub(super) fn could_differ(
-    nominal: &Inputs,
+    nominal: &ClaimInputs,
     places: &[usize],
-    kinds: &[Kind],
+    kinds: &[ValueKind],
     constants: &[f64],
     says: &mut Says<'_>,
 ) -> bool {
     let Some((now, compared)) = says(nominal) else { return false };
     let values: Vec<f64> = places.iter().filter_map(|p| nominal.at(*p)).collect();
+    let lists = values_to_try(&values, kinds, constants, &compared);
+    let mut inputs = nominal.clone();
+    let mut all: Vec<Vec<(f64, Vec<Comparison>)>> = Vec::new();
+    for (&place, list) in places.iter().zip(&lists) {
+        let mut tried = Vec::new();
+        // Any measure may have no value: its event does not happen, or the run breaks.
+        for x in list.iter().copied().chain([f64::NAN]) {
+            inputs.put(place, x);
+            if let Some((then, compared)) = says(&inputs) {
+                if then.differs(now) {
+                    return true;
+                }
+                tried.push((x, compared));
+            }
+        }
+        inputs.copy(nominal);
+        all.push(tried);
+    }
+    let mut together = JointDraws { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
+    if together.differs(FIRST, now, says) {
+        return true;
+    }
+    // Where a comparison turns between two values, or comes near to that, the value is looked for.
+    for ((&place, kind), tried) in places.iter().zip(kinds).zip(&all) {
+        let mut alone = |x| {
+            inputs.put(place, x);
+            says(&inputs)
+        };
+        if !kind.whole && turns(tried, now, &mut alone) {
+            return true;
+        }
+        inputs.copy(nominal);
+    }
+    together.differs(JOINT - FIRST, now, says)
+}
+
+/// For each measured value the others that are tried in its place, in order: parts of it, and what lies near to everything that it is
+/// compared with.
+fn values_to_try(
+    values: &[f64],
+    kinds: &[ValueKind],
+    constants: &[f64],
+    compared: &[Comparison],
+) -> Vec<Vec<f64>> {
     let sides = compared.iter().flat_map(|c| [c.left, c.right]);
-    let reach = reach(&values);
+    let reach = reach(values);
     let others: Vec<f64> = values
         .iter()
         .copied()
@@ -176,63 +128,30 @@ pub(super) fn could_differ(
         .filter(|x| x.abs() <= reach)
         .take(40)
         .collect();
-    let list = |i: usize, kind: &Kind| -> Vec<f64> {
-        let own = values.get(i).copied().filter(|x| x.is_finite()).unwrap_or(1.0);
-        let mut list: Vec<f64> = FACTORS.iter().map(|f| f * own).collect();
-        list.extend([own + 1.0, own - 1.0, 0.0, 1.0, 2.0]);
+    let list = |i: usize, kind: &ValueKind| -> Vec<f64> {
+        let measured = values.get(i).copied().filter(|x| x.is_finite()).unwrap_or(1.0);
+        let mut list: Vec<f64> = FACTORS.iter().map(|f| f * measured).collect();
+        list.extend([measured + 1.0, measured - 1.0, 0.0, 1.0, 2.0]);
         list.extend(others.iter().flat_map(|x| [*x, x * 1.000_001, x * 0.999_999, x + 1.0, x - 1.0, -x]));
-        list.extend(others.iter().flat_map(|x| [x + own, own - x, 0.5 * x, 1.5 * x]));
+        list.extend(others.iter().flat_map(|x| [x + measured, measured - x, 0.5 * x, 1.5 * x]));
         list.retain(|x| kind.has(*x));
         list.sort_by(f64::total_cmp);
         list.dedup();
         list
     };
-    let lists: Vec<Vec<f64>> = kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect();
-    let mut inputs = nominal.clone();
-    let mut all: Vec<Vec<(f64, Vec<Comparison>)>> = Vec::new();
-    for (&place, list) in places.iter().zip(&lists) {
-        let mut known = Vec::new();
-        // Any measure may have no value: its event does not happen, or the run breaks.
-        for x in list.iter().copied().chain([f64::NAN]) {
-            inputs.put(place, x);
-            if let Some((then, compared)) = says(&inputs) {
-                if then.differs(now) {
-                    return true;
-                }
-                known.push((x, compared));
-            }
-        }
-        inputs.copy(nominal);
-        all.push(known);
-    }
-    let mut together = Together { nominal, places, kinds, lists: &lists, draws: Draws::new(7) };
-    if together.differs(FIRST, now, says) {
-        return true;
-    }
-    // Where a comparison turns between two values, or comes near to that, the value is looked for.
-    for ((&place, kind), known) in places.iter().zip(kinds).zip(&all) {
-        let mut alone = |x| {
-            inputs.put(place, x);
-            says(&inputs)
-        };
-        if !kind.whole && turns(known, now, &mut alone) {
-            return true;
-        }
-        inputs.copy(nominal);
-    }
-    together.differs(JOINT - FIRST, now, says)
+    kinds.iter().enumerate().map(|(i, kind)| list(i, kind)).collect()
 }
 
 /// Changes several numbers at once: each stays, is one of its values, or that of another number.
-struct Together<'t> {
-    nominal: &'t Inputs,
+struct JointDraws<'t> {
+    nominal: &'t ClaimInputs,
     places: &'t [usize],
-    kinds: &'t [Kind],
+    kinds: &'t [ValueKind],
     lists: &'t [Vec<f64>],
     draws: Draws,
 }
 
-impl Together<'_> {
+impl JointDraws<'_> {
     /// Whether one of so many further draws changes what a claim says.
     fn differs(&mut self, count: usize, now: Outlook, says: &mut Says<'_>) -> bool {
         if self.places.len() < 2 {
@@ -246,7 +165,7 @@ impl Together<'_> {
         })
     }
 
-    fn draw(&mut self, inputs: &mut Inputs) {
+    fn draw(&mut self, inputs: &mut ClaimInputs) {
         let draws = &mut self.draws;
         let mut last = None;
         for ((&place, kind), list) in self.places.iter().zip(self.kinds).zip(self.lists) {

@@ -5,14 +5,15 @@
 //! (Richardson 1911) is the error of the formula. A right formula leaves less than the extrapolations differ among
 //! themselves; a wrong one leaves itself.
 
+use super::bound::BoundVerify;
+use super::format::significant;
 use super::run_cache::{BoundLab, Stage};
-use super::{BoundVerify, significant};
 use crate::bind::{Bound, ModelNames, Programs, Scope, functions, include, to_finding};
 use crate::finding::Finding;
 use crate::json::nearest;
 use crate::ledger::{Evidence, State};
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, End, Play, Session};
+use crate::run::{self, Budget, End, Play, Session};
 use crate::spec::{Exact, Lab};
 use labspec_core::reflect::{FieldId, Object, data};
 use labspec_core::{Model, integrator};
@@ -85,8 +86,12 @@ impl Differences {
 }
 
 /// Holds a trace to its closed form. What is wrong goes to `findings`.
-pub(super) fn check(bound: &BoundVerify<'_>, claim: &Exact, findings: &mut Vec<Finding>) -> ClosedForm {
-    let (traces, form) = match bind(bound, claim, findings) {
+pub(super) fn check_closed_form(
+    bound: &BoundVerify<'_>,
+    claim: &Exact,
+    findings: &mut Vec<Finding>,
+) -> ClosedForm {
+    let (traces, form) = match bind_closed_form(bound, claim, findings) {
         Ok((traces, form)) => (traces, form),
         Err(reason) => return ClosedForm::unchecked(claim, reason),
     };
@@ -161,7 +166,7 @@ fn hold(
 }
 
 /// The traces of the label and their closed form as programs. What is wrong goes to `findings`.
-pub(super) fn bind<'b>(
+pub(super) fn bind_closed_form<'b>(
     bound: &'b BoundVerify<'_>,
     claim: &Exact,
     findings: &mut Vec<Finding>,
@@ -210,8 +215,8 @@ fn reads_the_run(form: &Program, programs: &Programs) -> Option<String> {
         .map(|b| &b.program)
         .chain(programs.probes.iter().filter_map(|p| p.bound.as_ref()).map(|b| &b.program));
     for program in running.map(Program::effects) {
-        let kept = |slot: &u32| program.any_ctx || program.ctx_writes.contains(slot);
-        if effects.any_ctx || effects.ctx_reads.iter().any(kept) {
+        let may_write = |slot: &u32| program.any_ctx || program.ctx_writes.contains(slot);
+        if effects.any_ctx || effects.ctx_reads.iter().any(may_write) {
             return Some("a variable of `ctx` that the lab writes while it runs".to_string());
         }
         let written =
@@ -400,7 +405,7 @@ impl ClosedFormRuns<'_> {
         if let Some(trouble) = session.troubles.first() {
             return Err(trouble.message.clone());
         }
-        match (Breakdown::of(&session), session.ended()) {
+        match (run::worst_breakdown(&session), session.ended()) {
             (Some(breakdown), _) => Err(format!("the run breaks: {}", breakdown.what)),
             (None, Some(_)) => Err("the run ends early".to_string()),
             (None, None) => Ok(found),

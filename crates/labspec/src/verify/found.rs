@@ -1,12 +1,16 @@
 //! The value of an expression over what the runs gave, and what it rests on: whether it is a simulation's, whether it could have come
 //! out otherwise, and how far a condition is from the opposite.
 
-use super::bound::{BoundVerify, Named};
-use super::claim::{Claim, Inputs, Traced};
+use super::bound::BoundVerify;
+use super::bound_run::CompiledText;
+use super::claim::reads_outside_run;
+use super::compiled_claim::{ClaimInputs, CompiledClaim, TracedValue};
 use super::condition::{self, ConditionMargin};
-use super::evidence::{self, Kind, Outlook};
+use super::evidence::{self, Outlook};
+use super::format::{shorten, significant};
 use super::layout::Slot;
 use super::outcome::Outcome;
+use super::value_kind::{ValueKind, kinds_of};
 use crate::bind::to_finding;
 use crate::finding::Finding;
 use crate::ledger::Evidence;
@@ -42,9 +46,9 @@ pub(super) struct Undecided {
 /// A claim, the numbers that it was evaluated with, and what came of it.
 #[derive(Debug)]
 struct Evaluated {
-    claim: Rc<Claim>,
-    inputs: Inputs,
-    traced: Traced,
+    claim: Rc<CompiledClaim>,
+    inputs: ClaimInputs,
+    traced: TracedValue,
 }
 
 impl BoundVerify<'_> {
@@ -59,7 +63,7 @@ impl BoundVerify<'_> {
         findings.extend(claim.diagnostics.iter().map(|d| to_finding(d, text)));
         let program = claim.program.as_ref()?;
         if claim.outside {
-            findings.push(outside(text));
+            findings.push(reads_outside_run(text));
             return None;
         }
         let mut broke = self.broken(&claim, outcome);
@@ -81,7 +85,7 @@ impl BoundVerify<'_> {
                 });
             }
             // Measured on the spot, as a lesson with one run may write it: the same run once more.
-            let named = Named { text, program: program.clone() };
+            let named = CompiledText { text, program: program.clone() };
             let made = self.perform(run, outcome.numerics, &[&named], findings)?;
             let expected = run.spec.is_some_and(|r| r.breaks);
             let how = made.broke.filter(|_| !expected);
@@ -111,7 +115,7 @@ impl BoundVerify<'_> {
     }
 
     /// How a run broke that a claim rests on, unless it reads the warnings of that run.
-    fn broken(&self, claim: &Claim, outcome: &Outcome) -> Option<String> {
+    fn broken(&self, claim: &CompiledClaim, outcome: &Outcome) -> Option<String> {
         let slots = || claim.reads.iter().filter_map(|place| self.layout().slots.get(*place));
         let excused = |place: usize| slots().any(|slot| *slot == Slot::Warnings(place));
         slots().find_map(|slot| {
@@ -128,7 +132,7 @@ impl BoundVerify<'_> {
     }
 
     /// The first number that a claim reads and that there is not, with the reason.
-    fn missing(&self, claim: &Claim, outcome: &Outcome, inputs: &Inputs) -> Option<String> {
+    fn missing(&self, claim: &CompiledClaim, outcome: &Outcome, inputs: &ClaimInputs) -> Option<String> {
         let nothing = |place: &&usize| inputs.numbers.get(**place).is_some_and(|x| x.is_nan());
         let place = claim.reads.iter().find(nothing)?;
         match self.layout().slots.get(*place)? {
@@ -157,7 +161,7 @@ impl BoundVerify<'_> {
         if places.is_empty() {
             return true;
         }
-        let outlook = |inputs: &Inputs| {
+        let outlook = |inputs: &ClaimInputs| {
             let traced = claim.evaluate(self, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
             // A number that is not there is no other number.
             if matches!(traced.value, Value::Number(x) if x.is_nan()) {
@@ -212,23 +216,24 @@ impl BoundVerify<'_> {
     }
 
     /// The places of what a claim measures, or else of what it reads of a run at all, and of which kind each is.
-    fn places(&self, claim: &Claim, inputs: &Inputs) -> (Vec<usize>, Vec<Kind>) {
+    fn places(&self, claim: &CompiledClaim, inputs: &ClaimInputs) -> (Vec<usize>, Vec<ValueKind>) {
         let mut places = claim.measured(self);
         let simulated = !places.is_empty();
         if !simulated {
             let of_run = |place: &usize| matches!(self.layout().slots.get(*place), Some(Slot::Measure(..)));
             places.extend(claim.reads.iter().copied().filter(of_run));
         }
-        let parts = claim.program.as_ref().map(|program| {
-            self.idle(|session| evidence::kinds_of(program, &session.world, &session.context))
-        });
+        let parts = claim
+            .program
+            .as_ref()
+            .map(|program| self.idle(|session| kinds_of(program, &session.world, &session.context)));
         let parts = parts.flatten().unwrap_or_default();
         let count = inputs.numbers.len();
         // What is not simulated has the one value that it has, which tells nothing of its kind.
         let kind = |place: &usize| match place.checked_sub(count) {
-            _ if !simulated => Kind::ANY,
-            None => self.kinds().get(*place).copied().unwrap_or(Kind::ANY),
-            Some(part) => parts.get(part).copied().unwrap_or(Kind::ANY),
+            _ if !simulated => ValueKind::ANY,
+            None => self.kinds().get(*place).copied().unwrap_or(ValueKind::ANY),
+            Some(part) => parts.get(part).copied().unwrap_or(ValueKind::ANY),
         };
         let kinds = places.iter().map(kind).collect();
         (places, kinds)
@@ -277,18 +282,6 @@ impl BoundVerify<'_> {
     }
 }
 
-/// A field that is read outside of what is taken over a run.
-pub(super) fn outside(text: &Text) -> Finding {
-    let written = super::shorten(text.value.trim());
-    Finding::error(
-        rules::READ_OUTSIDE_RUN,
-        text.span(),
-        format!("`{written}` reads the simulation at no time of the run"),
-    )
-    .why("a run has many samples, and this does not say which one it means: the number would be that of the lab before the run")
-    .help("choose a sample: `final(…)` at the end, `initial(…)` at the start, `max(…)`, `mean(…)`, or `at(condition, …)`")
-}
-
 /// What an expression throws.
 fn threw(text: &Text, error: &RuntimeError) -> Finding {
     Finding::error(error.rule, text.span_of(error.span.start..error.span.end), error.message.clone())
@@ -299,11 +292,11 @@ fn threw(text: &Text, error: &RuntimeError) -> Finding {
 /// A number or a text where a condition belongs.
 fn no_condition(text: &Text, value: &Value) -> Finding {
     let what = match value {
-        Value::Number(x) => format!("the number {}", super::significant(*x)),
+        Value::Number(x) => format!("the number {}", significant(*x)),
         Value::String(_) => "a text".to_string(),
         other => format!("`{other}`"),
     };
-    let message = format!("`{}` gives {what}, but a condition is needed", super::shorten(text.value.trim()));
+    let message = format!("`{}` gives {what}, but a condition is needed", shorten(text.value.trim()));
     Finding::error(rules::CONSTANT_CLAIM, text.span(), message)
         .why("every number but 0 counts as true, so the claim would hold whatever the number is")
         .help("compare it: `lands < 0.5`, `abs(speed - 2.4) < 0.1`")

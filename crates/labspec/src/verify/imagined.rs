@@ -2,128 +2,20 @@
 //! samples, so that what follows from what they have in common shows: the largest value of a trace is never below its smallest one,
 //! whatever is simulated. What a claim says of every imagined run, it says of any.
 
-use super::bound::{BoundVerify, Named};
-use super::claim::{Claim, Inputs};
+use super::aggregate::AggregateKind;
+use super::anything::{Anything, Manner};
+use super::bound::BoundVerify;
+use super::bound_run::CompiledText;
+use super::compiled_claim::{ClaimInputs, CompiledClaim};
 use super::condition::numbers_in;
-use super::evidence::{Kind, Outlook, reach};
+use super::draws::Draws;
+use super::evidence::{Outlook, reach};
 use super::layout::Slot;
-use super::measure::{How, Measure, Sample};
-use crate::bind::World;
-use crate::bind::functions;
+use super::measure::Measure;
+use super::sample::Sample;
+use super::value_kind::ValueKind;
 use crate::source::{SourceMap, Text};
-use labspec_core::reflect::{Elem, FieldId, Object, data};
-use labspec_expr::{Context, FieldKey, FunctionId, Heap, Host, Program, Value};
-
-/// A sequence of numbers that look drawn by chance, the same everywhere (Knuth, MMIX).
-#[derive(Clone, Debug)]
-pub(super) struct Draws(u64);
-
-impl Draws {
-    pub(super) fn new(seed: u64) -> Draws {
-        Draws(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d)
-    }
-
-    /// From 0 to 1.
-    pub(super) fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Of any size from 1e-3 to 1e3, either sign.
-    pub(super) fn any(&mut self) -> f64 {
-        let size = 10f64.powf(6.0 * self.unit() - 3.0);
-        if self.unit() < 0.5 { -size } else { size }
-    }
-}
-
-/// How the values of an imagined run are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Manner {
-    /// Each of any size.
-    Any,
-    /// Each about as large as a number of the text, or this one of any size.
-    Near(f64),
-    /// Nothing moves, and all is zero.
-    Zero,
-    /// Each has one value through the whole run.
-    Steady,
-}
-
-/// A simulation in which everything has some value: whatever is read of the data is drawn.
-pub(super) struct Anything<'w> {
-    world: &'w World,
-    /// Of the run, and of the sample.
-    seeds: [u64; 2],
-    manner: Manner,
-    /// The time of the sample, s, where samples follow each other.
-    time: Option<f64>,
-}
-
-impl<'w> Anything<'w> {
-    /// A sample alone.
-    pub(super) fn of(world: &'w World, seed: u64) -> Anything<'w> {
-        Anything { world, seeds: [seed; 2], manner: Manner::Any, time: None }
-    }
-
-    /// The value of something.
-    fn draw(&self, what: u64) -> f64 {
-        let [run, sample] = self.seeds;
-        let mut draws = Draws::new(what ^ if self.manner == Manner::Steady { run } else { sample });
-        draws.unit();
-        match self.manner {
-            Manner::Any | Manner::Steady => draws.any(),
-            Manner::Near(x) => x * (4.0 * draws.unit() - 2.0),
-            Manner::Zero => 0.0,
-        }
-    }
-}
-
-impl Host for Anything<'_> {
-    fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
-        let known = self.world.get(field, index);
-        let Some(id) = FieldId::new(field.0 as usize) else { return known };
-        let info = id.info();
-        if info.object != Object::Data || known.is_none() && index > 4096 {
-            return known;
-        }
-        if let Some(time) = self.time.filter(|_| id == data::time) {
-            return Some(time);
-        }
-        let x = self.draw((u64::from(field.0) << 32) ^ index as u64);
-        let kinetic = id == data::energy && index == 1;
-        Some(if info.elem != Elem::F64 {
-            x.abs().round()
-        } else if id == data::time || kinetic {
-            x.abs()
-        } else {
-            x
-        })
-    }
-
-    fn set(&mut self, _: FieldKey, _: usize, _: f64) -> Result<(), String> {
-        Ok(())
-    }
-
-    fn len(&self, field: FieldKey) -> usize {
-        self.world.len(field)
-    }
-
-    fn call(&mut self, _: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String> {
-        if functions::name(function) == Some("abs") {
-            return Ok(Value::Number(args.first().map_or(f64::NAN, Value::to_number).abs()));
-        }
-        let of = args.iter().fold(u64::from(function.0), |h, a| h.wrapping_mul(31) ^ a.to_number().to_bits());
-        let x = self.draw(of);
-        Ok(match functions::name(function) {
-            Some("contact") => Value::Boolean(x > 0.0),
-            _ => Value::Number(x),
-        })
-    }
-
-    fn identity(&self) -> u64 {
-        self.world.identity()
-    }
-}
+use labspec_expr::{Context, Program, Value};
 
 /// An imagined run.
 struct Imagined<'w> {
@@ -162,20 +54,19 @@ impl BoundVerify<'_> {
     /// Whether some set of imagined runs makes a claim say something else than `now`; also where too few of them decide it.
     pub(super) fn differs_somewhere(
         &self,
-        claim: &Claim,
-        nominal: &Inputs,
+        claim: &CompiledClaim,
+        nominal: &ClaimInputs,
         now: Outlook,
-        says: &mut dyn FnMut(&Inputs) -> Option<Outlook>,
+        says: &mut dyn FnMut(&ClaimInputs) -> Option<Outlook>,
     ) -> bool {
         if claim.measured(self).is_empty() {
             return true;
         }
         let measures = self.measures_of(claim);
         let programs = measures.iter().map(|(.., m)| &m.program).chain(&claim.program);
-        let counts = programs
-            .clone()
-            .flat_map(Program::aggregates)
-            .any(|a| matches!(How::of(a), Some(How::Count | How::Crossings)));
+        let counts = programs.clone().flat_map(Program::aggregates).any(|a| {
+            matches!(AggregateKind::of_aggregate(a), Some(AggregateKind::Count | AggregateKind::Crossings))
+        });
         let texts = measures.iter().flat_map(|(.., m)| numbers_in(m.text.as_str()));
         let measured: Vec<f64> = claim.measured(self).iter().filter_map(|place| nominal.at(*place)).collect();
         let reach = reach(&measured);
@@ -205,7 +96,7 @@ impl BoundVerify<'_> {
     }
 
     /// The measures that a claim reads, with their places among the numbers and their runs.
-    fn measures_of(&self, claim: &Claim) -> Vec<(usize, usize, &Named<'_>)> {
+    fn measures_of(&self, claim: &CompiledClaim) -> Vec<(usize, usize, &CompiledText<'_>)> {
         let one = |place: &usize| match *self.layout().slots.get(*place)? {
             Slot::Measure(run, m) if self.is_simulated(run, m) => {
                 Some((*place, run, self.measure_at(run, m)?))
@@ -218,25 +109,26 @@ impl BoundVerify<'_> {
     /// The numbers of a claim from one set of imagined runs; `None` where they cannot be made.
     fn imagine(
         &self,
-        claim: &Claim,
-        nominal: &Inputs,
+        claim: &CompiledClaim,
+        nominal: &ClaimInputs,
         numbers: &[f64],
         set: u64,
         samples: usize,
-    ) -> Option<Inputs> {
+    ) -> Option<ClaimInputs> {
         let mut inputs = nominal.clone();
         let mut draws = Draws::new(5 + set);
         draws.unit();
         for place in &claim.reads {
             match self.layout().slots.get(*place) {
                 Some(Slot::Warnings(_)) => inputs.put(*place, (4.0 * draws.unit()).floor()),
-                Some(Slot::Found(_)) => inputs.put(*place, Kind::ANY.nearest(draws.any())),
+                Some(Slot::Found(_)) => inputs.put(*place, ValueKind::ANY.nearest(draws.any())),
                 _ => {}
             }
         }
         let measures = self.measures_of(claim);
-        let own = claim.program.as_ref().filter(|p| !p.aggregates().is_empty());
-        let mut runs: Vec<usize> = measures.iter().map(|(_, run, _)| *run).chain(own.map(|_| 0)).collect();
+        let on_the_spot = claim.program.as_ref().filter(|p| !p.aggregates().is_empty());
+        let mut runs: Vec<usize> =
+            measures.iter().map(|(_, run, _)| *run).chain(on_the_spot.map(|_| 0)).collect();
         runs.sort_unstable();
         runs.dedup();
         let nowhere = Text { map: SourceMap::whole(0, 0..0), value: String::new() };
@@ -244,12 +136,12 @@ impl BoundVerify<'_> {
             let seed = set.wrapping_mul(0x1_0001) ^ (run as u64) << 20;
             let manner = manner(&mut draws, numbers);
             let here = || measures.iter().filter(|(_, of, _)| *of == run);
-            self.idle_in(self.runs.get(run)?.scene(), |session| {
+            self.idle_in(self.runs.get(run)?.scene, |session| {
                 let host = Anything { world: &session.world, seeds: [seed, 0], manner, time: Some(0.0) };
                 let mut imagined = Imagined { host, context: session.context.clone() };
                 let mut running: Vec<Measure<'_>> =
                     here().map(|(.., m)| Measure::new(&m.program, m.text)).collect();
-                let mut parts = own.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
+                let mut parts = on_the_spot.filter(|_| run == 0).map(|p| Measure::new(p, &nowhere));
                 let mut time = 0.0;
                 for sample in 0..samples as u64 {
                     imagined.host.seeds = [seed, seed ^ (sample + 1) << 40];

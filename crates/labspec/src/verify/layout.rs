@@ -2,7 +2,8 @@
 //! that were searched for. The layout is known before anything runs, so that a claim is compiled once and evaluated with the
 //! numbers of every numerics.
 
-use super::outcome::{Outcome, Units};
+use super::measure_units::RunUnits;
+use super::outcome::Outcome;
 use labspec_expr::dimension::Measure;
 
 /// What stands at a place of the numbers.
@@ -38,7 +39,7 @@ impl LayoutRun {
 }
 
 /// A run before it is laid out: its name, its place and value in a sweep, and the names of its measures.
-pub(super) type Bare = (String, Option<(usize, f64)>, Vec<String>);
+pub(super) type RunShape = (String, Option<(usize, f64)>, Vec<String>);
 
 /// The places of all numbers.
 #[derive(Debug, Default)]
@@ -54,7 +55,7 @@ const WARNINGS: &str = "warnings";
 
 impl Layout {
     /// Of the runs in their order, and the names of what is searched for.
-    pub(super) fn of(runs: &[Bare], found: impl Iterator<Item = String>) -> Layout {
+    pub(super) fn lay_out(runs: &[RunShape], found: impl Iterator<Item = String>) -> Layout {
         let mut layout = Layout::default();
         for (place, (name, swept, measures)) in runs.iter().enumerate() {
             let mut run = LayoutRun { name: name.clone(), list: None, at: Vec::new() };
@@ -82,8 +83,9 @@ impl Layout {
                             VALUE => Slot::Swept(*i),
                             WARNINGS => Slot::Warnings(*i),
                             _ => {
-                                let own = runs.get(*i).map_or(&[][..], |(.., measures)| measures);
-                                own.iter()
+                                let measures_of_run = runs.get(*i).map_or(&[][..], |(.., measures)| measures);
+                                measures_of_run
+                                    .iter()
                                     .position(|m| m == name)
                                     .map_or(Slot::Missing, |m| Slot::Measure(*i, m))
                             }
@@ -121,14 +123,14 @@ impl Layout {
     }
 
     /// What the number at a place measures.
-    pub(super) fn unit_of(&self, place: usize, units: &Units) -> Measure {
+    pub(super) fn unit_of(&self, place: usize, units: &RunUnits) -> Measure {
         match self.slots.get(place) {
             Some(Slot::Measure(run, m)) => {
                 units.get(*run).and_then(|own| own.get(*m)).map_or(Measure::Unknown, |(_, measure)| *measure)
             }
             Some(Slot::Swept(run)) => {
-                let own = units.get(*run).and_then(|own| own.iter().find(|(name, _)| name == VALUE));
-                own.map_or(Measure::Unknown, |(_, measure)| *measure)
+                let of_run = units.get(*run).and_then(|own| own.iter().find(|(name, _)| name == VALUE));
+                of_run.map_or(Measure::Unknown, |(_, measure)| *measure)
             }
             _ => Measure::Unknown,
         }

@@ -1,9 +1,10 @@
 //! The number in the text of an option beside its condition: "about 7 m" cannot be right where the condition asks for 1.23 m.
 
 use super::bound::BoundVerify;
+use super::format::significant;
 use super::outcome::Outcome;
 use super::quote::{Held, OptionNumber, conversion, hold, option_ratio, option_text};
-use super::{significant, units};
+use super::units;
 use crate::finding::Finding;
 use crate::rules;
 use crate::source::{SourceMap, Text};
@@ -15,7 +16,7 @@ const NEAREST: f64 = 1.5;
 
 /// What a condition asks of the one quantity that it compares with numbers.
 #[derive(Clone, Debug, PartialEq)]
-struct Asked {
+struct AskedRange {
     quantity: String,
     /// It is one measured quantity over another.
     ratio: bool,
@@ -24,7 +25,7 @@ struct Asked {
 }
 
 /// Holds the numbers of all options to their conditions. `held` says which of them hold. Gives a reason where one contradicts.
-pub(super) fn check(
+pub(super) fn check_option_numbers(
     bound: &BoundVerify<'_>,
     outcome: &Outcome,
     options: &[Text],
@@ -57,29 +58,30 @@ fn contradiction(
 ) -> Option<String> {
     let asked = asked(&parse_expression(&condition.value).tree)?;
     let closed = asked.low.is_finite() && asked.high.is_finite();
-    let said = match option_text(&option.value) {
+    let stated = match option_text(&option.value) {
         Some(said) => said,
         None if closed && asked.ratio => return no_such_ratio(option, &asked),
         None => return None,
     };
     // One side alone may bound another quantity than the number is of: a height, beside how far something fell.
-    if !closed && !said.alone {
+    if !closed && !stated.alone {
         return None;
     }
     // The nearest of several numbers may be right where one side is asked for.
     let slip = if closed { 1.0 } else { NEAREST };
     let widen = |x: f64, f: f64| if x > 0.0 { x * f } else { x / f };
-    let said = OptionNumber { low: widen(said.low, 1.0 / slip), high: widen(said.high, slip), ..said };
+    let stated =
+        OptionNumber { low: widen(stated.low, 1.0 / slip), high: widen(stated.high, slip), ..stated };
     let text =
         Text { map: SourceMap::whole(asked.quantity.len(), condition.span()), value: asked.quantity.clone() };
     let found = units::of_claim(bound, outcome, &text)?;
-    let wanted = said.unit.dimension?;
+    let wanted = stated.unit.dimension?;
     if !found.agrees(&wanted) {
         return None;
     }
     let factor = match conversion(&wanted, &found) {
         Some(factor) => factor,
-        None if hold(&said.unit, Some(&found)) == Held::Fits
+        None if hold(&stated.unit, Some(&found)) == Held::Fits
             && (wanted.factor / found.factor - 1.0).abs() < 1e-3 =>
         {
             1.0
@@ -87,28 +89,30 @@ fn contradiction(
         None => return None,
     };
     let (low, high) = (asked.low * factor, asked.high * factor);
-    let slack = 1e-9 * said.low.abs().max(said.high.abs()).min(f64::MAX);
+    let slack = 1e-9 * stated.low.abs().max(stated.high.abs()).min(f64::MAX);
     let slack = if slack.is_finite() { slack } else { 0.0 };
-    if said.high < low - slack || said.low > high + slack {
-        return Some(format!("the option says {}, but its condition {}", said.text, range(low, high)));
+    if stated.high < low - slack || stated.low > high + slack {
+        return Some(format!("the option says {}, but its condition {}", stated.text, range(low, high)));
     }
     // A number that the condition itself compares with is what the option means.
-    let named = |x: f64| x.is_finite() && said.low <= x && x <= said.high;
-    if !holds || named(low) || named(high) || !(said.low.is_finite() && said.high.is_finite()) {
+    let named = |x: f64| x.is_finite() && stated.low <= x && x <= stated.high;
+    if !holds || named(low) || named(high) || !(stated.low.is_finite() && stated.high.is_finite()) {
         return None;
     }
     let x = bound.find(outcome, &text, &mut Vec::new())?.value.to_number() * factor;
-    let off = x.is_finite() && (x < said.low - slack || x > said.high + slack);
-    off.then(|| format!("the option says {}, but its condition compares {}", said.text, significant(x)))
+    let off = x.is_finite() && (x < stated.low - slack || x > stated.high + slack);
+    off.then(|| format!("the option says {}, but its condition compares {}", stated.text, significant(x)))
 }
 
 /// Of an option that states a ratio, and a condition that asks for another one.
-fn no_such_ratio(option: &Text, asked: &Asked) -> Option<String> {
-    let said = option_ratio(&option.value)?;
+fn no_such_ratio(option: &Text, asked: &AskedRange) -> Option<String> {
+    let stated = option_ratio(&option.value)?;
     let slack = 0.05 * asked.low.abs().max(asked.high.abs());
     let fits = |x: &f64| asked.low - slack <= *x && *x <= asked.high + slack;
-    let none = !said.may_be.iter().any(fits);
-    none.then(|| format!("the option says {}, but its condition {}", said.text, range(asked.low, asked.high)))
+    let none = !stated.may_be.iter().any(fits);
+    none.then(|| {
+        format!("the option says {}, but its condition {}", stated.text, range(asked.low, asked.high))
+    })
 }
 
 /// `asks for 1.13 to 1.33`
@@ -117,12 +121,12 @@ fn range(low: f64, high: f64) -> String {
 }
 
 /// What a condition asks of one quantity; `None` where it is about several, or about something else.
-fn asked(e: &Expr) -> Option<Asked> {
+fn asked(e: &Expr) -> Option<AskedRange> {
     match &e.kind {
         ExprKind::Logical { op: LogicalOp::And, left, right } => {
             let (a, b) = (asked(left)?, asked(right)?);
             let same = a.quantity == b.quantity;
-            same.then(|| Asked { low: a.low.max(b.low), high: a.high.min(b.high), ..a })
+            same.then(|| AskedRange { low: a.low.max(b.low), high: a.high.min(b.high), ..a })
         }
         ExprKind::Binary { op, left, right } => {
             let (quantity, number, flipped) = match (constant(left), constant(right)) {
@@ -141,7 +145,7 @@ fn asked(e: &Expr) -> Option<Asked> {
             let ratio = is_ratio(quantity);
             let quantity = single(quantity).then(|| print(quantity))?;
             let (low, high) = if below { (f64::NEG_INFINITY, number) } else { (number, f64::INFINITY) };
-            Some(Asked { quantity, ratio, low, high })
+            Some(AskedRange { quantity, ratio, low, high })
         }
         _ => None,
     }
@@ -161,7 +165,7 @@ fn magnitude(e: &Expr) -> Option<&Expr> {
 }
 
 /// `abs(x - c) < d`, `abs(x / c - 1) < d`
-fn around(inner: &Expr, off: f64) -> Option<Asked> {
+fn around(inner: &Expr, off: f64) -> Option<AskedRange> {
     let ExprKind::Binary { op: BinaryOp::Subtract, left, right } = &inner.kind else { return None };
     let (quantity, centre) = match (constant(left), constant(right)) {
         (None, Some(centre)) => (left, centre),
@@ -171,7 +175,7 @@ fn around(inner: &Expr, off: f64) -> Option<Asked> {
     if let ExprKind::Binary { op: BinaryOp::Divide, left, right } = &quantity.kind
         && let Some(unit) = constant(right).filter(|c| *c > 0.0)
     {
-        return single(left).then(|| Asked {
+        return single(left).then(|| AskedRange {
             quantity: print(left),
             ratio: is_ratio(left),
             low: unit * (centre - off),
@@ -179,7 +183,7 @@ fn around(inner: &Expr, off: f64) -> Option<Asked> {
         });
     }
     let ratio = is_ratio(quantity);
-    single(quantity).then(|| Asked {
+    single(quantity).then(|| AskedRange {
         quantity: print(quantity),
         ratio,
         low: centre - off,

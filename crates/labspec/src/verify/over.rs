@@ -4,8 +4,12 @@
 //! from where the answer is nearest to turning over, a step in each direction of each slider, half as long when none comes nearer
 //! (R. Hooke and T. A. Jeeves 1961). Every value is one that a student can reach.
 
-use super::answer::{self, Answer, Same, Verdict};
-use super::{BoundVerify, significant};
+use super::bound::BoundVerify;
+use super::format::significant;
+use super::options::{SameOptions, compare_options};
+use super::slider_effect::slider_changes_anything;
+use super::survival::out_of_work;
+use super::verdict::{Answer, Verdict, Weight};
 use crate::finding::Finding;
 use crate::json::{Number, Scalar};
 use crate::pairwise;
@@ -43,47 +47,22 @@ impl Axis<'_> {
 }
 
 /// Holds an answer that is true to the whole space that it is claimed over.
-pub(super) fn hold(
+pub(super) fn hold_over_range(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     place: Range<usize>,
     answer: &mut Answer,
     findings: &mut Vec<Finding>,
 ) {
-    let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else {
-        *answer = Answer::failed("the lab does not have the sliders of `over`");
-        return;
-    };
-    let axes: Result<Vec<Axis<'_>>, Box<Finding>> =
-        verify.over.iter().map(|(label, ends)| axis(&lab, label, *ends)).collect();
-    let axes = match axes {
+    let axes = match axes_of(bound, verify, findings) {
         Ok(axes) => axes,
-        Err(wrong) => {
-            findings.push(*wrong);
-            *answer = Answer::failed("the range of `over` cannot be tested");
+        Err(reason) => {
+            *answer = Answer::failed(reason);
             return;
         }
     };
-    // A run that sets a slider keeps its own value: where all that the conditions read do, the range is never tried.
-    let read = bound.runs_read(&verify.options);
-    let own = |label: &Text| {
-        let sets = |run: &&Run| run.set.iter().any(|(set, _)| set.value == label.value);
-        let mut runs = verify.runs.iter().filter(|run| read.contains(run.name.value.as_str()));
-        !verify.runs.is_empty() && runs.all(|run| sets(&run))
-    };
-    if let Some((label, _)) = verify.over.iter().find(|(label, _)| own(label)) {
-        findings.push(
-            Finding::error(
-                rules::RUN_IMPOSSIBLE,
-                label.span(),
-                format!(
-                    "every run that the conditions read sets \"{}\" itself, so no other value is tested",
-                    label.value
-                ),
-            )
-            .why("a run keeps what it sets, so the answer would be claimed for values that were never tested")
-            .help("remove it from the `set` of the runs that should test it"),
-        );
+    if let Some(label) = never_varied(bound, verify) {
+        findings.push(set_by_every_run(label));
         *answer = Answer::failed("the range of `over` was not tested");
         return;
     }
@@ -106,42 +85,77 @@ pub(super) fn hold(
             );
             (answer.verdict, answer.reason) = (Verdict::Refuted, message);
         }
-        Some(None) => {
-            let count = space.tried.len();
-            if let Some(axis) =
-                space.axes.iter().find(|axis| !bound.moves_anything(axis.label, axis.at(0.0), axis.at(1.0)))
-            {
-                let label = &axis.label.value;
-                findings.push(
-                    Finding::error(
-                        rules::RUN_IMPOSSIBLE,
-                        axis.label.span(),
-                        format!("\"{label}\" changes nothing in the runs that the conditions read"),
-                    )
-                    .why("the answer would be claimed over a range that does not affect the measures")
-                    .help("name a slider that these runs depend on, or remove it from `over`"),
-                );
+        Some(None) => match space.without_effect() {
+            Some(axis) => {
+                findings.push(slider_without_effect(axis.label));
                 *answer = Answer::failed("the conditions do not read the range of `over`");
-                return;
             }
-            let same =
-                if space.seen.len() == 1 { ", and the measures are the same in all of them" } else { "" };
-            let also = format!("it also holds in {count} settings over its range{same}");
-            answer.reason = match answer.reason.as_str() {
-                "" => also,
-                reason => format!("{reason}; {also}"),
-            };
-        }
+            None => space.add_coverage(answer),
+        },
     }
+}
+
+/// The sliders of the space. Why one cannot be tested goes to `findings`.
+///
+/// # Errors
+/// The reason that the answer gets.
+fn axes_of<'v>(
+    bound: &BoundVerify<'_>,
+    verify: &'v Verify,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<Axis<'v>>, &'static str> {
+    let Some(lab) = bound.lab().map(|scene| scene.lab.clone()) else {
+        return Err("the lab does not have the sliders of `over`");
+    };
+    let axes: Result<Vec<Axis<'_>>, Box<Finding>> =
+        verify.over.iter().map(|(label, ends)| axis(&lab, label, *ends)).collect();
+    axes.map_err(|wrong| {
+        findings.push(*wrong);
+        "the range of `over` cannot be tested"
+    })
+}
+
+/// A slider that every run sets itself, of those that the conditions read. A run keeps what it sets, so that the range is never tried.
+fn never_varied<'v>(bound: &BoundVerify<'_>, verify: &'v Verify) -> Option<&'v Text> {
+    let read = bound.runs_read(&verify.options);
+    let always_set = |label: &Text| {
+        let sets = |run: &&Run| run.set.iter().any(|(set, _)| set.value == label.value);
+        let mut runs = verify.runs.iter().filter(|run| read.contains(run.name.value.as_str()));
+        !verify.runs.is_empty() && runs.all(|run| sets(&run))
+    };
+    verify.over.iter().map(|(label, _)| label).find(|label| always_set(label))
+}
+
+fn set_by_every_run(label: &Text) -> Finding {
+    Finding::error(
+        rules::RUN_IMPOSSIBLE,
+        label.span(),
+        format!(
+            "every run that the conditions read sets \"{}\" itself, so no other value is tested",
+            label.value
+        ),
+    )
+    .why("a run keeps what it sets, so the answer would be claimed for values that were never tested")
+    .help("remove it from the `set` of the runs that should test it")
+}
+
+fn slider_without_effect(label: &Text) -> Finding {
+    Finding::error(
+        rules::RUN_IMPOSSIBLE,
+        label.span(),
+        format!("\"{}\" changes nothing in the runs that the conditions read", label.value),
+    )
+    .why("the answer would be claimed over a range that does not affect the measures")
+    .help("name a slider that these runs depend on, or remove it from `over`")
 }
 
 /// A slider whose values the space names.
 fn axis<'v>(lab: &Lab, label: &'v Text, ends: [f64; 2]) -> Result<Axis<'v>, Box<Finding>> {
     let wrong = |what: String| {
-        let told = Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
+        let finding = Finding::error(rules::RUN_IMPOSSIBLE, label.span(), what)
             .why("the checker tests only what a student can do")
             .help("name a slider of the lab, and ends that it can reach");
-        Box::new(told)
+        Box::new(finding)
     };
     let control = lab.control(&label.value);
     let Some(Control { kind: ControlKind::Slider { min, max, .. }, .. }) = control else {
@@ -173,7 +187,7 @@ struct Space<'b, 's, 'v> {
     bound: &'b BoundVerify<'s>,
     verify: &'v Verify,
     axes: Vec<Axis<'v>>,
-    weights: Vec<answer::Weight>,
+    weights: Vec<Weight>,
     /// By the bits of the values: how far the answer is from turning over there.
     tried: BTreeMap<Vec<u64>, f64>,
     /// What the conditions read in each setting, by its bits.
@@ -238,8 +252,8 @@ impl Space<'_, '_, '_> {
     ) -> Option<(Option<Counterexample>, f64)> {
         let values: Vec<f64> = self.axes.iter().zip(parts).map(|(axis, part)| axis.at(*part)).collect();
         let key: Vec<u64> = values.iter().map(|x| x.to_bits()).collect();
-        if let Some(known) = self.tried.get(&key) {
-            return Some((None, *known));
+        if let Some(margin) = self.tried.get(&key) {
+            return Some((None, *margin));
         }
         let verify = self.with(&values);
         let (labs, stage) = (self.bound.labs(), self.bound.stage());
@@ -247,22 +261,22 @@ impl Space<'_, '_, '_> {
         let labs = if self.verify.runs.is_empty() { vec![base.clone().into_iter().collect()] } else { labs };
         let again = BoundVerify::new(&verify, base.as_ref(), &labs, stage, findings)?;
         let outcome = again.outcome(StepVariant::NOMINAL, findings)?;
-        let same = answer::same(&again, &outcome, &verify, &self.weights);
+        let same = compare_options(&again, &outcome, &verify, &self.weights);
         // What ends because the work of a check is spent says nothing of the answer.
-        if !matches!(same, Same::Yes(_)) && stage.left() == 0 {
-            findings.push(answer::too_much(self.verify.span.clone(), "everywhere in its range"));
+        if !matches!(same, SameOptions::Yes(_)) && stage.left() == 0 {
+            findings.push(out_of_work(self.verify.span.clone(), "everywhere in its range"));
             return None;
         }
         let one = |(axis, x): (&Axis<'_>, &f64)| format!("\"{}\" at {x}", axis.label.value);
         let setting = self.axes.iter().zip(&values).map(one).collect::<Vec<_>>().join(", ");
         self.seen.insert(again.read_by(&outcome, &self.verify.options));
         match same {
-            Same::Yes(margin) => {
+            SameOptions::Yes(margin) => {
                 self.tried.insert(key, margin);
                 Some((None, margin))
             }
-            Same::No(how) => Some((Some((setting, how)), f64::NEG_INFINITY)),
-            Same::Open(why) => {
+            SameOptions::No(how) => Some((Some((setting, how)), f64::NEG_INFINITY)),
+            SameOptions::Open(why) => {
                 findings.push(
                     Finding::error(
                         rules::RUN_IMPOSSIBLE,
@@ -275,6 +289,24 @@ impl Space<'_, '_, '_> {
                 None
             }
         }
+    }
+
+    /// A slider that makes no difference to the simulation.
+    fn without_effect(&self) -> Option<&Axis<'_>> {
+        let changes =
+            |axis: &Axis<'_>| slider_changes_anything(self.bound, axis.label, axis.at(0.0), axis.at(1.0));
+        self.axes.iter().find(|axis| !changes(axis))
+    }
+
+    /// Says in how many settings the answer holds.
+    fn add_coverage(&self, answer: &mut Answer) {
+        let count = self.tried.len();
+        let same = if self.seen.len() == 1 { ", and the measures are the same in all of them" } else { "" };
+        let also = format!("it also holds in {count} settings over its range{same}");
+        answer.reason = match answer.reason.as_str() {
+            "" => also,
+            reason => format!("{reason}; {also}"),
+        };
     }
 
     /// The object with these values: a run that sets a slider itself keeps its own.

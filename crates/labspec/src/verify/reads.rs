@@ -14,7 +14,7 @@ pub fn labels(lab: &Lab) -> Shown {
     let trace = |prefix: &str, plot: &Plot, t: &Trace| {
         (format!("{prefix}{}", t.label.value), unit(&[Some(&t.label), plot.ylabel.as_ref()]))
     };
-    let own = lab.readouts.iter().map(|r| readout("", r));
+    let bare_readouts = lab.readouts.iter().map(|r| readout("", r));
     // A label that several plots have for different things is read as that of its plot alone.
     let several = |t: &Trace| {
         lab.traces().any(|other| other.label.value == t.label.value && other.expr.value != t.expr.value)
@@ -30,7 +30,7 @@ pub fn labels(lab: &Lab) -> Shown {
         .enumerate()
         .flat_map(|(i, plot)| plot.traces.iter().map(move |t| trace(&format!("plot/{i}/"), plot, t)));
     let readouts = lab.readouts.iter().map(|r| readout("readout/", r));
-    Shown::new(own.chain(traces).chain(called).chain(readouts))
+    Shown::new(bare_readouts.chain(traces).chain(called).chain(readouts))
 }
 
 /// The unit of the first label that has one.
@@ -55,9 +55,9 @@ pub(super) fn show(asked: &[usize], lab: &Lab, programs: &Programs, session: &mu
             (Value::Number(x), Some(digits)) if x.is_finite() => Value::Number(printed(*x, digits)),
             _ => value,
         };
-        let shown = &mut session.world.shown;
-        shown.resize(shown.len().max(label + 1), Value::Undefined);
-        if let Some(place) = shown.get_mut(label) {
+        let displayed = &mut session.world.shown;
+        displayed.resize(displayed.len().max(label + 1), Value::Undefined);
+        if let Some(place) = displayed.get_mut(label) {
             *place = printed;
         }
     }

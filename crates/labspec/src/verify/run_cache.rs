@@ -1,10 +1,10 @@
 //! What a run runs: a lab with its model and programs, as the lesson has it, or changed as the run says.
 
-use super::runner::Made;
+use super::run_result::RunResult;
 use crate::bind::Programs;
 use crate::bind::scene::Models;
 use crate::finding::Finding;
-use crate::json::{Scalar, nearest, read::named};
+use crate::json::{Number, Scalar, nearest, read::named};
 use crate::rules;
 use crate::run::Held;
 use crate::source::Text;
@@ -38,7 +38,7 @@ pub struct BoundLab<'a> {
 
 impl<'a> BoundLab<'a> {
     /// A lab as the lesson has it.
-    pub fn of(lab: &'a Lab, model: &Arc<Model>, programs: &'a Programs) -> BoundLab<'a> {
+    pub fn new(lab: &'a Lab, model: &Arc<Model>, programs: &'a Programs) -> BoundLab<'a> {
         BoundLab {
             lab: Cow::Borrowed(lab),
             model: model.clone(),
@@ -64,7 +64,7 @@ const WORK: u64 = 12_000_000_000;
 pub struct Stage<'a> {
     models: &'a Models,
     changed: RefCell<Vec<BoundLab<'static>>>,
-    runs: RefCell<BTreeMap<String, Made>>,
+    runs: RefCell<BTreeMap<String, RunResult>>,
     left: Cell<u64>,
     /// A run since this was asked last left something behind.
     left_behind: Cell<bool>,
@@ -89,12 +89,12 @@ impl<'a> Stage<'a> {
     }
 
     /// What came of a run that was made before.
-    pub(super) fn known(&self, run: &str) -> Option<Made> {
+    pub(super) fn known(&self, run: &str) -> Option<RunResult> {
         self.runs.borrow().get(run).cloned()
     }
 
     /// Keeps what came of a run.
-    pub(super) fn keep(&self, run: String, made: &Made) {
+    pub(super) fn keep(&self, run: String, made: &RunResult) {
         self.runs.borrow_mut().insert(run, made.clone());
     }
 
@@ -147,8 +147,8 @@ impl<'a> Stage<'a> {
             return None;
         }
         let with = |x: &f64| {
-            let own = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
-            let patches: Vec<_> = patches.iter().cloned().chain([own]).collect();
+            let patch = (Patch { path: what.value.clone(), value: x.to_string() }, what.span());
+            let patches: Vec<_> = patches.iter().cloned().chain([patch]).collect();
             self.changed(base, &patches, key, controller, findings)
         };
         values.iter().map(with).collect()
@@ -171,18 +171,10 @@ impl<'a> Stage<'a> {
         let text = controller.map(|c| &c.value);
         let changes = format!("{}{list:?} {key:?} {text:?}", base.changes);
         let wanted = BoundLab { changes, patches: patches.clone(), ..base.clone() };
-        if let Some(known) = self.changed.borrow().iter().find(|made| made.is(&wanted)) {
-            return Some(known.clone());
+        if let Some(made) = self.changed.borrow().iter().find(|made| made.is(&wanted)) {
+            return Some(made.clone());
         }
-        let lab = Lab {
-            key: key
-                .map_or(base.lab.key.clone(), |k| Some(crate::json::Number { value: k as f64, span: 0..0 })),
-            controller: match controller {
-                Some(own) => Some(own.clone()).filter(|own| !own.value.trim().is_empty()),
-                None => base.lab.controller.clone(),
-            },
-            ..base.lab.clone().into_owned()
-        };
+        let lab = changed_lab(&base.lab, key, controller);
         let model =
             if patches.is_empty() { base.model.clone() } else { self.model(&lab, &patches, findings)? };
         let observed = &base.programs.observed;
@@ -195,16 +187,16 @@ impl<'a> Stage<'a> {
             }
             None => model,
         };
-        let mut told = Vec::new();
-        let mut programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut told);
+        let mut problems = Vec::new();
+        let mut programs = Programs::compile_with(&lab, &model, self.models.functions(), &mut problems);
         if let Some(coupled) = &base.programs.coupled {
             coupled.clone().install(&mut programs, &model);
         }
         programs.observed.clone_from(observed);
-        // What is wrong with the rest of the lab has been told.
-        let own = |f: &Finding| controller.is_some_and(|c| inside(&f.span, &c.span()));
+        // What is wrong with the rest of the lab is reported already.
+        let in_controller = |f: &Finding| controller.is_some_and(|c| inside(&f.span, &c.span()));
         let before = findings.len();
-        findings.extend(told.into_iter().filter(own));
+        findings.extend(problems.into_iter().filter(in_controller));
         let good = controller.is_none() || lab.controller.is_none() || programs.controller.is_some();
         if !good {
             if findings.len() == before {
@@ -235,6 +227,19 @@ impl<'a> Stage<'a> {
                 None
             }
         }
+    }
+}
+
+/// A lab with another keyframe and another controller, where there are any; an empty controller is none.
+fn changed_lab(lab: &Lab, key: Option<usize>, controller: Option<&Text>) -> Lab {
+    let key = key.map(|k| Number { value: k as f64, span: 0..0 });
+    Lab {
+        key: key.or_else(|| lab.key.clone()),
+        controller: match controller {
+            Some(text) => Some(text.clone()).filter(|text| !text.value.trim().is_empty()),
+            None => lab.controller.clone(),
+        },
+        ..lab.clone()
     }
 }
 

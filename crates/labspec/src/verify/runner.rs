@@ -1,14 +1,15 @@
 //! One run of a `verify` object: the order of events of its lab, then its own controls and setup, and what is measured in it.
 
-use super::bound::{BoundRun, BoundScene, Named};
-use super::measure::{Measure, Sampled};
+use super::bound_run::{BoundRun, BoundScene, CompiledText};
+use super::measure::Measure;
 use super::reads;
 use super::run_cache::Stage;
+use super::run_result::RunResult;
 use crate::bind::{include, scalar};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::rules;
-use crate::run::{self, Breakdown, Budget, End, Play, RunError, Session, StepVariant};
+use crate::run::{self, Budget, End, Play, RunError, Session, StepVariant};
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, option};
 use labspec_expr::{Effects, Program, Value, Watch};
@@ -18,29 +19,21 @@ use std::ops::{ControlFlow, Range};
 const MAX_VERIFY_STEPS: usize = 2_000_000;
 
 /// What is asked for: a run under some numerics, and the measures of it.
-pub(super) struct Asked<'r, 'a> {
+pub(super) struct RunRequest<'r, 'a> {
     pub(super) scene: &'r BoundScene<'a>,
     pub(super) run: &'r BoundRun<'a>,
     pub(super) numerics: StepVariant,
-    pub(super) measures: &'r [&'r Named<'r>],
+    pub(super) measures: &'r [&'r CompiledText<'r>],
     /// Where to tell what is wrong with the run.
     pub(super) place: Range<usize>,
 }
 
-/// What came of one run.
-#[derive(Clone, Debug)]
-pub(crate) struct Made {
-    pub(super) values: Vec<Sampled>,
-    /// Number of warnings of the engine.
-    pub(super) warnings: usize,
-    /// What broke in it.
-    pub(super) broke: Option<String>,
-    /// A program of it, or a change of its model, left behind what belongs to a parameter.
-    pub(super) left_behind: bool,
-}
-
 /// Makes a run, unless the same was made before: then what came of it is known, and was told.
-pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
+pub(super) fn perform(
+    asked: &RunRequest<'_, '_>,
+    stage: &Stage<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<RunResult> {
     // What the lesson states is not another numerics for it; a run that states its timestep is about the numerics.
     let (timestep, integrator) = (
         states(asked.scene, asked.run, option::timestep),
@@ -52,7 +45,7 @@ pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut V
         integrator: other.filter(|_| !timestep && !integrator),
         ..asked.numerics
     };
-    let asked = &Asked { numerics, place: asked.place.clone(), ..*asked };
+    let asked = &RunRequest { numerics, place: asked.place.clone(), ..*asked };
     let key = key(asked);
     if let Some(known) = stage.known(&key) {
         stage.note(known.left_behind);
@@ -65,11 +58,11 @@ pub(super) fn perform(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut V
 }
 
 /// Everything that the outcome of a run depends on, as a text.
-fn key(asked: &Asked<'_, '_>) -> String {
-    let Asked { scene, run, numerics, measures, .. } = asked;
+fn key(asked: &RunRequest<'_, '_>) -> String {
+    let RunRequest { scene, run, numerics, measures, .. } = asked;
     let lab = &scene.scene.lab;
     let texts: Vec<&str> = measures.iter().map(|m| m.text.as_str()).collect();
-    let own = run.spec.map(|spec| {
+    let of_run = run.spec.map(|spec| {
         let set: Vec<_> = spec.set.iter().map(|(label, v)| (label.as_str(), scalar(v))).collect();
         let press: Vec<_> = spec.press.iter().map(|(label, t)| (label.as_str(), t.value)).collect();
         let length = [&spec.until, &spec.steps].map(|n| n.as_ref().map(|n| n.value));
@@ -78,11 +71,11 @@ fn key(asked: &Asked<'_, '_>) -> String {
         format!("{set:?} {control:?} {press:?} {length:?} {code:?}")
     });
     let labs = format!("{:?} {} {:?} {:?}", lab.span, scene.scene.model.identity(), lab.key, lab.controller);
-    format!("{labs} {own:?} {numerics:?} {texts:?}")
+    format!("{labs} {of_run:?} {numerics:?} {texts:?}")
 }
 
 /// A run that is set up, and how it is played.
-pub(super) struct Ready<'r> {
+pub(super) struct PreparedRun<'r> {
     pub(super) session: Session<'r>,
     /// Buttons by index, and when they are pressed.
     pub(super) press: Vec<(usize, f64)>,
@@ -94,11 +87,11 @@ pub(super) struct Ready<'r> {
 
 /// Sets a run up: its controls, its setup, its length. What cannot be goes to `findings`.
 pub(super) fn ready<'r>(
-    asked: &Asked<'r, '_>,
+    asked: &RunRequest<'r, '_>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
-) -> Option<Ready<'r>> {
-    let Asked { scene: bound, run, numerics, place, .. } = asked;
+) -> Option<PreparedRun<'r>> {
+    let RunRequest { scene: bound, run, numerics, place, .. } = asked;
     let (lab, programs) = (&*bound.scene.lab, &*bound.scene.programs);
     let demand = demand(asked);
     let budget = Budget { left: stage.left() };
@@ -138,16 +131,16 @@ pub(super) fn ready<'r>(
         )));
         return None;
     }
-    Some(Ready { session, press, count, open: None })
+    Some(PreparedRun { session, press, count, open: None })
 }
 
 /// Plays a run to its end; `sample` sees its start and every step, with the number of steps made.
 pub(super) fn play<'r>(
-    asked: &Asked<'r, '_>,
-    ready: &mut Ready<'r>,
+    asked: &RunRequest<'r, '_>,
+    ready: &mut PreparedRun<'r>,
     mut sample: impl FnMut(&mut Session<'_>, usize),
 ) {
-    let Asked { scene: bound, run, .. } = asked;
+    let RunRequest { scene: bound, run, .. } = asked;
     let (lab, programs, shown) = (&*bound.scene.lab, &*bound.scene.programs, bound.shown.asked());
     let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
     let mut watch = Some(Box::new(Watch::losses()));
@@ -174,8 +167,8 @@ pub(super) fn play<'r>(
     ready.open = open;
 }
 
-fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<Made> {
-    let Asked { run, measures, .. } = asked;
+fn make(asked: &RunRequest<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -> Option<RunResult> {
+    let RunRequest { run, measures, .. } = asked;
     let mut ready = ready(asked, stage, findings)?;
     let mut running: Vec<Measure<'_>> = measures.iter().map(|m| Measure::new(&m.program, m.text)).collect();
     play(asked, &mut ready, |session, _| running.iter_mut().for_each(|m| m.sample(session)));
@@ -187,7 +180,7 @@ fn make(asked: &Asked<'_, '_>, stage: &Stage<'_>, findings: &mut Vec<Finding>) -
         let message = format!("{} (in the run {}, at t = {} s)", t.message, named(run.name), t.time);
         findings.push(Finding::error(t.rule, t.text.span_of(t.span.clone()), message));
     }
-    Some(Made {
+    Some(RunResult {
         values,
         warnings: session.warnings.iter().map(|w| w.number).sum(),
         broke: broke(&session).or_else(|| open.map(undecided_stop)),
@@ -207,8 +200,8 @@ fn set(
         *session.world.model.edit().opt.timestep = bound.scene.model.opt.timestep;
     }
     for (label, v) in run.spec.iter().flat_map(|spec| &spec.set) {
-        let known = lab.control(&label.value).is_some();
-        let at = if known { v.span() } else { label.span() };
+        let is_control = lab.control(&label.value).is_some();
+        let at = if is_control { v.span() } else { label.span() };
         let one = [(label.value.clone(), scalar(v))];
         run::set_controls(session, lab, programs, &one).map_err(|e| (at, e))?;
     }
@@ -238,10 +231,10 @@ pub(super) fn begun(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model>
 }
 
 /// What the programs of the lab and of the run need.
-fn demand(asked: &Asked<'_, '_>) -> labspec_core::AccessSet {
+fn demand(asked: &RunRequest<'_, '_>) -> labspec_core::AccessSet {
     let mut demand = asked.scene.scene.programs.demand;
-    let own = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
-    for program in asked.measures.iter().map(|m| &m.program).chain(own) {
+    let texts_of_run = asked.run.setup.iter().chain(&asked.run.stop).map(|s| &s.program);
+    for program in asked.measures.iter().map(|m| &m.program).chain(texts_of_run) {
         include(program.effects(), &mut demand);
         for arg in program.aggregates().iter().flat_map(|a| &a.args) {
             include(arg.effects(), &mut demand);
@@ -256,7 +249,7 @@ fn undecided_stop(time: f64) -> String {
 
 /// What broke in a run, in one clause.
 fn broke(session: &Session<'_>) -> Option<String> {
-    match (Breakdown::of(session), session.troubles.first()) {
+    match (run::worst_breakdown(session), session.troubles.first()) {
         (Some(breakdown), _) => Some(breakdown.what),
         (None, Some(t)) => Some(format!("{}, at t = {} s", t.message, t.time)),
         (None, None) => session.ended().map(|end| match end {

@@ -6,9 +6,9 @@
 //! the limit are looked at.
 
 use super::bound::BoundVerify;
+use super::format::significant;
 use super::run_cache::{BoundLab, Stage, misspelt};
 use super::runner::TIMESTEP;
-use super::significant;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::StepVariant;
@@ -34,14 +34,14 @@ pub(super) struct SearchCase<'c> {
 
 /// What was found with a value.
 #[derive(Clone, Debug)]
-struct Tried {
+struct TriedValue {
     holds: bool,
     /// How far the condition is from turning over; `None` where nothing is compared, or the run broke.
     margin: Option<f64>,
 }
 
 /// A search that came to its end.
-pub(super) struct Limit {
+pub(super) struct SearchLimit {
     /// NaN when there is no one limit.
     pub(super) value: f64,
     /// Where it looked, in words.
@@ -54,19 +54,19 @@ pub(super) fn search(
     stage: &Stage<'_>,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,
-) -> Option<Limit> {
+) -> Option<SearchLimit> {
     let find = case.find;
-    let known = case.scene.lab.control(&find.what.value).is_some() || find.what.value == "timestep";
-    if let Some(unknown) = misspelt(&case.scene.lab, &find.what).filter(|_| !known) {
+    let is_control = case.scene.lab.control(&find.what.value).is_some() || find.what.value == "timestep";
+    if let Some(unknown) = misspelt(&case.scene.lab, &find.what).filter(|_| !is_control) {
         findings.push(unknown);
         return None;
     }
     let mut refused = Vec::new();
     let mut open = None;
-    let mut tried: Vec<(f64, Tried)> = Vec::new();
-    let mut try_at = |x: f64| -> Option<Tried> {
-        if let Some((_, known)) = tried.iter().find(|(at, _)| *at == x) {
-            return Some(known.clone());
+    let mut tried: Vec<(f64, TriedValue)> = Vec::new();
+    let mut try_at = |x: f64| -> Option<TriedValue> {
+        if let Some((_, tried_before)) = tried.iter().find(|(at, _)| *at == x) {
+            return Some(tried_before.clone());
         }
         match holds(case, stage, x, numerics, &mut refused)? {
             Ok(found) => {
@@ -91,16 +91,16 @@ pub(super) fn search(
         );
     };
     match (found, open) {
-        (Some(Ok(value)), _) => Some(Limit { value, looked }),
+        (Some(Ok(value)), _) => Some(SearchLimit { value, looked }),
         (Some(Err((message, help))), _) => {
             none(message, help);
-            Some(Limit { value: f64::NAN, looked })
+            Some(SearchLimit { value: f64::NAN, looked })
         }
         (None, Some((x, part))) => {
             let message =
                 format!("with {} the condition is undecided: `{part}` compares NaN", significant(x));
             none(message, "search where the measure has a value, or test for it with `isNaN(x)`");
-            Some(Limit { value: f64::NAN, looked })
+            Some(SearchLimit { value: f64::NAN, looked })
         }
         (None, None) => {
             findings.extend(refused.into_iter().take(1));
@@ -113,7 +113,7 @@ pub(super) fn search(
 type NoLimit = (String, &'static str);
 
 /// The limit, or why there is none; `None` when a run cannot be made.
-fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Result<f64, NoLimit>> {
+fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<TriedValue>) -> Option<Result<f64, NoLimit>> {
     let [from, to] = find.range;
     let part = |i: usize| from + (to - from) * i as f64 / (PROBES + 1) as f64;
     // The ends first: where nothing changes, nothing more is run.
@@ -125,7 +125,7 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Re
     for x in [from].into_iter().chain((1..=PROBES).map(part)).chain([to]) {
         tried.push((x, try_at(x)?));
     }
-    let near: Vec<(f64, Tried)> =
+    let near: Vec<(f64, TriedValue)> =
         tried.windows(3).map(|t| nearer(t, try_at)).collect::<Option<Vec<_>>>()?.concat();
     tried.extend(near);
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -159,7 +159,7 @@ fn halve(find: &Find, try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Re
 }
 
 /// Between which values the condition changes.
-fn changes(tried: &[(f64, Tried)]) -> Vec<[f64; 2]> {
+fn changes(tried: &[(f64, TriedValue)]) -> Vec<[f64; 2]> {
     let pairs = tried.iter().zip(tried.iter().skip(1));
     pairs.filter(|(a, b)| a.1.holds != b.1.holds).map(|(a, b)| [a.0, b.0]).collect()
 }
@@ -180,9 +180,12 @@ fn several(changes: &[[f64; 2]]) -> NoLimit {
 }
 
 /// Looks between three neighbours for the place where the condition is nearest to turning over, where that lies between them.
-fn nearer(three: &[(f64, Tried)], try_at: &mut dyn FnMut(f64) -> Option<Tried>) -> Option<Vec<(f64, Tried)>> {
+fn nearer(
+    three: &[(f64, TriedValue)],
+    try_at: &mut dyn FnMut(f64) -> Option<TriedValue>,
+) -> Option<Vec<(f64, TriedValue)>> {
     let [(a, at_a), (_, at_m), (b, at_b)] = three else { return Some(Vec::new()) };
-    let size = |t: &Tried| t.margin.map(f64::abs);
+    let size = |t: &TriedValue| t.margin.map(f64::abs);
     let same = at_a.holds == at_m.holds && at_m.holds == at_b.holds;
     let (Some(da), Some(dm), Some(db)) = (size(at_a), size(at_m), size(at_b)) else {
         return Some(Vec::new());
@@ -253,7 +256,7 @@ fn holds(
     x: f64,
     numerics: StepVariant,
     findings: &mut Vec<Finding>,
-) -> Option<Result<Tried, String>> {
+) -> Option<Result<TriedValue, String>> {
     let find = case.find;
     let path = path(case);
     let patch =
@@ -266,10 +269,10 @@ fn holds(
     if case.scene.lab.control(&find.what.value).is_some() {
         bound.set_freely(&find.what, x);
     }
-    let outcome = bound.outcome(numerics, findings)?;
+    let outcome = bound.outcome_of_runs(numerics, findings)?;
     let found = bound.find(&outcome, &find.holds, findings)?;
     if found.broke.is_some() {
-        return Some(Ok(Tried { holds: false, margin: None }));
+        return Some(Ok(TriedValue { holds: false, margin: None }));
     }
     if let Some(undecided) = found.undecided {
         return Some(Err(undecided.part));
@@ -278,5 +281,5 @@ fn holds(
         return None;
     }
     let weighed = bound.weigh_found(&found);
-    Some(Ok(Tried { holds: weighed.holds, margin: weighed.margin }))
+    Some(Ok(TriedValue { holds: weighed.holds, margin: weighed.margin }))
 }

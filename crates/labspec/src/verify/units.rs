@@ -1,42 +1,43 @@
 //! What the numbers of claims measure, as far as the units of what they are computed from say it.
 
-use super::bound::{BoundRun, BoundScene, BoundVerify};
-use super::claim::{Claim, Inputs};
-use super::outcome::{Outcome, OutcomeNames, Units};
+use super::bound::BoundVerify;
+use super::bound_run::{BoundRun, BoundScene};
+use super::compiled_claim::{ClaimInputs, CompiledClaim};
+use super::measure_units::MeasureUnits;
+use super::outcome::Outcome;
+use super::outcome_names::OutcomeNames;
+use super::run_cache::BoundLab;
 use crate::bind::Scope;
 use crate::bind::{given, given_by};
 use crate::source::Text;
-use crate::verify::BoundLab;
 use labspec_bind::units;
+use labspec_expr::Compiler;
 use labspec_expr::dimension::{BASES, Dimension, Measure};
-use labspec_expr::{Compiler, Given};
 
-/// What is known of the numbers that claims read.
-#[derive(Debug)]
-pub(super) struct Known {
-    given: Given,
-    runs: Units,
+impl BoundVerify<'_> {
+    /// What is known of the units of the measures.
+    pub(super) fn units(&self) -> Option<&MeasureUnits> {
+        self.units.get_or_init(|| units_of_measures(self)).as_ref()
+    }
 }
 
-impl Known {
-    pub(super) fn of(bound: &BoundVerify<'_>) -> Option<Known> {
-        let BoundLab { lab, model, programs, .. } = bound.lab()?;
-        let runs =
-            bound.cast().map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
-        let runs = runs.collect();
-        Some(Known { given: given(lab, model, programs), runs })
-    }
+fn units_of_measures(bound: &BoundVerify<'_>) -> Option<MeasureUnits> {
+    let BoundLab { lab, model, programs, .. } = bound.lab()?;
+    let runs =
+        bound.cast().map(|(run, scene)| of_scene(scene).into_iter().chain(swept(run, scene)).collect());
+    let runs = runs.collect();
+    Some(MeasureUnits { given: given(lab, model, programs), runs })
 }
 
 /// What a claim measures; `None` where that is not certain.
 pub(super) fn of_claim(bound: &BoundVerify<'_>, outcome: &Outcome, text: &Text) -> Option<Dimension> {
-    let (base, known, claim) = (bound.base()?, bound.units()?, bound.claim(text)?);
-    let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&known.runs);
+    let (base, units, claim) = (bound.base()?, bound.units()?, bound.claim(text)?);
+    let names = OutcomeNames::new(bound.layout(), base.names(Scope::Measure)).measuring(&units.runs);
     let nothing = |d: &Dimension| d.is_number() && d.factor.is_nan();
-    match claim.program.as_ref()?.measured(&names, &known.given).value {
+    match claim.program.as_ref()?.measured(&names, &units.given).value {
         Measure::Known(dimension) if !nothing(&dimension) => Some(dimension),
-        Measure::Known(dimension) => by_scale(bound, outcome, &claim, known).or(Some(dimension)),
-        _ => by_scale(bound, outcome, &claim, known),
+        Measure::Known(dimension) => by_scale(bound, outcome, &claim, units).or(Some(dimension)),
+        _ => by_scale(bound, outcome, &claim, units),
     }
 }
 
@@ -45,17 +46,22 @@ const SCALES: [f64; 2] = [2.0, 3.0];
 
 /// What a claim measures, seen from its numbers in other units: where those that it reads are in half seconds instead of seconds, a
 /// time is twice as large, whatever the text does with them. Only of texts without numbers that could be quantities themselves.
-fn by_scale(bound: &BoundVerify<'_>, outcome: &Outcome, claim: &Claim, known: &Known) -> Option<Dimension> {
-    let own = !claim.program.as_ref()?.aggregates().is_empty();
-    if own || claim.reads.is_empty() || claim.constants.iter().any(|x| ![0.0, 1.0].contains(x)) {
+fn by_scale(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    claim: &CompiledClaim,
+    units: &MeasureUnits,
+) -> Option<Dimension> {
+    let on_the_spot = !claim.program.as_ref()?.aggregates().is_empty();
+    if on_the_spot || claim.reads.is_empty() || claim.constants.iter().any(|x| ![0.0, 1.0].contains(x)) {
         return None;
     }
     let inputs = claim.inputs(bound, outcome, Vec::new());
-    let value = |inputs: &Inputs| {
+    let value = |inputs: &ClaimInputs| {
         let traced = claim.evaluate(bound, inputs, None)?.ok().filter(|t| t.lost.is_none())?;
         Some(traced.value.to_number()).filter(|x| x.is_finite() && *x != 0.0)
     };
-    let measure = |place: &usize| match bound.layout().unit_of(*place, &known.runs) {
+    let measure = |place: &usize| match bound.layout().unit_of(*place, &units.runs) {
         Measure::Known(d) if d.is_exact() => Some((*place, d)),
         _ => None,
     };

@@ -195,7 +195,7 @@ fn corpus() -> Vec<(String, Lab, Arc<Model>)> {
             let lesson = load_lesson(source, &folder);
             let models = Models::new(folder.clone());
             for lab in lesson.all_labs() {
-                if let Some(model) = models.of(lab, &mut Vec::new()) {
+                if let Some(model) = models.model_of_lab(lab, &mut Vec::new()) {
                     let title = if lab.title().is_empty() { "(without a title)" } else { lab.title() };
                     labs.push((title.to_owned(), lab.clone(), model));
                 }

@@ -229,7 +229,7 @@ impl Report {
             // A span that was computed on decoded text may end inside a character.
             let start = floor(text, d.span.start - base);
             d.span = start..floor(text, d.span.end.saturating_sub(*base)).max(start);
-            let lines = lines.get_or_insert_with(|| Lines::of(text));
+            let lines = lines.get_or_insert_with(|| Lines::new(text));
             let line = lines.line(start);
             let (from, column) = match last {
                 (source, at, place) if source == i && place.line == line => (at, place.column),

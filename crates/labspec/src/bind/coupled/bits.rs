@@ -1,9 +1,8 @@
 //! Contact bits of geoms, and what stands between them and a contact: the bits of their bodies, and the trees of bounding volumes,
 //! both made when the model is compiled.
 
-use super::Change;
-use super::repair::Statements;
-use super::table::Changes;
+use super::change::{Changes, PartnerChange};
+use super::statements::Statements;
 use labspec_core::{Model, disable};
 
 /// Bits of geoms and of bodies: the types, or the affinities.
@@ -28,7 +27,7 @@ fn bits_of_bodies(before: &Model, now: &Model, [of_geom, of_body]: Bits) -> Chan
     }
     let both = of_body(before).iter().zip(of_body(now)).zip(wanted).enumerate();
     let left = both.filter(|(_, ((was, is), wanted))| was == is && **is != *wanted);
-    left.map(|(b, (_, wanted))| (b, Change::Becomes(f64::from(wanted)))).collect()
+    left.map(|(b, (_, wanted))| (b, PartnerChange::Becomes(f64::from(wanted)))).collect()
 }
 
 pub(super) fn types_of_bodies(before: &Model, now: &Model) -> Changes {
@@ -57,7 +56,7 @@ pub(super) fn midphase(before: &Model, now: &Model) -> Changes {
         && flags == before.opt.disableflags
         && (0..now.ngeom).any(|g| visual(g) && switched(g) && has_tree(g));
     match missed {
-        true => vec![(0, Change::Becomes(f64::from(flags | disable::MIDPHASE)))],
+        true => vec![(0, PartnerChange::Becomes(f64::from(flags | disable::MIDPHASE)))],
         false => Vec::new(),
     }
 }
@@ -70,7 +69,7 @@ fn repair(s: &mut Statements<'_>, geoms: &[usize], kind: &str) -> Option<()> {
         ));
     }
     for &g in geoms {
-        let body = body_of(s.model(), g)?;
+        let body = body_of(s.model, g)?;
         s.add(format!("model.body_{kind}[{body}] |= model.geom_{kind}[{g}]"));
     }
     Some(())

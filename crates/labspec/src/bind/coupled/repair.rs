@@ -1,73 +1,9 @@
-//! A correction as statements of the language: what stands before a program and what stands behind it.
+//! The correction of each pair as statements of the language.
 
-use super::{Bound, PairSet, elements, shape, table};
-use labspec_core::{Model, geom};
-
-/// Most elements that a repair names one by one.
-const MOST: usize = 4;
-
-/// Statements that correct what a program leaves behind.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Repair {
-    /// Before the program: what has to be known from before it.
-    pub(crate) before: Vec<String>,
-    /// Behind it.
-    pub(crate) after: Vec<String>,
-    /// Constants have to be computed anew behind them.
-    pub(crate) constants: bool,
-}
-
-impl Repair {
-    /// The statements for these pairs; `None` where one has none.
-    pub(crate) fn of(bound: &Bound, pairs: PairSet, model: &Model) -> Option<Repair> {
-        let mut made = Statements { model, text: &bound.text.value, repair: Repair::default() };
-        for (_, pair) in pairs.pairs() {
-            let own = elements(bound, pair.parameter).filter(|own| own.len() <= MOST).unwrap_or_default();
-            (pair.repair?)(&mut made, &own)?;
-        }
-        Some(made.repair)
-    }
-}
-
-/// Statements on their way.
-pub(super) struct Statements<'a> {
-    model: &'a Model,
-    text: &'a str,
-    repair: Repair,
-}
-
-impl Statements<'_> {
-    pub(super) fn model(&self) -> &Model {
-        self.model
-    }
-
-    /// A name that the program does not have.
-    fn name(&self, wanted: &str) -> String {
-        let part = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
-        let known = |name: &str| {
-            self.text.split(|c| !part(c)).any(|word| word == name)
-                || self.repair.before.iter().any(|s| s.starts_with(&format!("const {name} ")))
-        };
-        let numbered = (2..100).map(|n| format!("{wanted}{n}"));
-        let mut names = std::iter::once(wanted.to_string()).chain(numbered);
-        names.find(|name| !known(name)).unwrap_or_else(|| format!("{wanted}_as_it_was"))
-    }
-
-    /// Keeps a value from before the program, and gives its name.
-    fn keep(&mut self, wanted: &str, value: &str) -> String {
-        let name = self.name(wanted);
-        self.repair.before.push(format!("const {name} = {value}"));
-        name
-    }
-
-    /// Adds a statement behind the program, once.
-    pub(super) fn add(&mut self, statement: String) {
-        if self.repair.after.contains(&statement) {
-            return;
-        }
-        self.repair.after.push(statement);
-    }
-}
+use super::follow::servo;
+use super::shape;
+use super::statements::Statements;
+use labspec_core::geom;
 
 /// A loop over the three numbers of a body's inertia.
 fn over_moments(body: usize, statement: &str) -> String {
@@ -77,14 +13,14 @@ fn over_moments(body: usize, statement: &str) -> String {
 pub(super) fn inertia_of_mass(s: &mut Statements<'_>, bodies: &[usize]) -> Option<()> {
     s.repair.constants = true;
     if bodies.is_empty() {
-        let kept = s.keep("m", "model.body_mass.slice()");
+        let masses = s.keep("m", "model.body_mass.slice()");
         s.add(format!(
-            "for (let b = 1; b < model.nbody; b++) for (let i = 3 * b; i < 3 * b + 3; i++) if ({kept}[b] > 0) model.body_inertia[i] *= model.body_mass[b] / {kept}[b]"
+            "for (let b = 1; b < model.nbody; b++) for (let i = 3 * b; i < 3 * b + 3; i++) if ({masses}[b] > 0) model.body_inertia[i] *= model.body_mass[b] / {masses}[b]"
         ));
     }
     for body in bodies {
-        let kept = s.keep("m", &format!("model.body_mass[{body}]"));
-        s.add(over_moments(*body, &format!("*= model.body_mass[{body}] / {kept}")));
+        let mass = s.keep("m", &format!("model.body_mass[{body}]"));
+        s.add(over_moments(*body, &format!("*= model.body_mass[{body}] / {mass}")));
     }
     Some(())
 }
@@ -142,8 +78,8 @@ pub(super) fn inertia_of_size(s: &mut Statements<'_>, written: &[usize]) -> Opti
         };
         let turned = shape::to_axes(s.model, g, body)?;
         for (axis, row) in turned.chunks(3).enumerate() {
-            let own = row.iter().position(|x| x.abs() > 0.999)?;
-            s.add(format!("model.body_inertia[{}] = {}", 3 * body + axis, moments.get(own)?));
+            let column = row.iter().position(|x| x.abs() > 0.999)?;
+            s.add(format!("model.body_inertia[{}] = {}", 3 * body + axis, moments.get(column)?));
         }
     }
     Some(())
@@ -156,8 +92,8 @@ pub(super) fn centre_of_place(s: &mut Statements<'_>, written: &[usize]) -> Opti
     }
     for place in written {
         let body = shape::carried(s.model, place / 3)?;
-        let kept = s.keep("p", &format!("model.geom_pos[{place}]"));
-        s.add(format!("model.body_ipos[{}] += model.geom_pos[{place}] - {kept}", 3 * body + place % 3));
+        let position = s.keep("p", &format!("model.geom_pos[{place}]"));
+        s.add(format!("model.body_ipos[{}] += model.geom_pos[{place}] - {position}", 3 * body + place % 3));
     }
     Some(())
 }
@@ -165,7 +101,7 @@ pub(super) fn centre_of_place(s: &mut Statements<'_>, written: &[usize]) -> Opti
 pub(super) fn bias_of_gain(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
     let gains = written.iter().filter(|i| *i % 10 == 0);
     for gain in gains {
-        let bias = table::servo(s.model, gain / 10)?;
+        let bias = servo(s.model, gain / 10)?;
         s.add(format!("model.actuator_biasprm[{bias}] = -model.actuator_gainprm[{gain}]"));
     }
     (!s.repair.after.is_empty()).then_some(())
@@ -174,7 +110,7 @@ pub(super) fn bias_of_gain(s: &mut Statements<'_>, written: &[usize]) -> Option<
 pub(super) fn gain_of_bias(s: &mut Statements<'_>, written: &[usize]) -> Option<()> {
     for bias in written {
         let gain = bias / 10 * 10;
-        if table::servo(s.model, gain / 10) == Some(*bias) {
+        if servo(s.model, gain / 10) == Some(*bias) {
             s.add(format!("model.actuator_gainprm[{gain}] = -model.actuator_biasprm[{bias}]"));
         }
     }

@@ -26,7 +26,7 @@ const KINDS: [(i32, &str, usize); 5] = [
 ];
 
 /// The shape of a geom; `None` for planes, fields and meshes, and for sizes that no geom has.
-pub(super) fn of(m: &Model, g: usize) -> Option<Shape> {
+pub(super) fn shape_of_geom(m: &Model, g: usize) -> Option<Shape> {
     let kind = m.geom_type.get(g)?;
     let (_, word, sizes) = KINDS.iter().find(|(k, ..)| k == kind)?;
     let size = rows::<3>(&m.geom_size).get(g)?;
@@ -65,9 +65,9 @@ pub(super) fn to_axes(m: &Model, g: usize, body: usize) -> Option<Mat3> {
 
 /// Moments of one kilogram of a geom's shape about the principal axes of its body; `None` where these are not its own.
 pub(super) fn moments(m: &Model, g: usize, body: usize) -> Option<[f64; 3]> {
-    let [a, ab, ac, _, b, bc, _, _, c] = turned(&of(m, g)?.tensor, &to_axes(m, g, body)?);
-    let aside = ab.abs().max(ac.abs()).max(bc.abs());
-    (aside <= SAME * (a + b + c)).then_some([a, b, c])
+    let [a, ab, ac, _, b, bc, _, _, c] = turned(&shape_of_geom(m, g)?.tensor, &to_axes(m, g, body)?);
+    let off_axis = ab.abs().max(ac.abs()).max(bc.abs());
+    (off_axis <= SAME * (a + b + c)).then_some([a, b, c])
 }
 
 /// The body whose mass is all in this geom.
@@ -76,10 +76,10 @@ pub(super) fn carried(m: &Model, g: usize) -> Option<usize> {
     if body == 0 {
         return None;
     }
-    let (mass, own) = (*m.body_mass.get(body)?, rows::<3>(&m.body_inertia).get(body)?);
+    let (mass, inertia) = (*m.body_mass.get(body)?, rows::<3>(&m.body_inertia).get(body)?);
     let [place, centre] = [rows::<3>(&m.geom_pos).get(g)?, rows::<3>(&m.body_ipos).get(body)?];
     let close = |(a, b): (&f64, f64)| (a - mass * b).abs() <= SAME * a.abs();
     let here = norm(sub(*place, *centre)) <= SAME * m.geom_rbound.get(g)?;
     let moments = moments(m, g, body)?;
-    (mass > 0.0 && here && own.iter().zip(moments).all(close)).then_some(body)
+    (mass > 0.0 && here && inertia.iter().zip(moments).all(close)).then_some(body)
 }

@@ -1,12 +1,12 @@
 //! One run that looks for what breaks.
 
-use super::super::Ready;
+use super::super::PreparedLab;
 use super::Trial;
 use super::seen::Seen;
 use crate::check::observations::{Beyond, Mark, Record};
 use crate::finding::Finding;
-use crate::run::{self, Breakdown, Budget, End, Play, settings};
-use crate::spec::Expect;
+use crate::run::{self, Budget, End, Play, Session, settings};
+use crate::spec::{Expect, Lab};
 use crate::stress::{self, Fault, StressCase};
 use labspec_core::Model;
 use std::ops::ControlFlow;
@@ -49,7 +49,7 @@ pub(super) struct Attempt {
 /// # Errors
 /// The run cannot be made.
 pub(super) fn make(
-    ready: &Ready<'_>,
+    ready: &PreparedLab<'_>,
     case: &StressCase<'_>,
     trial: &Trial<'_>,
     budget: Budget,
@@ -57,7 +57,6 @@ pub(super) fn make(
     findings: &mut Vec<Finding>,
 ) -> Result<Attempt, run::RunError> {
     let (lab, wanted) = (ready.lab, trial.length);
-    let place = trial.place(lab);
     for action in &trial.handling.actions {
         if let (Some(control), Some(value)) = (lab.controls.get(action.control), &action.value) {
             settings::value(control, value)?;
@@ -91,26 +90,38 @@ pub(super) fn make(
         Some(End::Budget { .. } | End::Interrupted) => Some(Ended::Spent),
     };
     let covered = if made == steps { wanted } else { made as f64 * timestep };
+    let (broke, tried_work) = report_breaks(lab, case, trial, &session, seen, findings);
+    findings.extend(seen.take());
+    let (spent, faults) = (session.spent() + tried_work, eyes.faults(&session));
+    mark.close(&session.world.model);
+    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
+    let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
+    Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
+}
+
+/// Reports what threw and what broke in a run. Whether anything did, and the work of trying what helps.
+fn report_breaks(
+    lab: &Lab,
+    case: &StressCase<'_>,
+    trial: &Trial<'_>,
+    session: &Session<'_>,
+    seen: &mut Seen<'_>,
+    findings: &mut Vec<Finding>,
+) -> (bool, u64) {
     let before = findings.len();
     for t in &session.troubles {
         if seen.is_new(t) {
             findings.push(run::threw(t, &trial.done));
         }
     }
-    let breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
     let mut tries = TRIES;
-    for breakdown in Breakdown::all(&session) {
-        let tried = match breaks {
+    for breakdown in run::breakdowns_of(session) {
+        // A lab that is expected to break needs no advice.
+        let tried = match matches!(lab.expect, Some(Expect::Breaks(_))) {
             true => breakdown,
-            false => stress::with_tried_timestep(case, &trial.handling, wanted, breakdown, &mut tries),
+            false => stress::with_tried_timestep(case, &trial.handling, trial.length, breakdown, &mut tries),
         };
-        findings.push(run::broke(&tried, &trial.done, place.clone()));
+        findings.push(run::broke(&tried, &trial.done, trial.place(lab)));
     }
-    let broke = findings.len() > before;
-    findings.extend(seen.take());
-    let (spent, faults) = (session.spent() + TRIES - tries, eyes.faults(&session));
-    mark.close(&session.world.model);
-    let record = Record { moved: trial.moved.clone(), rows, mark, beyond };
-    let lost = !session.troubles.is_empty() || session.warnings.iter().any(|w| w.number > 0);
-    Ok(Attempt { covered, spent, broke, lost, ended, model: session.world.model, record, faults })
+    (findings.len() > before, TRIES - tries)
 }

@@ -39,10 +39,10 @@ fn try_more(tour: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Findi
         };
         let trial = Trial { handling, length, done, control: None, moved: None };
         let budget = Budget { left: Budget::TRIAL.left.min(*left) };
-        let mut own = Vec::new();
+        let mut of_trial = Vec::new();
         let made = match budget.left {
             0 => None,
-            _ => attempt::make(tour.ready, &tour.case, &trial, budget, &mut tour.seen, &mut own).ok(),
+            _ => attempt::make(tour.ready, &tour.case, &trial, budget, &mut tour.seen, &mut of_trial).ok(),
         };
         let Some(attempt) = made else {
             tour.skip(1);
@@ -50,8 +50,8 @@ fn try_more(tour: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Findi
         };
         *left = left.saturating_sub(attempt.spent);
         // What a simpler setting has shown already is not told again.
-        own.retain(|f| !findings.iter().any(|known| known.code == f.code && known.span == f.span));
-        findings.extend(own);
+        of_trial.retain(|f| !findings.iter().any(|known| known.code == f.code && known.span == f.span));
+        findings.extend(of_trial);
         if attempt.ended.is_some() {
             tour.skip(1);
         } else if let Some(tried) = &mut tour.tried {

@@ -6,7 +6,7 @@ mod interactions;
 mod seen;
 
 use super::observations::{self, Record};
-use super::{RanLab, Ready};
+use super::{PreparedLab, RanLab};
 use crate::finding::Finding;
 use crate::monitors::stability as stiff;
 use crate::rules;
@@ -68,7 +68,7 @@ fn impossible(place: Range<usize>, e: run::RunError) -> Finding {
 
 /// A lab on its way through its runs.
 struct LabRunState<'a> {
-    ready: &'a Ready<'a>,
+    ready: &'a PreparedLab<'a>,
     case: StressCase<'a>,
     wanted: f64,
     /// Those with controls, in order.
@@ -103,7 +103,11 @@ impl LabRunState<'_> {
 }
 
 /// Runs every lab that has an address, as it stands and with each control at its ends.
-pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<Finding>) -> Vec<RanLab> {
+pub(super) fn run_labs(
+    lesson: &Lesson,
+    ready: &[PreparedLab<'_>],
+    findings: &mut Vec<Finding>,
+) -> Vec<RanLab> {
     let addressed = lesson.addressed();
     let mut left = Budget::FILE.left;
     let mut tours: Vec<(&LabAddress, &Lab, Option<LabRunState<'_>>)> = Vec::new();
@@ -128,7 +132,7 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
         let all = tour.tried.as_ref().is_some_and(|t| t.skipped == 0 && t.ended.is_none());
         found.extend(tour.seen.never(all));
         if all && tour.ready.mistakes == 0 && !tour.lost {
-            observations::check(tour.ready, &tour.records, tour.wanted, found);
+            observations::check_observations(tour.ready, &tour.records, tour.wanted, found);
         }
     }
     // What is beyond that has a budget of its own.
@@ -164,7 +168,7 @@ pub(super) fn run_labs(lesson: &Lesson, ready: &[Ready<'_>], findings: &mut Vec<
 
 /// The lab as it stands.
 fn begin<'a>(
-    ready: &'a Ready<'a>,
+    ready: &'a PreparedLab<'a>,
     budget: Budget,
     left: &mut u64,
     findings: &mut Vec<Finding>,

@@ -3,7 +3,7 @@
 //! A gap may be meant: a text that says `NaN` itself, or reads a variable that nothing has stored yet, is silent until it
 //! is certain that no run ever fills the gap.
 
-use super::super::Ready;
+use super::super::PreparedLab;
 use crate::bind::Bound;
 use crate::finding::Finding;
 use crate::rules::{self, Rule};
@@ -14,14 +14,14 @@ use std::collections::BTreeSet;
 
 /// What a trace or readout shows that is no number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
+enum DisplayKind {
     Nan,
     Infinite,
     Text,
 }
 
 /// A trace or a readout through all runs.
-struct Shown<'a> {
+struct WatchedDisplay<'a> {
     bound: &'a Bound,
     /// Its place in a row of samples.
     column: usize,
@@ -34,12 +34,12 @@ struct Shown<'a> {
     ever: bool,
     /// A gap that may be meant: the time and the setting of the first.
     gap: Option<(f64, String)>,
-    reported: BTreeSet<Kind>,
+    reported: BTreeSet<DisplayKind>,
 }
 
 /// All that a lab shows.
 pub(super) struct Seen<'a> {
-    shown: Vec<Shown<'a>>,
+    shown: Vec<WatchedDisplay<'a>>,
     /// Traces and readouts.
     width: usize,
     /// Slots of `ctx` to which some text stores `NaN` on purpose.
@@ -72,16 +72,16 @@ fn says_gap(text: &str) -> bool {
 
 impl<'a> Seen<'a> {
     /// Nothing was seen yet.
-    pub(super) fn new(ready: &'a Ready<'a>) -> Seen<'a> {
+    pub(super) fn new(ready: &'a PreparedLab<'a>) -> Seen<'a> {
         let programs = &ready.programs;
-        let shown = programs.probes.iter().enumerate().filter_map(|(i, p)| {
+        let displays = programs.probes.iter().enumerate().filter_map(|(i, p)| {
             let bound = p.bound.as_ref()?;
             let (kind, label) = p.name.split_once('/').unwrap_or(("", &p.name));
             let trace = kind == "plot";
             // `plot/0/label`
             let label = if trace { label.split_once('/').map_or(label, |(_, l)| l) } else { label };
             let text = &bound.text.value;
-            Some(Shown {
+            Some(WatchedDisplay {
                 bound,
                 column: i + 1,
                 name: format!("the {} \"{label}\"", if trace { "trace" } else { "readout" }),
@@ -96,7 +96,7 @@ impl<'a> Seen<'a> {
         let on_purpose = programs.bound().filter(|b| says_gap(&b.text.value));
         let gaps = on_purpose.flat_map(|b| b.program.effects().ctx_writes.iter().copied()).collect();
         Seen {
-            shown: shown.collect(),
+            shown: displays.collect(),
             width: programs.probes.len(),
             gaps,
             found: Vec::new(),
@@ -120,17 +120,17 @@ impl<'a> Seen<'a> {
                 *cell = Cell::from(value.clone());
             }
             let kind = match &value {
-                Value::Number(x) if x.is_nan() => Kind::Nan,
-                Value::Number(x) if x.is_infinite() && !shown.says_infinite => Kind::Infinite,
-                Value::Undefined | Value::Null => Kind::Nan,
-                Value::String(_) if shown.trace => Kind::Text,
+                Value::Number(x) if x.is_nan() => DisplayKind::Nan,
+                Value::Number(x) if x.is_infinite() && !shown.says_infinite => DisplayKind::Infinite,
+                Value::Undefined | Value::Null => DisplayKind::Nan,
+                Value::String(_) if shown.trace => DisplayKind::Text,
                 _ => {
                     shown.ever = true;
                     continue;
                 }
             };
             let time = session.world.data.time();
-            if kind == Kind::Nan && (shown.says_gap || unset(shown.bound, session, &self.gaps)) {
+            if kind == DisplayKind::Nan && (shown.says_gap || unset(shown.bound, session, &self.gaps)) {
                 // A gap that is said may be filled by what no run does, unless it is all that the text says.
                 if !shown.says_gap || shown.bound.program.effects().constant() {
                     shown.gap.get_or_insert_with(|| (time, done.to_owned()));
@@ -150,7 +150,7 @@ impl<'a> Seen<'a> {
     /// When all runs are made: what was never anything but a gap.
     pub(super) fn never(&mut self, all: bool) -> Vec<Finding> {
         let empty = self.shown.iter().filter(|s| all && !s.ever && s.reported.is_empty());
-        let told = |s: &Shown<'_>| {
+        let gap_finding = |s: &WatchedDisplay<'_>| {
             s.gap.as_ref().map(|_| {
                 Finding::warning(
                     rules::SHOWS_NAN,
@@ -164,15 +164,15 @@ impl<'a> Seen<'a> {
                 })
             })
         };
-        empty.filter_map(told).collect()
+        empty.filter_map(gap_finding).collect()
     }
 
     /// Whether a program has not thrown like this in a run before.
     pub(super) fn is_new(&mut self, t: &Trouble) -> bool {
-        let known = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
+        let is_reported = |(code, text, span): &(&'static Rule, Text, std::ops::Range<usize>)| {
             *code == t.rule && *text == t.text && *span == t.span
         };
-        let new = !self.troubles.iter().any(known);
+        let new = !self.troubles.iter().any(is_reported);
         if new {
             self.troubles.push((t.rule, t.text.clone(), t.span.clone()));
         }
@@ -193,8 +193,8 @@ fn unset(bound: &Bound, session: &Session<'_>, gaps: &BTreeSet<u32>) -> bool {
     effects.any_ctx || effects.calls_values || effects.ctx_reads.iter().any(empty)
 }
 
-impl Shown<'_> {
-    fn finding(&self, kind: Kind, value: &Value, time: f64, done: &str) -> Finding {
+impl WatchedDisplay<'_> {
+    fn finding(&self, kind: DisplayKind, value: &Value, time: f64, done: &str) -> Finding {
         let (name, at) = (&self.name, format!("{done}, at t = {} s", crate::run::time(time)));
         let [sees, what] = if self.trace {
             ["the curve has a gap there, and nothing explains it", "trace"]
@@ -202,7 +202,7 @@ impl Shown<'_> {
             ["a student cannot tell whether the lab or the physics is broken", "readout"]
         };
         let (rule, message, why, help) = match kind {
-            Kind::Nan => (
+            DisplayKind::Nan => (
                 rules::SHOWS_NAN,
                 format!("{name} shows nan ({at})"),
                 sees,
@@ -210,13 +210,13 @@ impl Shown<'_> {
                     "guard it with a condition, or write `NaN` for an intended gap, as `data.ncon > 0 ? … : NaN` in this {what}: 0 / 0, the root of a negative number or a missing element gives nan"
                 ),
             ),
-            Kind::Infinite => (
+            DisplayKind::Infinite => (
                 rules::SHOWS_INFINITE,
                 format!("{name} shows {} ({at})", if value.to_number() > 0.0 { "inf" } else { "-inf" }),
                 sees,
                 "guard the division by 0 with a condition, or write `NaN` for an intended gap".to_owned(),
             ),
-            Kind::Text => (
+            DisplayKind::Text => (
                 rules::TEXT_IN_PLOT,
                 format!("{name} is a string, \"{}\" ({at})", shortened(value)),
                 "a plot draws numbers: the curve is missing, or shows what the page makes of the string",

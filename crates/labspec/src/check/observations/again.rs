@@ -1,8 +1,9 @@
 //! A note that says that moving a control starts the lab again, and a control that does not.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::bind::ControlProgram;
-use crate::check::programs::{choices, resets};
+use crate::check::choices::choices;
+use crate::check::programs::resets;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -26,8 +27,8 @@ fn promises(sentence: &str) -> bool {
     (says(&STARTS) || says(&BEGINS) && says(&AGAIN)) && says(&CHANGES) && !says(&ELSE)
 }
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_repeats(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     let Some(note) = ready.lab.note.as_ref() else { return };
     let lower = note.as_str().to_lowercase();
     let sentences: Vec<&str> = lower.split(['.', ';', ':']).filter(|s| promises(s)).collect();
@@ -42,7 +43,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             continue;
         }
         let Some(value) = choices(control).into_iter().next() else { continue };
-        let mut session = looked.bench.start();
+        let mut session = observed.bench.start();
         run::play(&mut session, &Play::steps(STEPS), |_, _| ControlFlow::Continue(()));
         session.set_control(index, value.clone());
         let time = session.world.data.time();

@@ -1,9 +1,9 @@
 //! Readouts that show where a coordinate begins, while it moves.
 
-use super::Looked;
+use super::ObservedLab;
 use super::bench::Move;
 use super::record::same;
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -17,13 +17,13 @@ const STARTS: [&str; 2] = ["qpos0", "key_qpos"];
 /// Beginnings of words in a label that says so itself, and whole words.
 const BEGIN: [&str; 6] = ["start", "begin", "initial", "referen", "nominal", "origin"];
 const WHOLE: [&str; 7] = ["rest", "zero", "home", "neutral", "first", "key", "0"];
-/// Steps of the runs that are looked at.
+/// Steps of the runs that are observed at.
 const STEPS: usize = 500;
 /// A coordinate that has gone this far has moved, m or rad.
 const MOVED: f64 = 1e-6;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     let traces = ready.lab.traces().count();
     for (i, readout) in ready.lab.readouts.iter().enumerate() {
         let label = readout.label.as_str().to_lowercase();
@@ -42,13 +42,14 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         let (Some((field, access)), false) = (start, more || live || says_so(&label)) else {
             continue;
         };
-        let column = || looked.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
+        let column =
+            || observed.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
         let Some(shown) = column().next().filter(|c| matches!(c, Cell::Number(_))) else { continue };
         let at = access.first % ready.model.nq.max(1);
         if !column().all(|c| same(c, shown)) {
             continue;
         }
-        let Some((from, to, done)) = moves(looked, at) else { continue };
+        let Some((from, to, done)) = moves(observed, at) else { continue };
         let [shown, from, to] = [shown.number(), from, to].map(|x| digits(x, 4));
         findings.push(
             Finding::warning(
@@ -75,8 +76,8 @@ fn says_so(label: &str) -> bool {
 }
 
 /// The first run in which a coordinate moves: from where, to where, and what was done.
-fn moves(looked: &Looked<'_>, at: usize) -> Option<(f64, f64, String)> {
-    let lab = looked.bench.ready.lab;
+fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
+    let lab = observed.bench.ready.lab;
     let mut all = vec![(None, "as the lab stands,".to_string())];
     for (i, control) in lab.controls.iter().enumerate() {
         let label = &control.label.value;
@@ -89,7 +90,7 @@ fn moves(looked: &Looked<'_>, at: usize) -> Option<(f64, f64, String)> {
         );
     }
     all.into_iter().find_map(|(done, said)| {
-        let mut session = looked.bench.start();
+        let mut session = observed.bench.start();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         run::play(&mut session, &Play { every: 5, ..Play::steps(STEPS) }, |session, step| {
             match &done {

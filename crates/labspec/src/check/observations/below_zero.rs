@@ -1,6 +1,6 @@
 //! Numbers that are never negative by what their labels call them, and are shown below zero.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -21,11 +21,11 @@ const KINDS: [(&str, &str, &str); 9] = [
 /// Below this, rounding may have made it negative.
 const ROUNDING: f64 = -1e-9;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let lab = looked.bench.ready.lab;
+pub(super) fn check_below_zero(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let lab = observed.bench.ready.lab;
     let traces = lab.traces().map(|t| (&t.label, &t.expr));
-    let shown = traces.chain(lab.readouts.iter().map(|r| (&r.label, &r.expr)));
-    for (i, (label, expr)) in shown.enumerate() {
+    let displayed = traces.chain(lab.readouts.iter().map(|r| (&r.label, &r.expr)));
+    for (i, (label, expr)) in displayed.enumerate() {
         let (label, text) = (label.as_str(), expr.as_str());
         let bars = label.starts_with('|') && label.matches('|').count() == 2;
         let of_kind = |(word, code, _): &&(&str, &str, &str)| names(label, word) && text.contains(code);
@@ -33,7 +33,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             continue;
         };
         let numbers = || {
-            let column = looked
+            let column = observed
                 .records
                 .iter()
                 .flat_map(|r| &r.rows)
@@ -54,7 +54,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
                 )
                 .why(format!(
                     "in {} it is 0 or negative at every sample: {low} at t = {time} s",
-                    looked.runs()
+                    observed.runs()
                 ))
                 .help("check the sign, or say in the label what is subtracted"),
             );

@@ -3,8 +3,8 @@
 use super::record::{Mark, Record};
 use super::saturated::Beyond;
 use crate::bind::Programs;
-use crate::check::Ready;
-use crate::run::{self, Breakdown, Budget, Cell, Play, Session};
+use crate::check::PreparedLab;
+use crate::run::{self, Budget, Cell, Play, Session};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -25,8 +25,8 @@ impl Move {
 }
 
 /// A lab, and what may still be spent on it.
-pub(super) struct Bench<'a> {
-    pub(super) ready: &'a Ready<'a>,
+pub(super) struct ObservationBench<'a> {
+    pub(super) ready: &'a PreparedLab<'a>,
     /// Its programs, or what is tried instead.
     pub(super) programs: &'a Programs,
     pub(super) left: u64,
@@ -34,21 +34,21 @@ pub(super) struct Bench<'a> {
     pub(super) runs: usize,
 }
 
-/// How often a run is looked at.
+/// How often a run is observed at.
 const SAMPLES: usize = 60;
 /// How far a state is moved, in turn.
 const NUDGES: [f64; 4] = [0.01, 0.1, 0.4, 1.0];
 /// Steps after each.
 const STEPS: usize = 3;
 
-impl Bench<'_> {
+impl ObservationBench<'_> {
     /// What one run may spend.
     pub(super) fn budget(&self) -> Budget {
         Budget { left: Budget::TRIAL.left.min(self.left) }
     }
 
     pub(super) fn start(&self) -> Session<'_> {
-        let (Ready { lab, model, .. }, programs) = (self.ready, self.programs);
+        let (PreparedLab { lab, model, .. }, programs) = (self.ready, self.programs);
         let budget = self.budget();
         Session::start_within(programs, model, lab.keyframe(), &programs.demand, budget)
     }
@@ -82,7 +82,7 @@ impl Bench<'_> {
         });
         mark.close(&session.world.model);
         let (spent, sound) =
-            (session.spent(), session.ended().is_none() && Breakdown::of(&session).is_none());
+            (session.spent(), session.ended().is_none() && run::worst_breakdown(&session).is_none());
         drop(session);
         self.left = self.left.saturating_sub(spent);
         self.runs += 1;

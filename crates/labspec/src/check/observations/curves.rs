@@ -2,7 +2,7 @@
 //!
 //! What physics keeps constant or equal is no mistake. It changes, or parts, when the scene is put into another state.
 
-use super::Looked;
+use super::ObservedLab;
 use super::record::{Record, same};
 use crate::check::setconst::digits;
 use crate::finding::Finding;
@@ -41,31 +41,31 @@ fn reads(effects: &Effects, which: impl Fn(FieldId) -> bool) -> bool {
     effects.reads.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(which)
 }
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let lab = looked.bench.ready.lab;
+pub(super) fn check_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let lab = observed.bench.ready.lab;
     let mut first = 1;
     for plot in &lab.plots {
         let columns = first..first + plot.traces.len();
         first = columns.end;
         let still: Vec<bool> =
-            columns.clone().map(|c| constant(column(looked.records, c)).is_some()).collect();
+            columns.clone().map(|c| constant(column(observed.records, c)).is_some()).collect();
         for (i, c) in columns.clone().enumerate() {
             let Some(trace) = plot.traces.get(i) else { continue };
-            let told = if still.get(i) == Some(&true) {
+            let finding = if still.get(i) == Some(&true) {
                 let others = still.iter().any(|s| !s);
-                frozen(looked, c, others).map(|f| f.at_trace(&trace.expr, rules::CONSTANT_TRACE))
+                frozen(observed, c, others).map(|f| f.at_trace(&trace.expr, rules::CONSTANT_TRACE))
             } else {
-                let twin = (columns.start..c).find(|other| is_twin(looked, *other, c));
+                let twin = (columns.start..c).find(|other| is_twin(observed, *other, c));
                 let twin = twin.and_then(|other| plot.traces.get(other - columns.start));
                 twin.map(|other| {
-                    Told {
+                    CurveReport {
                         message: format!(
                             "\"{}\" and \"{}\" are the same curve",
                             other.label.value, trace.label.value
                         ),
                         why: format!(
                             "they agree to the last bit in {}, and also from other states of the scene",
-                            looked.runs()
+                            observed.runs()
                         ),
                         help: "change the expression to what the label says, or delete the trace".into(),
                     }
@@ -73,31 +73,31 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
                     .related(other.expr.span(), "the curve that it covers")
                 })
             };
-            match told {
+            match finding {
                 Some(finding) => findings.push(finding),
                 None => findings
-                    .extend(outside(looked, plot, c).map(|t| t.at_trace(&trace.expr, rules::OUTSIDE_PLOT))),
+                    .extend(outside(observed, plot, c).map(|t| t.at_trace(&trace.expr, rules::OUTSIDE_PLOT))),
             }
         }
     }
 }
 
 /// The words of a finding.
-struct Told {
+struct CurveReport {
     message: String,
     why: String,
     help: String,
 }
 
-impl Told {
+impl CurveReport {
     fn at_trace(self, text: &crate::source::Text, rule: &rules::Rule) -> Finding {
         Finding::warning(rule, text.span(), self.message).why(self.why).help(self.help)
     }
 }
 
 /// A trace that shows one number, whatever happens; `others` says that its plot has curves that move.
-fn frozen(looked: &mut Looked<'_>, c: usize, others: bool) -> Option<Told> {
-    let ready = looked.bench.ready;
+fn frozen(observed: &mut ObservedLab<'_>, c: usize, others: bool) -> Option<CurveReport> {
+    let ready = observed.bench.ready;
     let probe = ready.programs.probes.get(c.checked_sub(1)?)?;
     let effects = probe.bound.as_ref()?.program.effects();
     let data = effects.reads_everything || reads(effects, |f| f.info().object == Object::Data);
@@ -108,8 +108,8 @@ fn frozen(looked: &mut Looked<'_>, c: usize, others: bool) -> Option<Told> {
     if others && !data && place.is_none() {
         return None;
     }
-    let shown = constant(column(looked.records, c))?.clone();
-    if !looked.perturbed_rows().iter().filter_map(|row| row.get(c)).all(|cell| same(cell, &shown)) {
+    let value = constant(column(observed.records, c))?.clone();
+    if !observed.perturbed_rows().iter().filter_map(|row| row.get(c)).all(|cell| same(cell, &value)) {
         return None;
     }
     let help = match place.filter(|_| !data) {
@@ -120,19 +120,19 @@ fn frozen(looked: &mut Looked<'_>, c: usize, others: bool) -> Option<Told> {
             "check the name and the index that it reads; use `refLines` for an intended constant line".into()
         }
     };
-    Some(Told {
-        message: format!("this trace is always {}", digits(shown.number(), 6)),
+    Some(CurveReport {
+        message: format!("this trace is always {}", digits(value.number(), 6)),
         why: format!(
             "it is the same to the last bit in {}, and also from other states of the scene",
-            looked.runs()
+            observed.runs()
         ),
         help,
     })
 }
 
 /// Whether two traces read the same things and are the same in all runs and states.
-fn is_twin(looked: &mut Looked<'_>, a: usize, b: usize) -> bool {
-    let ready = looked.bench.ready;
+fn is_twin(observed: &mut ObservedLab<'_>, a: usize, b: usize) -> bool {
+    let ready = observed.bench.ready;
     let of = |c: usize| Some(ready.programs.probes.get(c.checked_sub(1)?)?.bound.as_ref()?.program.effects());
     let (Some(one), Some(two)) = (of(a), of(b)) else { return false };
     let mut sets = [one, two].map(|e| (e.reads.clone(), e.calls.clone(), e.ctx_reads.clone()));
@@ -144,13 +144,13 @@ fn is_twin(looked: &mut Looked<'_>, a: usize, b: usize) -> bool {
     let equal = |row: &Vec<Cell>| matches!((row.get(a), row.get(b)), (Some(x), Some(y)) if same(x, y));
     let [one, two] = sets;
     one == two
-        && column(looked.records, a).any(|c| c.number().is_finite())
-        && looked.records.iter().flat_map(|r| &r.rows).all(equal)
-        && looked.perturbed_rows().iter().all(equal)
+        && column(observed.records, a).any(|c| c.number().is_finite())
+        && observed.records.iter().flat_map(|r| &r.rows).all(equal)
+        && observed.perturbed_rows().iter().all(equal)
 }
 
 /// A curve that lies outside of its plot for most of the time, in every run.
-fn outside(looked: &Looked<'_>, plot: &Plot, c: usize) -> Option<Told> {
+fn outside(observed: &ObservedLab<'_>, plot: &Plot, c: usize) -> Option<CurveReport> {
     // One end alone may be there to cut off what is beyond it.
     let (low, high) = (plot.ymin.as_ref()?.value, plot.ymax.as_ref()?.value);
     if low >= high {
@@ -162,22 +162,22 @@ fn outside(looked: &Looked<'_>, plot: &Plot, c: usize) -> Option<Told> {
         let inside = all.iter().filter(|x| (low..=high).contains(*x)).count();
         (!all.is_empty()).then(|| inside as f64 / all.len() as f64)
     };
-    let first = looked.records.first()?;
-    let most = looked.records.iter().filter_map(share).fold(0.0, f64::max);
-    let own = share(first)?;
-    if own >= INSIDE || most >= INSIDE {
+    let first = observed.records.first()?;
+    let most = observed.records.iter().filter_map(share).fold(0.0, f64::max);
+    let nominal_share = share(first)?;
+    if nominal_share >= INSIDE || most >= INSIDE {
         return None;
     }
     let cells = first.rows.iter().filter_map(|r| r.get(c)).map(Cell::number).filter(|x| x.is_finite());
     let (least, largest) = cells.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     let [least, largest] = [least, largest].map(|x| digits(x, 4));
     let ends = format!("from {low} to {high}");
-    Some(Told {
+    Some(CurveReport {
         message: format!("this curve is outside its plot, which goes {ends}"),
         why: format!(
             "as the lab stands it goes from {least} to {largest}, and is inside for {:.0} % of the time; in {} it is inside for at most {:.0} %",
-            100.0 * own,
-            looked.runs(),
+            100.0 * nominal_share,
+            observed.runs(),
             100.0 * most
         ),
         help: "widen `ymin` and `ymax` to include the curve, or delete them: the plot then follows it".into(),

@@ -1,6 +1,6 @@
 //! Dampers below zero that did not come to feed the scene without end, because something else holds what they push.
 
-use super::Looked;
+use super::ObservedLab;
 use super::bench::Move;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
@@ -10,13 +10,13 @@ use crate::spec::ControlKind;
 use labspec_core::reflect::model;
 use std::ops::ControlFlow;
 
-/// Steps of the runs that are looked at.
+/// Steps of the runs that are observed at.
 const STEPS: usize = 500;
 /// Words of a lab that means it.
 const WORDS: [&str; 4] = ["negative", "below zero", "self-excit", "van der pol"];
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_damping(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     let lab = ready.lab;
     let controls = lab.controls.iter().map(|c| &c.label);
     let texts = [lab.title.as_ref(), lab.note.as_ref()].into_iter().flatten().chain(controls);
@@ -32,7 +32,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     {
         return;
     }
-    let Some((dof, damping, power, time, done)) = pushes(looked) else { return };
+    let Some((dof, damping, power, time, done)) = pushes(observed) else { return };
     let [damping, power, time] = [damping, power, time].map(|x| digits(x, 3));
     let place = programs.setup.as_ref().filter(|b| chosen(b.program.effects())).map(|b| b.text.span());
     findings.push(
@@ -47,8 +47,8 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
 }
 
 /// The damper below zero that gives the most: its degree of freedom and damping, W, when, and what was done.
-fn pushes(looked: &Looked<'_>) -> Option<(usize, f64, f64, f64, String)> {
-    let session = looked.bench.start();
+fn pushes(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> {
+    let session = observed.bench.start();
     let poly = &session.world.model.dof_dampingpoly;
     let plain = |i: usize| poly.get(2 * i..2 * i + 2).is_some_and(|p| p.iter().all(|x| *x <= 0.0));
     let all = session.world.model.dof_damping.iter().copied().enumerate();
@@ -57,7 +57,7 @@ fn pushes(looked: &Looked<'_>) -> Option<(usize, f64, f64, f64, String)> {
     if below.is_empty() {
         return None;
     }
-    let lab = looked.bench.ready.lab;
+    let lab = observed.bench.ready.lab;
     let mut all = vec![(None, "as the lab stands,".to_string())];
     for (control, c) in lab.controls.iter().enumerate() {
         let label = &c.label.value;
@@ -69,15 +69,15 @@ fn pushes(looked: &Looked<'_>) -> Option<(usize, f64, f64, f64, String)> {
                 ));
             }
             _ => {
-                for v in crate::check::programs::choices(c) {
-                    let said = format!("with \"{label}\" at {v},");
-                    all.push((Some(Move { step: 1, control, value: Some(v) }), said));
+                for v in crate::check::choices::choices(c) {
+                    let description = format!("with \"{label}\" at {v},");
+                    all.push((Some(Move { step: 1, control, value: Some(v) }), description));
                 }
             }
         }
     }
     all.into_iter().find_map(|(done, said)| {
-        let mut session = looked.bench.start();
+        let mut session = observed.bench.start();
         let mut most: Option<(usize, f64, f64, f64)> = None;
         run::play(&mut session, &Play::steps(STEPS), |session, step| {
             if let Some(Move { control, value, .. }) = done.as_ref().filter(|m| m.step == step) {

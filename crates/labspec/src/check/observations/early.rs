@@ -1,8 +1,9 @@
 //! A lab that stops before anything has happened.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
+use crate::json::Number;
 use crate::rules;
 use crate::run::Cell;
 use labspec_core::reflect::data;
@@ -16,36 +17,30 @@ const DOT: f64 = 0.02;
 /// A curve has moved when it has come this share of its way.
 const MOVED: f64 = 0.02;
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_early_stop(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     let Some(stop) = &ready.lab.stop_at else { return };
-    let Some((steps, timestep)) = looked.bench.steps(looked.length) else { return };
+    let Some((steps, timestep)) = observed.bench.steps(observed.length) else { return };
     if stop.value > 0.0 && stop.value < (1.0 - 1e-9) * timestep {
-        findings.push(
-            Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
-                .why(format!(
-                    "`stopAt` is {} s, and one step takes {} s",
-                    digits(stop.value, 4),
-                    digits(timestep, 4)
-                ))
-                .help("make `stopAt` larger; for a single intended step, write the length of a step"),
-        );
+        findings.push(stops_after_first_step(stop, timestep));
         return;
     }
     if steps >= FEW || steps == 0 {
         return;
     }
-    let Some(all) = looked.bench.steps(LONGER).and_then(|(n, _)| looked.bench.run(&[], n)) else { return };
+    let Some(all) = observed.bench.steps(LONGER).and_then(|(n, _)| observed.bench.run(&[], n)) else {
+        return;
+    };
     let Some(start) = all.rows.first() else { return };
     let Some((time, what)) =
-        (1..start.len()).filter_map(|c| first(looked, &all.rows, c)).min_by(|a, b| a.0.total_cmp(&b.0))
+        (1..start.len()).filter_map(|c| first(observed, &all.rows, c)).min_by(|a, b| a.0.total_cmp(&b.0))
     else {
         return;
     };
     // What has moved when the lab stops, it shows.
-    let seen = looked.records.iter().any(|r| {
+    let seen = observed.records.iter().any(|r| {
         (1..start.len()).any(|c| match (all_range(&all.rows, c), r.rows.first(), r.rows.last()) {
-            (Some(range), Some(a), Some(b)) => changed(looked, c, range, a.get(c), b.get(c)),
+            (Some(range), Some(a), Some(b)) => changed(observed, c, range, a.get(c), b.get(c)),
             _ => false,
         })
     });
@@ -64,25 +59,31 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     if seen || time <= stop.value {
         return;
     }
-    findings.push(
-        Finding::warning(
-            rules::STOPS_EARLY,
-            stop.span.clone(),
-            "the lab stops before anything that it shows changes",
-        )
+    findings.push(stops_before_change(stop, steps, timestep, &what, time));
+}
+
+fn stops_after_first_step(stop: &Number, timestep: f64) -> Finding {
+    Finding::warning(rules::STOPS_EARLY, stop.span.clone(), "the lab stops after its first step")
+        .why(format!("`stopAt` is {} s, and one step takes {} s", digits(stop.value, 4), digits(timestep, 4)))
+        .help("make `stopAt` larger; for a single intended step, write the length of a step")
+}
+
+/// `what` changes first in a longer run, at this time.
+fn stops_before_change(stop: &Number, steps: usize, timestep: f64, what: &str, time: f64) -> Finding {
+    let message = "the lab stops before anything that it shows changes";
+    Finding::warning(rules::STOPS_EARLY, stop.span.clone(), message)
         .why(format!(
             "it runs for {steps} step{} of {} s; in a longer run, the first thing that changes is {what}, at t = {} s",
             if steps == 1 { "" } else { "s" },
             digits(timestep, 4),
             digits(time, 3)
         ))
-        .help("make `stopAt` larger, or delete it"),
-    );
+        .help("make `stopAt` larger, or delete it")
 }
 
 /// Whether a column reads time and nothing else.
-fn clock(looked: &Looked<'_>, c: usize) -> bool {
-    let probe = c.checked_sub(1).and_then(|i| looked.bench.ready.programs.probes.get(i));
+fn clock(observed: &ObservedLab<'_>, c: usize) -> bool {
+    let probe = c.checked_sub(1).and_then(|i| observed.bench.ready.programs.probes.get(i));
     let Some(effects) = probe.and_then(|p| p.bound.as_ref()).map(|b| b.program.effects()) else {
         return true;
     };
@@ -99,12 +100,12 @@ fn all_range(rows: &[Vec<Cell>], c: usize) -> Option<f64> {
 }
 
 /// Whether somebody sees that a column has changed.
-fn changed(looked: &Looked<'_>, c: usize, range: f64, a: Option<&Cell>, b: Option<&Cell>) -> bool {
+fn changed(observed: &ObservedLab<'_>, c: usize, range: f64, a: Option<&Cell>, b: Option<&Cell>) -> bool {
     let (Some(a), Some(b)) = (a, b) else { return false };
-    if clock(looked, c) {
+    if clock(observed, c) {
         return false;
     }
-    let lab = looked.bench.ready.lab;
+    let lab = observed.bench.ready.lab;
     match c.checked_sub(1 + lab.traces().count()).and_then(|i| lab.readouts.get(i)) {
         Some(readout) => a.shown(readout.digits()) != b.shown(readout.digits()),
         None => (a.number() - b.number()).abs() > MOVED * range,
@@ -112,11 +113,11 @@ fn changed(looked: &Looked<'_>, c: usize, range: f64, a: Option<&Cell>, b: Optio
 }
 
 /// When a column changes first, and what it is called.
-fn first(looked: &Looked<'_>, rows: &[Vec<Cell>], c: usize) -> Option<(f64, String)> {
+fn first(observed: &ObservedLab<'_>, rows: &[Vec<Cell>], c: usize) -> Option<(f64, String)> {
     let range = all_range(rows, c)?;
     let start = rows.first()?.get(c);
-    let row = rows.iter().find(|r| changed(looked, c, range, start, r.get(c)))?;
+    let row = rows.iter().find(|r| changed(observed, c, range, start, r.get(c)))?;
     let name =
-        looked.bench.ready.programs.probes.get(c - 1)?.name.splitn(3, '/').last().unwrap_or("").to_string();
+        observed.bench.ready.programs.probes.get(c - 1)?.name.splitn(3, '/').last().unwrap_or("").to_string();
     Some((row.first()?.number(), format!("\"{name}\"")))
 }

@@ -1,6 +1,6 @@
 //! Readouts with more decimals than the timestep supports, shown by the same run at half the timestep.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -9,7 +9,7 @@ use labspec_core::reflect::option;
 use labspec_expr::Effects;
 use std::ops::ControlFlow;
 
-/// A readout is looked at this many times.
+/// A readout is observed at this many times.
 const LOOKS: usize = 10;
 /// Two decimals too many: the other run differs by so many units of the last one, at most of the looks.
 const UNITS: f64 = 100.0;
@@ -18,8 +18,8 @@ const STEPS: usize = 5000;
 
 const HALF: StepVariant = StepVariant { timestep: 0.5, ..StepVariant::NOMINAL };
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     let of_timestep = |e: &Effects| {
         let timestep = option::timestep.index();
         e.reads_everything || e.reads.iter().chain(&e.writes).any(|a| a.field.0 as usize == timestep)
@@ -28,11 +28,11 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     if ready.lab.readouts.is_empty() || ready.programs.bound().any(|b| of_timestep(b.program.effects())) {
         return;
     }
-    let Some((steps, _)) = looked.bench.steps(looked.length).filter(|(n, _)| (LOOKS..=STEPS).contains(n))
+    let Some((steps, _)) = observed.bench.steps(observed.length).filter(|(n, _)| (LOOKS..=STEPS).contains(n))
     else {
         return;
     };
-    let (Some(own), Some(fine)) = (samples(looked, steps, 1), samples(looked, steps, 2)) else {
+    let (Some(own), Some(fine)) = (samples(observed, steps, 1), samples(observed, steps, 2)) else {
         return;
     };
     let first = 1 + ready.lab.traces().count();
@@ -52,7 +52,7 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         if middle < UNITS || good < 0 {
             continue;
         }
-        let shown = |rows: &[Vec<Cell>]| {
+        let last_text = |rows: &[Vec<Cell>]| {
             rows.last()
                 .and_then(|row| row.get(first + i))
                 .map_or(String::new(), |c| c.shown(readout.digits()))
@@ -67,8 +67,8 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             .why(format!(
                 "at t = {} s it is {}, but {} in the same run at half the timestep",
                 digits(time, 4),
-                shown(&own),
-                shown(&fine)
+                last_text(&own),
+                last_text(&fine)
             ))
             .help(format!(
                 "write \"digits\": {good}, or use a shorter timestep; `labspec precision` shows how short"
@@ -78,8 +78,8 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
 }
 
 /// What is shown in a run at a few times, with the timestep as it is or with half of it.
-fn samples(looked: &mut Looked<'_>, steps: usize, parts: usize) -> Option<Vec<Vec<Cell>>> {
-    let mut session = looked.bench.start();
+fn samples(observed: &mut ObservedLab<'_>, steps: usize, parts: usize) -> Option<Vec<Vec<Cell>>> {
+    let mut session = observed.bench.start();
     if parts > 1 {
         session.perturb(HALF, false);
     }
@@ -92,6 +92,6 @@ fn samples(looked: &mut Looked<'_>, steps: usize, parts: usize) -> Option<Vec<Ve
     });
     let (spent, sound) = (session.spent(), session.ended().is_none());
     drop(session);
-    looked.bench.left = looked.bench.left.saturating_sub(spent);
-    (sound && looked.bench.left > 0).then_some(rows)
+    observed.bench.left = observed.bench.left.saturating_sub(spent);
+    (sound && observed.bench.left > 0).then_some(rows)
 }

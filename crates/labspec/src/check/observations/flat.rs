@@ -2,7 +2,7 @@
 //!
 //! What a slider sets is compared, before anything is run: to the last bit, in all fields and variables that it writes.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::bind::{Bound, ControlProgram};
 use crate::finding::Finding;
 use crate::rules;
@@ -18,8 +18,8 @@ const SHARE: f64 = 0.3;
 /// Most numbers that are compared.
 const MOST: usize = 2000;
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_flat_curves(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     for (index, control) in ready.lab.controls.iter().enumerate() {
         let Some((_, ControlProgram::Change(_, action))) = ready.programs.controls.get(index) else {
             continue;
@@ -29,14 +29,15 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         };
         let step = control.step().filter(|s| *s > 0.0 && min.value < max.value).unwrap_or(f64::NAN);
         let steps = ((max.value - min.value) / step).round();
-        if looked.reported.contains(&index) || !(2.0..1e6).contains(&steps) || action.param.is_some() {
+        if observed.reported.contains(&index) || !(2.0..1e6).contains(&steps) || action.param.is_some() {
             continue;
         }
         // Every step of the slider, or so many of them.
         let count = (steps as usize).min(PLACES);
         let at = |i: usize| (min.value + (i as f64 * steps / count as f64).round() * step).min(max.value);
         let values: Vec<f64> = (0..=count).map(at).collect();
-        let Some(sets) = values.iter().map(|v| writes(looked, index, bound, *v)).collect::<Option<Vec<_>>>()
+        let Some(sets) =
+            values.iter().map(|v| writes(observed, index, bound, *v)).collect::<Option<Vec<_>>>()
         else {
             continue;
         };
@@ -67,17 +68,17 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             .help("check what clamps the value, or end the slider there")
             .related(bound.text.span(), "this is what it sets"),
         );
-        looked.reported.push(index);
+        observed.reported.push(index);
     }
 }
 
 /// All that a control has written at a value; `None` where that is not known.
-fn writes(looked: &Looked<'_>, index: usize, bound: &Bound, value: f64) -> Option<Vec<u64>> {
+fn writes(observed: &ObservedLab<'_>, index: usize, bound: &Bound, value: f64) -> Option<Vec<u64>> {
     let effects = bound.program.effects();
     if effects.any_ctx || effects.calls_values {
         return None;
     }
-    let mut session = looked.bench.start();
+    let mut session = observed.bench.start();
     session.set_control(index, Value::Number(value));
     let mut all = Vec::new();
     for write in bound.program.own_writes() {

@@ -3,8 +3,8 @@
 //! What two runs show is compared to the last bit, so what matters only a little matters. Two controls may act together only: each is
 //! tried with the others moved, too, early and in mid-run. Where the work for that is spent before all is tried, nothing is said.
 
-use super::Looked;
-use super::bench::{Bench, Move};
+use super::ObservedLab;
+use super::bench::{Move, ObservationBench};
 use super::record::Mark;
 use crate::bind::{ControlProgram, scalar};
 use crate::finding::Finding;
@@ -36,15 +36,15 @@ const NUMERICS: [&str; 8] =
 /// Something that is done to the other controls.
 pub(super) type Setting = Vec<Move>;
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
-    let Some((steps, _)) = looked.bench.steps(looked.length).filter(|(n, _)| *n > 0) else { return };
+pub(super) fn check_idle_controls(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let Some((steps, _)) = observed.bench.steps(observed.length).filter(|(n, _)| *n > 0) else { return };
     for (index, control) in ready.lab.controls.iter().enumerate() {
         let values = values(control);
-        if values.is_empty() || looked.reported.contains(&index) || !judged(looked, index) {
+        if values.is_empty() || observed.reported.contains(&index) || !judged(observed, index) {
             continue;
         }
-        let moved: Vec<Mark> = looked
+        let moved: Vec<Mark> = observed
             .records
             .iter()
             .filter(|r| r.moved.as_ref().is_some_and(|m| m.0 == index))
@@ -56,7 +56,7 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             ControlKind::Select { .. } if !all_same || values.len() < 2 => continue,
             ControlKind::Button { .. } | ControlKind::Select { .. } => 0..values.len(),
             ControlKind::Slider { .. } => {
-                match suspicious(&mut looked.bench, index, &values, steps.min(QUICK)) {
+                match suspicious(&mut observed.bench, index, &values, steps.min(QUICK)) {
                     Some(group) => group,
                     None => continue,
                 }
@@ -67,16 +67,16 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             continue;
         }
         let part = values.get(group).unwrap_or_default().to_vec();
-        let before = looked.bench.runs;
-        if idle(&mut looked.bench, index, &part, steps) {
-            findings.push(finding(looked, control, index, &part, whole, before));
+        let before = observed.bench.runs;
+        if idle(&mut observed.bench, index, &part, steps) {
+            findings.push(finding(observed, control, index, &part, whole, before));
         }
     }
 }
 
 /// Whether this control is meant to change something that is compared, and is not told by another rule.
-fn judged(looked: &Looked<'_>, index: usize) -> bool {
-    let ready = looked.bench.ready;
+fn judged(observed: &ObservedLab<'_>, index: usize) -> bool {
+    let ready = observed.bench.ready;
     let Some((_, program)) = ready.programs.controls.get(index) else { return false };
     let (run, param) = match program {
         ControlProgram::Press(run) => (run.as_ref(), None),
@@ -138,7 +138,7 @@ pub(super) fn values(control: &Control) -> Vec<Option<Value>> {
 
 /// Places in a row that look the same in short runs: the longest such row.
 fn suspicious(
-    bench: &mut Bench<'_>,
+    bench: &mut ObservationBench<'_>,
     index: usize,
     values: &[Option<Value>],
     steps: usize,
@@ -172,7 +172,7 @@ fn presses(own: &Move, steps: usize) -> Vec<Move> {
 }
 
 /// Whether it makes no difference which of these values a control has, whatever else is done.
-fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: usize) -> bool {
+fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>], steps: usize) -> bool {
     let pick = match values.len() {
         n if n > 3 => vec![0, n / 2, n - 1],
         n => (0..n).collect(),
@@ -186,7 +186,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
             // Late, a slider comes from the first of the values.
             let mut seen: Option<Mark> = None;
             for value in &picked {
-                let own = Move {
+                let tried_move = Move {
                     step: if value.is_none() { at.max(press + 1) } else { at },
                     control: index,
                     value: value.clone(),
@@ -196,7 +196,7 @@ fn idle(bench: &mut Bench<'_>, index: usize, values: &[Option<Value>], steps: us
                     moves.push(Move { step: 0, control: index, value: picked.first().cloned().flatten() });
                 }
                 moves.extend(setting.iter().filter(|m| m.step == 0).cloned());
-                moves.extend(presses(&own, steps));
+                moves.extend(presses(&tried_move, steps));
                 moves.extend(setting.iter().filter(|m| m.step > 0).cloned());
                 let Some(record) = bench.run(&moves, steps) else { return false };
                 if seen.is_some_and(|mark| mark != record.mark) {
@@ -257,7 +257,7 @@ pub(super) fn settings(lab: &Lab, own: usize, press: usize) -> Vec<Setting> {
 }
 
 fn finding(
-    looked: &Looked<'_>,
+    observed: &ObservedLab<'_>,
     control: &Control,
     index: usize,
     part: &[Option<Value>],
@@ -265,19 +265,19 @@ fn finding(
     before: usize,
 ) -> Finding {
     let label = &control.label.value;
-    let shown: Vec<String> = part.iter().flatten().map(Value::to_string).collect();
-    let at = match shown.split_last() {
+    let values: Vec<String> = part.iter().flatten().map(Value::to_string).collect();
+    let at = match values.split_last() {
         Some((last, rest)) if !rest.is_empty() => format!("at {} and {last}", rest.join(", ")),
         _ => "pressed or not".into(),
     };
     let others =
-        if looked.bench.ready.lab.controls.len() > 1 { ", with every other control moved too" } else { "" };
+        if observed.bench.ready.lab.controls.len() > 1 { ", with every other control moved too" } else { "" };
     let why = format!(
         "{at}, before the run and in the middle of it{others} ({} runs of {} s): every curve, number and position is the same to the last bit",
-        looked.bench.runs - before,
-        crate::check::setconst::digits(looked.length, 3)
+        observed.bench.runs - before,
+        crate::check::setconst::digits(observed.length, 3)
     );
-    if let Some(slot) = for_the_setup(looked, index).filter(|_| whole) {
+    if let Some(slot) = for_the_setup(observed, index).filter(|_| whole) {
         return Finding::warning(
             rules::NEEDS_RESET,
             control.label.span(),
@@ -286,13 +286,13 @@ fn finding(
         .why(format!("only the setup reads {slot}, and the setup runs only at a reset. {why}"))
         .help("add \"reset\": true");
     }
-    let help = match written(looked, index) {
+    let help = match written(observed, index) {
         Some(what) => format!(
             "check {what}, which it sets: whether it is the right one, what uses it, and what overwrites it"
         ),
         None => "check what reads the stored value, and what overwrites it".into(),
     };
-    let (rule, message) = match (whole, shown.first(), shown.last()) {
+    let (rule, message) = match (whole, values.first(), values.last()) {
         (false, Some(low), Some(high)) => {
             (rules::IDLE_RANGE, format!("from {low} to {high}, \"{label}\" changes nothing visible"))
         }
@@ -302,8 +302,8 @@ fn finding(
 }
 
 /// The first thing that a control sets.
-fn written(looked: &Looked<'_>, index: usize) -> Option<String> {
-    let (_, program) = looked.bench.ready.programs.controls.get(index)?;
+fn written(observed: &ObservedLab<'_>, index: usize) -> Option<String> {
+    let (_, program) = observed.bench.ready.programs.controls.get(index)?;
     let bound = match program {
         ControlProgram::Press(run) => run.as_ref()?,
         ControlProgram::Change(_, action) => action.run.as_ref()?,
@@ -324,8 +324,8 @@ fn written(looked: &Looked<'_>, index: usize) -> Option<String> {
 }
 
 /// What a control stores, where the setup reads it and nothing else does, in words.
-fn for_the_setup(looked: &Looked<'_>, index: usize) -> Option<String> {
-    let programs = &looked.bench.ready.programs;
+fn for_the_setup(observed: &ObservedLab<'_>, index: usize) -> Option<String> {
+    let programs = &observed.bench.ready.programs;
     let (_, ControlProgram::Change(_, action)) = programs.controls.get(index)? else { return None };
     let stored = action.run.as_ref().map(|b| b.program.effects().ctx_writes.clone()).unwrap_or_default();
     let slots: Vec<u32> = stored.into_iter().chain(action.param).collect();

@@ -1,8 +1,9 @@
 //! `mj_setConst` in the middle of a run: it puts the coordinates back to the model's own, and the scene jumps.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::bind::{ControlProgram, functions};
-use crate::check::programs::{choices, resets, sets};
+use crate::check::choices::choices;
+use crate::check::programs::{resets, sets};
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -15,9 +16,9 @@ const STEPS: usize = 400;
 /// A smaller jump is none.
 const SMALL: f64 = 1e-6;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
-    let steps = looked.bench.steps(looked.length).map_or(STEPS, |(n, _)| (n / 2).min(STEPS));
+pub(super) fn check_jumps(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let steps = observed.bench.steps(observed.length).map_or(STEPS, |(n, _)| (n / 2).min(STEPS));
     for (index, (label, program)) in ready.programs.controls.iter().enumerate() {
         let (bound, value) = match program {
             ControlProgram::Change(_, action) if action.reset => continue,
@@ -35,7 +36,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         {
             continue;
         }
-        let mut session = looked.bench.start();
+        let mut session = observed.bench.start();
         run::play(&mut session, &Play::steps(steps), |_, _| ControlFlow::Continue(()));
         let before = session.world.data.fields().qpos.clone();
         match value {

@@ -1,8 +1,8 @@
 //! Contact parameters that a control sets on one geom, and that the contact mixes with those of the other: what the contact really has.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::bind::ControlProgram;
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -10,7 +10,7 @@ use crate::run::{self, Play, Session};
 use labspec_core::{Data, Model, Obj, Plan};
 use std::ops::ControlFlow;
 
-/// Steps in which contacts are looked for.
+/// Steps in which contacts are observed for.
 const STEPS: usize = 300;
 /// Every so many steps.
 const EVERY: usize = 5;
@@ -35,8 +35,8 @@ const MIXED: [Mixed; 2] = [
     },
 ];
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_mixed_dimensions(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     for (index, control) in ready.lab.controls.iter().enumerate() {
         let Some((_, ControlProgram::Change(_, action))) = ready.programs.controls.get(index) else {
             continue;
@@ -50,8 +50,8 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         };
         for what in MIXED.iter().filter(named) {
             let found = choices(control).into_iter().find_map(|value| {
-                let shown = value.to_string();
-                Some((shown, differs(looked, index, value, what)?))
+                let printed = value.to_string();
+                Some((printed, differs(observed, index, value, what)?))
             });
             let Some((value, ([own, other], written, has))) = found else { continue };
             let name = |g: usize| match ready.model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
@@ -80,14 +80,14 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
 
 /// A contact between a geom that the control has changed and one that it has not, which has another value than was written.
 fn differs(
-    looked: &Looked<'_>,
+    observed: &ObservedLab<'_>,
     index: usize,
     value: labspec_expr::Value,
     what: &Mixed,
 ) -> Option<([usize; 2], f64, f64)> {
-    let ready = looked.bench.ready;
+    let ready = observed.bench.ready;
     let data = Data::planned(&ready.model, Plan::full());
-    let (key, budget) = (ready.lab.keyframe(), looked.bench.budget());
+    let (key, budget) = (ready.lab.keyframe(), observed.bench.budget());
     let mut session = Session::start_with_within(&ready.programs, &ready.model, key, data, budget);
     let all = |session: &Session<'_>| -> Vec<Option<f64>> {
         (0..ready.model.ngeom).map(|g| (what.of)(&session.world.model, g)).collect()

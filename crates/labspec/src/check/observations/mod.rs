@@ -27,19 +27,19 @@ mod undone;
 pub(super) use record::{Mark, Record};
 pub(super) use saturated::Beyond;
 
-use super::Ready;
+use super::PreparedLab;
 use crate::finding::Finding;
 use crate::run::Cell;
-use bench::Bench;
+use bench::ObservationBench;
 
 /// Work for the runs that make sure, for each lab.
 const WORK: u64 = 600_000_000;
 
-/// A lab that was looked at.
-struct Looked<'a> {
+/// A lab that was observed at.
+struct ObservedLab<'a> {
     /// As it stands, then with each control at its ends.
     records: &'a [Record],
-    bench: Bench<'a>,
+    bench: ObservationBench<'a>,
     /// What is shown from other states, once it was asked for.
     perturbed: Option<Vec<Vec<Cell>>>,
     /// How long each run was, s.
@@ -48,7 +48,7 @@ struct Looked<'a> {
     reported: Vec<usize>,
 }
 
-impl Looked<'_> {
+impl ObservedLab<'_> {
     fn perturbed_rows(&mut self) -> &[Vec<Cell>] {
         let bench = &mut self.bench;
         self.perturbed.get_or_insert_with(|| bench.perturbed_run())
@@ -64,27 +64,32 @@ impl Looked<'_> {
 }
 
 /// Looks at a lab whose runs all came to their end.
-pub(super) fn check(ready: &Ready<'_>, records: &[Record], length: f64, findings: &mut Vec<Finding>) {
-    let bench = Bench { ready, programs: &ready.programs, left: WORK, runs: 0 };
-    let mut looked = Looked { records, bench, perturbed: None, length, reported: Vec::new() };
-    start::check(&looked, findings);
-    at_rest::check(&looked, findings);
-    saturated::check(&looked, findings);
-    jumps::check(&looked, findings);
-    mixed::check(&looked, findings);
-    stale::check(&mut looked, findings);
-    early::check(&mut looked, findings);
-    never::check(&looked, findings);
-    error::check(&mut looked, findings);
-    curves::check(&mut looked, findings);
-    readouts::check(&looked, findings);
-    begins::check(&looked, findings);
-    again::check(&looked, findings);
-    below_zero::check(&looked, findings);
-    damping::check(&looked, findings);
-    no_solver::check(&looked, findings);
-    undone::check(&mut looked, findings);
-    overruled::check(&mut looked, findings);
-    flat::check(&mut looked, findings);
-    idle::check(&mut looked, findings);
+pub(super) fn check_observations(
+    ready: &PreparedLab<'_>,
+    records: &[Record],
+    length: f64,
+    findings: &mut Vec<Finding>,
+) {
+    let bench = ObservationBench { ready, programs: &ready.programs, left: WORK, runs: 0 };
+    let mut observed = ObservedLab { records, bench, perturbed: None, length, reported: Vec::new() };
+    start::check_start(&observed, findings);
+    at_rest::check_at_rest(&observed, findings);
+    saturated::check_saturation(&observed, findings);
+    jumps::check_jumps(&observed, findings);
+    mixed::check_mixed_dimensions(&observed, findings);
+    stale::check_stale_reads(&mut observed, findings);
+    early::check_early_stop(&mut observed, findings);
+    never::check_stop_reached(&observed, findings);
+    error::check_error_readouts(&mut observed, findings);
+    curves::check_curves(&mut observed, findings);
+    readouts::check_readouts(&observed, findings);
+    begins::check_beginning(&observed, findings);
+    again::check_repeats(&observed, findings);
+    below_zero::check_below_zero(&observed, findings);
+    damping::check_damping(&observed, findings);
+    no_solver::check_solver(&observed, findings);
+    undone::check_undone_writes(&mut observed, findings);
+    overruled::check_overruled_controls(&mut observed, findings);
+    flat::check_flat_curves(&mut observed, findings);
+    idle::check_idle_controls(&mut observed, findings);
 }

@@ -1,15 +1,15 @@
 //! A lab that never comes to the time at which it is to stop.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let Some(stop) = &looked.bench.ready.lab.stop_at else { return };
-    let Some((_, timestep)) = looked.bench.steps(looked.length) else { return };
+pub(super) fn check_stop_reached(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let Some(stop) = &observed.bench.ready.lab.stop_at else { return };
+    let Some((_, timestep)) = observed.bench.steps(observed.length) else { return };
     // As it stands; the run was long enough if time had gone on.
-    let Some(own) = looked.records.first().filter(|r| r.moved.is_none() && looked.length >= stop.value)
+    let Some(own) = observed.records.first().filter(|r| r.moved.is_none() && observed.length >= stop.value)
     else {
         return;
     };

@@ -1,18 +1,18 @@
 //! A solver that may not iterate at all, where there is something to solve.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::{self, Play};
 use labspec_core::reflect::option;
 use std::ops::ControlFlow;
 
-/// Steps in which forces are looked for.
+/// Steps in which forces are observed for.
 const STEPS: usize = 500;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
-    let mut session = looked.bench.start();
+pub(super) fn check_solver(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let mut session = observed.bench.start();
     if session.world.model.opt.iterations != 0 {
         return;
     }
@@ -22,8 +22,8 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
         let writes = |w: &labspec_expr::Access| w.field.0 as usize == option::iterations.index();
         b.program.effects().writes.iter().any(writes)
     };
-    let own = programs.setup.as_ref().filter(|b| sets(b)).map(|b| b.text.span());
-    if programs.bound().filter(|b| sets(b)).count() > usize::from(own.is_some()) {
+    let in_setup = programs.setup.as_ref().filter(|b| sets(b)).map(|b| b.text.span());
+    if programs.bound().filter(|b| sets(b)).count() > usize::from(in_setup.is_some()) {
         return;
     }
     let mut found = None;
@@ -35,7 +35,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
     let Some((rows, time)) = found else { return };
     let time = crate::check::setconst::digits(time, 3);
     findings.push(
-        Finding::warning(rules::SOLVER_STOPS_EARLY, own.unwrap_or(ready.lab.place()), "`opt.iterations` is 0, so the solver never iterates")
+        Finding::warning(rules::SOLVER_STOPS_EARLY, in_setup.unwrap_or(ready.lab.place()), "`opt.iterations` is 0, so the solver never iterates")
             .why(format!("at t = {time} s there are {rows} constraint rows of contacts, limits or equalities, but nothing computes their forces"))
             .help("leave `iterations` at its default of 100"),
     );

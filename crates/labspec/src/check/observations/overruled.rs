@@ -1,8 +1,8 @@
 //! Controls that something else overrules: the lab begins with another value than they show, or the controller writes its own.
 //!
-//! Only what a control sets directly is looked at, elements of the model and inputs, so that nothing else can be what it does.
+//! Only what a control sets directly is observed at, elements of the model and inputs, so that nothing else can be what it does.
 
-use super::Looked;
+use super::ObservedLab;
 use super::bench::Move;
 use super::idle::{Setting, settings, values};
 use crate::bind::{Bound, ControlProgram};
@@ -18,7 +18,7 @@ use labspec_expr::{FieldKey, Host, Value};
 const LATE: usize = 40;
 /// The latest step at which it is moved.
 const MOST_STEPS: usize = 20_000;
-/// Most elements that are looked at.
+/// Most elements that are observed at.
 const MOST: usize = 64;
 
 /// An element that a control sets.
@@ -29,7 +29,7 @@ struct Element {
 }
 
 impl Element {
-    fn of(self, session: &Session<'_>) -> f64 {
+    fn value(self, session: &Session<'_>) -> f64 {
         session.world.get(FieldKey(self.field.index() as u32), self.index).unwrap_or(f64::NAN)
     }
 
@@ -67,8 +67,8 @@ fn elements(bound: &Bound) -> Option<Vec<Element>> {
 }
 
 /// Looks at every control; tells which of them are overruled.
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     for (index, control) in ready.lab.controls.iter().enumerate() {
         let Some((_, ControlProgram::Change(own, action))) = ready.programs.controls.get(index) else {
             continue;
@@ -76,11 +76,11 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         let Some(bound) = action.run.as_ref() else { continue };
         let Some(elements) = elements(bound) else { continue };
         let label = &control.label.value;
-        let told = if let Some(why) = otherwise(looked, index, own, &elements) {
+        let finding = if let Some(why) = otherwise(observed, index, own, &elements) {
             Finding::warning(rules::OVERRULED, bound.text.span(), format!("the lab does not start with the value of \"{label}\""))
                 .why(why)
                 .help("delete the code after the control that overwrites it, in the setup or in another control, or let it use the control's value")
-        } else if let Some(why) = overwritten(looked, index, control, &elements) {
+        } else if let Some(why) = overwritten(observed, index, control, &elements) {
             Finding::warning(
                 rules::OVERRULED,
                 bound.text.span(),
@@ -91,21 +91,21 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
         } else {
             continue;
         };
-        findings.push(told.related(control.label.span(), "the control"));
-        looked.reported.push(index);
+        findings.push(finding.related(control.label.span(), "the control"));
+        observed.reported.push(index);
     }
 }
 
 /// What the lab begins with where the control says another value, in words.
-fn otherwise(looked: &Looked<'_>, index: usize, own: &Value, elements: &[Element]) -> Option<String> {
-    let ready = looked.bench.ready;
+fn otherwise(observed: &ObservedLab<'_>, index: usize, own: &Value, elements: &[Element]) -> Option<String> {
+    let ready = observed.bench.ready;
     let mut programs = ready.programs.clone();
     if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
         action.reset = false;
     }
-    let (key, budget) = (ready.lab.keyframe(), looked.bench.budget());
+    let (key, budget) = (ready.lab.keyframe(), observed.bench.budget());
     let mut session = Session::start_within(&programs, &ready.model, key, &programs.demand, budget);
-    let now = |session: &Session<'_>| elements.iter().map(|e| e.of(session)).collect::<Vec<f64>>();
+    let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     let begins = now(&session);
     session.set_control(index, own.clone());
     let says = now(&session);
@@ -125,17 +125,17 @@ fn otherwise(looked: &Looked<'_>, index: usize, own: &Value, elements: &[Element
 
 /// What the controller makes of it, whatever it is set to, in words.
 fn overwritten(
-    looked: &mut Looked<'_>,
+    observed: &mut ObservedLab<'_>,
     index: usize,
     control: &Control,
     elements: &[Element],
 ) -> Option<String> {
-    let ready = looked.bench.ready;
+    let ready = observed.bench.ready;
     ready.programs.controller.as_ref()?;
     let values = values(control);
     let (mut said, mut runs) = (None, 0);
     // A controller may leave it alone at the start, or later on.
-    let (steps, _) = looked.bench.steps(looked.length)?;
+    let (steps, _) = observed.bench.steps(observed.length)?;
     let late = [steps / 2, steps.saturating_sub(2)]
         .into_iter()
         .filter(|n| *n > LATE)
@@ -145,7 +145,7 @@ fn overwritten(
     for (setting, at) in all {
         let mut first: Option<Vec<f64>> = None;
         for value in values.iter().flatten() {
-            let (set, then) = after(looked, &setting, at, index, value, elements)?;
+            let (set, then) = after(observed, &setting, at, index, value, elements)?;
             runs += 1;
             match &first {
                 Some(other) if *other != then => return None,
@@ -169,15 +169,15 @@ fn overwritten(
 
 /// The elements when the control is moved, and one step later.
 fn after(
-    looked: &mut Looked<'_>,
+    observed: &mut ObservedLab<'_>,
     setting: &[Move],
     at: usize,
     index: usize,
     value: &Value,
     elements: &[Element],
 ) -> Option<(Vec<f64>, Vec<f64>)> {
-    let mut session = looked.bench.start();
-    let now = |session: &Session<'_>| elements.iter().map(|e| e.of(session)).collect::<Vec<f64>>();
+    let mut session = observed.bench.start();
+    let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     for step in 0..at {
         for m in setting.iter().filter(|m| m.step == step) {
             match &m.value {
@@ -193,6 +193,6 @@ fn after(
     let then = now(&session);
     let (spent, sound) = (session.spent(), session.ended().is_none());
     drop(session);
-    looked.bench.left = looked.bench.left.saturating_sub(spent);
-    (sound && looked.bench.left > 0).then_some((set, then))
+    observed.bench.left = observed.bench.left.saturating_sub(spent);
+    (sound && observed.bench.left > 0).then_some((set, then))
 }

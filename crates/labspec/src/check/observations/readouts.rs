@@ -1,6 +1,6 @@
 //! Readouts that hardly change what they print while their value changes.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -18,7 +18,7 @@ const MANY: usize = 20;
 
 /// A readout whose label has a unit, and that is a text in every run.
 fn text_with_unit<'c>(
-    looked: &Looked<'_>,
+    observed: &ObservedLab<'_>,
     readout: &Readout,
     mut cells: impl Iterator<Item = &'c Cell>,
 ) -> Option<Finding> {
@@ -30,7 +30,7 @@ fn text_with_unit<'c>(
         Finding::warning(rules::LABEL_UNIT, readout.label.span(), message)
             .why(format!(
                 "it is a string at every sample of {}: \"{}\" at first",
-                looked.runs(),
+                observed.runs(),
                 crate::json::read::shorten(first)
             ))
             .related(readout.expr.span(), "this is a string")
@@ -38,13 +38,14 @@ fn text_with_unit<'c>(
     })
 }
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let lab = looked.bench.ready.lab;
+pub(super) fn check_readouts(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let lab = observed.bench.ready.lab;
     let traces = lab.traces().count();
     for (i, readout) in lab.readouts.iter().enumerate() {
-        let cells = || looked.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
+        let cells =
+            || observed.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
         let numbers = || cells().map(Cell::number);
-        findings.extend(text_with_unit(looked, readout, cells()));
+        findings.extend(text_with_unit(observed, readout, cells()));
         if cells().any(|c| !matches!(c, Cell::Number(x) if x.is_finite())) {
             continue;
         }
@@ -75,7 +76,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::warning(rules::TOO_FEW_DIGITS, readout.expr.span(), message)
                 .why(format!(
                     "its value goes from {low} to {high} in {}, but it prints {}",
-                    looked.runs(),
+                    observed.runs(),
                     if few { texts } else { "numbers within two units of the last decimal".into() }
                 ))
                 .related(place, "decimals")

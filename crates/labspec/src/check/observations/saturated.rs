@@ -1,13 +1,13 @@
 //! Inputs that are beyond their range all the time, in every run: the controller might as well be a constant.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::Session;
 use labspec_core::Obj;
 
-/// Inputs that were beyond their range whenever they were looked at, with the least that they were beyond it by.
+/// Inputs that were beyond their range whenever they were observed at, with the least that they were beyond it by.
 #[derive(Debug, Default)]
 pub(in crate::check) struct Beyond {
     looks: usize,
@@ -34,12 +34,12 @@ impl Beyond {
 /// Runs of fewer samples say nothing.
 const LOOKS: usize = 10;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
-    let Some(first) = looked.records.first() else { return };
+pub(super) fn check_saturation(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
+    let Some(first) = observed.records.first() else { return };
     for (i, (_, value)) in first.beyond.times.iter().enumerate() {
         let always = |b: &Beyond| b.looks >= LOOKS && b.times.get(i).is_some_and(|t| t.0 == b.looks);
-        if !looked.records.iter().all(|r| always(&r.beyond)) {
+        if !observed.records.iter().all(|r| always(&r.beyond)) {
             continue;
         }
         let [low, high] =
@@ -50,7 +50,7 @@ pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
             Finding::warning(rules::ALWAYS_SATURATED, ready.lab.place(), format!("{who} is outside its range all the time"))
                 .why(format!(
                     "it is {} in the run as the lab stands, its `ctrlrange` goes from {low} to {high}, and it is outside at every sample of {}: the engine clamps it",
-                    digits(*value, 4), looked.runs()
+                    digits(*value, 4), observed.runs()
                 ))
                 .help("check the unit and the gain of what computes it, or widen `ctrlrange`"),
         );

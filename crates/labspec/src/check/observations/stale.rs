@@ -1,10 +1,10 @@
 //! Statements that read what follows from the state just after they have written it: whether it shows, by running the lab with
 //! `mj_forward` between.
 
-use super::Looked;
-use super::bench::{Bench, Move};
+use super::ObservedLab;
+use super::bench::{Move, ObservationBench};
 use crate::bind::{Bound, ControlProgram, Programs, include};
-use crate::check::programs::choices;
+use crate::check::choices::choices;
 use crate::check::setconst;
 use crate::finding::Finding;
 use crate::rules;
@@ -27,8 +27,8 @@ enum ProgramSite {
     Control(usize),
 }
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_stale_reads(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     let programs = &ready.programs;
     let controls = programs.controls.iter().enumerate().filter_map(|(i, (_, c))| {
         let (run, given) = match c {
@@ -41,8 +41,8 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
     let setup = programs.setup.iter().map(|b| (ProgramSite::Setup, b, None));
     for (place, bound, given) in setup.chain(controls) {
         let Some(text) = suspect(bound).then(|| with_forward(&bound.text.value)).flatten() else { continue };
-        let Some(amended) = amended(looked, place, bound, &text, given) else { continue };
-        if let Some(said) = shows(looked, place, &amended) {
+        let Some(amended) = amended(observed, place, bound, &text, given) else { continue };
+        if let Some(said) = shows(observed, place, &amended) {
             findings.push(
                 Finding::warning(
                     rules::STALE_READ,
@@ -109,14 +109,14 @@ fn with_forward(text: &str) -> Option<String> {
 
 /// The lab with other statements at a place.
 fn amended(
-    looked: &Looked<'_>,
+    observed: &ObservedLab<'_>,
     place: ProgramSite,
     bound: &Bound,
     text: &str,
     given: Option<Type>,
 ) -> Option<Programs> {
-    let ready = looked.bench.ready;
-    let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
+    let ready = observed.bench.ready;
+    let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
     let bound = bench.compile(&bound.text, text, given)?;
     let mut programs = ready.programs.clone();
     match place {
@@ -147,23 +147,24 @@ fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
         )];
     }
     for value in values {
-        let said = format!("with \"{label}\" at {value}");
-        all.push((vec![Move { step: STEPS / 4, control: i, value: Some(value) }], said));
+        let description = format!("with \"{label}\" at {value}");
+        all.push((vec![Move { step: STEPS / 4, control: i, value: Some(value) }], description));
     }
     all
 }
 
 /// The first difference that can be seen, in words.
-fn shows(looked: &mut Looked<'_>, place: ProgramSite, amended: &Programs) -> Option<String> {
-    let ready = looked.bench.ready;
+fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs) -> Option<String> {
+    let ready = observed.bench.ready;
     for (moves, said) in trials(ready.lab, place) {
-        let own = looked.bench.run(&moves, STEPS)?;
-        let mut other = Bench { ready, programs: amended, left: looked.bench.left, runs: 0 };
+        let with_move = observed.bench.run(&moves, STEPS)?;
+        let mut other = ObservationBench { ready, programs: amended, left: observed.bench.left, runs: 0 };
         let anew = other.run(&moves, STEPS)?;
-        looked.bench.left = other.left;
+        observed.bench.left = other.left;
         for (c, probe) in ready.programs.probes.iter().enumerate() {
             let cells = || {
-                own.rows
+                with_move
+                    .rows
                     .iter()
                     .zip(&anew.rows)
                     .filter_map(|(a, b)| Some((a.first()?, a.get(c + 1)?, b.get(c + 1)?)))

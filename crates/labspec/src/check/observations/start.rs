@@ -1,6 +1,6 @@
 //! How a lab begins: bodies that are deep inside of each other, and are thrown out.
 
-use super::Looked;
+use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
@@ -13,8 +13,8 @@ const DEEP: f64 = 0.3;
 /// What is thrown out has come half of the way after so many steps.
 const STEPS: usize = 200;
 
-pub(super) fn check(looked: &Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     // Every stage: contacts are not computed where nothing reads them.
     let data = Data::planned(&ready.model, Plan::full());
     let mut session = Session::start_with(&ready.programs, &ready.model, ready.lab.keyframe(), data);
@@ -56,8 +56,8 @@ fn deepest(session: &Session<'_>) -> Option<([usize; 2], f64)> {
 /// How deep these two are in each other.
 fn contact(session: &Session<'_>, pair: [usize; 2]) -> f64 {
     let all = session.world.data.fields().contact.iter();
-    let own = all.filter(|c| [c.geom1, c.geom2] == pair);
-    own.map(|c| -c.dist).fold(0.0, f64::max)
+    let of_pair = all.filter(|c| [c.geom1, c.geom2] == pair);
+    of_pair.map(|c| -c.dist).fold(0.0, f64::max)
 }
 
 /// Half of the smallest extent of a geom, m; infinite where it has none.

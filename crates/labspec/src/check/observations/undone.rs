@@ -1,6 +1,6 @@
 //! Buttons that reset what they have just done.
 
-use super::Looked;
+use super::ObservedLab;
 use super::stale::parts;
 use crate::bind::{Bound, ControlProgram};
 use crate::check::setconst::{self, digits};
@@ -16,8 +16,8 @@ const STEPS: usize = 40;
 /// How a reset is written.
 const RESETS: [&str; 4] = ["mj.mj_resetData(", "mj_resetData(", "mj.mj_resetDataKeyframe(", "sim.reset("];
 
-pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
-    let ready = looked.bench.ready;
+pub(super) fn check_undone_writes(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
+    let ready = observed.bench.ready;
     for (index, (label, program)) in ready.programs.controls.iter().enumerate() {
         let ControlProgram::Press(Some(bound)) = program else { continue };
         let Some(parts) = parts(&bound.text.value) else { continue };
@@ -29,12 +29,12 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             continue;
         };
         let before = before.iter().map(|p| p.as_str()).collect::<Vec<_>>().join(";");
-        let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
+        let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
         let [first, then] = [before.as_str(), last.as_str()].map(|t| bench.compile(&bound.text, t, None));
         let (Some(first), Some(then)) = (first, then) else { continue };
         // To begin with a plain reset and then to take a keyframe loses nothing.
         let resets = before.split(';').any(|p| is_reset(p) && p.contains("Keyframe"));
-        let Some((name, set, left)) = lost(looked, &first, &then, resets) else {
+        let Some((name, set, left)) = lost(observed, &first, &then, resets) else {
             continue;
         };
         findings.push(
@@ -48,12 +48,17 @@ pub(super) fn check(looked: &mut Looked<'_>, findings: &mut Vec<Finding>) {
             ))
             .help("reset first, then set the values after the reset"),
         );
-        looked.reported.push(index);
+        observed.reported.push(index);
     }
 }
 
 /// The first number that the first statements set and the reset behind them takes back; `None` where anything of it is left.
-fn lost(looked: &Looked<'_>, first: &Bound, then: &Bound, resets: bool) -> Option<(String, String, String)> {
+fn lost(
+    observed: &ObservedLab<'_>,
+    first: &Bound,
+    then: &Bound,
+    resets: bool,
+) -> Option<(String, String, String)> {
     let effects = first.program.effects();
     let model = effects.writes.iter().any(|w| {
         FieldId::new(w.field.0 as usize)
@@ -62,7 +67,7 @@ fn lost(looked: &Looked<'_>, first: &Bound, then: &Bound, resets: bool) -> Optio
     if effects.any_ctx || effects.calls_values || model && !resets {
         return None;
     }
-    let mut session = looked.bench.start();
+    let mut session = observed.bench.start();
     run::play(&mut session, &Play::steps(STEPS), |_, _| ControlFlow::Continue(()));
     session.run_statements(&first.program, &first.text);
     let state = |session: &Session<'_>| -> Vec<(String, f64)> {
@@ -91,8 +96,8 @@ fn lost(looked: &Looked<'_>, first: &Bound, then: &Bound, resets: bool) -> Optio
     session.run_statements(&then.program, &then.text);
     let left = state(&session);
     // What is kept beside the state is a choice that a reset leaves.
-    let kept = !resets && !effects.ctx_writes.is_empty();
+    let survives_reset = !resets && !effects.ctx_writes.is_empty();
     let gone = set.iter().zip(&left).find(|(a, b)| (a.1 - b.1).abs() > 1e-9 * a.1.abs().max(b.1.abs()));
-    let ((name, a), (_, b)) = gone.filter(|_| !kept && session.ended().is_none())?;
+    let ((name, a), (_, b)) = gone.filter(|_| !survives_reset && session.ended().is_none())?;
     Some((name.clone(), digits(*a, 4), digits(*b, 4)))
 }

@@ -6,8 +6,8 @@
 
 mod rests;
 
-use super::claims::{self, ResolvedLabs, resolve_labs};
-use super::{Ready, setconst};
+use super::resolved_labs::{ResolvedLabs, resolve_labs, start_runs};
+use super::{PreparedLab, setconst};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::scene::Models;
 use crate::bind::{ControlProgram, Programs};
@@ -25,7 +25,7 @@ const MATTERS: f64 = 1e-3;
 
 /// A program that writes a parameter which others belong to.
 #[derive(Clone)]
-pub(super) struct Candidate<'a> {
+pub(super) struct PartnerCandidate<'a> {
     text: Text,
     /// What it is called.
     who: String,
@@ -33,12 +33,12 @@ pub(super) struct Candidate<'a> {
     /// The lab; the setup of a run has none.
     lab: Option<&'a Lab>,
     /// It stands in this lesson.
-    own: bool,
+    in_lesson: bool,
     /// It is a change of the model's text.
     change: bool,
 }
 
-impl Candidate<'_> {
+impl PartnerCandidate<'_> {
     /// What it leaves behind, in words.
     fn left(&self) -> String {
         let mut partners: Vec<&str> = self.pairs.pairs().map(|(_, pair)| pair.left).collect();
@@ -51,16 +51,16 @@ impl Candidate<'_> {
 pub(super) struct Partners<'a> {
     lesson: &'a Lesson,
     models: &'a Models,
-    labs: &'a [Ready<'a>],
-    candidates: Vec<Candidate<'a>>,
+    labs: &'a [PreparedLab<'a>],
+    candidates: Vec<PartnerCandidate<'a>>,
     /// Made when they are asked for: most lessons change no parameter that another belongs to.
-    corrected: OnceCell<Vec<Ready<'a>>>,
+    corrected: OnceCell<Vec<PreparedLab<'a>>>,
     stage: Stage<'a>,
 }
 
 /// Under which numerics runs are made.
 #[derive(Clone, Copy)]
-enum Variants {
+enum TestedNumerics {
     /// Those of the lesson.
     Nominal,
     /// All that a claim has to survive.
@@ -77,12 +77,12 @@ struct ClaimOwner<'c> {
 }
 
 /// The programs of all labs that write a parameter which others belong to.
-fn candidates<'a>(lesson: &'a Lesson, labs: &[Ready<'a>]) -> Vec<Candidate<'a>> {
+fn candidates<'a>(lesson: &'a Lesson, labs: &[PreparedLab<'a>]) -> Vec<PartnerCandidate<'a>> {
     let all = lesson.all_labs();
     let mut candidates = Vec::new();
     for ready in labs {
         let programs = &ready.programs;
-        let own = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
+        let in_lesson = all.iter().any(|lab| std::ptr::eq(*lab, ready.lab));
         let of_lab = [("the setup", &programs.setup), ("the controller", &programs.controller)];
         let named = of_lab.into_iter().map(|(who, bound)| (who.to_string(), bound.as_ref()));
         let controls = programs.controls.iter().map(|(label, program)| match program {
@@ -94,12 +94,12 @@ fn candidates<'a>(lesson: &'a Lesson, labs: &[Ready<'a>]) -> Vec<Candidate<'a>> 
             let written = PairSet::written_by(&bound.program);
             let pairs = written.without(coupled::chosen_apart(programs, bound, written));
             let pairs = pairs.without(allowed(lesson, &bound.text, pairs));
-            candidates.push(Candidate {
+            candidates.push(PartnerCandidate {
                 text: bound.text.clone(),
                 who,
                 pairs,
                 lab: Some(ready.lab),
-                own,
+                in_lesson,
                 change: false,
             });
         }
@@ -109,14 +109,14 @@ fn candidates<'a>(lesson: &'a Lesson, labs: &[Ready<'a>]) -> Vec<Candidate<'a>> 
 }
 
 /// The correction of every partner that programs leave behind.
-fn correction(candidates: &[Candidate<'_>]) -> Coupled {
+fn correction(candidates: &[PartnerCandidate<'_>]) -> Coupled {
     let programs = candidates.iter().map(|c| (c.text.clone(), c.pairs)).collect();
     Coupled { programs, others: PairSet::ALL, changes: PairSet::ALL, refresh: false }
 }
 
 /// Lets every run of the labs say whether the correction would change anything in it. Where it would not, the corrected run is the
 /// same, and need not be made. Gives the programs that are corrected.
-pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [Ready<'a>]) -> Vec<Candidate<'a>> {
+pub(super) fn observe<'a>(lesson: &'a Lesson, labs: &mut [PreparedLab<'a>]) -> Vec<PartnerCandidate<'a>> {
     let candidates = candidates(lesson, labs);
     let correction = correction(&candidates);
     labs.iter_mut().for_each(|ready| ready.programs.observed = Some(correction.clone()));
@@ -127,15 +127,15 @@ impl<'a> Partners<'a> {
     /// With the labs as [`observe`] has left them, and what it gave.
     pub(super) fn new(
         lesson: &'a Lesson,
-        labs: &'a [Ready<'a>],
+        labs: &'a [PreparedLab<'a>],
         models: &'a Models,
-        candidates: Vec<Candidate<'a>>,
+        candidates: Vec<PartnerCandidate<'a>>,
     ) -> Partners<'a> {
         Partners { lesson, models, labs, candidates, corrected: OnceCell::new(), stage: Stage::new(models) }
     }
 
     /// All labs of the lesson with every partner corrected.
-    fn corrected(&self) -> &[Ready<'a>] {
+    fn corrected(&self) -> &[PreparedLab<'a>] {
         self.corrected.get_or_init(|| corrected(self.labs, &correction(&self.candidates)))
     }
 
@@ -156,11 +156,13 @@ impl<'a> Partners<'a> {
             return;
         }
         // What other numerics change of a claim is asked where the lesson's own say something else.
-        let nominal = self.judge(case, self.corrected(), &self.stage, Variants::Nominal);
+        let nominal = self.judge(case, self.corrected(), &self.stage, TestedNumerics::Nominal);
         if nominal.is_some_and(|second| !differs(judgement, &second)) {
             return;
         }
-        let Some(second) = self.judge(case, self.corrected(), &self.stage, Variants::All) else { return };
+        let Some(second) = self.judge(case, self.corrected(), &self.stage, TestedNumerics::All) else {
+            return;
+        };
         if !differs(judgement, &second) || self.contrasted(case, judgement, &second) {
             return;
         }
@@ -168,7 +170,7 @@ impl<'a> Partners<'a> {
         let rests = Rests::new(&causes, judgement, &second);
         let evidence = rests.evidence.clone();
         rests.apply(case, judgement, second, findings);
-        for cause in causes.iter().filter(|c| c.own) {
+        for cause in causes.iter().filter(|c| c.in_lesson) {
             for (rule, pairs) in setconst::by_rule(cause.pairs) {
                 let span = cause.text.span();
                 if findings.iter().any(|f| f.code == rule.code && f.span == span) {
@@ -183,28 +185,44 @@ impl<'a> Partners<'a> {
     }
 
     /// The programs of the labs of an object, and the setups of its runs.
-    fn involved(&self, case: ClaimOwner<'_>) -> Vec<Candidate<'a>> {
+    fn involved(&self, case: ClaimOwner<'_>) -> Vec<PartnerCandidate<'a>> {
         let ClaimOwner { verify, own, .. } = case;
         let base = verify.lab.as_ref().map_or(own, |named| self.lesson.named(named));
         let of_run = |run| lab_of(self.lesson, base, run);
         let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
-        let of = |c: &&Candidate<'_>| labs.iter().any(|lab| c.lab.is_some_and(|own| std::ptr::eq(own, *lab)));
-        let mut all: Vec<Candidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
+        let of = |c: &&PartnerCandidate<'_>| {
+            labs.iter().any(|lab| c.lab.is_some_and(|own| std::ptr::eq(own, *lab)))
+        };
+        let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
         for text in changes(verify) {
             let pairs = PairSet::ALL.without(allowed(self.lesson, text, PairSet::ALL));
             let who = format!("the change of `{}`", text.value);
-            all.push(Candidate { text: text.clone(), who, pairs, lab: None, own: true, change: true });
+            all.push(PartnerCandidate {
+                text: text.clone(),
+                who,
+                pairs,
+                lab: None,
+                in_lesson: true,
+                change: true,
+            });
         }
         for run in &verify.runs {
             let lab = of_run(run).and_then(|lab| self.labs.iter().find(|r| std::ptr::eq(r.lab, lab)));
             let (Some(text), Some(ready)) = (&run.setup, lab) else { continue };
-            let bench = setconst::Bench::new(ready.lab, &ready.model, &ready.programs);
+            let bench = setconst::SetConstBench::new(ready.lab, &ready.model, &ready.programs);
             let Some(bound) = bench.compile(text, &text.value, None) else { continue };
             let pairs = PairSet::written_by(&bound.program);
             let pairs = pairs.without(allowed(self.lesson, text, pairs));
             let who = format!("the setup of the run {}", named(&run.name.value));
             if !pairs.is_empty() {
-                all.push(Candidate { text: text.clone(), who, pairs, lab: None, own: true, change: false });
+                all.push(PartnerCandidate {
+                    text: text.clone(),
+                    who,
+                    pairs,
+                    lab: None,
+                    in_lesson: true,
+                    change: false,
+                });
             }
         }
         all
@@ -214,17 +232,17 @@ impl<'a> Partners<'a> {
     fn judge(
         &self,
         case: ClaimOwner<'_>,
-        labs: &[Ready<'_>],
+        labs: &[PreparedLab<'_>],
         stage: &Stage<'_>,
-        numerics: Variants,
+        numerics: TestedNumerics,
     ) -> Option<Judgement> {
         let mut ignored = Vec::new();
         let ClaimOwner { verify, own, question, shown } = case;
         let ResolvedLabs { base, runs } = resolve_labs(self.lesson, labs, verify, own, stage, &mut ignored)?;
         let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut ignored)?;
         match numerics {
-            Variants::Nominal => verify::check_nominal(&bound, verify, question, shown),
-            Variants::All => Some(verify::check(&bound, verify, question, shown, &mut ignored)),
+            TestedNumerics::Nominal => verify::check_nominal(&bound, verify, question, shown),
+            TestedNumerics::All => Some(verify::check_verify(&bound, verify, question, shown, &mut ignored)),
         }
     }
 
@@ -232,12 +250,12 @@ impl<'a> Partners<'a> {
     fn contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
-            let begun = claims::begun(self.lesson, labs, case.verify, case.own, &stage);
+            let begun = start_runs(self.lesson, labs, case.verify, case.own, &stage);
             begun.map_or(Vec::new(), |begun| begun.runs)
         });
         let changed = |run: &str| {
-            let own = |m: &Measured| m.name.split_once('.').is_some_and(|(name, _)| name == run);
-            pairs(first, second).any(|(a, b)| own(a) && moved(a, b))
+            let of_run = |m: &Measured| m.name.split_once('.').is_some_and(|(name, _)| name == run);
+            pairs(first, second).any(|(a, b)| of_run(a) && moved(a, b))
         };
         let mut changed = corrected.iter().filter(|(run, _)| changed(run)).peekable();
         changed.peek().is_some()
@@ -251,10 +269,10 @@ impl<'a> Partners<'a> {
     fn causes(
         &self,
         case: ClaimOwner<'_>,
-        candidates: &[Candidate<'a>],
+        candidates: &[PartnerCandidate<'a>],
         first: &Judgement,
-    ) -> Vec<Candidate<'a>> {
-        let single = |c: &Candidate<'_>| c.pairs.pairs().count() == 1;
+    ) -> Vec<PartnerCandidate<'a>> {
+        let single = |c: &PartnerCandidate<'_>| c.pairs.pairs().count() == 1;
         if candidates.len() == 1 && candidates.iter().all(single) {
             return candidates.to_vec();
         }
@@ -265,12 +283,12 @@ impl<'a> Partners<'a> {
                 let programs = vec![(candidate.text.clone(), one)];
                 let alone = Coupled { programs, others: PairSet::NONE, changes, refresh: false };
                 let labs = corrected(self.labs, &alone);
-                let second = self.judge(case, &labs, &Stage::new(self.models), Variants::All)?;
+                let second = self.judge(case, &labs, &Stage::new(self.models), TestedNumerics::All)?;
                 differs(first, &second).then_some(one)
             };
             let pairs: PairSet = candidate.pairs.pairs().filter_map(matters).collect();
             if !pairs.is_empty() {
-                causes.push(Candidate { pairs, ..candidate.clone() });
+                causes.push(PartnerCandidate { pairs, ..candidate.clone() });
             }
         }
         if causes.is_empty() { candidates.to_vec() } else { causes }
@@ -296,11 +314,11 @@ fn lab_of<'c>(lesson: &'c Lesson, base: Option<&'c Lab>, run: &'c Run) -> Option
 }
 
 /// Labs whose partners are corrected.
-fn corrected<'a>(labs: &[Ready<'a>], coupled: &Coupled) -> Vec<Ready<'a>> {
-    let one = |ready: &Ready<'a>| {
+fn corrected<'a>(labs: &[PreparedLab<'a>], coupled: &Coupled) -> Vec<PreparedLab<'a>> {
+    let one = |ready: &PreparedLab<'a>| {
         let mut programs = Programs { observed: None, ..ready.programs.clone() };
         coupled.clone().install(&mut programs, &ready.model);
-        Ready { lab: ready.lab, model: ready.model.clone(), programs, mistakes: ready.mistakes }
+        PreparedLab { lab: ready.lab, model: ready.model.clone(), programs, mistakes: ready.mistakes }
     };
     labs.iter().map(one).collect()
 }
@@ -358,7 +376,7 @@ mod tests {
     }
 
     /// Every number of the state and of what the lab shows, bit for bit, after each of some steps.
-    fn bits(ready: &Ready<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
+    fn bits(ready: &PreparedLab<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
         let mut session = Session::start(programs, &ready.model, ready.lab.keyframe(), &programs.demand);
         for action in actions {
             match &action.value {
@@ -396,9 +414,9 @@ mod tests {
                 let labs = lesson.all_labs().into_iter();
                 let bound = |lab| {
                     let (model, programs, mistakes) = super::super::bind(lab, &models, &mut Vec::new())?;
-                    Some(Ready { lab, model, programs, mistakes })
+                    Some(PreparedLab { lab, model, programs, mistakes })
                 };
-                let mut labs: Vec<Ready<'_>> = labs.filter_map(bound).collect();
+                let mut labs: Vec<PreparedLab<'_>> = labs.filter_map(bound).collect();
                 let correction = correction(&observe(&lesson, &mut labs));
                 for (ready, amended) in labs.iter().zip(corrected(&labs, &correction)) {
                     let base = Interaction { kind: Kind::AsItStands, actions: Vec::new() };

@@ -1,6 +1,6 @@
 //! What becomes of claims that rest on a partner that was left behind, and what is said of them.
 
-use super::{Candidate, ClaimOwner, moved, pairs};
+use super::{ClaimOwner, PartnerCandidate, moved, pairs};
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::ledger::State;
@@ -22,9 +22,9 @@ pub(super) struct Rests {
 }
 
 impl Rests {
-    pub(super) fn new(causes: &[Candidate<'_>], first: &Judgement, second: &Judgement) -> Rests {
+    pub(super) fn new(causes: &[PartnerCandidate<'_>], first: &Judgement, second: &Judgement) -> Rests {
         let who: Vec<&str> = causes.iter().map(|c| c.who.as_str()).collect();
-        let left: Vec<String> = causes.iter().map(Candidate::left).collect();
+        let left: Vec<String> = causes.iter().map(PartnerCandidate::left).collect();
         Rests {
             who: who.join(" and "),
             left: left.join(", and "),
@@ -119,7 +119,7 @@ fn evidence(first: &Judgement, second: &Judgement) -> String {
     format!("{run}`{}` is {}, but {}", a.name, significant(a.value), significant(b.value))
 }
 
-fn corrected_words(causes: &[Candidate<'_>]) -> String {
+fn corrected_words(causes: &[PartnerCandidate<'_>]) -> String {
     let mut all: Vec<&str> = Vec::new();
     for (_, pair) in causes.iter().flat_map(|c| c.pairs.pairs()) {
         if !all.contains(&pair.corrected) {
@@ -129,7 +129,7 @@ fn corrected_words(causes: &[Candidate<'_>]) -> String {
     all.join(" and ")
 }
 
-fn codes(causes: &[Candidate<'_>]) -> String {
+fn codes(causes: &[PartnerCandidate<'_>]) -> String {
     let mut all: Vec<&str> = causes.iter().flat_map(|c| c.pairs.pairs()).map(|(_, p)| p.rule.code).collect();
     all.dedup();
     all.join("`, `")

@@ -8,20 +8,20 @@ const SET_CONST: &str = "mj.mj_setConst(model, data)";
 
 /// How constants are computed anew behind a program.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Advice {
+pub(super) enum SetConstAdvice {
     /// mj_setConst alone: for a lab whose qpos is the model's own then, or that is reset at once.
     Plain,
     /// mj_setConst with qpos kept.
     Keep,
 }
 
-impl Advice {
+impl SetConstAdvice {
     fn statements(self, text: &str) -> String {
         let name =
             ["q", "kept", "qpos_kept"].into_iter().find(|n| !text.contains(n)).unwrap_or("qpos_as_it_was");
         match self {
-            Advice::Plain => SET_CONST.into(),
-            Advice::Keep => {
+            SetConstAdvice::Plain => SET_CONST.into(),
+            SetConstAdvice::Keep => {
                 format!("const {name} = data.qpos.slice(); {SET_CONST}; data.qpos.set({name})")
             }
         }
@@ -51,17 +51,17 @@ pub(super) fn source(s: &Suspect<'_>) -> String {
 }
 
 /// The statements of a program with its partners corrected, and with constants computed anew where they have to be.
-pub(super) fn repaired(s: &Suspect<'_>, repair: &Repair, advice: Advice) -> String {
+pub(super) fn repaired(s: &Suspect<'_>, repair: &Repair, advice: SetConstAdvice) -> String {
     let source = source(s);
     let last = source.trim_end().trim_end_matches(';').trim_end();
     // A call that the program ends with stays behind everything.
-    let own = last.strip_suffix(SET_CONST).filter(|_| s.inertial.is_none() && repair.constants);
+    let before_call = last.strip_suffix(SET_CONST).filter(|_| s.inertial.is_none() && repair.constants);
     let mut text: String = repair.before.iter().map(|s| format!("{s}; ")).collect();
-    text += own.map_or(source.as_str(), str::trim_end);
+    text += before_call.map_or(source.as_str(), str::trim_end);
     for statement in &repair.after {
         text = format!("{text}{}{statement}", between(&text));
     }
-    match own {
+    match before_call {
         Some(_) => text + "; " + &advice.statements(&source),
         None if repair.constants || s.inertial.is_some() => {
             let tail = advice.tail(&text);

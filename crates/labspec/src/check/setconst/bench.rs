@@ -4,8 +4,8 @@ use super::difference::Columns;
 use super::{ProgramSite, Suspect};
 use crate::bind::coupled::{self, Coupled, PairSet};
 use crate::bind::{Bound, ControlProgram, ModelNames, Programs, Scope, include};
-use crate::check::programs::choices;
-use crate::run::{self, Breakdown, Cell, Play, Session, StepVariant, settings};
+use crate::check::choices::choices;
+use crate::run::{self, Cell, Play, Session, StepVariant, settings};
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Run, Verify};
 use labspec_core::reflect::FieldSet;
@@ -36,13 +36,13 @@ enum Move {
 }
 
 /// One run: what is done, and how a message calls it.
-pub(super) struct Trial {
+pub(super) struct BenchTrial {
     moves: Vec<(usize, Move)>,
     pub(super) description: String,
 }
 
 /// What is run.
-pub(in crate::check) struct Bench<'a> {
+pub(in crate::check) struct SetConstBench<'a> {
     lab: &'a Lab,
     model: &'a Model,
     programs: &'a Programs,
@@ -50,14 +50,14 @@ pub(in crate::check) struct Bench<'a> {
 }
 
 /// A run: its samples.
-pub(super) type Rows = Vec<Vec<Cell>>;
+pub(super) type SampleRows = Vec<Vec<Cell>>;
 
 /// A run: its samples, or why it says nothing.
-pub(super) type Record = Result<Rows, String>;
+pub(super) type Record = Result<SampleRows, String>;
 
-impl<'a> Bench<'a> {
-    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> Bench<'a> {
-        Bench { lab, model, programs, work_left: WORK }
+impl<'a> SetConstBench<'a> {
+    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> SetConstBench<'a> {
+        SetConstBench { lab, model, programs, work_left: WORK }
     }
 
     /// What the samples of its runs are.
@@ -90,18 +90,18 @@ impl<'a> Bench<'a> {
     }
 
     /// The runs that could show it.
-    pub(super) fn trials(&self, s: &Suspect<'_>, steps: usize) -> Vec<Trial> {
-        let mut all = vec![Trial { moves: Vec::new(), description: "as it stands".into() }];
+    pub(super) fn trials(&self, s: &Suspect<'_>, steps: usize) -> Vec<BenchTrial> {
+        let mut all = vec![BenchTrial { moves: Vec::new(), description: "as it stands".into() }];
         let half = steps / 2;
         let mut add = |at: usize, index: usize, value: Option<Value>| {
             let label = self.lab.controls.get(index).map_or("", |c| c.label.as_str());
             let later = if at > 0 { " in mid-run" } else { "" };
-            let said = match &value {
+            let description = match &value {
                 Some(value) => format!("with \"{label}\" at {value}{later}"),
                 None => format!("after \"{label}\" is pressed{later}"),
             };
             let what = value.map_or(Move::Press(index), |v| Move::Set(index, v));
-            all.push(Trial { moves: vec![(at, what)], description: said });
+            all.push(BenchTrial { moves: vec![(at, what)], description });
         };
         match s.place {
             ProgramSite::Run(run) => return vec![self.as_asked(run)],
@@ -140,22 +140,22 @@ impl<'a> Bench<'a> {
     /// Whether a program reads what another control of the lab writes: variables, or fields, where it calls no function that reads
     /// them all.
     pub(super) fn reads_of_others(&self, s: &Suspect<'_>) -> bool {
-        let own = s.bound.program.effects();
+        let effects = s.bound.program.effects();
         let written = |e: &Effects| {
             let field = |a: &Access| e.writes.iter().any(|w| w.field == a.field);
-            own.calls.is_empty() && own.reads.iter().any(field)
+            effects.calls.is_empty() && effects.reads.iter().any(field)
         };
         let others = self.programs.controls.iter().filter_map(|(_, program)| match program {
             ControlProgram::Change(_, action) => action.run.as_ref(),
             ControlProgram::Press(run) => run.as_ref(),
         });
         let mut others = others.filter(|other| other.text != s.bound.text);
-        let variables = own.any_ctx || !own.ctx_reads.is_empty();
-        variables || own.calls_values || others.any(|o| written(o.program.effects()))
+        let variables = effects.any_ctx || !effects.ctx_reads.is_empty();
+        variables || effects.calls_values || others.any(|o| written(o.program.effects()))
     }
 
     /// Runs with another control at its ends besides: a ball may roll only when a ramp is tilted.
-    pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<Trial> {
+    pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<BenchTrial> {
         let ProgramSite::Control(own) = s.place else { return Vec::new() };
         let Some(control) = self.lab.controls.get(own) else { return Vec::new() };
         let moves = |index: usize, control: &Control| -> Vec<(Move, String)> {
@@ -174,8 +174,8 @@ impl<'a> Bench<'a> {
         for (index, other) in self.lab.controls.iter().enumerate().filter(|(i, _)| *i != own) {
             for (theirs, how) in moves(index, other) {
                 for (ours, said) in moves(own, control) {
-                    let said = format!("{said} and {}", how.trim_start_matches("with "));
-                    all.push(Trial { moves: vec![(0, theirs.clone()), (0, ours)], description: said });
+                    let description = format!("{said} and {}", how.trim_start_matches("with "));
+                    all.push(BenchTrial { moves: vec![(0, theirs.clone()), (0, ours)], description });
                 }
             }
         }
@@ -184,7 +184,7 @@ impl<'a> Bench<'a> {
     }
 
     /// The run of a question: its settings, then its setup, then its presses.
-    fn as_asked(&self, run: &Run) -> Trial {
+    fn as_asked(&self, run: &Run) -> BenchTrial {
         let index = |label: &Text| self.lab.controls.iter().position(|c| c.label.value == label.value);
         let set = run.set.iter().filter_map(|(label, value)| {
             let i = index(label)?;
@@ -195,7 +195,7 @@ impl<'a> Bench<'a> {
         let press = run.press.iter().filter_map(|(label, time)| {
             Some(((time.value / timestep).ceil().max(0.0) as usize, Move::Press(index(label)?)))
         });
-        Trial {
+        BenchTrial {
             moves: set.chain(press).collect(),
             description: format!("in the run {}", crate::json::read::named(&run.name.value)),
         }
@@ -206,7 +206,7 @@ impl<'a> Bench<'a> {
         &mut self,
         s: &Suspect<'_>,
         amended: Option<&Amended>,
-        trial: &Trial,
+        trial: &BenchTrial,
         steps: usize,
     ) -> Record {
         self.record_under(s, amended, trial, steps, StepVariant::NOMINAL)
@@ -217,7 +217,7 @@ impl<'a> Bench<'a> {
         &mut self,
         s: &Suspect<'_>,
         amended: Option<&Amended>,
-        trial: &Trial,
+        trial: &BenchTrial,
         steps: usize,
         numerics: StepVariant,
     ) -> Record {
@@ -236,9 +236,9 @@ impl<'a> Bench<'a> {
         &mut self,
         s: &Suspect<'_>,
         amended: &Amended,
-        trial: &Trial,
+        trial: &BenchTrial,
         steps: usize,
-    ) -> Result<(Rows, bool), String> {
+    ) -> Result<(SampleRows, bool), String> {
         let setup = matches!(s.place, ProgramSite::Run(_)).then_some(&amended.bound);
         let whole = self.columns(s).whole || !s.pairs.is_empty();
         let run = self.perform(&amended.programs, setup, whole, trial, steps, StepVariant::NOMINAL)?;
@@ -251,7 +251,7 @@ impl<'a> Bench<'a> {
         programs: &Programs,
         setup: Option<&Bound>,
         whole: bool,
-        trial: &Trial,
+        trial: &BenchTrial,
         steps: usize,
         numerics: StepVariant,
     ) -> Result<Performed, String> {
@@ -300,15 +300,8 @@ impl<'a> Bench<'a> {
         if too_long {
             return Err("it takes too long".to_string());
         }
-        let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
-        if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
-            return Err(format!("its statements fail: {}", trouble.message));
-        }
-        match (Breakdown::of(&session), session.ended()) {
-            (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
-            (None, Some(_)) => Err("it ends early".to_string()),
-            (None, None) => Ok(Performed { rows, left_behind: session.left_behind() }),
-        }
+        is_sound(&session, programs)?;
+        Ok(Performed { rows, left_behind: session.left_behind() })
     }
 
     /// Whether another run of the same object is what this one would be when it is corrected: then the
@@ -416,7 +409,7 @@ fn coupled_in(s: &Suspect<'_>, pairs: PairSet) -> Coupled {
 
 /// A run that was made.
 struct Performed {
-    rows: Rows,
+    rows: SampleRows,
     /// A partner was left behind in it, as far as its programs observe that.
     left_behind: bool,
 }
@@ -444,5 +437,21 @@ fn act(session: &mut Session<'_>, what: &Move) {
     match what {
         Move::Set(i, value) => session.set_control(*i, value.clone()),
         Move::Press(i) => session.press(*i),
+    }
+}
+
+/// Whether a run came to its end as it should.
+///
+/// # Errors
+/// A statement failed, the simulation broke, or it ended early. What fails in a trace or a readout is its own matter.
+fn is_sound(session: &Session<'_>, programs: &Programs) -> Result<(), String> {
+    let probe = |t: &Text| programs.probes.iter().any(|p| p.bound.as_ref().is_some_and(|b| b.text == *t));
+    if let Some(trouble) = session.troubles.iter().find(|t| !probe(&t.text)) {
+        return Err(format!("its statements fail: {}", trouble.message));
+    }
+    match (run::worst_breakdown(session), session.ended()) {
+        (Some(broken), _) => Err(format!("the simulation breaks: {}", broken.what)),
+        (None, Some(_)) => Err("it ends early".to_string()),
+        (None, None) => Ok(()),
     }
 }

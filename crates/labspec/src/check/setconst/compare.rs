@@ -1,8 +1,8 @@
 //! A lab as it is, with its constants computed anew, and with the partners of what a program changes: what the runs show.
 
 use super::Suspect;
-use super::advice::{self, Advice};
-use super::bench::{Amended, Bench, Rows, Trial};
+use super::advice::{self, SetConstAdvice};
+use super::bench::{Amended, BenchTrial, SampleRows, SetConstBench};
 use super::difference::{BEYOND, Difference};
 use crate::bind::coupled::{PairSet, Repair};
 use crate::run::StepVariant;
@@ -20,7 +20,7 @@ pub(super) struct Compared {
     /// What the partners change, in words, and which of them do; nothing where none does.
     pub(super) partners: Option<(String, PairSet)>,
     /// What to write: how constants are computed anew, and the whole program where its partners are corrected too.
-    pub(super) advice: Advice,
+    pub(super) advice: SetConstAdvice,
     pub(super) repaired: Option<String>,
     /// Why it could not be tried what partners change.
     pub(super) untried: Option<String>,
@@ -28,23 +28,23 @@ pub(super) struct Compared {
 
 /// The runs of one trial.
 struct Runs<'t> {
-    trial: &'t Trial,
-    as_is: Rows,
+    trial: &'t BenchTrial,
+    as_is: SampleRows,
     /// With constants computed anew.
-    anew: Rows,
+    anew: SampleRows,
     /// With partners corrected besides; `None` where that changes nothing, since none was left behind.
-    corrected: Option<Rows>,
+    corrected: Option<SampleRows>,
 }
 
 impl Runs<'_> {
     /// The run with partners corrected.
-    fn corrected(&self) -> &Rows {
+    fn corrected(&self) -> &SampleRows {
         self.corrected.as_ref().unwrap_or(&self.anew)
     }
 }
 
 /// The lab with what is missing.
-struct Variants {
+struct LabVariants {
     /// As it is, which observes its partners.
     as_is: Amended,
     /// With constants computed anew; `None` where they are. It observes its partners.
@@ -54,7 +54,7 @@ struct Variants {
     steps: usize,
 }
 
-impl Bench<'_> {
+impl SetConstBench<'_> {
     /// Runs everything. `Err` says why constants could not be tried.
     pub(super) fn compare(&mut self, s: &Suspect<'_>) -> Result<Compared, String> {
         let steps = self.steps(s)?;
@@ -62,7 +62,7 @@ impl Bench<'_> {
         let as_is = self.observed(s, false);
         let refreshed = s.inertial.is_some().then(|| self.observed(s, true));
         let coupled = (!s.pairs.is_empty()).then(|| self.corrected(s, s.pairs));
-        let variants = Variants { as_is, refreshed, coupled, steps };
+        let variants = LabVariants { as_is, refreshed, coupled, steps };
         let (mut untried, mut uncoupled) = (None, None);
         let mut all: Vec<Runs<'_>> = Vec::new();
         for trial in &trials {
@@ -97,50 +97,62 @@ impl Bench<'_> {
         }
         let constants = all.iter().find_map(|r| {
             let columns = self.columns(s);
-            let own = columns.difference(&r.as_is, &r.anew)?;
-            let shown = if matter.is_empty() { own } else { columns.difference(&r.as_is, r.corrected())? };
+            let of_constants = columns.difference(&r.as_is, &r.anew)?;
+            let difference =
+                if matter.is_empty() { of_constants } else { columns.difference(&r.as_is, r.corrected())? };
             let and: String = matter.pairs().map(|(_, p)| format!(" and {}", p.corrected)).collect();
-            Some(shown.describe(&r.trial.description, &format!("the constants recomputed{and}")))
+            Some(difference.describe(&r.trial.description, &format!("the constants recomputed{and}")))
         });
-        let repair = Repair::of(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
-        let both = [Advice::Plain, Advice::Keep];
-        let (advice, repaired) = match &repair {
+        let (advice, repaired) = self.choose_advice(s, matter, constants.is_some(), &all, steps);
+        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+    }
+
+    /// What to write, and the corrected text where there is one that gives the same runs.
+    fn choose_advice(
+        &mut self,
+        s: &Suspect<'_>,
+        matter: PairSet,
+        constants: bool,
+        all: &[Runs<'_>],
+        steps: usize,
+    ) -> (SetConstAdvice, Option<String>) {
+        let repair = Repair::of_program(s.bound, matter, self.model()).filter(|_| !matter.is_empty());
+        let both = [SetConstAdvice::Plain, SetConstAdvice::Keep];
+        match &repair {
             None => {
                 let source = advice::source(s);
-                let plain = format!("{source}{}", Advice::Plain.tail(&source));
-                let good =
-                    matter.is_empty() && constants.is_some() && self.gives(s, &plain, &all, steps, 0.0);
-                (if good { Advice::Plain } else { Advice::Keep }, None)
+                let plain = format!("{source}{}", SetConstAdvice::Plain.tail(&source));
+                let good = matter.is_empty() && constants && self.gives(s, &plain, all, steps, 0.0);
+                (if good { SetConstAdvice::Plain } else { SetConstAdvice::Keep }, None)
             }
             Some(repair) => {
                 let texts = both.map(|advice| (advice, advice::repaired(s, repair, advice)));
-                let good = texts.into_iter().find(|(_, text)| self.gives(s, text, &all, steps, ROUNDED));
-                good.map_or((Advice::Keep, None), |(advice, text)| (advice, Some(text)))
+                let good = texts.into_iter().find(|(_, text)| self.gives(s, text, all, steps, ROUNDED));
+                good.map_or((SetConstAdvice::Keep, None), |(advice, text)| (advice, Some(text)))
             }
-        };
-        Ok(Compared { constants, partners, advice, repaired, untried: uncoupled })
+        }
     }
 
     /// The runs of one trial; why partners could not be corrected in it goes to `uncoupled`.
     fn runs<'t>(
         &mut self,
         s: &Suspect<'_>,
-        variants: &Variants,
-        trial: &'t Trial,
+        variants: &LabVariants,
+        trial: &'t BenchTrial,
         uncoupled: &mut Option<String>,
     ) -> Result<Runs<'t>, String> {
-        let told = |reason: String| format!("{}, {reason}", trial.description);
+        let describe = |reason: String| format!("{}, {reason}", trial.description);
         let steps = variants.steps;
-        let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(told)?;
+        let (as_is, left) = self.observe(s, &variants.as_is, trial, steps).map_err(describe)?;
         let (anew, left) = match &variants.refreshed {
-            Some(refreshed) => self.observe(s, refreshed, trial, steps).map_err(told)?,
+            Some(refreshed) => self.observe(s, refreshed, trial, steps).map_err(describe)?,
             None => (as_is.clone(), left),
         };
         let coupled = variants.coupled.as_ref().filter(|_| left);
         let corrected = match coupled.map(|c| self.record(s, Some(c), trial, steps)) {
             Some(Ok(rows)) => Some(rows),
             other => {
-                *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(told));
+                *uncoupled = uncoupled.take().or(other.and_then(Result::err).map(describe));
                 None
             }
         };
@@ -165,7 +177,7 @@ impl Bench<'_> {
         &mut self,
         s: &Suspect<'_>,
         all: &[Runs<'_>],
-        variants: &Variants,
+        variants: &LabVariants,
     ) -> Option<(String, PairSet)> {
         let columns = self.columns(s);
         let (refreshed, steps) = (variants.refreshed.as_ref(), variants.steps);

@@ -23,8 +23,8 @@ impl Difference {
         let (x, y) = match &self.cells {
             (Cell::Number(x), Cell::Number(y)) => {
                 // As many digits as tell them apart.
-                let shown = |n| (digits(*x, n), digits(*y, n));
-                (4..17).map(shown).find(|(a, b)| a != b).unwrap_or_else(|| shown(17))
+                let printed = |n| (digits(*x, n), digits(*y, n));
+                (4..17).map(printed).find(|(a, b)| a != b).unwrap_or_else(|| printed(17))
             }
             (x, y) => (x.shown(4), y.shown(4)),
         };

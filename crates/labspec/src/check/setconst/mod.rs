@@ -13,7 +13,7 @@ mod compare;
 mod difference;
 mod words;
 
-pub(super) use bench::Bench;
+pub(super) use bench::SetConstBench;
 pub(super) use difference::digits;
 pub(super) use words::{by_rule, left};
 
@@ -51,11 +51,11 @@ struct Suspect<'a> {
 }
 
 /// Checks the programs of a lab.
-pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
+pub(super) fn check_setconst(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
     let suspect = |place, b, target, given| suspect(place, b, target, given, programs);
-    let own = [(ProgramSite::Setup, &programs.setup), (ProgramSite::Controller, &programs.controller)];
+    let of_lab = [(ProgramSite::Setup, &programs.setup), (ProgramSite::Controller, &programs.controller)];
     let mut all: Vec<Suspect<'_>> =
-        own.into_iter().filter_map(|(place, b)| suspect(place, b.as_ref()?, false, None)).collect();
+        of_lab.into_iter().filter_map(|(place, b)| suspect(place, b.as_ref()?, false, None)).collect();
     for (i, ((_, program), control)) in programs.controls.iter().zip(&lab.controls).enumerate() {
         let (bound, given) = match program {
             ControlProgram::Press(run) => (run.as_ref(), None),
@@ -66,7 +66,7 @@ pub(super) fn check(lab: &Lab, model: &Model, programs: &Programs, findings: &mu
             |b: &Bound| control.action().and_then(|a| a.set.as_ref()).is_some_and(|set| *set == b.text);
         all.extend(bound.and_then(|b| suspect(ProgramSite::Control(i), b, target(b), given)));
     }
-    let mut bench = Bench::new(lab, model, programs);
+    let mut bench = SetConstBench::new(lab, model, programs);
     findings.extend(all.iter().flat_map(|s| bench.judge(s)));
 }
 
@@ -80,7 +80,7 @@ pub(super) fn check_run(
     findings: &mut Vec<Finding>,
 ) {
     let Some(text) = &run.setup else { return };
-    let mut bench = Bench::new(lab, model, programs);
+    let mut bench = SetConstBench::new(lab, model, programs);
     let bound = bench.compile(text, &text.value, None);
     let Some(s) = bound.as_ref().and_then(|b| suspect(ProgramSite::Run(run), b, false, None, programs))
     else {

@@ -1,7 +1,7 @@
 //! What is said of a program that leaves constants or partners behind.
 
-use super::advice::Advice;
-use super::bench::Bench;
+use super::advice::SetConstAdvice;
+use super::bench::SetConstBench;
 use super::compare::Compared;
 use super::{ProgramSite, Suspect};
 use crate::bind::coupled::{Pair, PairSet};
@@ -11,7 +11,7 @@ use crate::rules::{self, Rule};
 const CONSTANTS: &str =
     "the constants that follow from it (subtree masses, inverse weights of contacts) keep their old values";
 
-impl Bench<'_> {
+impl SetConstBench<'_> {
     /// The findings, unless nothing visible differs.
     pub(super) fn judge(&mut self, s: &Suspect<'_>) -> Vec<Finding> {
         match self.compare(s) {
@@ -111,7 +111,7 @@ fn instead(s: &Suspect<'_>, text: &str) -> String {
 }
 
 /// The advice for constants alone.
-fn behind(s: &Suspect<'_>, advice: Advice) -> String {
+fn behind(s: &Suspect<'_>, advice: SetConstAdvice) -> String {
     let text = &s.bound.text.value;
     match s.target {
         true => {
@@ -146,8 +146,8 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
     let evidence = compared.constants.as_ref()?;
     let finding = about_constants(s)?.why(format!("{CONSTANTS}: {evidence}"));
     let reason = match compared.advice {
-        Advice::Plain => "; in a test run, the lab then uses the right constants",
-        Advice::Keep => {
+        SetConstAdvice::Plain => "; in a test run, the lab then uses the right constants",
+        SetConstAdvice::Keep => {
             "; a test run confirms it. `mj_setConst` alone would also restore qpos from the model, so the code keeps qpos"
         }
     };
@@ -159,7 +159,7 @@ fn missing(s: &Suspect<'_>, compared: &Compared) -> Option<Finding> {
     }
     if !pairs.is_empty() {
         let help: Vec<&str> = pairs.pairs().map(|(_, pair)| pair.help).collect();
-        let advised = behind(s, Advice::Keep);
+        let advised = behind(s, SetConstAdvice::Keep);
         return Some(finding.help(format!(
             "{advised}; this updates only the constants, and the related parameter keeps its old value: {}",
             help.join("; ")
@@ -182,7 +182,7 @@ fn untried(s: &Suspect<'_>, reason: &str) -> Option<Finding> {
             .why(format!("{CONSTANTS}: a heavier ball then sinks deeper into the floor than any real one"))
             .help(format!(
                 "{}, which keeps qpos; its effect in this lab could not be tested: {reason}",
-                behind(s, Advice::Keep)
+                behind(s, SetConstAdvice::Keep)
             )),
     )
 }

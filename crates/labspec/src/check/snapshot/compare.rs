@@ -53,10 +53,10 @@ pub(super) fn compare(stored: &StoredLab, now: &[&Taken]) -> Difference {
         now.iter().map(|run| called(run)).filter(|name| stored.runs.iter().all(|old| old.name != *name));
     all.changes.extend(new.map(|name| format!("the run {name} is new")));
     all.changes.dedup();
-    let mut told = Vec::new();
+    let mut reported = Vec::new();
     all.changes.retain(|change| {
-        let new = !told.contains(change);
-        told.push(change.clone());
+        let new = !reported.contains(change);
+        reported.push(change.clone());
         new
     });
     all

@@ -8,7 +8,7 @@ mod runs;
 
 pub use compare::Divergence;
 
-use super::{CheckLevel, Ready};
+use super::{CheckLevel, PreparedLab};
 use crate::bind::scene::Models;
 use crate::finding::Finding;
 use crate::ledger::{Evidence, State};
@@ -19,14 +19,14 @@ use crate::source::SourceFile;
 use crate::spec::{Lab, Lesson};
 use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
 use compare::Difference;
-use file::{Fault, StoredLab};
+use file::{SnapshotFault, StoredLab};
 use runs::{Taken, TakenLab};
 use std::ops::Range;
 use std::path::Path;
 
 /// What became of the snapshot of one lab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Kept {
+pub struct SnapshotResult {
     /// Its address: `#1`.
     pub lab: String,
     /// Bytes of the lesson; empty for a lab that is gone.
@@ -43,7 +43,7 @@ pub struct Kept {
     pub reason: String,
 }
 
-impl Kept {
+impl SnapshotResult {
     /// In one or two words.
     pub fn word(&self) -> &'static str {
         match self.state {
@@ -94,7 +94,7 @@ pub struct Renewal {
 #[derive(Clone, Debug)]
 pub struct RenewedLab {
     /// What became of it.
-    pub kept: Kept,
+    pub kept: SnapshotResult,
     /// Its lines in the file, if it is there.
     pub old: Option<String>,
     /// Its lines as they would be written now; `None` for a lab that is gone, or cannot run.
@@ -121,7 +121,7 @@ fn stored(lesson: &Lesson) -> Option<Result<Vec<StoredLab>, String>> {
         Ok(file) => file,
         Err(message) => return Some(Err(message.clone())),
     };
-    let fault = |f: Fault| format!("{}:{}:{}: {}", name_of(file), f.line, f.column, f.message);
+    let fault = |f: SnapshotFault| format!("{}:{}:{}: {}", name_of(file), f.line, f.column, f.message);
     Some(file::read(file).map_err(fault))
 }
 
@@ -132,17 +132,20 @@ fn name_of(file: &SourceFile) -> String {
 }
 
 /// Holds every lab of a lesson against its snapshot. Where none is stored, nothing is claimed.
-pub(super) fn check(
+pub(super) fn check_snapshots(
     lesson: &Lesson,
-    ready: &[Ready<'_>],
+    ready: &[PreparedLab<'_>],
     depth: CheckLevel,
     findings: &mut Vec<Finding>,
-) -> Vec<Kept> {
+) -> Vec<SnapshotResult> {
     let Some(stored) = stored(lesson) else { return Vec::new() };
     let all = |state: State, reason: &str| {
-        let kept =
-            |(address, lab): (_, &Lab)| Kept { state, reason: reason.into(), ..unchecked(&address, lab) };
-        lesson.addressed().into_iter().map(kept).collect::<Vec<_>>()
+        let with_state = |(address, lab): (_, &Lab)| SnapshotResult {
+            state,
+            reason: reason.into(),
+            ..unchecked(&address, lab)
+        };
+        lesson.addressed().into_iter().map(with_state).collect::<Vec<_>>()
     };
     if !depth.labs {
         return if depth.claims { Vec::new() } else { all(State::LeftOut, "") };
@@ -156,7 +159,7 @@ pub(super) fn check(
         }
     };
     let taken = runs::take(lesson, ready);
-    let mut list: Vec<Kept> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
+    let mut list: Vec<SnapshotResult> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
     for kept in gone(&labs, &taken) {
         let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&kept.lab));
         findings.push(outdated(0..0, message, lesson));
@@ -165,8 +168,8 @@ pub(super) fn check(
     list
 }
 
-fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> Kept {
-    Kept {
+fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> SnapshotResult {
+    SnapshotResult {
         lab: address.to_string(),
         span: lab.span.clone(),
         state: State::Unchecked,
@@ -178,9 +181,12 @@ fn unchecked(address: &crate::spec::LabAddress, lab: &Lab) -> Kept {
 }
 
 /// Labs that are stored and no longer there.
-fn gone<'a>(labs: &'a [StoredLab], taken: &'a [TakenLab<'_, '_>]) -> impl Iterator<Item = Kept> + 'a {
-    let known = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
-    labs.iter().filter(known).map(|lab| Kept {
+fn gone<'a>(
+    labs: &'a [StoredLab],
+    taken: &'a [TakenLab<'_, '_>],
+) -> impl Iterator<Item = SnapshotResult> + 'a {
+    let is_gone = |lab: &&StoredLab| taken.iter().all(|now| now.address.to_string() != lab.address);
+    labs.iter().filter(is_gone).map(|lab| SnapshotResult {
         lab: lab.address.clone(),
         span: 0..0,
         state: State::False,
@@ -192,7 +198,12 @@ fn gone<'a>(labs: &'a [StoredLab], taken: &'a [TakenLab<'_, '_>]) -> impl Iterat
 }
 
 /// One lab against what is stored of it.
-fn hold(now: &TakenLab<'_, '_>, labs: &[StoredLab], lesson: &Lesson, findings: &mut Vec<Finding>) -> Kept {
+fn hold(
+    now: &TakenLab<'_, '_>,
+    labs: &[StoredLab],
+    lesson: &Lesson,
+    findings: &mut Vec<Finding>,
+) -> SnapshotResult {
     let mut kept = unchecked(&now.address, now.lab);
     if now.runs.is_empty() {
         (kept.state, kept.reason) = (State::Unchecked, "it cannot run".into());
@@ -247,7 +258,7 @@ fn review(lesson: &Lesson) -> String {
 /// What would be stored of a lesson now, beside what is.
 pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     let mut ignored = Vec::new();
-    let ready: Vec<Ready<'_>> = lesson
+    let ready: Vec<PreparedLab<'_>> = lesson
         .all_labs()
         .into_iter()
         .filter_map(|lab| super::prepare(lab, models, CheckLevel::STATIC, &mut ignored))
@@ -260,8 +271,8 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     let taken = runs::take(lesson, &ready);
     let one = |now: &TakenLab<'_, '_>| {
         let kept = hold(now, &old, lesson, &mut Vec::new());
-        let known = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
-        RenewedLab { kept, old: known, new: fresh(now) }
+        let stored_text = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
+        RenewedLab { kept, old: stored_text, new: fresh(now) }
     };
     let mut labs: Vec<RenewedLab> = taken.iter().map(one).collect();
     let lost = gone(&old, &taken).map(|kept| {

@@ -1,6 +1,6 @@
 //! The runs of a snapshot: the lab as it stands, each slider at its ends, each select at its other options, after each button.
 
-use super::super::Ready;
+use super::super::PreparedLab;
 use crate::precision::Integrator;
 use crate::run::{self, Budget, Cell, Play, RunError, Session, StepVariant};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
@@ -39,12 +39,12 @@ pub(super) struct TakenLab<'r, 'l> {
     pub(super) address: LabAddress,
     pub(super) lab: &'l Lab,
     /// `None` where it cannot run.
-    pub(super) ready: Option<&'r Ready<'l>>,
+    pub(super) ready: Option<&'r PreparedLab<'l>>,
     pub(super) runs: Vec<(SnapshotInput, Taken)>,
 }
 
 /// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
-pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [Ready<'l>]) -> Vec<TakenLab<'r, 'l>> {
+pub(super) fn take<'r, 'l>(lesson: &'l Lesson, ready: &'r [PreparedLab<'l>]) -> Vec<TakenLab<'r, 'l>> {
     let addressed = lesson.addressed();
     let (mut left, mut others) = (Budget::FILE.left, addressed.len() as u64);
     let mut all = Vec::new();
@@ -100,7 +100,7 @@ fn handlings(lab: &Lab) -> Vec<SnapshotInput> {
 
 /// Makes a run; with the work that it took.
 pub(super) fn play(
-    ready: &Ready<'_>,
+    ready: &PreparedLab<'_>,
     handling: &SnapshotInput,
     numerics: StepVariant,
     budget: Budget,
@@ -155,7 +155,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
 }
 
 /// Whether the lesson itself states the timestep: then half of it says nothing of the digits.
-fn states_timestep(ready: &Ready<'_>, handling: &SnapshotInput) -> bool {
+fn states_timestep(ready: &PreparedLab<'_>, handling: &SnapshotInput) -> bool {
     let writes = |e: &Effects| e.writes.iter().any(|a| a.field.0 as usize == option::timestep.index());
     let set = handling.set.iter().filter_map(|(label, _)| ready.programs.effects_of(label));
     set.chain(ready.programs.setup.iter().map(|b| b.program.effects())).any(writes)

@@ -90,7 +90,7 @@ impl<'a> LessonPage<'a> {
             lesson,
             names,
             curves,
-            shown: ShownText::of(lesson),
+            shown: ShownText::of_lesson(lesson),
             basis: page.bases.get(number - 1),
             entries,
         };

@@ -1,7 +1,7 @@
 //! What can be written at a place of a lab or a quiz: the keys that are not there yet, or the words that a key takes.
 
 use super::describe::{default, takes};
-use super::scan::{Scan, Scope, Spot, Step, scan};
+use super::scan::{CursorSpot, JsonScan, JsonScope, ScanStep, scan};
 use super::{Family, Key, LAB, Named, Object, QUIZ, Together, Type, Word};
 use crate::json::encode;
 use std::borrow::Cow;
@@ -69,7 +69,7 @@ pub(super) fn completions_of(
         None => keys(&holder, scope, spot, colon),
         Some(step) => {
             let key = match (&holder, step) {
-                (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).copied(),
+                (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).copied(),
                 _ => None,
             };
             match inside(&holder, step) {
@@ -96,7 +96,7 @@ enum Holder {
     Unknown,
 }
 
-fn holder(whole: Option<&'static Object>, found: &Scan, index: usize) -> Holder {
+fn holder(whole: Option<&'static Object>, found: &JsonScan, index: usize) -> Holder {
     // From the outermost to this one.
     let mut road = vec![index];
     while let Some((parent, _)) = road.last().and_then(|&i| found.scopes.get(i)?.parent.as_ref()) {
@@ -108,7 +108,7 @@ fn holder(whole: Option<&'static Object>, found: &Scan, index: usize) -> Holder 
         at = match &scope.parent {
             None if scope.list => Holder::Unknown,
             None => whole.map_or_else(|| root(scope), |object| Holder::Keys(allowed(&[object], scope))),
-            Some((_, Step::Item(_))) if outer_list && !scope.list => root(scope),
+            Some((_, ScanStep::Item(_))) if outer_list && !scope.list => root(scope),
             Some((_, step)) => match inside(&at, step) {
                 Some(of) => of_type(of, scope),
                 None => Holder::Unknown,
@@ -119,7 +119,7 @@ fn holder(whole: Option<&'static Object>, found: &Scan, index: usize) -> Holder 
 }
 
 /// The object of a whole text: a quiz or a lab, and perhaps either.
-fn root(scope: &Scope) -> Holder {
+fn root(scope: &JsonScope) -> Holder {
     let has = |object: &Object| {
         let other = if object.name == LAB.name { &QUIZ } else { &LAB };
         scope.keys.iter().any(|(name, _)| object.key(name).is_some() && other.key(name).is_none())
@@ -133,19 +133,19 @@ fn root(scope: &Scope) -> Holder {
 }
 
 /// What a place of an object or a list takes.
-fn inside(holder: &Holder, step: &Step) -> Option<Type> {
+fn inside(holder: &Holder, step: &ScanStep) -> Option<Type> {
     match (holder, step) {
-        (Holder::Keys(keys), Step::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
-        (Holder::Of(Type::Map(map)), Step::Key(_)) => Some(map.of),
-        (Holder::Of(Type::Switches(_)), Step::Key(_)) => Some(Type::Flag),
-        (Holder::Of(Type::List(item)), Step::Item(_)) => Some(**item),
-        (Holder::Of(Type::Pair(parts)), Step::Item(i)) => parts.get(*i).map(|p| p.of),
+        (Holder::Keys(keys), ScanStep::Key(name)) => keys.iter().find(|k| k.name == name).map(|k| k.of),
+        (Holder::Of(Type::Map(map)), ScanStep::Key(_)) => Some(map.of),
+        (Holder::Of(Type::Switches(_)), ScanStep::Key(_)) => Some(Type::Flag),
+        (Holder::Of(Type::List(item)), ScanStep::Item(_)) => Some(**item),
+        (Holder::Of(Type::Pair(parts)), ScanStep::Item(i)) => parts.get(*i).map(|p| p.of),
         _ => None,
     }
 }
 
 /// What an object or a list of this type is.
-fn of_type(of: Type, scope: &Scope) -> Holder {
+fn of_type(of: Type, scope: &JsonScope) -> Holder {
     match (of, scope.list) {
         (Type::Either(a, b), _) => match of_type(*a, scope) {
             Holder::Unknown => of_type(*b, scope),
@@ -159,13 +159,13 @@ fn of_type(of: Type, scope: &Scope) -> Holder {
 }
 
 /// The objects of a family that this one can be: the one that its word tells, else those that have all its keys.
-fn meant(family: &'static Family, scope: &Scope) -> Vec<&'static Object> {
+fn meant(family: &'static Family, scope: &JsonScope) -> Vec<&'static Object> {
     let word = scope.keys.iter().find(|(name, _)| name == family.key).and_then(|(_, word)| word.as_deref());
     if let Some(object) = word.and_then(|w| family.object(Some(w))) {
         return vec![object];
     }
-    let known = family.keys();
-    let ours = |name: &str| known.iter().any(|k| k.name == name);
+    let family_keys = family.keys();
+    let ours = |name: &str| family_keys.iter().any(|k| k.name == name);
     let fits =
         |object: &&Object| scope.keys.iter().all(|(name, _)| !ours(name) || object.key(name).is_some());
     let some: Vec<&'static Object> = family.objects.iter().copied().filter(fits).collect();
@@ -173,7 +173,7 @@ fn meant(family: &'static Family, scope: &Scope) -> Vec<&'static Object> {
 }
 
 /// The keys of objects, each once, that are not excluded by those that stand there.
-fn allowed(objects: &[&'static Object], scope: &Scope) -> Vec<&'static Key> {
+fn allowed(objects: &[&'static Object], scope: &JsonScope) -> Vec<&'static Key> {
     let mut all: Vec<&'static Key> = Vec::new();
     for object in objects {
         let stands = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
@@ -195,7 +195,7 @@ fn allowed(objects: &[&'static Object], scope: &Scope) -> Vec<&'static Key> {
     all
 }
 
-fn keys(holder: &Holder, scope: &Scope, spot: &Spot, colon: bool) -> Vec<Completion> {
+fn keys(holder: &Holder, scope: &JsonScope, spot: &CursorSpot, colon: bool) -> Vec<Completion> {
     let stands = |name: &str| scope.keys.iter().any(|(key, _)| key == name);
     let insert = |name: &str| format!("\"{name}\"{}", if colon { "" } else { ": " });
     match holder {
@@ -232,7 +232,12 @@ fn keys(holder: &Holder, scope: &Scope, spot: &Spot, colon: bool) -> Vec<Complet
 }
 
 /// The words that a place takes. `key` is what it is the value of.
-fn values(key: Option<&'static Key>, of: Option<Type>, scope: &Scope, spot: &Spot) -> Vec<Completion> {
+fn values(
+    key: Option<&'static Key>,
+    of: Option<Type>,
+    scope: &JsonScope,
+    spot: &CursorSpot,
+) -> Vec<Completion> {
     let value = |text: &'static str, insert: String, doc: &'static str, takes: String| Completion {
         text: text.into(),
         is_key: false,
@@ -262,7 +267,7 @@ fn values(key: Option<&'static Key>, of: Option<Type>, scope: &Scope, spot: &Spo
 }
 
 /// The names that a place takes. Where nothing tells of which model, there are none.
-fn ask(named: Named, scope: &Scope, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<String> {
+fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>) -> Vec<String> {
     let text = |key: &str| {
         let (_, raw) = scope.keys.iter().find(|(name, _)| name == key)?;
         // What is written between the quotes; damaged escapes stay as they are.
@@ -278,7 +283,7 @@ fn ask(named: Named, scope: &Scope, names: &dyn Fn(Asked<'_>) -> Vec<String>) ->
 }
 
 /// Names, for the place of one.
-fn known(key: Option<&'static Key>, names: Vec<String>, spot: &Spot) -> Vec<Completion> {
+fn known(key: Option<&'static Key>, names: Vec<String>, spot: &CursorSpot) -> Vec<Completion> {
     let name = |name: String| Completion {
         is_key: false,
         replace: spot.written.clone(),

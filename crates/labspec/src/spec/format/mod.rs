@@ -358,10 +358,10 @@ impl Object {
 impl Family {
     /// The object that a word tells; without a word the first one.
     pub fn object(&self, word: Option<&str>) -> Option<&'static Object> {
-        let told = |o: &&&'static Object| o.tag.is_some_and(|(_, w)| Some(w) == word);
+        let has_tag = |o: &&&'static Object| o.tag.is_some_and(|(_, w)| Some(w) == word);
         match word {
             None => self.objects.first().copied(),
-            Some(_) => self.objects.iter().find(told).copied(),
+            Some(_) => self.objects.iter().find(has_tag).copied(),
         }
     }
 

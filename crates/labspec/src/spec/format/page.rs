@@ -20,7 +20,7 @@ pub fn page() -> String {
         }
         section(&mut text, object);
         if object.name == LAB.name {
-            words(&mut text, "Overlays", &OVERLAYS);
+            write_words(&mut text, "Overlays", &OVERLAYS);
             events(&mut text);
         }
     }
@@ -116,7 +116,7 @@ fn spaced(value: &serde_json::Value) -> String {
     }
 }
 
-fn words(text: &mut String, title: &str, words: &[Word]) {
+fn write_words(text: &mut String, title: &str, words: &[Word]) {
     let _ = write!(text, "\n### {title}\n\nWords for `overlays` and `toggles`.\n");
     table(text, "word", words);
 }

@@ -9,9 +9,9 @@ use std::ops::Range;
 
 /// An object or a list.
 #[derive(Debug, Default)]
-pub(super) struct Scope {
+pub(super) struct JsonScope {
     /// What it stands in, and where there.
-    pub(super) parent: Option<(usize, Step)>,
+    pub(super) parent: Option<(usize, ScanStep)>,
     /// A list rather than an object.
     pub(super) list: bool,
     /// The keys of an object and, of those that are texts, the values. Without the key at the offset.
@@ -24,7 +24,7 @@ pub(super) struct Scope {
 
 /// A place in an object or in a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Step {
+pub(super) enum ScanStep {
     /// The value of this key.
     Key(String),
     /// This item, from 0.
@@ -33,22 +33,22 @@ pub(super) enum Step {
 
 /// What lies at the offset.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Spot {
+pub(super) struct CursorSpot {
     /// The object or list.
     pub(super) scope: usize,
     /// Where a value stands or is to be written; `None` for a key.
-    pub(super) value: Option<Step>,
+    pub(super) value: Option<ScanStep>,
     /// The bytes of what is written there, quotes included; empty where nothing is.
     pub(super) written: Range<usize>,
 }
 
 /// What a text holds, as far as it can be told.
 #[derive(Debug, Default)]
-pub(super) struct Scan {
+pub(super) struct JsonScan {
     /// The objects and lists; the first one is the outermost.
-    pub(super) scopes: Vec<Scope>,
+    pub(super) scopes: Vec<JsonScope>,
     /// What lies at the offset; `None` where neither a key nor a value can stand.
-    pub(super) spot: Option<Spot>,
+    pub(super) spot: Option<CursorSpot>,
 }
 
 /// What comes next.
@@ -70,12 +70,12 @@ struct Scanner<'a> {
     key: String,
     /// How many characters may still be looked at for the ends of strings.
     budget: usize,
-    scan: Scan,
+    scan: JsonScan,
 }
 
 /// Reads a text. The offset is a place between two characters of it.
-pub(super) fn scan(text: &str, offset: usize) -> Scan {
-    let (open, scan) = (Vec::new(), Scan::default());
+pub(super) fn scan(text: &str, offset: usize) -> JsonScan {
+    let (open, scan) = (Vec::new(), JsonScan::default());
     // Lines of broken strings are looked at more than once.
     let budget = 16 * text.len() + 1000;
     let mut s = Scanner { text, offset, at: 0, open, next: Next::Value, key: String::new(), budget, scan };
@@ -122,7 +122,7 @@ impl<'a> Scanner<'a> {
         self.scope().is_none_or(|s| s.list)
     }
 
-    fn scope(&self) -> Option<&Scope> {
+    fn scope(&self) -> Option<&JsonScope> {
         self.scan.scopes.get(*self.open.last()?)
     }
 
@@ -143,14 +143,14 @@ impl<'a> Scanner<'a> {
             Next::Value => Some(self.step()),
             Next::Colon | Next::Comma => return,
         };
-        self.scan.spot = Some(Spot { scope, value, written });
+        self.scan.spot = Some(CursorSpot { scope, value, written });
     }
 
     /// The place of the value that comes next.
-    fn step(&self) -> Step {
+    fn step(&self) -> ScanStep {
         match self.scope() {
-            Some(scope) if scope.list => Step::Item(scope.items),
-            _ => Step::Key(self.key.clone()),
+            Some(scope) if scope.list => ScanStep::Item(scope.items),
+            _ => ScanStep::Key(self.key.clone()),
         }
     }
 
@@ -158,7 +158,7 @@ impl<'a> Scanner<'a> {
         let parent = self.open.last().map(|&p| (p, self.step()));
         self.valued(None);
         self.open.push(self.scan.scopes.len());
-        self.scan.scopes.push(Scope { parent, list, ..Scope::default() });
+        self.scan.scopes.push(JsonScope { parent, list, ..JsonScope::default() });
         self.next = if list { Next::Value } else { Next::Key };
         self.at += 1;
     }
@@ -167,8 +167,8 @@ impl<'a> Scanner<'a> {
     fn leave(&mut self, list: bool) {
         self.at += 1;
         self.key.clear();
-        let own = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
-        if let Some(i) = self.open.iter().rposition(own) {
+        let in_list = |&scope: &usize| self.scan.scopes.get(scope).is_some_and(|s| s.list == list);
+        if let Some(i) = self.open.iter().rposition(in_list) {
             self.open.truncate(i);
             self.next = Next::Comma;
         }

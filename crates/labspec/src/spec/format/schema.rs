@@ -197,9 +197,9 @@ fn bounded(mut schema: Map<String, Value>, limits: &Limits) -> Map<String, Value
 
 /// One object of a family, told by its word; anything else is read as the first one, and refused there.
 fn one_of(family: &Family) -> Map<String, Value> {
-    let told = |object: &&'static Object| object.tag.map(|(key, word)| (key, word, object.name));
+    let tagged = |object: &&'static Object| object.tag.map(|(key, word)| (key, word, object.name));
     let mut rest = family.objects.first().map(|o| reference(o.name)).unwrap_or_default();
-    for (key, word, name) in family.objects.iter().skip(1).rev().filter_map(told) {
+    for (key, word, name) in family.objects.iter().skip(1).rev().filter_map(tagged) {
         let properties: Map<String, Value> =
             [(key.to_string(), json!({"const": word}))].into_iter().collect();
         rest = when(json!({"properties": properties, "required": [key]}), reference(name), rest);

@@ -98,7 +98,7 @@ fn checked(object: &Object, value: &Value) -> Vec<Finding> {
     std::fs::write(folder.path().join("fall.xml"), model).unwrap();
     let models = Models::new(ModelFolder::open(folder.path()).unwrap());
     let lesson = load_lesson(SourceFile::new("t.md", lesson_text(object, value)), models.folder());
-    check::check(lesson, &models, CheckLevel::FULL).findings
+    check::check_lesson(lesson, &models, CheckLevel::FULL).findings
 }
 
 fn every_key() -> impl Iterator<Item = (&'static Object, &'static Key)> {

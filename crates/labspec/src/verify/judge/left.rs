@@ -15,7 +15,7 @@ pub struct Left {
 
 impl Left {
     /// Those of a `verify` object.
-    pub(crate) fn of(verify: &Verify) -> Left {
+    pub(crate) fn count(verify: &Verify) -> Left {
         let ranges = usize::from(!verify.over.is_empty());
         Left { searches: verify.find.len(), ranges, forms: verify.exact.len() }
     }

@@ -13,8 +13,16 @@ mod task;
 pub(crate) use left::Left;
 pub(crate) use task::tasks;
 
+use super::bound::BoundVerify;
+use super::format::significant;
+use super::numerics::CHANGES;
 use super::outcome::Outcome;
-use super::{Answer, BoundVerify, Outcomes, Quote, ShownText, answer, says, significant};
+use super::outcomes::Outcomes;
+use super::quote::ShownText;
+use super::quote_checker::Quote;
+use super::quote_checker::QuoteChecker;
+use super::verdict::Answer;
+use super::{answer, says};
 use crate::finding::Finding;
 use crate::rules;
 use crate::run::StepVariant;
@@ -25,7 +33,7 @@ use std::ops::Range;
 
 /// What a judge found in a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Taken {
+pub struct RecordedRun {
     /// Measures by name, and expressions that look at the samples themselves by their text.
     pub values: BTreeMap<String, f64>,
     /// Why the others have no value.
@@ -56,7 +64,7 @@ pub(crate) struct Reference<'w> {
     /// `MuJoCo 3.14.0`.
     pub(crate) engine: &'w str,
     /// In the order of [`tasks`]; with why nothing is there.
-    pub(crate) runs: Vec<Result<&'w Taken, String>>,
+    pub(crate) runs: Vec<Result<&'w RecordedRun, String>>,
 }
 
 /// Compares every measure, and judges every claim again with the numbers of the judge in place of ours. `None` when a run cannot be
@@ -140,9 +148,9 @@ fn verdicts(
     outcome: &Outcome,
 ) -> (Option<Answer>, Vec<Quote>) {
     let outcomes =
-        Outcomes { nominal: outcome.clone(), perturbed: [const { None }; super::CHANGES], nudged_back: None };
+        Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], nudged_back: None };
     let ignored = &mut Vec::new();
-    let answer = question.and_then(|q| answer::check(bound, &outcomes, verify, q, ignored));
-    let court = says::QuoteChecker { bound, outcomes: &outcomes, shown };
-    (answer, says::check(court, verify, question, ignored))
+    let answer = question.and_then(|q| answer::check_answer(bound, &outcomes, verify, q, ignored));
+    let checker = QuoteChecker { bound, outcomes: &outcomes, shown };
+    (answer, says::check_quotes(checker, verify, question, ignored))
 }

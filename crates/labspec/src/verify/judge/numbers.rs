@@ -3,8 +3,9 @@
 use super::task::own_texts;
 use super::{Judged, Reference};
 use crate::spec::Verify;
+use crate::verify::bound::BoundVerify;
+use crate::verify::numerics::{NUDGED, TIGHT};
 use crate::verify::outcome::Outcome;
-use crate::verify::{BoundVerify, NUDGED, TIGHT};
 
 /// A number that differs by less than this part of itself, and by less than a thousandth of that at zero, is the same.
 const SAME: f64 = 1e-6;
@@ -69,7 +70,7 @@ pub(super) fn compare(
 ) {
     let mut other: Option<Vec<Vec<f64>>> = None;
     let numbers = |outcome: &Outcome| -> Vec<(String, f64)> {
-        let own = own_texts(bound, verify).into_iter().map(|text| {
+        let own_values = own_texts(bound, verify).into_iter().map(|text| {
             let found = bound.find(outcome, text, &mut Vec::new());
             (text.value.clone(), found.map_or(f64::NAN, |f| f.value.to_number()))
         });
@@ -77,7 +78,7 @@ pub(super) fn compare(
             let title = run.title();
             run.measures.iter().map(move |(m, x)| (format!("{title}.{m}"), *x))
         });
-        titled.chain(own).collect()
+        titled.chain(own_values).collect()
     };
     for (i, ((name, a), (_, b))) in numbers(nominal).into_iter().zip(numbers(theirs)).enumerate() {
         if judged.unjudged.iter().any(|(known, _)| *known == name) {

@@ -6,9 +6,10 @@ use crate::run::settings;
 use crate::source::Text;
 use crate::spec::format::RUN_LENGTH;
 use crate::spec::{ControlKind, Lab, Verify};
-use crate::verify::bound::{BoundRun, BoundScene};
+use crate::verify::bound::BoundVerify;
+use crate::verify::bound_run::{BoundRun, BoundScene};
+use crate::verify::options::is_undecided;
 use crate::verify::runner::is_timestep;
-use crate::verify::{BoundVerify, answer};
 use labspec_expr::Value;
 use serde_json::{Value as Json, json};
 
@@ -23,10 +24,10 @@ pub(crate) struct Task {
 
 /// The runs of a `verify` object, as somebody else can make them.
 pub(crate) fn tasks(bound: &BoundVerify<'_>, verify: &Verify) -> Vec<Task> {
-    let own = own_texts(bound, verify);
+    let texts = own_texts(bound, verify);
     let task = |(run, scene): (&BoundRun<'_>, &BoundScene<'_>)| {
         let run_name = title(run);
-        Task { run: run_name, task: task(bound, run, scene, &own) }
+        Task { run: run_name, task: task(bound, run, scene, &texts) }
     };
     bound.cast().map(task).collect()
 }
@@ -38,7 +39,7 @@ fn title(run: &BoundRun<'_>) -> String {
 /// The texts that look at the samples themselves.
 pub(super) fn own_texts<'v>(bound: &BoundVerify<'_>, verify: &'v Verify) -> Vec<&'v Text> {
     let all = verify.options.iter().chain(&verify.value).chain(&verify.wrong).chain(verify.quoted());
-    bound.on_the_spot(all.filter(|text| !answer::is_undecided(text)))
+    bound.on_the_spot(all.filter(|text| !is_undecided(text)))
 }
 
 fn task(

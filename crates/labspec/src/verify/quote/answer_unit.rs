@@ -30,27 +30,27 @@ impl AnswerUnit {
 
 /// Whether a text is a unit that is known.
 pub(in crate::verify) fn is_unit(text: &str) -> bool {
-    let shown = super::table::shown(text);
-    !shown.is_empty() && units::read(&shown).is_some_and(|u| u.length == shown.len())
+    let plain = super::table::shown(text);
+    !plain.is_empty() && units::read(&plain).is_some_and(|u| u.length == plain.len())
 }
 
 /// Holds the unit of a question to what its value measures.
 pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension>) -> AnswerUnit {
-    let shown = text.map(super::table::shown).unwrap_or_default();
+    let plain = text.map(super::table::shown).unwrap_or_default();
     let Some(found) = found else { return AnswerUnit::Unknown };
-    let Some(read) = units::read(&shown).filter(|u| u.length == shown.len()) else {
+    let Some(read) = units::read(&plain).filter(|u| u.length == plain.len()) else {
         // What is counted has names of any kind: "bounces".
-        let counted = shown.trim().is_empty() || found.is_number() || !found.is_exact();
-        return if counted { AnswerUnit::Unknown } else { AnswerUnit::Unread(shown, written(&found)) };
+        let counted = plain.trim().is_empty() || found.is_number() || !found.is_exact();
+        return if counted { AnswerUnit::Unknown } else { AnswerUnit::Unread(plain, written(&found)) };
     };
     // The g of an acceleration is none of a mass.
-    if shown == "g" && !found.agrees(&Dimension::base(1)) {
+    if plain == "g" && !found.agrees(&Dimension::base(1)) {
         return AnswerUnit::Unknown;
     }
     if let Some(factor) = read.dimension.and_then(|wanted| conversion(&wanted, &found)) {
         return AnswerUnit::Equal(factor);
     }
-    let unit = Unit { text: shown, dimension: read.dimension, link: Link::Shared };
+    let unit = Unit { text: plain, dimension: read.dimension, link: Link::Shared };
     match hold(&unit, Some(&found)) {
         Held::Fits => AnswerUnit::Equal(1.0),
         Held::Wrong | Held::Unsure => AnswerUnit::Wrong(unit.text, written(&found)),

@@ -1,7 +1,7 @@
 //! What becomes of a quote, and what is said about it, with other runs at hand.
 
 use super::*;
-use crate::finding::Severity;
+use crate::finding::{Finding, Severity};
 use crate::lint::ModelFolder;
 use crate::lint::load_lesson;
 use crate::source::SourceFile;
@@ -12,20 +12,20 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let text = format!("It is {quote} here, and {quote} there.\n\n```lab simlab\n{lab}\n```\n");
     let lesson = load_lesson(SourceFile::new("a.md", text), &ModelFolder::unknown());
     let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
-    let other = |how| move |&value: &f64| Other { how, value };
+    let other = |how| move |&value: &f64| OtherValue { how, value };
     let half: Vec<_> = half.iter().map(other("at half the timestep")).collect();
     let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
     let mut findings = Vec::new();
-    let shown = ShownText::of(&lesson);
-    let value = Value { computed, timestep: &half, start: &starts, unit: &|| None };
-    let claim = Claim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
-    let places = places(&said.quote, None, &shown);
-    let outcome = check(&claim, &reading(quote), places, &value, &shown, &mut findings);
+    let shown = ShownText::of_lesson(&lesson);
+    let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None };
+    let claim = QuoteClaim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
+    let places = places_of_quote(&said.quote, None, &shown);
+    let outcome = check_quote(&claim, &reading(quote), places, &value, &shown, &mut findings);
     (outcome, findings)
 }
 
 /// The code and everything that is said.
-fn told(findings: &[Finding]) -> (&'static str, String) {
+fn first_finding(findings: &[Finding]) -> (&'static str, String) {
     assert_eq!(findings.len(), 1, "{findings:#?}");
     let f = &findings[0];
     let words = [Some(f.message.clone()), f.why.clone(), f.help.clone()];
@@ -36,7 +36,7 @@ fn told(findings: &[Finding]) -> (&'static str, String) {
 #[test]
 fn digits_that_no_reader_can_reproduce_are_never_to_be_written() {
     let (outcome, findings) = checked("-10.05 %", -10.05, &[-8.2], &[-20.75, -13.58]);
-    let (code, words) = told(&findings);
+    let (code, words) = first_finding(&findings);
     assert_eq!(
         (outcome.state, code, findings[0].severity),
         (QuoteState::Unclear, "quote-chaotic", Severity::Warning)
@@ -52,14 +52,14 @@ fn digits_that_no_reader_can_reproduce_are_never_to_be_written() {
     assert_eq!(outcome.moved.len(), 2);
     // Also where the lesson's own run gives another number.
     let (outcome, findings) = checked("-10.05 %", -20.75, &[], &[-13.58]);
-    assert_eq!((outcome.state, told(&findings).0), (QuoteState::Unclear, "quote-chaotic"));
-    assert!(!told(&findings).1.contains("write"));
+    assert_eq!((outcome.state, first_finding(&findings).0), (QuoteState::Unclear, "quote-chaotic"));
+    assert!(!first_finding(&findings).1.contains("write"));
 }
 
 #[test]
 fn a_number_far_from_everything_that_comes_out_is_wrong() {
     let (outcome, findings) = checked("-60 %", -20.75, &[], &[-13.58]);
-    assert_eq!((outcome.state, told(&findings).0), (QuoteState::Wrong, "quote-wrong"));
+    assert_eq!((outcome.state, first_finding(&findings).0), (QuoteState::Wrong, "quote-wrong"));
     let (outcome, _) = checked("-60 %", -20.75, &[], &[f64::NAN]);
     assert_eq!(outcome.state, QuoteState::Unclear, "nobody knows what comes out");
 }
@@ -68,11 +68,11 @@ fn a_number_far_from_everything_that_comes_out_is_wrong() {
 fn fewer_digits_are_advised_where_all_runs_agree_on_them() {
     let (_, findings) = checked("1.4237 s", 1.4237, &[], &[1.4241, 1.4239]);
     assert!(
-        told(&findings).1.contains("print fewer digits, 1.424, which all of these runs give"),
+        first_finding(&findings).1.contains("print fewer digits, 1.424, which all of these runs give"),
         "{findings:#?}"
     );
     let (_, findings) = checked("0.012 m", 0.012, &[], &[0.034]);
-    assert!(!told(&findings).1.contains("fewer digits"), "a zero that is none");
+    assert!(!first_finding(&findings).1.contains("fewer digits"), "a zero that is none");
     // A change below the printed digits is none.
     let (outcome, findings) = checked("1.42 s", 1.4237, &[1.4238], &[1.4241]);
     assert_eq!((outcome.state, findings.len()), (QuoteState::Right, 0));
@@ -81,7 +81,7 @@ fn fewer_digits_are_advised_where_all_runs_agree_on_them() {
 #[test]
 fn digits_of_a_timestep_are_noted_or_explained() {
     let (outcome, findings) = checked("0.442 s", 0.442, &[0.4405], &[0.442]);
-    let (code, words) = told(&findings);
+    let (code, words) = first_finding(&findings);
     assert_eq!(
         (outcome.state, code, findings[0].severity),
         (QuoteState::Right, "quote-of-timestep", Severity::Note)
@@ -93,7 +93,7 @@ fn digits_of_a_timestep_are_noted_or_explained() {
     assert!(words.contains("state it with its timestep") && !words.contains("| write"), "{words}");
     assert_eq!(outcome.moved.len(), 1);
     let (outcome, findings) = checked("0.438 s", 0.442, &[0.4405], &[]);
-    let (code, words) = told(&findings);
+    let (code, words) = first_finding(&findings);
     assert_eq!((outcome.state, code), (QuoteState::Wrong, "quote-wrong"));
     assert!(words.contains("state the timestep") && !words.contains("| write"), "{words}");
     assert_eq!(outcome.moved.len(), 1);
@@ -102,7 +102,7 @@ fn digits_of_a_timestep_are_noted_or_explained() {
 #[test]
 fn every_place_is_reported_and_what_was_read_is_said() {
     let (outcome, findings) = checked("$L^2 = 2.4 \\times 10^{-4}$", 3e-4, &[], &[]);
-    let (code, words) = told(&findings);
+    let (code, words) = first_finding(&findings);
     assert_eq!((outcome.state, code, outcome.places.len()), (QuoteState::Wrong, "quote-wrong", 2));
     assert!(words.contains("(read as 2.4×10^-4), but the simulation gives 3.0×10^-4"), "{words}");
     assert_eq!(findings[0].related[0].span, outcome.places[1]);
@@ -121,7 +121,7 @@ fn a_value_that_is_none_is_never_advised() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         for quote in ["0.442 s", "3.0e-7", "1.5×10³", "0.4 to 0.5"] {
             let (outcome, findings) = checked(quote, value, &[value], &[value]);
-            let (code, words) = told(&findings);
+            let (code, words) = first_finding(&findings);
             assert_eq!((outcome.state, code), (QuoteState::Unclear, "quote-without-value"), "{quote}");
             assert!(!words.contains("NaN") && !words.contains("0.0e") && !words.contains("write"), "{words}");
         }
@@ -129,13 +129,13 @@ fn a_value_that_is_none_is_never_advised() {
     // No value in another run is a change.
     let (outcome, findings) = checked("0.442 s", 0.442, &[f64::NAN], &[]);
     assert_eq!(outcome.moved, [("at half the timestep", "no value".to_string())]);
-    assert!(told(&findings).1.contains("no value at half the timestep"));
+    assert!(first_finding(&findings).1.contains("no value at half the timestep"));
 }
 
 #[test]
 fn another_unit_is_no_wrong_number() {
     let (outcome, findings) = checked("0.83 mm", 0.000831, &[], &[]);
-    let (code, words) = told(&findings);
+    let (code, words) = first_finding(&findings);
     assert_eq!((outcome.state, code), (QuoteState::Unclear, "quote-unit"));
     assert!(
         words

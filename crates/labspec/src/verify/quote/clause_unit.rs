@@ -131,8 +131,8 @@ fn divisor(text: &str) -> Option<String> {
 
 /// A unit that a text has right behind marks: `) ms`, `” ms`, `… ms`.
 fn right_behind(text: &str) -> Option<String> {
-    let said = text.strip_prefix(" or so ").unwrap_or(text);
-    let bare = said.trim_start_matches([' ', ')', ']', '"', '”', '’', '»', '…', ':', '–', '—', ',', '`']);
+    let exact = text.strip_prefix(" or so ").unwrap_or(text);
+    let bare = exact.trim_start_matches([' ', ')', ']', '"', '”', '’', '»', '…', ':', '–', '—', ',', '`']);
     let marked = text.len() > bare.len() && !text.get(..text.len() - bare.len())?.trim().is_empty();
     if !marked {
         return None;

@@ -1,13 +1,14 @@
 //! One way of writing for many: spaces, dashes, superscripts and the TeX of numbers, so that a quote may be written
 //! as the source or as the page has it.
 
-use super::html::APART;
 use super::siunitx;
+use super::tags::APART;
 use crate::source::SourceMap;
 use std::ops::Range;
 
 /// The folded text and the way back. Pieces that a page shows apart are lines. With `flat`, a dash is a minus:
 /// so texts are compared; without it, `0.4–0.5` can still be told from `0.4-0.5`: so numbers are read.
+/// One step for each form that stands at the place: their order matters, so that they stay together.
 pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
     let mut out = Out {
         text: String::with_capacity(text.len()),

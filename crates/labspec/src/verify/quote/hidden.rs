@@ -1,7 +1,7 @@
 //! Elements that a page does not show, or shows struck out: `hidden`, `template`, `display: none`, a size of zero. What opens on a
 //! click (`details`) is shown, and so is what only screen readers pass over (`aria-hidden`).
 
-use super::html::{tag, tag_end};
+use super::tags::{read_tag, tag_end};
 use std::ops::Range;
 
 /// An element that a page does not show, from its start tag to its end tag.
@@ -38,7 +38,7 @@ impl Hidden {
     }
 
     /// Takes in a tag; whether it, too, belongs to what is hidden.
-    pub(super) fn tag(&mut self, tag: &str) -> bool {
+    pub(super) fn take_tag(&mut self, tag: &str) -> bool {
         let inside = tag.strip_prefix('<').unwrap_or("");
         let (closing, inside) = inside.strip_prefix('/').map_or((false, inside), |rest| (true, rest));
         let length = inside.find(|c: char| !c.is_ascii_alphanumeric() && c != '-').unwrap_or(inside.len());
@@ -65,11 +65,11 @@ impl Hidden {
             let rest = html.get(next..).unwrap_or("");
             let was = self.is_on();
             // Comments and scripts hold no tags; a lone `<` is none.
-            let Some((_, length)) = tag(rest) else {
+            let Some((_, length)) = read_tag(rest) else {
                 at = next + 1;
                 continue;
             };
-            self.tag(rest.get(..tag_end(rest)).unwrap_or(""));
+            self.take_tag(rest.get(..tag_end(rest)).unwrap_or(""));
             at = next + length;
             match (was, self.is_on()) {
                 (false, true) => shown.push(from..next),

@@ -1,12 +1,12 @@
 //! What is told to an author about a quoted number.
 
 use super::number::{Form, Quoted, ten};
+use super::quote_claim::{QuoteClaim, QuoteOutcome};
 use super::unit::Shift;
 use super::unit_text::{Link, Unit};
-use super::{Claim, QuoteOutcome};
 use crate::finding::{Finding, Severity};
 use crate::rules;
-use crate::verify::significant;
+use crate::verify::format::significant;
 use std::ops::Range;
 
 /// Most further places that a finding points at.
@@ -24,18 +24,18 @@ pub(super) fn printed(read: &Quoted, x: f64) -> String {
 }
 
 /// The quote as a message may show it.
-pub(super) fn shown(said: &Claim<'_>) -> String {
-    crate::json::read::shorten(if said.part.is_empty() { said.quote.as_str() } else { said.part.trim() })
+pub(super) fn shorten_quote(claim: &QuoteClaim<'_>) -> String {
+    crate::json::read::shorten(if claim.part.is_empty() { claim.quote.as_str() } else { claim.part.trim() })
 }
 
-pub(super) fn no_number(said: &Claim<'_>) -> Finding {
-    Finding::error(rules::QUOTE_WITHOUT_NUMBER, said.quote.span(), "this quote contains no number")
+pub(super) fn no_number(claim: &QuoteClaim<'_>) -> Finding {
+    Finding::error(rules::QUOTE_WITHOUT_NUMBER, claim.quote.span(), "this quote contains no number")
         .why("nothing was compared: digits of names, indexes and exponents, as in t2, x_1 or L^2, are not numbers")
         .help("quote the number as the text prints it, such as \"0.442 s\"")
 }
 
-pub(super) fn unread(said: &Claim<'_>, form: &str) -> Finding {
-    Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), format!("\"{}\" is {form}, which the checker cannot read", shown(said)))
+pub(super) fn unread(claim: &QuoteClaim<'_>, form: &str) -> Finding {
+    Finding::error(rules::QUOTE_UNCLEAR, claim.quote.span(), format!("\"{}\" is {form}, which the checker cannot read", shorten_quote(claim)))
         .why("nothing was compared, because the checker does not guess which number is meant")
         .help(match form {
             "a bound, not a number" => "quote only the number, or state the bound as a condition under `options`",
@@ -43,11 +43,14 @@ pub(super) fn unread(said: &Claim<'_>, form: &str) -> Finding {
         })
 }
 
-pub(super) fn not_found(said: &Claim<'_>, hidden: Option<Range<usize>>) -> Finding {
+pub(super) fn not_found(claim: &QuoteClaim<'_>, hidden: Option<Range<usize>>) -> Finding {
     let found = Finding::warning(
         rules::QUOTE_NOT_FOUND,
-        said.quote.span(),
-        format!("the text \"{}\" does not appear in the rendered lesson as a separate number", shown(said)),
+        claim.quote.span(),
+        format!(
+            "the text \"{}\" does not appear in the rendered lesson as a separate number",
+            shorten_quote(claim)
+        ),
     )
     .why("nothing was compared: the text has changed, or uses other words")
     .help("quote what the text now says, with its sign and its whole unit, or delete this line");
@@ -59,7 +62,7 @@ pub(super) fn not_found(said: &Claim<'_>, hidden: Option<Range<usize>>) -> Findi
     }
 }
 
-pub(super) fn no_value(said: &Claim<'_>, computed: f64) -> Finding {
+pub(super) fn no_value(claim: &QuoteClaim<'_>, computed: f64) -> Finding {
     let (message, why) = if computed.is_nan() {
         (
             "this expression has no value in this run, so the quoted number was not checked",
@@ -71,22 +74,22 @@ pub(super) fn no_value(said: &Claim<'_>, computed: f64) -> Finding {
             "it divides by zero, or a value grows without end",
         )
     };
-    Finding::error(rules::QUOTE_WITHOUT_VALUE, said.expr.span(), message)
+    Finding::error(rules::QUOTE_WITHOUT_VALUE, claim.expr.span(), message)
         .why(why)
         .help("make the run long enough for the event, or correct the expression")
-        .related(said.quote.span(), "the quoted number")
+        .related(claim.quote.span(), "the quoted number")
 }
 
 /// A finding at the places where the quote stands: the first one, and the others as related places.
 fn at_places(
     rule: &'static rules::Rule,
     severity: Severity,
-    said: &Claim<'_>,
+    claim: &QuoteClaim<'_>,
     outcome: &QuoteOutcome,
     message: String,
 ) -> Finding {
     let mut places = outcome.places.iter();
-    let first = places.next().cloned().unwrap_or(said.quote.span());
+    let first = places.next().cloned().unwrap_or(claim.quote.span());
     let mut found = Finding::error(rule, first, message).severity(severity);
     for place in places.by_ref().take(MAX_RELATED) {
         found = found.related(place.clone(), "the text also says it here");
@@ -97,7 +100,7 @@ fn at_places(
         0 => format!("this is {value}"),
         n => format!("this is {value}; the text says it in {n} more places"),
     };
-    found.related(said.expr.span(), label)
+    found.related(claim.expr.span(), label)
 }
 
 /// "0.443 at half the timestep, 0.441 with the solver run to convergence"
@@ -106,20 +109,25 @@ fn list(outcome: &QuoteOutcome) -> String {
 }
 
 /// What was read, when that is not plain from the quote.
-fn as_read(said: &Claim<'_>, read: &Quoted) -> String {
+fn as_read(claim: &QuoteClaim<'_>, read: &Quoted) -> String {
     let text = read.to_string();
-    let plain = said.part.replace('\u{2212}', "-");
+    let plain = claim.part.replace('\u{2212}', "-");
     if plain.contains(&text) { String::new() } else { format!(" (read as {text})") }
 }
 
-pub(super) fn wrong_unit(said: &Claim<'_>, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
+pub(super) fn wrong_unit(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, text: &str, gives: &str) -> Finding {
     let message = format!("the text says {text}, but the expression gives {gives}");
-    at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
+    at_places(rules::QUOTE_WRONG, Severity::Error, claim, outcome, message)
         .why("the digits are right, but the unit differs")
         .help("correct the unit in the text, or convert the number in the expression")
 }
 
-pub(super) fn unsure_unit(said: &Claim<'_>, outcome: &QuoteOutcome, unit: &Unit, gives: &str) -> Finding {
+pub(super) fn unsure_unit(
+    claim: &QuoteClaim<'_>,
+    outcome: &QuoteOutcome,
+    unit: &Unit,
+    gives: &str,
+) -> Finding {
     let text = &unit.text;
     let message = match unit.link {
         Link::Clause => {
@@ -129,12 +137,12 @@ pub(super) fn unsure_unit(said: &Claim<'_>, outcome: &QuoteOutcome, unit: &Unit,
         }
         _ => format!("{text} may be a unit or a symbol here, but the expression gives {gives}"),
     };
-    at_places(rules::QUOTE_UNCLEAR, Severity::Error, said, outcome, message)
+    at_places(rules::QUOTE_UNCLEAR, Severity::Error, claim, outcome, message)
         .why("a quote with two readings cannot be called right")
         .help("write the unit after the number, or quote the number where its unit is clear")
 }
 
-pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
+pub(super) fn wrong(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let right = printed(read, outcome.computed);
     let within = match read.form {
         Form::PlusMinus(..) | Form::Range(..) => ", which is outside it",
@@ -142,10 +150,10 @@ pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> 
     };
     let message = format!(
         "the text says {}{}, but the simulation gives {right}{within}",
-        shown(said),
-        as_read(said, read)
+        shorten_quote(claim),
+        as_read(claim, read)
     );
-    let found = at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
+    let found = at_places(rules::QUOTE_WRONG, Severity::Error, claim, outcome, message)
         .why("a reader who measures it finds another number");
     if !outcome.moved.is_empty() {
         return found.help(format!(
@@ -161,14 +169,14 @@ pub(super) fn wrong(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> 
     })
 }
 
-pub(super) fn of_timestep(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
+pub(super) fn of_timestep(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted) -> Finding {
     let message = format!(
         "the digits of {} depend on the timestep: {} as the lesson stands, {}",
-        shown(said),
+        shorten_quote(claim),
         printed(read, outcome.computed),
         list(outcome)
     );
-    at_places(rules::QUOTE_OF_TIMESTEP, Severity::Note, said, outcome, message)
+    at_places(rules::QUOTE_OF_TIMESTEP, Severity::Note, claim, outcome, message)
         .why(
             "the number is right for this timestep only; a reader with another timestep finds another number",
         )
@@ -176,15 +184,15 @@ pub(super) fn of_timestep(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quote
 }
 
 /// A number that no run comes near, where no run can be repeated to its digits either.
-pub(super) fn far(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
+pub(super) fn far(claim: &QuoteClaim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
     let message = format!(
         "the text says {}{}, but no run comes near: {} as the lesson stands, {}",
-        shown(said),
-        as_read(said, read),
+        shorten_quote(claim),
+        as_read(claim, read),
         printed(read, outcome.computed),
         list(outcome)
     );
-    at_places(rules::QUOTE_WRONG, Severity::Error, said, outcome, message)
+    at_places(rules::QUOTE_WRONG, Severity::Error, claim, outcome, message)
         .why("a reader who measures it finds another number, and every reader a different one")
         .help(fewer(read, values))
 }
@@ -202,14 +210,19 @@ fn fewer(read: &Quoted, values: &[f64]) -> String {
     }
 }
 
-pub(super) fn chaotic(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, values: &[f64]) -> Finding {
+pub(super) fn chaotic(
+    claim: &QuoteClaim<'_>,
+    outcome: &QuoteOutcome,
+    read: &Quoted,
+    values: &[f64],
+) -> Finding {
     let message = format!(
         "no reader can reproduce the digits of {}: {} as the lesson stands, {}",
-        shown(said),
+        shorten_quote(claim),
         printed(read, outcome.computed),
         list(outcome)
     );
-    at_places(rules::QUOTE_CHAOTIC, Severity::Warning, said, outcome, message)
+    at_places(rules::QUOTE_CHAOTIC, Severity::Warning, claim, outcome, message)
         .why("such a start is within rounding of that of the lesson: another computer, or another version of the simulator, prints other digits")
         .help(fewer(read, values))
 }
@@ -227,7 +240,7 @@ fn agreed(read: &Quoted, values: &[f64]) -> Option<String> {
 }
 
 pub(super) fn doubtful(
-    said: &Claim<'_>,
+    claim: &QuoteClaim<'_>,
     outcome: &QuoteOutcome,
     read: &Quoted,
     why: &str,
@@ -237,17 +250,25 @@ pub(super) fn doubtful(
     let message = match other {
         Some(other) => format!(
             "\"{}\" was read as {read}, but {why}: the expression gives {value}, which matches {other}",
-            shown(said)
+            shorten_quote(claim)
         ),
-        None => format!("\"{}\" was read as {read}, but {why}: the expression gives {value}", shown(said)),
+        None => format!(
+            "\"{}\" was read as {read}, but {why}: the expression gives {value}",
+            shorten_quote(claim)
+        ),
     };
-    Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), message)
+    Finding::error(rules::QUOTE_UNCLEAR, claim.quote.span(), message)
         .why("a quote with two readings cannot be called right or wrong")
         .help("quote only the number that the expression gives, with a point before its decimals")
-        .related(said.expr.span(), format!("this is {value}"))
+        .related(claim.expr.span(), format!("this is {value}"))
 }
 
-pub(super) fn other_unit(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted, shift: &Shift) -> Finding {
+pub(super) fn other_unit(
+    claim: &QuoteClaim<'_>,
+    outcome: &QuoteOutcome,
+    read: &Quoted,
+    shift: &Shift,
+) -> Finding {
     let value = significant(outcome.computed);
     let factor = ten(shift.power.abs());
     let what = match &shift.units {
@@ -257,11 +278,11 @@ pub(super) fn other_unit(said: &Claim<'_>, outcome: &QuoteOutcome, read: &Quoted
     let action = if shift.power > 0 { "multiply" } else { "divide" };
     let message = format!(
         "the text says {}{}, but the expression gives {value}; the numbers differ by exactly a power of ten",
-        shown(said),
-        as_read(said, read)
+        shorten_quote(claim),
+        as_read(claim, read)
     );
-    Finding::error(rules::QUOTE_UNIT, said.expr.span(), format!("{message}{what}"))
+    Finding::error(rules::QUOTE_UNIT, claim.expr.span(), format!("{message}{what}"))
         .why("only numbers in the same unit can be compared")
         .help(format!("{action} the expression by {factor}"))
-        .related(outcome.places.first().cloned().unwrap_or(said.quote.span()), "the text says it here")
+        .related(outcome.places.first().cloned().unwrap_or(claim.quote.span()), "the text says it here")
 }

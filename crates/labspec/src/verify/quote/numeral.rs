@@ -96,113 +96,177 @@ impl Chars<'_> {
 
 /// Reads the number whose first digit, point or fraction stands at `from`.
 pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral {
-    let mut whole_end = chars.digits(from);
-    let first = chars.text(from, whole_end);
-    let mut digits = first.clone();
-    let mut style = Style::default();
-    let (mut doubts, mut unsure, mut refused) = (Vec::new(), None, None);
-    let mut decimals = 0;
+    let mut number = Digits::whole(chars, from);
+    number.read_decimals(chars);
+    number.read_fraction(chars);
+    number.read_power(chars);
+    number.read_factor(chars);
+    number.finish(from, negative)
+}
 
-    // Groups of three digits.
-    let groups = !first.is_empty() && first.len() <= 3 && !first.starts_with('0');
-    for separator in [',', ' ', '\''] {
-        if !groups || style.group.is_some() {
-            break;
+/// A number on its way: its digits, as far as they are read.
+struct Digits {
+    /// The digits before the first separator.
+    first: String,
+    /// All digits, with a point before the decimals.
+    digits: String,
+    decimals: usize,
+    exponent: i32,
+    /// The value of a fraction behind the digits: `2½`.
+    fraction: Option<f64>,
+    style: Style,
+    /// Behind the last character that belongs to it.
+    end: usize,
+    doubts: Vec<f64>,
+    unsure: Option<&'static str>,
+    refused: Option<&'static str>,
+}
+
+impl Digits {
+    /// The digits before a point, with groups of three.
+    fn whole(chars: Chars<'_>, from: usize) -> Digits {
+        let mut end = chars.digits(from);
+        let first = chars.text(from, end);
+        let mut digits = first.clone();
+        let mut style = Style::default();
+        let mut doubts = Vec::new();
+        let groups = !first.is_empty() && first.len() <= 3 && !first.starts_with('0');
+        for separator in [',', ' ', '\''] {
+            if !groups || style.group.is_some() {
+                break;
+            }
+            while let Some(stop) = chars.group(end, separator) {
+                digits += &chars.text(end + 1, stop);
+                end = stop;
+                style.group = Some(separator);
+            }
         }
-        while let Some(end) = chars.group(whole_end, separator) {
-            digits += &chars.text(whole_end + 1, end);
-            whole_end = end;
-            style.group = Some(separator);
+        if style.group == Some(' ') {
+            doubts.extend(first.parse::<f64>());
+            doubts.extend(chars.text(end - 3, end).parse::<f64>());
+        }
+        Digits {
+            first,
+            digits,
+            decimals: 0,
+            exponent: 0,
+            fraction: None,
+            style,
+            end,
+            doubts,
+            unsure: None,
+            refused: None,
         }
     }
-    if style.group == Some(' ') {
-        doubts.extend(first.parse::<f64>());
-        doubts.extend(chars.text(whole_end - 3, whole_end).parse::<f64>());
+
+    /// The digits behind a point or a comma.
+    fn read_decimals(&mut self, chars: Chars<'_>) {
+        if chars.at(self.end) == Some('.') && chars.digit(self.end + 1) {
+            self.read_behind_point(chars);
+        } else if chars.at(self.end) == Some(',') && chars.digit(self.end + 1) {
+            self.read_behind_comma(chars);
+        } else if self.style.group == Some(',') && self.digits.len() == self.first.len() + 3 {
+            // 1,500: thousands in English, decimals elsewhere.
+            let decimals = self.digits.get(self.first.len()..).unwrap_or("");
+            self.doubts.extend(format!("{}.{decimals}", self.first).parse::<f64>());
+        }
     }
 
-    let mut end = whole_end;
-    if chars.at(end) == Some('.') && chars.digit(end + 1) {
-        end = chars.digits(whole_end + 1);
-        let mut after = chars.text(whole_end + 1, end);
+    fn read_behind_point(&mut self, chars: Chars<'_>) {
+        let whole_end = self.end;
+        self.end = chars.digits(whole_end + 1);
+        let mut after = chars.text(whole_end + 1, self.end);
         // 0.000 833: decimals in groups of three.
         while after.len().is_multiple_of(3)
-            && let Some(more) = chars.group(end, ' ')
+            && let Some(more) = chars.group(self.end, ' ')
         {
-            doubts.extend(format!("{digits}.{after}").parse::<f64>());
-            after += &chars.text(end + 1, more);
-            end = more;
+            self.doubts.extend(format!("{}.{after}", self.digits).parse::<f64>());
+            after += &chars.text(self.end + 1, more);
+            self.end = more;
         }
-        decimals = after.len();
-        digits = format!("{digits}.{after}");
-        if chars.at(end) == Some('.') && chars.digit(end + 1) {
-            refused = Some("digits with several points");
-        } else if chars.at(end) == Some(',') && chars.digit(end + 1) {
-            refused = Some("digits with a comma after a point");
+        self.decimals = after.len();
+        self.digits = format!("{}.{after}", self.digits);
+        if chars.at(self.end) == Some('.') && chars.digit(self.end + 1) {
+            self.refused = Some("digits with several points");
+        } else if chars.at(self.end) == Some(',') && chars.digit(self.end + 1) {
+            self.refused = Some("digits with a comma after a point");
         }
-    } else if chars.at(end) == Some(',') && chars.digit(end + 1) {
-        // No thousands: a decimal comma, or a list.
-        let stop = chars.digits(end + 1);
+    }
+
+    /// No thousands: a decimal comma, or a list.
+    fn read_behind_comma(&mut self, chars: Chars<'_>) {
+        let stop = chars.digits(self.end + 1);
         let again = matches!(chars.at(stop), Some(',' | '.')) && chars.digit(stop + 1);
-        if style.group.is_some() || again {
-            refused = Some("digits with several commas");
+        if self.style.group.is_some() || again {
+            self.refused = Some("digits with several commas");
         } else {
-            let after = chars.text(end + 1, stop);
-            decimals = after.len();
-            if first != "0" {
-                unsure = Some("its comma may separate decimals or two numbers");
+            let after = chars.text(self.end + 1, stop);
+            self.decimals = after.len();
+            if self.first != "0" {
+                self.unsure = Some("its comma may separate decimals or two numbers");
             }
-            digits = format!("{digits}.{after}");
+            self.digits = format!("{}.{after}", self.digits);
         }
-        end = stop;
-    } else if style.group == Some(',') && digits.len() == first.len() + 3 {
-        // 1,500: thousands in English, decimals elsewhere.
-        doubts.extend(format!("{first}.{}", digits.get(first.len()..).unwrap_or("")).parse::<f64>());
+        self.end = stop;
     }
 
-    let mut form = Form::Plain(style);
-    let mut extra = 0.0;
-    let mark = if first.is_empty() { end } else { chars.skip_blanks(end) };
-    if let Some(x) = chars.at(mark).and_then(fraction)
-        && decimals == 0
-        && style.group.is_none()
-    {
-        (form, extra, end, decimals) = (Form::Fraction, x, mark + 1, 2);
+    /// A fraction behind whole digits, or alone: `2½`, `½`.
+    fn read_fraction(&mut self, chars: Chars<'_>) {
+        let mark = if self.first.is_empty() { self.end } else { chars.skip_blanks(self.end) };
+        if let Some(x) = chars.at(mark).and_then(fraction)
+            && self.decimals == 0
+            && self.style.group.is_none()
+        {
+            (self.fraction, self.end, self.decimals) = (Some(x), mark + 1, 2);
+        }
     }
 
-    let mut exponent = 0;
-    if let Some((power, behind, times)) = power(chars, end, &digits).filter(|_| form != Form::Fraction) {
-        exponent = power;
+    /// A power of ten in figures.
+    fn read_power(&mut self, chars: Chars<'_>) {
+        if self.fraction.is_some() {
+            return;
+        }
+        let Some((power, behind, times)) = power(chars, self.end, &self.digits) else { return };
+        self.exponent = power;
         // A power of ten alone: 10^-3 is 1e-3.
-        if behind > end && digits == "10" && chars.at(end) == Some('^') {
-            digits = "1".into();
+        if behind > self.end && self.digits == "10" && chars.at(self.end) == Some('^') {
+            self.digits = "1".into();
         }
-        end = behind;
-        style.times = times;
-        form = Form::Plain(style);
+        self.end = behind;
+        self.style.times = times;
     }
-    if let Some((power, behind)) = factor(chars, end) {
-        if form == Form::Fraction {
-            refused = Some("a fraction of a word for a power of ten");
+
+    /// A power of ten in words.
+    fn read_factor(&mut self, chars: Chars<'_>) {
+        let Some((power, behind)) = factor(chars, self.end) else { return };
+        if self.fraction.is_some() {
+            self.refused = Some("a fraction of a word for a power of ten");
         } else {
-            exponent += power;
-            style.times = true;
-            form = Form::Plain(style);
+            self.exponent += power;
+            self.style.times = true;
         }
-        doubts.clear();
-        end = behind;
+        self.doubts.clear();
+        self.end = behind;
     }
-    let count = digits.bytes().filter(u8::is_ascii_digit).count();
-    if count > MAX_DIGITS || exponent.abs() > MAX_EXPONENT {
-        refused = Some("a number with more digits than a computation has");
-        (exponent, decimals) = (0, 0);
+
+    /// The number that begins at `start`.
+    fn finish(mut self, start: usize, negative: bool) -> Numeral {
+        let count = self.digits.bytes().filter(u8::is_ascii_digit).count();
+        if count > MAX_DIGITS || self.exponent.abs() > MAX_EXPONENT {
+            self.refused = Some("a number with more digits than a computation has");
+            (self.exponent, self.decimals) = (0, 0);
+        }
+        let Digits { exponent, decimals, end, unsure, refused, mut doubts, .. } = self;
+        let sign = if negative { -1.0 } else { 1.0 };
+        let digits = if self.digits.is_empty() { "0" } else { &self.digits };
+        let extra = self.fraction.unwrap_or(0.0);
+        let value = sign * (format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra);
+        let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
+        doubts.iter_mut().for_each(|x| *x *= sign);
+        let form = if self.fraction.is_some() { Form::Fraction } else { Form::Plain(self.style) };
+        let quoted = Quoted { value, half_unit, decimals, exponent, form };
+        Numeral { quoted, start, end, doubts, unsure, refused }
     }
-    let sign = if negative { -1.0 } else { 1.0 };
-    let digits = if digits.is_empty() { "0" } else { &digits };
-    let value = sign * (format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra);
-    let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
-    doubts.iter_mut().for_each(|x| *x *= sign);
-    let quoted = Quoted { value, half_unit, decimals, exponent, form };
-    Numeral { quoted, start: from, end, doubts, unsure, refused }
 }
 
 /// The power of ten that follows at `at`, where it ends, and whether it is written out (`×10^3`).

@@ -70,85 +70,108 @@ pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
     let unit = q.unit.clone().filter(|u| !u.is_doubtful())?;
     let before = chars.text(q.whole.start.saturating_sub(30), q.whole.start).to_lowercase();
     let before = before.trim_end();
-    let ends =
-        |word: &str| before.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric));
     let behind = chars.text(q.whole.end, q.whole.end + 40).to_lowercase();
+    let of_something_else = q.refused != Some(BOUND) && ELSE.into_iter().any(|word| ends_with(before, word));
+    if compares(&behind) || of_something_else {
+        return None;
+    }
+    let (low, high) = stated_range(q, before)?;
+    let rest = format!("{} {}", chars.text(0, q.whole.start), chars.text(q.whole.end, chars.0.len()));
+    let text = chars.text(q.whole.start, q.whole.end);
+    Some(OptionNumber { text, low, high, unit, alone: says_nothing(&rest) })
+}
+
+/// Whether a text ends with a whole word.
+fn ends_with(text: &str, word: &str) -> bool {
+    text.strip_suffix(word).is_some_and(|rest| !rest.ends_with(char::is_alphanumeric))
+}
+
+/// Whether the words behind a number compare it: `7 m farther` is a change; `7 m, no more` is none.
+fn compares(behind: &str) -> bool {
     let words = behind.split_whitespace().take(3).map(|w| w.trim_matches(|c: char| !c.is_alphanumeric()));
     let words: Vec<&str> = words.collect();
-    // `7 m farther` is a change; `7 m, no more` is none.
-    let compares = words.iter().enumerate().any(|(i, w)| {
+    words.iter().enumerate().any(|(i, w)| {
         let denied = i.checked_sub(1).and_then(|k| words.get(k)).is_some_and(|before| *before == "no");
         !denied
             && (matches!(*w, "more" | "less" | "too") || w.len() > 4 && w.ends_with("er") && *w != "under")
+    })
+}
+
+/// Words before a number that is not meant exactly.
+const APPROXIMATE: [&str; 13] = [
+    "about",
+    "around",
+    "roughly",
+    "approximately",
+    "nearly",
+    "almost",
+    "some",
+    "circa",
+    "ca.",
+    "~",
+    "≈",
+    "约",
+    "約",
+];
+
+/// Words before a number that is a lower bound, or an upper one.
+const MORE: [&str; 10] = [
+    "more than",
+    "greater than",
+    "larger than",
+    "longer than",
+    "higher than",
+    "faster than",
+    "at least",
+    "above",
+    ">",
+    "≥",
+];
+const LESS: [&str; 10] = [
+    "less than",
+    "smaller than",
+    "shorter than",
+    "lower than",
+    "slower than",
+    "at most",
+    "below",
+    "under",
+    "<",
+    "≤",
+];
+
+/// What is right for a quantity with this text before it; `None` where its words say something else of it.
+fn stated_range(q: &Quantity, before: &str) -> Option<(f64, f64)> {
+    let is_about = APPROXIMATE.into_iter().any(|w| match w.is_ascii() && w != "~" {
+        true => ends_with(before, w),
+        false => before.ends_with(w),
     });
-    if compares || q.refused != Some(BOUND) && ELSE.into_iter().any(ends) {
-        return None;
-    }
-    let is_about = [
-        "about",
-        "around",
-        "roughly",
-        "approximately",
-        "nearly",
-        "almost",
-        "some",
-        "circa",
-        "ca.",
-        "~",
-        "≈",
-        "约",
-        "約",
-    ]
-    .into_iter()
-    .any(|w| if w.is_ascii() && w != "~" { ends(w) } else { before.ends_with(w) });
     let Quoted { value, half_unit, form, .. } = q.quoted;
-    let (low, high) = match (q.refused, form) {
-        (None, Form::Range(a, b) | Form::PlusMinus(a, b)) => (a, b),
+    match (q.refused, form) {
+        (None, Form::Range(a, b) | Form::PlusMinus(a, b)) => Some((a, b)),
         (None, _) => {
             let off = half_unit.max(value.abs() * if is_about { ABOUT } else { PRINTED });
-            (value - off, value + off)
+            Some((value - off, value + off))
         }
         (Some(BOUND), Form::Plain(_)) => {
-            let more = [
-                "more than",
-                "greater than",
-                "larger than",
-                "longer than",
-                "higher than",
-                "faster than",
-                "at least",
-                "above",
-                ">",
-                "≥",
-            ];
-            let less = [
-                "less than",
-                "smaller than",
-                "shorter than",
-                "lower than",
-                "slower than",
-                "at most",
-                "below",
-                "under",
-                "<",
-                "≤",
-            ];
             let says = |list: &[&str]| list.iter().any(|w| before.ends_with(w));
-            match (says(&more), says(&less)) {
-                (true, false) => (value, f64::INFINITY),
-                (false, true) => (f64::NEG_INFINITY, value),
-                _ => return None,
+            match (says(&MORE), says(&LESS)) {
+                (true, false) => Some((value, f64::INFINITY)),
+                (false, true) => Some((f64::NEG_INFINITY, value)),
+                _ => None,
             }
         }
-        _ => return None,
-    };
-    let rest = format!("{} {}", chars.text(0, q.whole.start), chars.text(q.whole.end, chars.0.len()));
-    let alone = rest.to_lowercase().split_whitespace().all(|w| {
+        _ => None,
+    }
+}
+
+/// Whether the rest of an option says nothing, so that it is its number alone.
+fn says_nothing(rest: &str) -> bool {
+    rest.to_lowercase().split_whitespace().all(|w| {
         let word = w.trim_matches(|c: char| !c.is_alphanumeric());
         word.chars().count() < 2
             || ["about", "around", "roughly", "approximately", "nearly", "almost"].contains(&word)
-    });
-    Some(OptionNumber { text: chars.text(q.whole.start, q.whole.end), low, high, unit, alone })
+    })
 }
 
 /// Words that say how many times something is.

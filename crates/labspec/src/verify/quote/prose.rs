@@ -2,9 +2,9 @@
 //! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
 
 use super::hidden::Hidden;
-use super::html;
-use super::rendered::Piece;
+use super::piece::ShownPiece;
 use super::table::{Table, Tables};
+use super::tags::{APART, read_tag};
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lesson, Problem};
@@ -26,7 +26,7 @@ const OPTIONS: Options = Options::ENABLE_TABLES
     .union(Options::ENABLE_YAML_STYLE_METADATA_BLOCKS);
 
 /// The pieces of shown prose, in order.
-pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
+pub(super) fn pieces(lesson: &Lesson) -> Vec<ShownPiece> {
     read(lesson).0
 }
 
@@ -35,7 +35,7 @@ pub(super) fn tables(lesson: &Lesson) -> Vec<Table> {
     read(lesson).1
 }
 
-fn read(lesson: &Lesson) -> (Vec<Piece>, Vec<Table>) {
+fn read(lesson: &Lesson) -> (Vec<ShownPiece>, Vec<Table>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
         return Default::default();
     }
@@ -98,7 +98,7 @@ fn notes(text: &str) -> BTreeSet<String> {
 struct Reader<'t> {
     text: &'t str,
     blocks: &'t [Block],
-    pieces: Vec<Piece>,
+    pieces: Vec<ShownPiece>,
     tables: Tables,
     /// The piece that is being read.
     open: Text,
@@ -113,7 +113,8 @@ struct Reader<'t> {
 }
 
 impl Reader<'_> {
-    /// Reads from `from` on. Gives where to go on when a damaged fence has swallowed what follows it.
+    /// Reads from `from` on. Gives where to go on when a damaged fence has swallowed what follows it. The function is long because it has
+    /// one arm for each event of the Markdown parser.
     fn pass(&mut self, from: usize) -> Option<usize> {
         // In a fence: whether its text is shown. In what stands before the lesson (its metadata): not.
         let mut fence: Option<bool> = None;
@@ -168,15 +169,15 @@ impl Reader<'_> {
                         }
                     }
                 }
-                Event::InlineHtml(ref tag) if self.hidden.tag(tag) => self.inline = true,
+                Event::InlineHtml(ref tag) if self.hidden.take_tag(tag) => self.inline = true,
                 _ if self.hidden.is_on() => {}
                 Event::Text(part) if fence == Some(true) => self.lines(&part, range),
                 Event::Text(part) => self.add(&part, range),
                 Event::Code(part) | Event::InlineMath(part) | Event::DisplayMath(part) => {
                     self.inside(&part, range)
                 }
-                Event::InlineHtml(tag) => match html::tag(&tag) {
-                    Some((Some(html::APART), _)) | None => {}
+                Event::InlineHtml(tag) => match read_tag(&tag) {
+                    Some((Some(APART), _)) | None => {}
                     Some((shown, _)) => self.whole(shown, range),
                 },
                 Event::SoftBreak | Event::HardBreak => self.whole(Some(' '), range),
@@ -238,7 +239,7 @@ impl Reader<'_> {
     fn close(&mut self) {
         let text = std::mem::replace(&mut self.open, empty());
         if !text.value.is_empty() {
-            self.pieces.push(Piece { text, html: self.html });
+            self.pieces.push(ShownPiece { text, html: self.html });
         }
         self.html = false;
     }

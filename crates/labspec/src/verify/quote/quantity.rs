@@ -2,7 +2,8 @@
 //! in `docs/quantities.md`.
 
 use super::clause_unit::clause_unit;
-use super::context::{after, before};
+use super::context::before;
+use super::context_after::after;
 use super::number::{Form, Quoted, ten};
 use super::numeral::{Chars, Numeral, numbers};
 use super::unit_text::{Link, Unit, unit_behind};
@@ -150,41 +151,14 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
         return Pair::Two;
     }
     let gap = chars.text(first.number_end, second.whole.start);
-    let own = |q: &Quantity| chars.text(q.number_end, q.whole.end).trim().to_string();
-    let (first_unit, second_unit) = (own(first), own(second));
-    let (a, b) = (first.quoted, second.quoted);
+    let unit_text = |q: &Quantity| chars.text(q.number_end, q.whole.end).trim().to_string();
+    let (first_unit, second_unit) = (unit_text(first), unit_text(second));
     let tight = gap.trim();
-    let refused = first.refused.or(second.refused);
-    let one = |form: Form, value: f64, unit: Option<Unit>, end: usize| {
-        Pair::One(Quantity {
-            quoted: Quoted { form, value, ..a },
-            doubts: Vec::new(),
-            unsure: first.unsure.or(second.unsure),
-            whole: first.whole.start..end,
-            number_end: if unit.is_some() && first.unit.is_some() {
-                first.number_end
-            } else {
-                second.number_end
-            },
-            unit,
-            refused,
-            ..first.clone()
-        })
-    };
     let part = |sign: &str| tight.strip_suffix(sign).map(str::trim);
     if let Some(left) = part("±").or(part("+/-")).or(part("+/")) {
-        let relative = !left.is_empty() && !left.starts_with('%') && second_unit == "%";
-        let one_unit = left == first_unit && (left.is_empty() || left == second_unit || relative);
-        if !one_unit || left.is_empty() && second_unit == "%" {
-            return Pair::Refused("a plus-minus value with an unclear unit");
-        }
-        if chars.at(second.whole.end) == Some(')') || a.exponent != b.exponent && a.exponent == 0 {
-            return Pair::Refused("a plus-minus value with an unclear power of ten");
-        }
-        let about = if relative { a.value * b.value / 100.0 } else { b.value }.abs();
-        let unit = if relative { first.unit.clone() } else { second.unit.clone() };
-        return one(Form::PlusMinus(a.value - about, a.value + about), a.value, unit, second.whole.end);
+        return plus_minus(chars, [first, second], left, [&first_unit, &second_unit]);
     }
+    let (a, b) = (first.quoted, second.quoted);
     let link = tight.strip_prefix(first_unit.as_str()).unwrap_or(tight).trim();
     let dash = matches!(link, "-" | "–" | "—" | "~");
     let spaced = gap.starts_with(' ');
@@ -206,7 +180,42 @@ fn pair(chars: Chars<'_>, first: &Quantity, second: &Quantity) -> Pair {
         return Pair::Refused("a difference or a range");
     }
     let form = Form::Range(a.value.min(b.value), a.value.max(b.value));
-    one(form, (a.value + b.value) / 2.0, second.unit.clone(), second.whole.end)
+    join_pair(first, second, form, (a.value + b.value) / 2.0, second.unit.clone())
+}
+
+/// A value and how far it may be off, with the text between its number and the sign, and the texts of both units.
+fn plus_minus(
+    chars: Chars<'_>,
+    [first, second]: [&Quantity; 2],
+    left: &str,
+    [first_unit, second_unit]: [&str; 2],
+) -> Pair {
+    let (a, b) = (first.quoted, second.quoted);
+    let relative = !left.is_empty() && !left.starts_with('%') && second_unit == "%";
+    let one_unit = left == first_unit && (left.is_empty() || left == second_unit || relative);
+    if !one_unit || left.is_empty() && second_unit == "%" {
+        return Pair::Refused("a plus-minus value with an unclear unit");
+    }
+    if chars.at(second.whole.end) == Some(')') || a.exponent != b.exponent && a.exponent == 0 {
+        return Pair::Refused("a plus-minus value with an unclear power of ten");
+    }
+    let about = if relative { a.value * b.value / 100.0 } else { b.value }.abs();
+    let unit = if relative { first.unit.clone() } else { second.unit.clone() };
+    join_pair(first, second, Form::PlusMinus(a.value - about, a.value + about), a.value, unit)
+}
+
+/// One quantity of two numbers.
+fn join_pair(first: &Quantity, second: &Quantity, form: Form, value: f64, unit: Option<Unit>) -> Pair {
+    Pair::One(Quantity {
+        quoted: Quoted { form, value, ..first.quoted },
+        doubts: Vec::new(),
+        unsure: first.unsure.or(second.unsure),
+        whole: first.whole.start..second.whole.end,
+        number_end: if unit.is_some() && first.unit.is_some() { first.number_end } else { second.number_end },
+        unit,
+        refused: first.refused.or(second.refused),
+        ..first.clone()
+    })
 }
 
 fn word_before(chars: Chars<'_>, at: usize, word: &str) -> bool {

@@ -2,12 +2,16 @@
 //! labs and quizzes. Keys, code, listings, attributes and comments are none of it.
 
 use super::denial::is_denied;
+use super::markdown_cell::unit_of_column;
+use super::piece::ShownPiece;
+use super::pieces::shown_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
+use super::quote_claim::QuotePlace;
 use super::table::Table;
-use super::{QuotePlace, fold, html, prose, stated};
+use super::{fold, html, prose};
 use crate::run::Cell;
-use crate::source::{SourceMap, Text};
-use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind, Verify};
+use crate::source::SourceMap;
+use crate::spec::{ControlKind, Lesson, Verify};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -27,17 +31,9 @@ const MAX_WORDS: usize = 200;
 /// Most quotes that are looked for where nobody sees them: each is a walk through the file.
 const MAX_HIDDEN: usize = 16;
 
-/// A piece of text that is shown apart from others.
-#[derive(Debug)]
-pub(super) struct Piece {
-    pub(super) text: Text,
-    /// It holds tags and entities.
-    pub(super) html: bool,
-}
-
 impl ShownText {
     /// Looks for all quotes of a lesson.
-    pub fn of(lesson: &Lesson) -> ShownText {
+    pub fn of_lesson(lesson: &Lesson) -> ShownText {
         let file = lesson.file.text();
         let mut search = Search::new();
         let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
@@ -54,16 +50,16 @@ impl ShownText {
             return shown;
         }
         let wordy: Vec<&str> = numbers.keys().copied().filter(|q| !has_number(q)).take(MAX_WORDS).collect();
-        let (text, map) = join(pieces(lesson), !wordy.is_empty());
+        let (text, map) = join(shown_pieces(lesson), !wordy.is_empty());
         search.walk(&text);
         let sliders = at_sliders(lesson, &numbers);
         for (&quote, &number) in &numbers {
-            let words = if wordy.contains(&quote) { words(&text.flat, quote) } else { Vec::new() };
+            let words = if wordy.contains(&quote) { find_words(&text.flat, quote) } else { Vec::new() };
             let found = search.found(number).iter().map(|f| (f.bytes.clone(), f.unit.clone()));
             let place = |(bytes, unit)| {
                 let at = lesson.file.snap(&map.span(bytes));
                 // A number in a cell has the unit of its column.
-                let of_column = || stated::unit_of_column(file, at.start);
+                let of_column = || unit_of_column(file, at.start);
                 let unit = if has_number(quote) { Option::or_else(unit, of_column) } else { None };
                 QuotePlace { at, unit }
             };
@@ -130,13 +126,13 @@ fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMa
     let folded = |text: &str| fold::fold(&html::strip(text).0, true).0;
     let wanted: BTreeMap<String, &'q str> = quotes.keys().map(|quote| (folded(quote), *quote)).collect();
     let labs = lesson.addressed().into_iter();
-    let shown = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
+    let displayed = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
         let ControlKind::Slider { unit, value, .. } = &control.kind else { return None };
         let number = Cell::Number(value.value).shown(control.digits()?);
         let text = unit.as_ref().map_or(number.clone(), |unit| format!("{number} {}", unit.as_str()));
         Some((*wanted.get(&folded(&text))?, value.span.clone()))
     });
-    shown.collect()
+    displayed.collect()
 }
 
 /// Where a quote stands outside of `verify` objects. Only asked when no reader sees it.
@@ -144,13 +140,13 @@ fn unseen(quote: &str, file: &str, lesson: &Lesson) -> Option<Range<usize>> {
     if quote.is_empty() {
         return None;
     }
-    let own: Vec<Range<usize>> = lesson.verifies().map(|v| v.span.clone()).collect();
+    let claims: Vec<Range<usize>> = lesson.verifies().map(|v| v.span.clone()).collect();
     let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit() || c == '.');
     let mut found = file.match_indices(quote).take(1000).map(|(i, _)| i..i + quote.len());
     found.find(|r| {
         let before = file.get(..r.start).and_then(|t| t.chars().next_back());
         let after = file.get(r.end..).and_then(|t| t.chars().next());
-        let claimed = own.iter().any(|o| o.start <= r.start && r.end <= o.end);
+        let claimed = claims.iter().any(|o| o.start <= r.start && r.end <= o.end);
         let goes_on = digit(before) && digit(quote.chars().next());
         !(claimed || goes_on || digit(after) && digit(quote.chars().next_back()))
     })
@@ -162,27 +158,27 @@ fn has_number(text: &str) -> bool {
 }
 
 /// Where words without a number stand: whole words.
-fn words(text: &str, quote: &str) -> Vec<Range<usize>> {
-    let (shown, _) = html::strip(quote);
-    let wanted = fold::fold(&shown, true).0.trim_matches('\n').to_string();
+fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
+    let (plain, _) = html::strip(quote);
+    let wanted = fold::fold(&plain, true).0.trim_matches('\n').to_string();
     if wanted.trim().is_empty() {
         return Vec::new();
     }
     let goes_on =
         |a: Option<char>, b: Option<char>| [a, b].iter().all(|c| c.is_some_and(char::is_alphanumeric));
     let found = text.match_indices(&wanted).map(|(at, found)| at..at + found.len());
-    let own = |r: &Range<usize>| {
+    let stands_alone = |r: &Range<usize>| {
         let [before, after] = [text.get(..r.start).unwrap_or(""), text.get(r.end..).unwrap_or("")];
         !goes_on(before.chars().next_back(), wanted.chars().next())
             && !goes_on(wanted.chars().next_back(), after.chars().next())
             && !is_denied(before)
     };
-    found.filter(own).take(MAX_PLACES).collect()
+    found.filter(stands_alone).take(MAX_PLACES).collect()
 }
 
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
 /// number; `words` takes them, too.
-fn join(pieces: Vec<Piece>, words: bool) -> (Readable, SourceMap) {
+fn join(pieces: Vec<ShownPiece>, words: bool) -> (Readable, SourceMap) {
     let (mut all, mut chars, mut map) = (String::new(), Vec::new(), SourceMap::default());
     for piece in pieces {
         if !words && !has_number(&piece.text.value) {
@@ -210,53 +206,6 @@ fn join(pieces: Vec<Piece>, words: bool) -> (Readable, SourceMap) {
         map.push_whole(1, at..at);
     }
     (Readable::new(all, &chars), map)
-}
-
-pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece> {
-    let mut all = prose::pieces(lesson);
-    for (_, lab) in lesson.addressed() {
-        lab_texts(lab, &mut all);
-    }
-    for quiz in &lesson.quizzes {
-        plain(&quiz.title, &mut all);
-        for (_, question) in quiz.numbered() {
-            question_texts(question, &mut all);
-        }
-    }
-    all
-}
-
-fn plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Piece>) {
-    all.extend(texts.into_iter().map(|text| Piece { text: text.clone(), html: false }));
-}
-
-fn question_texts(question: &Question, all: &mut Vec<Piece>) {
-    plain(&question.label, all);
-    if let QuestionKind::Numeric { unit, .. } = &question.kind {
-        plain(unit, all);
-    }
-    all.extend(question.html().into_iter().map(|text| Piece { text: text.clone(), html: true }));
-}
-
-fn lab_texts(lab: &Lab, all: &mut Vec<Piece>) {
-    plain(lab.title.iter().chain(&lab.kind), all);
-    all.extend(lab.note.iter().map(|text| Piece { text: text.clone(), html: true }));
-    lab.controls.iter().for_each(|control| control_texts(control, all));
-    for plot in &lab.plots {
-        plain(plot.ylabel.iter().chain(&plot.xlabel), all);
-        plain(plot.ref_lines.iter().filter_map(|line| line.label.as_ref()), all);
-        plain(plot.traces.iter().map(|trace| &trace.label), all);
-    }
-    plain(lab.readouts.iter().map(|readout| &readout.label), all);
-}
-
-fn control_texts(control: &Control, all: &mut Vec<Piece>) {
-    plain([&control.label], all);
-    match &control.kind {
-        ControlKind::Slider { unit, .. } => plain(unit, all),
-        ControlKind::Select { options, .. } => plain(options.iter().map(|choice| &choice.text), all),
-        ControlKind::Button { .. } => {}
-    }
 }
 
 #[cfg(test)]

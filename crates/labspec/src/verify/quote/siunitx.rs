@@ -28,7 +28,7 @@ pub(super) fn command(text: &str) -> Option<(String, usize)> {
         arguments.push(argument);
         at = end;
     }
-    let shown = match (name.as_str(), arguments.as_slice()) {
+    let text = match (name.as_str(), arguments.as_slice()) {
         ("SI" | "qty", [number, unit]) => format!("{} {}", plain(number)?, units(unit)?),
         ("num", [number]) => plain(number)?,
         ("si" | "unit", [unit]) => units(unit)?,
@@ -37,7 +37,7 @@ pub(super) fn command(text: &str) -> Option<(String, usize)> {
         ("numrange", [a, b]) => format!("{} to {}", plain(a)?, plain(b)?),
         _ => return None,
     };
-    Some((shown, at))
+    Some((text, at))
 }
 
 /// Longest argument, in bytes.
@@ -64,9 +64,9 @@ fn group(text: &str, at: usize) -> Option<(&str, usize)> {
 fn plain(number: &str) -> Option<String> {
     let text = number.replace("\\pm", "±").replace("+-", "±").replace(' ', "").replace("\\,", "");
     let text = text.replace(['−', '–'], "-");
-    let known =
+    let is_number_char =
         |c: char| c.is_ascii_digit() || matches!(c, '.' | ',' | '-' | '+' | '±' | 'e' | 'E' | '(' | ')');
-    (!text.is_empty() && text.chars().all(known)).then_some(text)
+    (!text.is_empty() && text.chars().all(is_number_char)).then_some(text)
 }
 
 /// Macros of units, with their symbols; prefixes end without one.

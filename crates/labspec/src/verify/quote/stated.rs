@@ -1,10 +1,17 @@
 //! The numbers that a lesson states: every one that a reader sees, with its unit and the words around it.
 
 use super::context::BOUND;
+use super::head_unit::unit_of_head;
+use super::markdown_cell::{LONG, MarkdownCell};
+use super::number::Quoted;
 use super::numeral::Chars;
+use super::pieces::shown_pieces;
 use super::quantity::quantities_apart;
-use super::unit_text::{Unit, unit_of_head};
-use super::{Quoted, fold, html};
+use super::read::quoted;
+use super::rendered::ShownText;
+use super::table_cells::cells_of_column;
+use super::unit_text::Unit;
+use super::{fold, html};
 use crate::source::Text;
 use crate::spec::{Lesson, QuestionKind, Quiz};
 use labspec_bind::units::parse;
@@ -45,14 +52,14 @@ const MOST: usize = 1000;
 /// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     let mut all = Vec::new();
-    for piece in super::rendered::pieces(lesson) {
+    for piece in shown_pieces(lesson) {
         let mut text = piece.text;
         if piece.html {
             let (shown, inner) = html::strip(&text.value);
             text = Text { value: shown, map: inner.then(&text.map) };
         }
         if text.value.contains(|c: char| c.is_ascii_digit()) {
-            of_piece(lesson, &text, &mut all);
+            add_numbers(lesson, &text, &mut all);
         }
         if all.len() > MOST {
             break;
@@ -67,7 +74,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
         Some(Stated {
             quote: text.to_string(),
             span: answer.span.clone(),
-            read: super::quoted(text).ok()?,
+            read: quoted(text).ok()?,
             unit: unit.to_string(),
             dimension,
             context: asked.clone(),
@@ -85,7 +92,7 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
 
 /// Where the text stands that the lesson quotes itself.
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
-    let shown = super::ShownText::of(lesson);
+    let shown = ShownText::of_lesson(lesson);
     let mut all = Vec::new();
     for (verify, block) in lesson.scoped() {
         let narrow = block.map(|block| shown.within(block, verify));
@@ -97,7 +104,7 @@ pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
             let place = |at: Range<usize>| if number { at.start..at.start + 1 } else { at };
             all.extend(shown.places(said.quote.as_str()).into_iter().map(place));
         }
-        let cells = verify.table.iter().filter_map(|claim| super::cells(claim, shown).ok());
+        let cells = verify.table.iter().filter_map(|claim| cells_of_column(claim, shown).ok());
         all.extend(cells.flatten().flatten().map(|cell| cell.span()));
     }
     all
@@ -132,7 +139,7 @@ pub fn answered(lesson: &Lesson) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
+fn add_numbers(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
     let paragraph: Arc<str> = Arc::from(text.value.as_str());
     let (folded, map) = fold::fold(&text.value, false);
     let chars: Vec<char> = folded.chars().collect();
@@ -151,7 +158,7 @@ fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
         }
         let origin = map.span(start..number_end);
         let at = text.map.span(origin.clone());
-        let cell = Cell::of(lesson.file.text(), at.start);
+        let cell = MarkdownCell::at(lesson.file.text(), at.start);
         let of_head = || cell.as_ref().and_then(|cell| unit_of_head(&cell.head));
         let Some(unit) = q.unit.filter(Unit::is_own).or_else(of_head) else { continue };
         let Some(dimension) = unit.dimension else { continue };
@@ -169,11 +176,6 @@ fn of_piece(lesson: &Lesson, text: &Text, all: &mut Vec<Stated>) {
             answer: false,
         });
     }
-}
-
-/// The unit over the column of a cell.
-pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
-    unit_of_head(&super::table::shown(&Cell::of(file, at)?.head))
 }
 
 /// The sentence around a place: from the last full stop to the next one.
@@ -201,31 +203,6 @@ fn around<'t>(text: &'t str, at: &mut usize) -> &'t str {
     text.get(from..to).unwrap_or("")
 }
 
-/// A cell of a table of Markdown.
-struct Cell {
-    row: String,
-    head: String,
-}
-
-/// Most bytes of a row, and lines of a table.
-const LONG: usize = 2000;
-const ROWS: usize = 200;
-
-impl Cell {
-    fn of(file: &str, at: usize) -> Option<Cell> {
-        let before = file.get(..at)?;
-        let start = before.rfind('\n').map_or(0, |i| i + 1);
-        let end = file.get(at..)?.find('\n').map_or(file.len(), |i| at + i);
-        let row = file.get(start..end).filter(|row| row.trim_start().starts_with('|') && row.len() < LONG)?;
-        let column = file.get(start..at)?.matches('|').count();
-        let mut above = file.get(..start)?.lines().rev().take(ROWS);
-        let rule = |line: &str| line.trim_start().starts_with('|') && line.contains("---");
-        above.by_ref().take_while(|line| line.trim_start().starts_with('|')).find(|line| rule(line))?;
-        let head = above.next()?.split('|').nth(column)?.trim().to_string();
-        Some(Cell { row: row.to_string(), head })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,13 +216,5 @@ mod tests {
         let found: Vec<(String, String)> = stated(&lesson).into_iter().map(|s| (s.quote, s.unit)).collect();
         let pair = |a: &str, b: &str| (a.to_string(), b.to_string());
         assert_eq!(found, [pair("2.31", "N m"), pair("3.73 N m", "N m")]);
-    }
-
-    #[test]
-    fn a_cell_knows_its_head() {
-        let text = "x\n\n| h (s) | error (mm) |\n|---:|---:|\n| 0.1 | -0.7 |\n| 0.2 | -1.4 |\n";
-        let at = text.find("1.4").unwrap_or(0);
-        assert_eq!(Cell::of(text, at).map(|c| c.head), Some("error (mm)".into()));
-        assert!(Cell::of("no 1 table", 3).is_none());
     }
 }

@@ -9,7 +9,7 @@ const CELLS: usize = 5000;
 
 /// What stands in a cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Cell {
+pub(super) struct TableCell {
     /// What a reader sees.
     pub(super) text: String,
     /// Its place in the file.
@@ -20,9 +20,9 @@ pub(super) struct Cell {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Table {
     /// The headings.
-    pub(super) head: Vec<Cell>,
+    pub(super) head: Vec<TableCell>,
     /// The rows below the rule.
-    pub(super) rows: Vec<Vec<Cell>>,
+    pub(super) rows: Vec<Vec<TableCell>>,
 }
 
 impl Table {
@@ -47,7 +47,7 @@ fn plain(text: &str) -> String {
 #[derive(Debug, Default)]
 pub(super) struct Tables {
     pub(super) all: Vec<Table>,
-    row: Vec<Cell>,
+    row: Vec<TableCell>,
     /// The table at hand is beyond those that are kept.
     beyond: bool,
 }
@@ -64,7 +64,7 @@ impl Tables {
     pub(super) fn cell(&mut self, shown: &str, source: &str, place: Range<usize>) {
         let inner = source.trim_matches(|c: char| c.is_whitespace() || c == '|');
         let start = source.find(inner).map_or(place.start, |at| place.start + at);
-        self.row.push(Cell { text: plain(shown), span: start..start + inner.len() });
+        self.row.push(TableCell { text: plain(shown), span: start..start + inner.len() });
     }
 
     pub(super) fn end_head(&mut self) {

@@ -44,8 +44,8 @@ pub(super) fn shift(quoted: &Quoted, unit: &str, computed: f64) -> Option<Shift>
         return None;
     }
     let figures = (quoted.value / (2.0 * quoted.half_unit)).abs().log10().floor() + 1.0;
-    let known = parts(unit).filter(|(_, _, raised)| *raised > 0);
-    let units = known.and_then(|(prefix, base, raised)| {
+    let raised_parts = parts(unit).filter(|(_, _, raised)| *raised > 0);
+    let units = raised_parts.and_then(|(prefix, base, raised)| {
         // The prefix that the expression's unit must have.
         let other = prefix * raised + power;
         let name = PREFIXES.iter().find(|(_, p)| other % raised == 0 && *p == other / raised)?.0;

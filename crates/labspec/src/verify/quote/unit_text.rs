@@ -72,27 +72,15 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
     }
     // The raised ring of TeX: `30^\circ`.
     from += usize::from(trimmed.starts_with("^°"));
-    // `a 0.5-second fall`
     if from == 0
         && let Some(tail) = line.strip_prefix('-')
         && tail.starts_with(char::is_alphabetic)
     {
-        let found = units::read(tail)?;
-        let text = tail.get(..found.length)?;
-        let whole = text.chars().count() > 0 && !goes_on(tail.get(found.length..)?);
-        return whole.then(|| {
-            (Unit { text: text.into(), dimension: found.dimension, link: Link::Own }, 1 + found.length)
-        });
+        return hyphenated_unit(tail);
     }
     let rest = line.get(from..)?;
-    for word in ["percent", "per cent", "per mille", "permille", "pct", "Prozent"] {
-        if rest.get(..word.len()).is_some_and(|w| w.eq_ignore_ascii_case(word))
-            && !goes_on(rest.get(word.len()..).unwrap_or(""))
-        {
-            let factor = if word.ends_with("mille") { 1000.0 } else { 100.0 };
-            let dimension = Some(Dimension::NUMBER.times(factor));
-            return Some((Unit { text: word.into(), dimension, link: Link::Own }, from + word.len()));
-        }
+    if let Some((unit, length)) = percentage(rest) {
+        return Some((unit, from + length));
     }
     // `3 per second`, `3/s`
     let over = ["per ", "/"].into_iter().find_map(|sign| rest.strip_prefix(sign).map(|tail| (sign, tail)));
@@ -133,6 +121,26 @@ fn unit_of(line: &str) -> Option<(Unit, usize)> {
     Some((Unit { text, dimension, link: Link::Own }, from))
 }
 
+/// The unit of an adjective, as in `a 0.5-second fall`, behind its hyphen.
+fn hyphenated_unit(tail: &str) -> Option<(Unit, usize)> {
+    let found = units::read(tail)?;
+    let text = tail.get(..found.length)?;
+    let whole = text.chars().count() > 0 && !goes_on(tail.get(found.length..)?);
+    whole.then(|| (Unit { text: text.into(), dimension: found.dimension, link: Link::Own }, 1 + found.length))
+}
+
+/// A word for a percentage that a text begins with, and its bytes.
+fn percentage(rest: &str) -> Option<(Unit, usize)> {
+    let words = ["percent", "per cent", "per mille", "permille", "pct", "Prozent"];
+    let word = words.into_iter().find(|word| {
+        rest.get(..word.len()).is_some_and(|w| w.eq_ignore_ascii_case(word))
+            && !goes_on(rest.get(word.len()..).unwrap_or(""))
+    })?;
+    let factor = if word.ends_with("mille") { 1000.0 } else { 100.0 };
+    let dimension = Some(Dimension::NUMBER.times(factor));
+    Some((Unit { text: word.into(), dimension, link: Link::Own }, word.len()))
+}
+
 /// What is counted: a number of them has no other unit.
 const COUNTED: [&str; 15] = [
     "steps",
@@ -160,21 +168,4 @@ fn word_length(text: &str) -> usize {
 /// Whether a word goes on.
 fn goes_on(tail: &str) -> bool {
     tail.starts_with(|c: char| c.is_alphanumeric() && !units::is_wide(c) || c == '_')
-}
-
-/// The unit of a heading: of `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
-pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
-    let unit = |text: &str, dimension| {
-        Some(Unit { text: text.to_string(), dimension: Some(dimension), link: Link::Shared })
-    };
-    if let Some((text, dimension)) = crate::bind::of_heading(head) {
-        return unit(text, dimension);
-    }
-    // A power of ten of a unit: what stands in the cells is counted in that. `(10 s)` may be a time at which it was measured.
-    let text = crate::bind::behind_heading(head)?;
-    let read = super::read::reading(text).ok()?;
-    let (size, of) = (read.number().value, read.unit()?.dimension?);
-    let power = text.starts_with("10")
-        && text.get(2..)?.trim_start().starts_with(['^', '*', '⁻', '²', '³', '⁴', '⁶', '⁹']);
-    (power && size.is_finite() && size > 0.0).then(|| unit(text, of.times(1.0 / size))).flatten()
 }

@@ -1,13 +1,15 @@
 //! Words that say that something holds: `stable`, `it tips over`.
 
-use super::{Claim, QuoteState, ShownText, messages};
+use super::messages;
+use super::quote_claim::{QuoteClaim, QuoteState};
+use super::rendered::ShownText;
 use crate::finding::{Finding, Severity};
 use crate::rules;
 use std::ops::Range;
 
 /// What becomes of a condition.
 #[derive(Clone, Debug)]
-pub(in crate::verify) struct Condition {
+pub(in crate::verify) struct QuotedCondition {
     /// It holds in the lesson's own runs.
     pub(in crate::verify) holds: bool,
     /// The finer numerics under which that is otherwise.
@@ -18,31 +20,31 @@ pub(in crate::verify) struct Condition {
 
 /// Holds words to a condition, at every place where they stand; with a short sentence when they are not right.
 pub(in crate::verify) fn check_words(
-    said: &Claim<'_>,
+    claim: &QuoteClaim<'_>,
     places: &[Range<usize>],
-    condition: &Condition,
+    condition: &QuotedCondition,
     shown: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> (QuoteState, String) {
     let Some(first) = places.first() else {
-        let finding = messages::not_found(said, shown.hidden(said.quote.as_str()));
+        let finding = messages::not_found(claim, shown.hidden(claim.quote.as_str()));
         findings.push(finding);
         return (QuoteState::Unclear, "no reader sees this text".into());
     };
-    let words = messages::shown(said);
-    let mut tell = |rule, severity, message: String, why: &str, help: &str| {
+    let words = messages::shorten_quote(claim);
+    let mut report = |rule, severity, message: String, why: &str, help: &str| {
         findings.push(
             Finding::error(rule, first.clone(), message)
                 .severity(severity)
                 .why(why.to_string())
                 .help(help.to_string())
-                .related(said.expr.span(), "the condition for these words"),
+                .related(claim.expr.span(), "the condition for these words"),
         );
     };
     if let Some(how) = condition.start.first() {
         let message =
             format!("whether \"{words}\" is right depends on the last digits: the result differs {how}");
-        tell(
+        report(
             rules::QUOTE_CHAOTIC,
             Severity::Warning,
             message.clone(),
@@ -52,7 +54,7 @@ pub(in crate::verify) fn check_words(
         return (QuoteState::Unclear, message);
     }
     if !condition.holds {
-        tell(
+        report(
             rules::QUOTE_WRONG,
             Severity::Error,
             format!("the text says \"{words}\", but the simulation disagrees"),
@@ -62,7 +64,7 @@ pub(in crate::verify) fn check_words(
         return (QuoteState::Wrong, "the simulation disagrees with the words".into());
     }
     if let Some(how) = condition.timestep.first() {
-        tell(
+        report(
             rules::QUOTE_OF_TIMESTEP,
             Severity::Note,
             format!("\"{words}\" is right for this timestep only: the result differs {how}"),

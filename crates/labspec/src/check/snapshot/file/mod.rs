@@ -51,7 +51,7 @@ pub(super) struct StoredRow {
 
 /// What is wrong with a file, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Fault {
+pub(super) struct SnapshotFault {
     /// From 1.
     pub(super) line: usize,
     /// From 1, in characters.

@@ -1,7 +1,7 @@
 //! What a text says, or where it is not as it is written.
 
 use super::super::digits;
-use super::{Fault, HEAD, NOTHING, OPEN, SAME, StoredLab, StoredRow, StoredRun};
+use super::{HEAD, NOTHING, OPEN, SAME, SnapshotFault, StoredLab, StoredRow, StoredRun};
 use crate::printable::printable;
 use crate::source::SourceFile;
 use std::collections::BTreeSet;
@@ -10,11 +10,11 @@ use std::collections::BTreeSet;
 ///
 /// # Errors
 /// The first thing that is not as it is written.
-pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLab>, Fault> {
-    let mut reader = Reader { lines: file.text().lines().collect(), at: 0 };
+pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLab>, SnapshotFault> {
+    let mut reader = SnapshotReader { lines: file.text().lines().collect(), at: 0 };
     reader.head()?;
     let mut labs: Vec<StoredLab> = Vec::new();
-    let mut known = BTreeSet::new();
+    let mut addresses = BTreeSet::new();
     loop {
         let Some(line) = reader.next() else {
             return Err(reader.fault(0, "the file is incomplete: the line `end of … labs` is missing"));
@@ -22,7 +22,7 @@ pub(in crate::check::snapshot) fn read(file: &SourceFile) -> Result<Vec<StoredLa
         if let Some(rest) = line.strip_prefix("lab ") {
             let start = reader.at - 1;
             let [address, _] = reader.names(rest, 4)?;
-            if !known.insert(address.clone()) {
+            if !addresses.insert(address.clone()) {
                 return Err(reader.fault(4, &format!("the lab {address} appears a second time")));
             }
             let runs = reader.runs()?;
@@ -48,19 +48,19 @@ fn is_empty(line: &str) -> bool {
     line.trim().is_empty() || line.starts_with('#')
 }
 
-struct Reader<'t> {
+struct SnapshotReader<'t> {
     lines: Vec<&'t str>,
     /// The line that comes next.
     at: usize,
 }
 
-impl<'t> Reader<'t> {
+impl<'t> SnapshotReader<'t> {
     /// A mistake in the line that was read last, behind so many characters.
-    fn fault(&self, before: usize, message: &str) -> Fault {
-        Fault { line: self.at.max(1), column: before + 1, message: message.to_string() }
+    fn fault(&self, before: usize, message: &str) -> SnapshotFault {
+        SnapshotFault { line: self.at.max(1), column: before + 1, message: message.to_string() }
     }
 
-    fn head(&mut self) -> Result<(), Fault> {
+    fn head(&mut self) -> Result<(), SnapshotFault> {
         self.at = 1;
         match self.lines.first() {
             Some(line) if *line == HEAD => Ok(()),
@@ -95,8 +95,8 @@ impl<'t> Reader<'t> {
     }
 
     /// Two texts between quotes.
-    fn names(&self, rest: &str, before: usize) -> Result<[String; 2], Fault> {
-        let words = self.words(rest, before)?;
+    fn names(&self, rest: &str, before: usize) -> Result<[String; 2], SnapshotFault> {
+        let words = self.split_words(rest, before)?;
         let text = |i: usize| words.get(i).and_then(|(_, w)| serde_json::from_str::<String>(w).ok());
         match (text(0), text(1), words.len()) {
             (Some(a), Some(b), 2) => Ok([a, b]),
@@ -107,7 +107,7 @@ impl<'t> Reader<'t> {
     }
 
     /// The words of a line, each with the characters before it: what is between quotes is one.
-    fn words(&self, line: &'_ str, before: usize) -> Result<Vec<(usize, String)>, Fault> {
+    fn split_words(&self, line: &'_ str, before: usize) -> Result<Vec<(usize, String)>, SnapshotFault> {
         let mut words: Vec<(usize, String)> = Vec::new();
         let mut letters = line.chars().enumerate().peekable();
         while let Some((i, c)) = letters.next() {
@@ -139,7 +139,7 @@ impl<'t> Reader<'t> {
         Ok(words)
     }
 
-    fn runs(&mut self) -> Result<Vec<StoredRun>, Fault> {
+    fn runs(&mut self) -> Result<Vec<StoredRun>, SnapshotFault> {
         let mut runs: Vec<StoredRun> = Vec::new();
         while let Some(name) = self.next_with("run ") {
             if runs.iter().any(|run| run.name == name) {
@@ -154,7 +154,8 @@ impl<'t> Reader<'t> {
                 runs.push(run);
                 continue;
             }
-            let times = self.next_with("  ").map(|line| self.words(line, 2)).transpose()?.unwrap_or_default();
+            let times =
+                self.next_with("  ").map(|line| self.split_words(line, 2)).transpose()?.unwrap_or_default();
             if times.first().is_none_or(|(_, word)| word != "time") || times.len() < 2 {
                 return Err(self.fault(0, "the times of a run must follow here, after the word `time`"));
             }
@@ -172,8 +173,8 @@ impl<'t> Reader<'t> {
         Ok(runs)
     }
 
-    fn row(&self, line: &str, columns: usize) -> Result<StoredRow, Fault> {
-        let mut words = self.words(line, 2)?.into_iter();
+    fn row(&self, line: &str, columns: usize) -> Result<StoredRow, SnapshotFault> {
+        let mut words = self.split_words(line, 2)?.into_iter();
         let name = words.next().and_then(|(_, w)| serde_json::from_str(&w).ok());
         let Some(name) = name else {
             return Err(self.fault(2, "the name of a trace or a readout must follow here, in quotes"));

@@ -34,14 +34,14 @@ pub(in crate::check::snapshot) fn lab(address: &str, title: &str, runs: &[(Taken
             rows.push((quoted(name), row(cells, &others)));
         }
         let _ = writeln!(text, "run {}\n  {}", printable(&run.name), run.about.join(", "));
-        let mut shown = String::new();
-        table(&rows, &mut shown);
-        if shown == first {
-            shown = format!("  {SAME}\n");
+        let mut rows_text = String::new();
+        table(&rows, &mut rows_text);
+        if rows_text == first {
+            rows_text = format!("  {SAME}\n");
         } else if first.is_empty() {
-            first.clone_from(&shown);
+            first.clone_from(&rows_text);
         }
-        text.push_str(&shown);
+        text.push_str(&rows_text);
     }
     text
 }

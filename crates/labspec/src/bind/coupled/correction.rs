@@ -1,0 +1,149 @@
+//! The correction of partners behind programs, and behind changes of a model's text.
+
+use super::change::PartnerChange;
+use super::pair_set::{PairSet, writes_field};
+use super::table::PAIRS;
+use crate::source::Text;
+use labspec_bind::{Functions, World, functions};
+use labspec_core::reflect::{FieldId, Kind, Object, View};
+use labspec_core::{self as core, AccessSet, Data, Error, Model, Plan};
+use labspec_expr::Program;
+
+/// Corrects the partners of what programs of a lab write, right behind each of them.
+#[derive(Clone, Debug)]
+pub(crate) struct Coupled {
+    /// Programs, and the pairs of each that are corrected.
+    pub(crate) programs: Vec<(Text, PairSet)>,
+    /// Those of all other programs: the setups of the runs of a `verify` object.
+    pub(crate) others: PairSet,
+    /// Those of changes of the model itself, which a run of a `verify` object may make.
+    pub(crate) changes: PairSet,
+    /// Constants are computed anew besides (`mj_setConst`, with qpos kept) where a program changes what they follow from.
+    pub(crate) refresh: bool,
+}
+
+impl Coupled {
+    /// Whether a change of a model's text leaves a partner behind; `before` is the model without it.
+    pub(crate) fn is_left_by_change(&self, before: &Model, now: &Model) -> bool {
+        same_objects(before, now) && left_behind(self.changes, before, now)
+    }
+
+    /// A model with changes of its text, corrected; `before` is the one without them.
+    pub(crate) fn changed(&self, before: &Model, now: &mut Model) {
+        let mut world = World {
+            model: now.clone(),
+            data: Data::planned(now, Plan::new(now, &AccessSet::ANY)),
+            key: None,
+            own: Functions::new(),
+            shown: Vec::new(),
+            numbers: Vec::new(),
+        };
+        if same_objects(before, now)
+            && correct_partners(self.changes, before, &mut world).is_ok_and(|done| done.is_some())
+        {
+            *now = world.model;
+        }
+    }
+
+    /// What is corrected behind a program; `None` where nothing is.
+    pub(crate) fn behind(&self, program: &Program, text: &Text) -> Option<PairSet> {
+        let listed = self.programs.iter().find(|(of, _)| of == text);
+        let pairs = listed.map_or(self.others, |(_, pairs)| *pairs);
+        let written = pairs.pairs().any(|(_, pair)| writes_field(program, pair.parameter));
+        (written || listed.is_some() && self.refresh && writes_inertial(program)).then_some(pairs)
+    }
+
+    /// Corrects what a program left behind. `before` is the model before it ran.
+    ///
+    /// # Errors
+    /// What the engine says.
+    pub(crate) fn follow(
+        &self,
+        pairs: PairSet,
+        before: &Model,
+        program: &Program,
+        world: &mut World,
+    ) -> Result<(), Error> {
+        // Where a program changes what constants follow from and leaves them, they stay: that is another omission.
+        let forgotten = writes_inertial(program) && !calls_set_const(program);
+        let done = correct_fields(pairs, before, world)?;
+        if self.refresh && writes_inertial(program) || done == Some(true) && !forgotten {
+            recompute_constants(world)?;
+        }
+        Ok(())
+    }
+}
+
+/// Whether two models have the same bodies, geoms and actuators.
+fn same_objects(a: &Model, b: &Model) -> bool {
+    a.nbody == b.nbody && a.ngeom == b.ngeom && a.nactuator == b.nactuator
+}
+
+/// Whether a partner of these pairs is not what follows from its parameter. `before` is the model before that was changed.
+pub(crate) fn left_behind(pairs: PairSet, before: &Model, now: &Model) -> bool {
+    pairs.pairs().any(|(_, pair)| !(pair.follow)(before, now).is_empty())
+}
+
+/// Corrects partners, and the constants that follow from them; `None` where nothing was wrong.
+fn correct_partners(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
+    let done = correct_fields(pairs, before, world)?;
+    if done == Some(true) {
+        recompute_constants(world)?;
+    }
+    Ok(done)
+}
+
+/// Corrects partners: `None` where nothing was wrong, `true` where constants follow from what was.
+fn correct_fields(pairs: PairSet, before: &Model, world: &mut World) -> Result<Option<bool>, Error> {
+    let mut changes: Vec<(FieldId, usize, PartnerChange)> = Vec::new();
+    for (_, pair) in pairs.pairs() {
+        changes.extend((pair.follow)(before, &world.model).into_iter().map(|(i, c)| (pair.partner, i, c)));
+    }
+    let mut inertial = None;
+    for (partner, index, change) in changes {
+        let Some(old) = core::element(&world.model, &world.data, partner, index) else { continue };
+        let new = match change {
+            PartnerChange::Times(f) => old * f,
+            PartnerChange::Plus(x) => old + x,
+            PartnerChange::Becomes(x) => x,
+        };
+        core::view_mut(&mut world.model, &mut world.data, partner)?.set(index, new);
+        inertial = Some(inertial == Some(true) || partner.info().kind == Kind::Inertial);
+    }
+    Ok(inertial)
+}
+
+/// `mj_setConst`, with qpos kept.
+fn recompute_constants(world: &mut World) -> Result<(), Error> {
+    let qpos = world.data.fields().qpos.clone();
+    core::set_const(&mut world.model, &mut world.data)?;
+    world.data.edit().qpos.copy_from_slice(&qpos);
+    Ok(())
+}
+
+/// Whether two models have the same parameters and partners, to rounding.
+pub(crate) fn agree(a: &Model, b: &Model) -> bool {
+    let mut fields = PAIRS.iter().flat_map(|pair| [pair.parameter, pair.partner]);
+    fields.all(|f| match (a.field(f), b.field(f)) {
+        (Some(View::F64(a)), Some(View::F64(b))) => {
+            let near = |(x, y): (&f64, &f64)| (x - y).abs() <= ROUNDING * x.abs().max(y.abs());
+            a.len() == b.len() && a.iter().zip(b).all(near)
+        }
+        (Some(View::I32(a)), Some(View::I32(b))) => a == b,
+        _ => false,
+    })
+}
+
+/// A part of a number by which another order of operations may change it.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether a program may write what constants follow from.
+fn writes_inertial(program: &Program) -> bool {
+    let written = |f: FieldId| f.info().object == Object::Model && f.info().kind == Kind::Inertial;
+    program.effects().writes.iter().filter_map(|a| FieldId::new(a.field.0 as usize)).any(written)
+}
+
+/// Whether a program computes constants anew.
+fn calls_set_const(program: &Program) -> bool {
+    program.effects().calls.iter().any(|f| functions::name(*f) == Some("mj_setConst"))
+}

@@ -1,0 +1,188 @@
+//! How the partner of each pair follows from what a program did: the model before and after it.
+
+use super::change::{Changes, PartnerChange};
+use super::shape;
+use labspec_core::math::{norm, rows, sub};
+use labspec_core::{Model, biastype, gaintype};
+
+/// A list of the model before and after.
+type Both<'m> = (&'m [f64], &'m [f64]);
+
+/// An element before and after.
+fn at((before, after): Both<'_>, i: usize) -> Option<(f64, f64)> {
+    Some((*before.get(i)?, *after.get(i)?))
+}
+
+fn same(both: Both<'_>, i: usize) -> bool {
+    at(both, i).is_some_and(|(a, b)| a.to_bits() == b.to_bits())
+}
+
+fn factor(both: Both<'_>, i: usize) -> Option<f64> {
+    let (a, b) = at(both, i)?;
+    (a > 0.0 && b > 0.0 && b.is_finite()).then_some(b / a)
+}
+
+/// The inertia is proportional to the mass.
+pub(super) fn inertia_of_mass(before: &Model, now: &Model) -> Changes {
+    let (mass, inertia) =
+        ((&*before.body_mass, &*now.body_mass), (&*before.body_inertia, &*now.body_inertia));
+    let mut changes = Vec::new();
+    for body in (1..now.nbody).filter(|b| !same(mass, *b)) {
+        let Some(f) = factor(mass, body) else { continue };
+        let unwritten = (3 * body..3 * body + 3).filter(|i| same(inertia, *i));
+        changes.extend(unwritten.map(|i| (i, PartnerChange::Times(f))));
+    }
+    changes
+}
+
+/// How much farther than its bounding spheres a body may seem to reach by rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The distance of the farthest point of a body from its centre of mass; `None` where geoms do not say.
+fn reach(m: &Model, body: usize) -> Option<f64> {
+    let centre = rows::<3>(&m.body_ipos).get(body)?;
+    let geoms = (0..m.ngeom).filter(|g| m.geom_bodyid.get(*g).is_some_and(|b| *b as usize == body));
+    let mut far: Option<f64> = None;
+    for g in geoms {
+        let radius = m.geom_rbound.get(g).copied().filter(|r| *r > 0.0)?;
+        let here = norm(sub(*rows::<3>(&m.geom_pos).get(g)?, *centre)) + radius;
+        far = Some(far.map_or(here, |f| f.max(here)));
+    }
+    far
+}
+
+/// Moments of a body, and the largest of their factors where a program changed some.
+fn moments(before: &Model, now: &Model, body: usize) -> Option<([f64; 3], [f64; 3], f64)> {
+    let [a, b] = [before, now].map(|m| rows::<3>(&m.body_inertia).get(body).copied());
+    let (a, b) = (a?, b?);
+    let factors =
+        a.iter().zip(&b).filter(|(x, y)| x.to_bits() != y.to_bits() && **x > 0.0).map(|(x, y)| y / x);
+    let largest = factors.fold(f64::NAN, f64::max);
+    (largest > 0.0 && largest.is_finite()).then_some((a, b, largest))
+}
+
+/// No mass is farther from the axis than the body reaches: a moment above m r² takes more of it.
+pub(super) fn mass_of_inertia(before: &Model, now: &Model) -> Changes {
+    let mass = (&*before.body_mass, &*now.body_mass);
+    let most = |x: [f64; 3]| x.into_iter().fold(0.0, f64::max);
+    let too_large = |m: &Model, body: usize, moments: [f64; 3]| {
+        let bound = m.body_mass.get(body).zip(reach(m, body)).map(|(mass, r)| mass * r * r);
+        bound.is_some_and(|bound| most(moments) > bound * (1.0 + ROUNDING))
+    };
+    let one = |body: usize| {
+        let (a, b, factor) = moments(before, now, body)?;
+        let wrong = same(mass, body) && !too_large(before, body, a) && too_large(now, body, b);
+        wrong.then_some((body, PartnerChange::Times(factor)))
+    };
+    (1..now.nbody).filter_map(one).collect()
+}
+
+/// No principal moment is larger than the other two together.
+pub(super) fn other_moments(before: &Model, now: &Model) -> Changes {
+    let inertia = (&*before.body_inertia, &*now.body_inertia);
+    let possible = |[a, b, c]: [f64; 3]| {
+        let largest = a.max(b).max(c);
+        2.0 * largest <= (a + b + c) * (1.0 + ROUNDING)
+    };
+    let mut changes = Vec::new();
+    for body in 1..now.nbody {
+        let Some((a, b, factor)) = moments(before, now, body) else { continue };
+        if possible(a) && !possible(b) {
+            let unwritten = (3 * body..3 * body + 3).filter(|i| same(inertia, *i));
+            changes.extend(unwritten.map(|i| (i, PartnerChange::Times(factor))));
+        }
+    }
+    changes
+}
+
+/// The geoms whose size or place was changed.
+fn changed<'m>(
+    before: &'m Model,
+    now: &'m Model,
+    of: fn(&Model) -> &[f64],
+) -> impl Iterator<Item = usize> + 'm {
+    let [a, b] = [before, now].map(of);
+    (0..now.ngeom).filter(move |g| (3 * g..3 * g + 3).any(|i| !same((a, b), i)))
+}
+
+/// Contacts are looked for within the bounding radius.
+pub(super) fn bound_of_size(before: &Model, now: &Model) -> Changes {
+    let bounds = (&*before.geom_rbound, &*now.geom_rbound);
+    let one = |g: usize| {
+        let radius = shape::shape_of_geom(now, g)?.radius;
+        (same(bounds, g) && now.geom_rbound.get(g) != Some(&radius))
+            .then_some((g, PartnerChange::Becomes(radius)))
+    };
+    changed(before, now, |m| &m.geom_size).filter_map(one).collect()
+}
+
+/// The inertia of a body whose mass is that of one geom is that of its shape.
+pub(super) fn inertia_of_size(before: &Model, now: &Model) -> Changes {
+    let inertia = (&*before.body_inertia, &*now.body_inertia);
+    let mut changes = Vec::new();
+    for g in changed(before, now, |m| &m.geom_size) {
+        let Some(body) = shape::carried(before, g) else { continue };
+        let [old, new] = [before, now].map(|m| shape::moments(m, g, body));
+        let (Some(old), Some(new)) = (old, new) else { continue };
+        let elements = 3 * body..3 * body + 3;
+        for ((i, a), b) in elements.zip(old).zip(new).filter(|((i, _), _)| same(inertia, *i)) {
+            changes.push((i, PartnerChange::Times(b / a)));
+        }
+    }
+    changes
+}
+
+/// The centre of mass of a body whose mass is that of one geom is where the geom is.
+pub(super) fn centre_of_place(before: &Model, now: &Model) -> Changes {
+    let (place, centre) = ((&*before.geom_pos, &*now.geom_pos), (&*before.body_ipos, &*now.body_ipos));
+    let mut changes = Vec::new();
+    for g in changed(before, now, |m| &m.geom_pos) {
+        let Some(body) = shape::carried(before, g) else { continue };
+        for axis in 0..3 {
+            let Some((a, b)) = at(place, 3 * g + axis).filter(|(a, b)| a != b) else { continue };
+            if same(centre, 3 * body + axis) {
+                changes.push((3 * body + axis, PartnerChange::Plus(b - a)));
+            }
+        }
+    }
+    changes
+}
+
+/// Numbers of an actuator's gain and bias.
+const PARAMETERS: usize = 10;
+
+/// The place of the bias that is minus the gain of a servo: the position's, or the velocity's.
+pub(super) fn servo(m: &Model, actuator: usize) -> Option<usize> {
+    let is = |list: &[i32], kind| list.get(actuator) == Some(&kind);
+    if !is(&m.actuator_gaintype, gaintype::FIXED) || !is(&m.actuator_biastype, biastype::AFFINE) {
+        return None;
+    }
+    let gain = *m.actuator_gainprm.get(PARAMETERS * actuator)?;
+    let opposite = |k: &usize| m.actuator_biasprm.get(PARAMETERS * actuator + k).is_some_and(|b| *b == -gain);
+    [1, 2].into_iter().find(opposite).filter(|_| gain != 0.0).map(|k| PARAMETERS * actuator + k)
+}
+
+/// A servo pulls with gain * (target - length): its bias is minus the gain.
+pub(super) fn bias_of_gain(before: &Model, now: &Model) -> Changes {
+    let [gain, bias] = both_of_actuators(before, now);
+    let one = |actuator: usize| {
+        let (first, of_bias) = (PARAMETERS * actuator, servo(before, actuator)?);
+        let wrong = !same(gain, first) && same(bias, of_bias);
+        wrong.then_some((of_bias, PartnerChange::Becomes(-*gain.1.get(first)?)))
+    };
+    (0..now.nactuator).filter_map(one).collect()
+}
+
+pub(super) fn gain_of_bias(before: &Model, now: &Model) -> Changes {
+    let [gain, bias] = both_of_actuators(before, now);
+    let one = |actuator: usize| {
+        let (first, of_bias) = (PARAMETERS * actuator, servo(before, actuator)?);
+        let wrong = same(gain, first) && !same(bias, of_bias);
+        wrong.then_some((first, PartnerChange::Becomes(-*bias.1.get(of_bias)?)))
+    };
+    (0..now.nactuator).filter_map(one).collect()
+}
+
+fn both_of_actuators<'m>(before: &'m Model, now: &'m Model) -> [Both<'m>; 2] {
+    [(&*before.actuator_gainprm, &*now.actuator_gainprm), (&*before.actuator_biasprm, &*now.actuator_biasprm)]
+}

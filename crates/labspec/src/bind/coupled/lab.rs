@@ -1,0 +1,79 @@
+//! Pairs in the programs of a lab: which of them are corrected, which the lab leaves apart on purpose, and the statements that repair a
+//! program.
+
+use super::correction::Coupled;
+use super::pair_set::{PairSet, writes_field};
+use super::statements::{Repair, Statements};
+use super::table::{PAIRS, Pair};
+use crate::bind::programs::{Bound, ControlProgram, Programs, include};
+use labspec_bind::{ModelNames, Scope};
+use labspec_core::Model;
+use labspec_core::reflect::FieldId;
+use labspec_expr::{Compiler, Globals};
+
+impl Coupled {
+    /// Makes the runs of these programs corrected ones.
+    pub(crate) fn install(self, programs: &mut Programs, model: &Model) {
+        // What the correction reads and writes belongs to what the lab needs.
+        let names = ModelNames::new(model, Scope::Lab);
+        let mut globals = Globals::new();
+        let set_const = "const q = data.qpos.slice(); mj.mj_setConst(model, data); data.qpos.set(q)";
+        if let Some(program) = Compiler::new(&names, &mut globals).statements(set_const).program {
+            include(program.effects(), &mut programs.demand);
+        }
+        PAIRS.iter().for_each(|pair| programs.demand.writes.insert(pair.partner));
+        programs.coupled = Some(self);
+    }
+}
+
+/// Most elements that a repair names one by one.
+const MOST: usize = 4;
+
+impl Repair {
+    /// The statements for these pairs; `None` where one has none.
+    pub(crate) fn of_program(bound: &Bound, pairs: PairSet, model: &Model) -> Option<Repair> {
+        let mut made = Statements { model, text: &bound.text.value, repair: Repair::default() };
+        for (_, pair) in pairs.pairs() {
+            let written =
+                written_elements(bound, pair.parameter).filter(|w| w.len() <= MOST).unwrap_or_default();
+            (pair.repair?)(&mut made, &written)?;
+        }
+        Some(made.repair)
+    }
+}
+
+/// The pairs that some control of a lab leaves to the student on purpose: the partner has a control of its own, which does not
+/// write the parameter. Both numbers are then chosen apart from each other.
+pub(crate) fn chosen_apart(programs: &Programs, bound: &Bound, pairs: PairSet) -> PairSet {
+    let controls = programs.controls.iter().filter_map(|(_, c)| match c {
+        ControlProgram::Change(_, action) => action.run.as_ref(),
+        ControlProgram::Press(_) => None,
+    });
+    let others: Vec<&Bound> = controls.filter(|other| other.text != bound.text).collect();
+    let apart = |pair: &Pair| {
+        let wanted: Vec<_> =
+            written_elements(bound, pair.parameter).into_iter().flatten().flat_map(pair.partners).collect();
+        let has = |other: &&Bound| {
+            let theirs = written_elements(other, pair.partner).unwrap_or_default();
+            !writes_field(&other.program, pair.parameter) && wanted.iter().any(|i| theirs.contains(i))
+        };
+        others.iter().any(has)
+    };
+    pairs.pairs().filter(|(_, pair)| apart(pair)).map(|(one, _)| one).collect()
+}
+
+/// Most elements of a field that are taken one by one.
+const MOST_ELEMENTS: usize = 64;
+
+/// The elements of a field that a program writes itself, where it says which.
+fn written_elements(bound: &Bound, field: FieldId) -> Option<Vec<usize>> {
+    let written = bound.program.own_writes();
+    let mut all = Vec::new();
+    for access in written.iter().filter(|a| a.field.0 as usize == field.index()) {
+        let count = access.count.filter(|n| *n <= MOST_ELEMENTS)?;
+        all.extend(access.first..access.first + count);
+    }
+    all.sort_unstable();
+    all.dedup();
+    (!all.is_empty()).then_some(all)
+}

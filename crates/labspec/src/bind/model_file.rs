@@ -1,0 +1,181 @@
+//! Compiles a model file: the model, what is wrong with it, and the files that this is about.
+
+use super::parts::{Hash, ModelFile, Remembering};
+use crate::finding::{Finding, InFile};
+use crate::lint::{lesson_folder, root_of};
+use crate::rules;
+use crate::source::{SourceFile, Sources};
+use labspec_core::Model;
+use labspec_core::xml::{self, FileProblem, Files, Folder, NoFiles};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What came of a model file: the model, what is wrong with it or doubtful, and the files that this is about.
+#[derive(Debug)]
+pub(crate) struct Compiled {
+    /// `None` when there are errors.
+    pub(crate) model: Option<Model>,
+    pub(crate) findings: Vec<Finding>,
+    /// Empty when there are no findings.
+    pub(crate) files: Vec<SourceFile>,
+    /// The other files that it was made of.
+    pub(crate) parts: Vec<ModelFile>,
+}
+
+/// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
+/// `path`, and opened when it lies below `root`.
+pub(crate) fn compile_file(
+    file: &SourceFile,
+    path: &Path,
+    root: &Path,
+    sources: &Sources,
+    mark: Option<Hash>,
+) -> Compiled {
+    let files = FilesAround::below(path, root, sources);
+    compile_source(file, &files, path.file_name().and_then(|n| n.to_str()), mark)
+}
+
+/// A model file, as an editor holds it or else as it is saved.
+pub(super) fn read_file(path: &Path, sources: &Sources) -> Result<SourceFile, String> {
+    match sources.held(path) {
+        Some((_, text)) => Ok(SourceFile::new(path.display().to_string(), text)),
+        None => SourceFile::read(path),
+    }
+}
+
+/// The files around a model, each as an editor holds it or else as it is saved.
+pub(super) struct FilesAround<'s> {
+    /// `None` where the model lies outside of the root.
+    folder: Option<Folder>,
+    place: PathBuf,
+    root: &'s Path,
+    sources: &'s Sources,
+}
+
+impl<'s> FilesAround<'s> {
+    pub(super) fn below(model: &Path, root: &'s Path, sources: &'s Sources) -> FilesAround<'s> {
+        let place = model.parent().unwrap_or(Path::new("")).to_path_buf();
+        FilesAround { folder: Folder::at(root, &place).ok(), place, root, sources }
+    }
+}
+
+impl Files for FilesAround<'_> {
+    fn read(&self, path: &str, limit: usize) -> Result<Vec<u8>, FileProblem> {
+        let Some(folder) = &self.folder else { return NoFiles.read(path, limit) };
+        match self.sources.held(&self.place.join(path)) {
+            Some((real, _)) if !real.starts_with(self.root) => Err(FileProblem::Outside),
+            Some((_, text)) if text.len() > limit => Err(FileProblem::TooLarge),
+            Some((_, text)) => Ok(text.into_bytes()),
+            None => folder.read(path, limit),
+        }
+    }
+}
+
+/// Compiles the text of a model, which `files` has as `name`.
+pub(super) fn compile_source(
+    file: &SourceFile,
+    files: &dyn Files,
+    name: Option<&str>,
+    mark: Option<Hash>,
+) -> Compiled {
+    let remembering = Remembering::new(files, mark);
+    let examined = xml::check_xml(file.text(), &remembering, name);
+    let mut sources = Vec::new();
+    if !examined.findings.is_empty() {
+        sources.push(file.clone());
+    }
+    let place_of = |d: &Finding| {
+        let at = if d.path.is_empty() { 0 } else { part_of(&mut sources, files, &d.path) };
+        let finding = from_mjcf(d, d.span.clone());
+        sources.get(at).map_or(finding.clone(), |source| finding.at(source))
+    };
+    let findings = examined.findings.iter().map(place_of).collect();
+    Compiled { model: examined.model, findings, files: sources, parts: remembering.parts() }
+}
+
+/// Compiles a model file, for itself: the model, what is to be said of it, and the files that this is about. A file that
+/// cannot be read is a finding, too. `root` is what it may read; by default the nearest folder around it that is marked as one.
+pub fn check_model_file(
+    path: &Path,
+    root: Option<&Path>,
+) -> (Option<Arc<Model>>, Vec<Finding>, Vec<SourceFile>) {
+    let file = match SourceFile::read(path) {
+        Ok(file) => file,
+        Err(message) => {
+            let file = SourceFile::new(path.display().to_string(), "");
+            return (
+                None,
+                vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)],
+                vec![file],
+            );
+        }
+    };
+    let root = root.map_or_else(|| root_of(&lesson_folder(path), &[]), Path::to_path_buf);
+    let sources = Sources::Disk;
+    let Compiled { model, findings, mut files, .. } = compile_file(&file, path, &root, &sources, None);
+    if files.is_empty() {
+        files.push(file);
+    }
+    (model.map(Arc::new), findings, files)
+}
+
+/// The index of a file that a model names in the list, to which it is added the first time. A file that is no text
+/// (a mesh) is shown empty.
+fn part_of(sources: &mut Vec<SourceFile>, files: &dyn Files, part: &str) -> usize {
+    let displayed = match sources.first().and_then(|main| main.path().rsplit_once('/')) {
+        Some((folder, _)) => joined(folder, part),
+        None => part.to_string(),
+    };
+    if let Some(index) = sources.iter().position(|f| **f.path() == *displayed) {
+        return index;
+    }
+    let read = files.read(part, xml::MAX_TEXT).ok().and_then(|bytes| String::from_utf8(bytes).ok());
+    sources.push(SourceFile::new(displayed, read.unwrap_or_default()));
+    sources.len() - 1
+}
+
+/// A path from a folder, without the steps that only lead back.
+fn joined(folder: &str, path: &str) -> String {
+    let (mut folder, mut path) = (folder, path);
+    while let Some(rest) = path.strip_prefix("../") {
+        match folder.rsplit_once('/') {
+            _ if folder.is_empty() || folder == "." || folder.ends_with("..") => break,
+            Some((above, _)) => folder = above,
+            None => folder = "",
+        }
+        path = rest;
+    }
+    if folder.is_empty() { path.to_string() } else { format!("{folder}/{path}") }
+}
+
+/// How to open more.
+const WIDEN: &str =
+    "put an empty file `labspec.toml` into the folder that holds both, or name that folder with --root";
+
+/// A mistake in a model, at a place of the file that holds it.
+pub fn from_mjcf(d: &Finding, span: Range<usize>) -> Finding {
+    // The engine knows no program: how to widen the root is said here.
+    let outside = d.code == xml::rules::OUTSIDE.code;
+    let help = if outside { Some(WIDEN.to_string()) } else { d.help.clone() };
+    Finding { span, path: Arc::from(""), position: None, help, ..d.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shown_paths_are_short() {
+        for (folder, path, shown) in [
+            ("models", "a.xml", "models/a.xml"),
+            ("models", "../stls/a.stl", "stls/a.stl"),
+            ("a/b", "../../c/d", "c/d"),
+            ("a", "../../c/d", "../c/d"),
+            ("../a", "../c", "../c"),
+            ("..", "../c", "../../c"),
+        ] {
+            assert_eq!(joined(folder, path), shown, "{folder} {path}");
+        }
+    }
+}

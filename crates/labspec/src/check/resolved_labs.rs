@@ -1,0 +1,120 @@
+//! The labs that a `verify` object is about: its own, and that of each of its runs.
+
+use super::PreparedLab;
+use crate::finding::Finding;
+use crate::json::read;
+use crate::rules;
+use crate::spec::{Lab, Lesson, Verify, VerifyLab};
+use crate::verify::{self, BoundLab, BoundVerify, Stage};
+use labspec_core::Model;
+use std::sync::Arc;
+
+/// The labs of a `verify` object: its own, and that of each of its runs.
+pub(super) struct ResolvedLabs<'r> {
+    pub(super) base: Option<BoundLab<'r>>,
+    pub(super) runs: Vec<Vec<BoundLab<'r>>>,
+}
+
+/// The labs that a `verify` object is about, if they can run. What a run cannot change in them goes to `findings`.
+pub(super) fn resolve_labs<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [PreparedLab<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &Stage<'_>,
+    findings: &mut Vec<Finding>,
+) -> Option<ResolvedLabs<'r>> {
+    let base = match &verify.lab {
+        // Formulas need no lab: they have one in which nothing is.
+        None if own.is_none() && verify.is_formulas() => {
+            ready.iter().find(|r| r.lab.is_nothing()).map(PreparedLab::scene)
+        }
+        None => own.and_then(|lab| scene_of(ready, lab)),
+        Some(named) => named_scene(lesson, ready, named, findings),
+    };
+    let mut runs = Vec::new();
+    for run in &verify.runs {
+        let lab = match &run.lab {
+            None => base.clone(),
+            Some(named) => named_scene(lesson, ready, named, findings),
+        };
+        runs.push(stage.of_run(&lab?, run, findings)?);
+    }
+    (base.is_some() || !runs.is_empty()).then_some(ResolvedLabs { base, runs })
+}
+
+fn scene_of<'r>(ready: &'r [PreparedLab<'r>], lab: &Lab) -> Option<BoundLab<'r>> {
+    ready.iter().find(|r| std::ptr::eq(r.lab, lab)).map(PreparedLab::scene)
+}
+
+/// The lab that is named. Why one of another lesson is not there, or cannot run, goes to `findings`.
+fn named_scene<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [PreparedLab<'r>],
+    named: &'r VerifyLab,
+    findings: &mut Vec<Finding>,
+) -> Option<BoundLab<'r>> {
+    let scene = lesson.named(named).and_then(|lab| scene_of(ready, lab));
+    let (VerifyLab::Elsewhere(text, ..), None) = (named, &scene) else { return scene };
+    let name = read::named(text.as_str());
+    let message = match lesson.other(&text.span()).map(|other| &other.lab) {
+        Some(Ok(_)) => format!("{name} cannot run, because its model or its code has errors"),
+        Some(Err(why)) => format!("{name} does not exist: {why}"),
+        None => format!("{name} does not exist: only this lesson was given, or it names too many others"),
+    };
+    findings.push(
+        Finding::error(rules::UNKNOWN_LAB, text.span(), message)
+            .why("claims about it cannot be checked")
+            .help("check that lesson; name a lab of another lesson by its path from this one: other.md#2"),
+    );
+    None
+}
+
+/// A `verify` object bound to its labs. `None` where they have mistakes.
+pub(super) fn bind_claim<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [PreparedLab<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+) -> Option<BoundVerify<'r>> {
+    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())
+}
+
+/// What a `verify` object rests on.
+pub(super) struct StartedRuns {
+    /// The model of its lab.
+    pub(super) model: Option<Arc<Model>>,
+    /// The model of every run as it begins.
+    pub(super) runs: Vec<(String, Option<Model>)>,
+}
+
+/// Sets up the runs of a `verify` object, and makes none. `None` where they have mistakes.
+pub(super) fn start_runs<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [PreparedLab<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+) -> Option<StartedRuns> {
+    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
+    Some(StartedRuns { runs: bound.begun(), model: base.map(|scene| scene.model) })
+}
+
+/// What the labs show in the runs of a `verify` object, up to so many; nothing where they have mistakes.
+pub(super) fn record_curves<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [PreparedLab<'r>],
+    verify: &'r Verify,
+    own: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+    most: usize,
+) -> Vec<verify::Curves> {
+    let ignored = &mut Vec::new();
+    let cast = resolve_labs(lesson, ready, verify, own, stage, ignored);
+    let bound =
+        cast.and_then(|cast| BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, stage, ignored));
+    bound.map_or(Vec::new(), |bound| bound.curves(most))
+}

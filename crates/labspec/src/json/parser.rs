@@ -1,0 +1,155 @@
+//! The state of reading: the text, the place in it, the brackets that are open, and the mistakes that were reported.
+
+use super::MAX_MISTAKES;
+use super::problem::{self, Mistake, Problem, RepeatedMistake, TextChange};
+use crate::source::SourceMap;
+use std::ops::Range;
+
+/// Reading is over: a limit is reached, which is reported.
+pub(super) struct Stop;
+
+/// A text that is being read, the place where reading stands, and what was reported so far.
+pub(super) struct Parser<'a> {
+    pub(super) text: &'a str,
+    pub(super) below: &'a SourceMap,
+    pub(super) at: usize,
+    /// The brackets that are open, with their places.
+    pub(super) open: Vec<(char, usize)>,
+    pub(super) values: usize,
+    /// How many of `{ } [ ]` there are in the text, outside of strings; mended as brackets are.
+    pub(super) brackets: [i64; 4],
+    pub(super) broken: bool,
+    /// Spans are bytes of `text`.
+    said: Vec<Problem>,
+    pub(super) changes: [Vec<Vec<TextChange>>; 3],
+    /// Problems whose spans are bytes of the file.
+    pub(super) placed: Vec<Problem>,
+    /// The end of the text was met inside of brackets, and said.
+    pub(super) ended: bool,
+    pub(super) comment_open: bool,
+    next_quote: Option<usize>,
+    next_line: usize,
+}
+
+impl<'a> Parser<'a> {
+    pub(super) fn new(text: &'a str, below: &'a SourceMap) -> Parser<'a> {
+        Parser {
+            text,
+            below,
+            at: 0,
+            open: Vec::new(),
+            values: 0,
+            brackets: count(text),
+            broken: false,
+            said: Vec::new(),
+            changes: [Vec::new(), Vec::new(), Vec::new()],
+            placed: Vec::new(),
+            ended: false,
+            comment_open: false,
+            next_quote: Some(0),
+            next_line: 0,
+        }
+    }
+
+    // Looking and walking.
+
+    pub(super) fn rest(&self) -> &'a str {
+        self.text.get(self.at..).unwrap_or("")
+    }
+
+    pub(super) fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    pub(super) fn starts(&self, with: &str) -> bool {
+        self.rest().starts_with(with)
+    }
+
+    pub(super) fn bump(&mut self) {
+        self.at += self.peek().map_or(0, char::len_utf8);
+    }
+
+    /// The end of the line that is being read.
+    pub(super) fn line_end(&mut self) -> usize {
+        self.line_from(self.at)
+    }
+
+    /// The end of the line of `from`. Places asked for do not go back to an earlier line.
+    pub(super) fn line_from(&mut self, from: usize) -> usize {
+        if self.next_line <= from {
+            let rest = self.text.get(from..).unwrap_or("");
+            self.next_line = rest.find(['\n', '\r']).map_or(self.text.len(), |i| from + i);
+        }
+        self.next_line
+    }
+
+    /// The first double quote at or behind `from`. Places asked for only grow.
+    pub(super) fn quote_from(&mut self, from: usize) -> Option<usize> {
+        if self.next_quote.is_some_and(|q| q < from || q == 0) {
+            self.next_quote = self.text.get(from..).and_then(|t| t.find('"')).map(|i| from + i);
+        }
+        self.next_quote
+    }
+
+    /// The end of what was read last, without the spaces behind it.
+    pub(super) fn before(&self) -> usize {
+        self.text.get(..self.at).map_or(self.at, |t| t.trim_end().len())
+    }
+
+    // Saying.
+
+    /// A mistake. Its spans are bytes of the text.
+    pub(super) fn say(&mut self, problem: Problem) {
+        self.broken = true;
+        if self.said.len() < MAX_MISTAKES {
+            self.said.push(problem);
+        }
+    }
+
+    /// Something that belongs nowhere.
+    pub(super) fn say_stray(&mut self, range: Range<usize>) {
+        let text = self.text.get(range.clone()).unwrap_or("").to_string();
+        self.say(Problem::new(Mistake::Stray(text), range));
+    }
+
+    /// A mistake that is told together with others of its kind: the changes that repair it.
+    pub(super) fn change(&mut self, kind: RepeatedMistake, changes: Vec<TextChange>) {
+        self.broken = true;
+        if let Some(list) = self.changes.get_mut(kind as usize) {
+            list.push(changes);
+        }
+    }
+
+    /// What was said, in order; spans are bytes of the text.
+    pub(super) fn finish(mut self) -> Vec<Problem> {
+        let mut all = std::mem::take(&mut self.said);
+        for kind in [RepeatedMistake::Typographic, RepeatedMistake::Single, RepeatedMistake::Invisible] {
+            let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
+            all.extend(problem::together(kind, list, self.text, self.below));
+        }
+        all.sort_by_key(|p| p.span.start);
+        all.truncate(MAX_MISTAKES);
+        all
+    }
+}
+
+/// How many of `{ } [ ]` stand outside of strings in double quotes.
+fn count(text: &str) -> [i64; 4] {
+    let mut n = [0; 4];
+    let (mut inside, mut escaped) = (false, false);
+    for b in text.bytes() {
+        match b {
+            _ if escaped => escaped = false,
+            b'\\' if inside => escaped = true,
+            b'"' => inside = !inside,
+            // Strings do not cross lines.
+            b'\n' => inside = false,
+            b'{' if !inside => n[0] += 1,
+            b'}' if !inside => n[1] += 1,
+            b'[' if !inside => n[2] += 1,
+            b']' if !inside => n[3] += 1,
+            _ => {}
+        }
+    }
+    n
+}

@@ -1,0 +1,166 @@
+//! Commas and brackets: what separates and closes values, and how reading goes on where one is missing or too many.
+
+use super::parser::Parser;
+use super::problem::{self, Mistake, Problem};
+use std::ops::Range;
+
+impl Parser<'_> {
+    /// Behind a value: a comma, or the end of what it stands in.
+    pub(super) fn separator(&mut self, object: bool) {
+        let mut end = self.before();
+        self.gap();
+        loop {
+            let start = self.at;
+            match self.peek() {
+                None | Some('}' | ']') => return,
+                Some(',') => {
+                    self.bump();
+                    // Half of a number that is written with a comma.
+                    if object && self.peek().is_some_and(|c| c.is_ascii_digit()) && self.digit_before(start) {
+                        while self.peek().is_some_and(|c| c.is_ascii_digit()) {
+                            self.bump();
+                        }
+                        self.say(Problem::replaced(Mistake::DecimalComma, start..start + 1, "."));
+                        end = self.before();
+                        self.gap();
+                        continue;
+                    }
+                    self.gap();
+                    if matches!(self.peek(), None | Some('}' | ']')) {
+                        self.say(Problem::replaced(Mistake::TrailingComma, start..start + 1, ""));
+                    }
+                    return;
+                }
+                Some(';') => {
+                    self.bump();
+                    self.say(Problem::replaced(Mistake::Semicolon, start..start + 1, ","));
+                    return;
+                }
+                Some(c) if self.begins(c, object) => {
+                    self.say(Problem::replaced(Mistake::CommaMissing, end..end, ","));
+                    return;
+                }
+                Some(_) => {
+                    let range = self.stray();
+                    self.say_stray(range);
+                    end = self.before();
+                    self.gap();
+                }
+            }
+        }
+    }
+
+    fn digit_before(&self, at: usize) -> bool {
+        self.text.get(..at).is_some_and(|t| t.ends_with(|c: char| c.is_ascii_digit()))
+    }
+
+    /// Whether the next item begins with this character.
+    fn begins(&self, c: char, object: bool) -> bool {
+        if self.is_quote(c) {
+            return true;
+        }
+        if object {
+            let behind = self.rest().get(self.word_length()..).unwrap_or("");
+            self.word_length() > 0 && behind.trim_start_matches([' ', '\t']).starts_with([':', '='])
+        } else {
+            c.is_alphanumeric() || matches!(c, '{' | '[' | '-' | '+' | '.')
+        }
+    }
+
+    /// Walks over something that belongs nowhere: to the next comma, bracket, quote or line end.
+    pub(super) fn stray(&mut self) -> Range<usize> {
+        let start = self.at;
+        self.bump();
+        while let Some(c) = self.peek() {
+            if matches!(c, ',' | ';' | '\n' | '\r' | '{' | '}' | '[' | ']') || self.is_quote(c) {
+                break;
+            }
+            if c.is_whitespace() && self.is_comment(self.at + c.len_utf8()) {
+                break;
+            }
+            self.bump();
+        }
+        start..start + self.text.get(start..self.at).map_or(0, |t| t.trim_end().len())
+    }
+
+    pub(super) fn extra_comma(&mut self, first: bool) {
+        let start = self.at;
+        self.bump();
+        self.say(Problem::replaced(Mistake::ExtraComma { first }, start..start + 1, ""));
+    }
+
+    /// The text ends inside of brackets: said once, with all that is missing.
+    pub(super) fn unclosed(&mut self) {
+        if std::mem::replace(&mut self.ended, true) {
+            return;
+        }
+        let end = self.text.trim_end().len();
+        self.say(problem::unclosed(&self.open, end));
+    }
+
+    /// A `}` that ends the whole value although its members go on behind it.
+    pub(super) fn closes_too_early(&self) -> bool {
+        let [open, close, ..] = self.brackets;
+        self.open.len() == 1
+            && close > open
+            && self.rest().get(1..).is_some_and(|t| t.trim_start().starts_with(','))
+    }
+
+    pub(super) fn stray_bracket(&mut self) {
+        let start = self.at;
+        let c = self.peek().unwrap_or('}');
+        self.bump();
+        self.mend(c, -1);
+        self.say(Problem::replaced(Mistake::StrayBracket(c), start..start + 1, ""));
+    }
+
+    /// A bracket that closes the other kind. Whether what is being read ends here.
+    pub(super) fn wrong_bracket(&mut self, mine: char, found: char) -> bool {
+        let start = self.at;
+        let [braces, closed_braces, lists, closed_lists] = self.brackets;
+        let (mine_missing, found_extra) = match mine {
+            '}' => (braces > closed_braces, closed_lists > lists),
+            _ => (lists > closed_lists, closed_braces > braces),
+        };
+        let outer = self.open.iter().any(|(c, _)| (*c == '[') == (found == ']'));
+        match (outer, mine_missing, found_extra) {
+            // The other bracket was meant.
+            (_, true, true) | (false, true, _) => {
+                self.bump();
+                self.mend(found, -1);
+                self.mend(mine, 1);
+                self.say(Problem::replaced(Mistake::OtherBracket { mine, found }, start..start + 1, mine));
+                true
+            }
+            (true, true, false) | (true, false, false) => {
+                let end = self.before();
+                self.mend(mine, 1);
+                let mistake = Mistake::BracketMissing { mine, found };
+                self.say(Problem::replaced(mistake, end..end, mine).related(start..start + 1));
+                true
+            }
+            (true, false, true) | (false, false, _) => {
+                self.stray_bracket();
+                false
+            }
+        }
+    }
+
+    /// Whether the quote that stands where a key should is the last thing of its line, and a key begins the next.
+    pub(super) fn is_lone_quote(&self) -> bool {
+        let behind = self.rest().get(1..).unwrap_or("");
+        let line = behind.trim_start_matches([' ', '\t']);
+        let key = line
+            .trim_start()
+            .strip_prefix('"')
+            .map(|k| k.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_'));
+        line.starts_with(['\n', '\r']) && key.is_some_and(|k| k.starts_with('"'))
+    }
+
+    pub(super) fn mend(&mut self, bracket: char, by: i64) {
+        let i = ['{', '}', '[', ']'].iter().position(|c| *c == bracket);
+        if let Some(n) = i.and_then(|i| self.brackets.get_mut(i)) {
+            *n += by;
+        }
+    }
+}

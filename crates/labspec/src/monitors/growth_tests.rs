@@ -1,0 +1,149 @@
+use super::*;
+use labspec_core::{reset_data, step, xml};
+
+/// What is found in a run of so many steps from a start.
+fn run(text: &str, steps: usize, start: impl Fn(&mut Data)) -> Option<Growth> {
+    let m = xml::compile(text).unwrap();
+    let mut d = Data::new(&m);
+    start(&mut d);
+    let mut w = watch(&m, &d);
+    for _ in 0..steps {
+        step(&m, &mut d).unwrap();
+        observe(&mut w, &m, &d);
+    }
+    assert!(d.warning.iter().all(|w| w.number == 0), "a run that breaks is not what is tested");
+    w.found
+}
+
+fn cart(option: &str, joint: &str, actuator: &str) -> String {
+    format!(
+        "<mujoco><option gravity=\"0 0 0\" {option}/><worldbody><body><joint name=\"j\" type=\"slide\" {joint}/>\
+         <geom size=\".1\" mass=\"1\"/></body></worldbody><actuator>{actuator}</actuator></mujoco>"
+    )
+}
+
+/// A double pendulum of 1 kg links that starts level.
+fn pendulum(option: &str, joint: &str) -> String {
+    let link = |inner: &str| {
+        format!(
+            "<body pos=\".5 0 0\"><joint axis=\"0 1 0\" {joint}/><geom type=\"capsule\" fromto=\"0 0 0 .5 0 0\" \
+             size=\".02\" mass=\"1\" contype=\"0\" conaffinity=\"0\"/>{inner}</body>"
+        )
+    };
+    format!("<mujoco><option {option}/><worldbody>{}</worldbody></mujoco>", link(&link("")))
+}
+
+#[test]
+fn a_spring_just_beyond_its_limit_grows_and_below_it_does_not() {
+    for integrator in ["Euler", "implicit", "implicitfast"] {
+        // The longest step that follows k = 1e4 N/m on 1 kg is 2/ω = 0.02 s. With s = hω/2 < 1 energy swings by the factor
+        // (1 + s)/(1 - s): by 39 at 0.019 s, by 667 at 0.01994 s; as much of it is in the spring as in the motion, and it comes
+        // back within some steps. Within 0.1 % of the limit a swing lasts longer than LASTS: that may be told, and is not
+        // claimed either way.
+        for (h, grows) in [(0.0201, true), (0.01994, false), (0.019, false), (0.015, false), (0.002, false)] {
+            let text =
+                cart(&format!("integrator=\"{integrator}\" timestep=\"{h}\""), "stiffness=\"1e4\"", "");
+            for steps in [72, 120, 480] {
+                let found = run(&text, if grows { 72 } else { steps }, |d| d.edit().qpos[0] = 1e-3);
+                assert_eq!(found.is_some(), grows, "{integrator} {h} {steps}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_servo_whose_amplitude_doubles_with_each_step_grows() {
+    for servo in ["<position joint=\"j\" kp=\"4.5\"/>", "<pid joint=\"j\" kp=\"4.5\"/>"] {
+        let text = cart("integrator=\"implicitfast\" timestep=\"1\"", "", servo);
+        let found = run(&text, 24, |d| (d.edit().qpos[0], d.edit().ctrl[0]) = (0.01, 0.02)).unwrap();
+        assert!(found.dof == 0 && found.time < 8.0 && found.gain > 100.0 * found.held, "{found:?}");
+        let discrete = text.replace("implicitfast", "discrete");
+        assert_eq!(run(&discrete, 24, |d| d.edit().qpos[0] = 0.01), None);
+    }
+}
+
+#[test]
+fn what_nature_feeds_does_not_grow() {
+    // Falls, topples, swings and spins up: the motion comes from what gravity or a constant force holds.
+    for integrator in ["Euler", "RK4", "implicit", "implicitfast", "discrete"] {
+        let option = format!("integrator=\"{integrator}\"");
+        assert_eq!(run(&pendulum(&option, ""), 4800, |_| ()), None, "{integrator}");
+        // With `implicit` the steps themselves throw a free double pendulum that whirls, in the library as here: by 608 J in 8 s.
+        let upright = run(&pendulum(&option, ""), 4800, |d| d.edit().qpos[0] = -1.56);
+        assert_eq!(upright.is_some(), integrator == "implicit", "{integrator}: {upright:?}");
+        let motor = cart(&option, "", "<motor joint=\"j\"/>");
+        assert_eq!(run(&motor, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
+        let held = cart(&option, "", "<position joint=\"j\" kp=\"500\" forcerange=\"-2 2\"/>");
+        assert_eq!(run(&held, 4800, |d| d.edit().ctrl[0] = 50.0), None, "{integrator}");
+    }
+}
+
+#[test]
+fn what_may_be_fed_is_not_watched() {
+    // A damper that pushes slow things and brakes fast ones, a force from outside, a servo that looks back in time.
+    let keeps = cart("", "damping=\"-2 0 1\" stiffness=\"10\"", "");
+    assert_eq!(run(&keeps, 2400, |d| d.edit().qpos[0] = 1e-3), None);
+    assert_eq!(run(&cart("", "", ""), 2400, |d| d.edit().qfrc_applied[0] = 50.0), None);
+    let late = "<position joint=\"j\" kp=\"100\" delay=\".1\" nsample=\"60\"/>";
+    assert_eq!(run(&cart("", "", late), 2400, |d| d.edit().qpos[0] = 0.1), None);
+}
+
+#[test]
+fn a_damper_below_zero_is_an_input_without_end() {
+    for integrator in ["Euler", "implicitfast"] {
+        let with = |damping: f64| {
+            let text =
+                pendulum(&format!("integrator=\"{integrator}\""), "").replacen("axis", "DAMPED axis", 1);
+            run(&text.replace("DAMPED", &format!("damping=\"{damping}\"")), 1500, |_| ())
+        };
+        let found = with(-0.2).unwrap();
+        assert_eq!(found.source, Source::Damper(0), "{integrator}: {found:?}");
+        assert!(found.gain > 1.0 && found.time > 0.1, "{integrator}: {found:?}");
+        assert_eq!(with(0.0).or(with(0.2)), None, "{integrator}");
+    }
+}
+
+#[test]
+fn a_step_that_is_too_long_for_a_swing_is_told() {
+    let one = |h: f64, integrator: &str| {
+        let text = format!(
+            "<mujoco><option timestep=\"{h}\" integrator=\"{integrator}\"/><worldbody><body><joint axis=\"0 1 0\"/>\
+             <geom type=\"capsule\" fromto=\"0 0 0 .4 0 0\" size=\".03\" mass=\".5\"/></body></worldbody></mujoco>"
+        );
+        run(&text, (60.0 / h) as usize, |_| ())
+    };
+    for integrator in ["Euler", "RK4", "implicit", "implicitfast", "discrete"] {
+        let found = one(1.0, integrator).unwrap();
+        assert!(matches!(found.source, Source::LongSteps(turn) if turn > 3.1), "{integrator}: {found:?}");
+        for h in [0.01, 0.1] {
+            assert_eq!(one(h, integrator), None, "{integrator} {h} s");
+        }
+    }
+}
+
+#[test]
+fn a_start_that_is_pressed_together_may_fly_apart() {
+    let text = "<mujoco><worldbody><geom type=\"plane\" size=\"1 1 1\" solref=\"-1e6 -10\"/><body pos=\"0 0 .05\">\
+                <freejoint/><geom size=\".1\" mass=\"1\" solref=\"-1e6 -10\"/></body></worldbody><option timestep=\"1e-4\"/></mujoco>";
+    assert_eq!(run(text, 9600, |_| ()), None);
+    // The same from a height: its steps throw it up.
+    let text = text.replace("0 0 .05", "0 0 .3").replace("-1e6 -10", "-1e8 -1").replace("1e-4", ".002");
+    let found = run(&text, 960, |_| ()).unwrap();
+    assert!(found.dof == 2 && found.time > 0.2 && found.time < 0.4, "{found:?}");
+}
+
+#[test]
+fn a_change_from_outside_is_a_new_start() {
+    let m = xml::compile(&cart("", "", "<motor joint=\"j\"/>")).unwrap();
+    let mut d = Data::new(&m);
+    d.edit().qvel[0] = 1e-3;
+    let mut w = watch(&m, &d);
+    d.edit().qvel[0] = 1e5;
+    assert!(observe(&mut w, &m, &d).is_some());
+    let mut w = watch(&m, &d);
+    (d.edit().qvel[0], d.edit().ctrl[0]) = (1e9, 1.0);
+    assert_eq!(observe(&mut w, &m, &d), None);
+    reset_data(&m, &mut d).unwrap();
+    restart(&mut w, &m, &d);
+    assert_eq!(observe(&mut w, &m, &d), None);
+}

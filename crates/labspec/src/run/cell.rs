@@ -1,0 +1,118 @@
+//! One sampled value, and how the page prints it.
+
+use labspec_expr::Value;
+
+/// One sampled value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// A number, possibly not finite.
+    Number(f64),
+    /// A text.
+    Text(String),
+    /// A truth value.
+    Bool(bool),
+    /// `undefined`, `null`, or an expression that threw.
+    Nothing,
+}
+
+impl From<Value> for Cell {
+    fn from(value: Value) -> Cell {
+        match value {
+            Value::Number(x) => Cell::Number(x),
+            Value::Boolean(b) => Cell::Bool(b),
+            Value::String(s) => Cell::Text(s.to_string()),
+            // Lists and records are refused where a readout is compiled.
+            _ => Cell::Nothing,
+        }
+    }
+}
+
+impl Cell {
+    /// The number to draw; NaN for what is none.
+    pub fn number(&self) -> f64 {
+        match self {
+            Cell::Number(x) => *x,
+            Cell::Bool(b) => f64::from(u8::from(*b)),
+            _ => f64::NAN,
+        }
+    }
+
+    /// As the page prints it with so many decimals.
+    pub fn shown(&self, digits: u32) -> String {
+        match self {
+            Cell::Number(x) => shown(*x, digits),
+            Cell::Text(t) => t.clone(),
+            Cell::Bool(b) => b.to_string(),
+            Cell::Nothing => "nan".into(),
+        }
+    }
+}
+
+/// A number as the page prints it: fixed decimals, exponential when small or large.
+pub fn shown(x: f64, digits: u32) -> String {
+    if x.is_nan() {
+        return "nan".into();
+    }
+    if x.is_infinite() {
+        return if x > 0.0 { "inf" } else { "-inf" }.into();
+    }
+    let magnitude = x.abs();
+    if magnitude != 0.0 && !(1e-3..1e5).contains(&magnitude) {
+        let text = format!("{x:.2e}");
+        // JavaScript writes the sign of the exponent.
+        return if text.contains("e-") { text } else { text.replace('e', "e+") };
+    }
+    labspec_expr::to_fixed(x, digits as usize)
+}
+
+/// The number that [`shown`] prints.
+pub fn printed(x: f64, digits: u32) -> f64 {
+    /// Up to here every whole number of such decimals is a double, and so is the power of ten.
+    const DIGITS: u32 = 9;
+    let slow = || shown(x, digits).parse().unwrap_or(x);
+    if digits > DIGITS || !(1e-3..1e5).contains(&x.abs()) {
+        return slow();
+    }
+    let power = 10f64.powi(digits as i32);
+    let scaled = x.abs() * power;
+    // The product is off by half its last bit at most: only next to a tie does that decide.
+    if (scaled.fract() - 0.5).abs() <= scaled * f64::EPSILON {
+        return slow();
+    }
+    (scaled.round() / power).copysign(x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_print_as_the_page_prints_them() {
+        let cases = [
+            (0.0, 3, "0.000"),
+            (0.36718, 2, "0.37"),
+            (0.0005, 3, "5.00e-4"),
+            (123456.0, 1, "1.23e+5"),
+            (99999.0, 0, "99999"),
+            (-0.001, 3, "-0.001"),
+            (f64::NAN, 3, "nan"),
+            (f64::NEG_INFINITY, 3, "-inf"),
+        ];
+        for (x, digits, text) in cases {
+            assert_eq!(shown(x, digits), text);
+        }
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn a_printed_number_is_that_of_the_text(
+            mantissa in -1.0..1.0f64, exponent in -5..7, ties in -200_000..200_000i32, digits in 0..12u32,
+        ) {
+            let tie = f64::from(ties) * 0.5 / 10f64.powi(digits as i32);
+            for x in [mantissa * 10f64.powi(exponent), tie, tie.next_up(), tie.next_down(), f64::from(ties) / 64.0, 0.0, -0.0] {
+                let text: f64 = shown(x, digits).parse().unwrap();
+                assert_eq!(printed(x, digits).to_bits(), text.to_bits(), "{x:e} with {digits}");
+            }
+        }
+    }
+}

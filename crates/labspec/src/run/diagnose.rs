@@ -1,0 +1,101 @@
+//! What a session met, as breakdowns: the warnings of the engine, and what goes wrong without one, the worst first.
+
+use super::breakdown::{Breakdown, BreakdownAdvice, joint_of, time};
+use super::session::Session;
+use super::silent;
+use crate::rules;
+use labspec_core::{Model, Warning, WarningStat, joint};
+
+const RESET: &str = "MuJoCo then resets the data and continues from time 0: a student sees the scene jump back without an explanation";
+
+/// Warnings that may follow from each other, the cause first: only the first of them is told.
+const STATE: [Warning; 4] = [Warning::Inertia, Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
+/// Warnings that stand for themselves.
+const OTHERS: [Warning; 3] = [Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull];
+
+/// The worst of what a session met; `None` when it met nothing.
+pub fn worst_breakdown(session: &Session<'_>) -> Option<Breakdown> {
+    breakdowns_of(session).into_iter().next()
+}
+
+/// Everything that a session met, the worst first; without what follows from something else.
+pub fn breakdowns_of(session: &Session<'_>) -> Vec<Breakdown> {
+    let met = |w: &Warning| {
+        let stat = session.warnings.get(*w as usize).filter(|stat| stat.number > 0)?;
+        Some(explain_warning(&session.world.model, *w, stat))
+    };
+    let first = |w: &Warning| session.warnings.get(*w as usize).filter(|stat| stat.number > 0);
+    let mut since = STATE.iter().find_map(first).map_or(f64::INFINITY, |stat| stat.first_time);
+    let mut state = STATE.iter().find_map(met);
+    if let Some(growth) = session.growth() {
+        // What has grown for a while becomes no number in the end.
+        if growth.time < since {
+            since = growth.time;
+            let grows = silent::growth(&session.world.model, growth);
+            let then = state.map_or(String::new(), |s| format!("; in the end {}", s.what));
+            let what = format!("{}{then}", grows.what);
+            state = Some(Breakdown { what, ..grows });
+        }
+    }
+    // Where energy grows, or numbers are none, anything may follow from it; not what was before.
+    let noticed = silent::first(&session.world.model, &session.noticed());
+    let before = noticed.filter(|(time, _)| *time < since).map(|(_, b)| b);
+    before.into_iter().chain(state).chain(OTHERS.iter().filter_map(met)).collect()
+}
+
+/// A warning of the engine.
+fn explain_warning(model: &Model, warning: Warning, stat: &WarningStat) -> Breakdown {
+    let joint = |adr: &[i32], width| joint_of(model, stat.lastinfo, adr, width);
+    let at = format!("at t = {} s", time(stat.first_time));
+    let no_number = |what: String| format!("{what} is not a number or exceeds 1e10 {at}");
+    let (rule, what, why, advice) = match warning {
+        Warning::BadQpos => (
+            rules::SIMULATION_DIVERGES,
+            no_number(format!("the position of {}", joint(&model.jnt_qposadr, joint::nq))),
+            RESET,
+            BreakdownAdvice::by_stiffness(model),
+        ),
+        Warning::BadQvel => (
+            rules::SIMULATION_DIVERGES,
+            no_number(format!("the velocity of {}", joint(&model.jnt_dofadr, joint::nv))),
+            RESET,
+            BreakdownAdvice::by_stiffness(model),
+        ),
+        Warning::BadQacc => (
+            rules::SIMULATION_DIVERGES,
+            no_number(format!("the acceleration of {}", joint(&model.jnt_dofadr, joint::nv))),
+            RESET,
+            BreakdownAdvice::by_stiffness(model),
+        ),
+        Warning::BadCtrl => (
+            rules::SIMULATION_DIVERGES,
+            no_number(format!("control {}", stat.lastinfo)),
+            "MuJoCo then sets all controls to 0: a student sees everything go limp without an explanation",
+            BreakdownAdvice::only("guard the expression for `data.ctrl` with a condition"),
+        ),
+        Warning::Inertia => (
+            rules::ENGINE_WARNING,
+            format!(
+                "the parts that {} moves have no positive inertia {at}",
+                joint(&model.jnt_dofadr, joint::nv)
+            ),
+            "a push then gives no meaningful acceleration: things do not move, move backwards or vanish",
+            BreakdownAdvice::only(
+                "give every moving body a mass and an inertia above 0: check the model, and what writes `body_mass`, `body_inertia` or `dof_armature`",
+            ),
+        ),
+        Warning::ContactFull => (
+            rules::ENGINE_WARNING,
+            format!("there are more contacts than the {} that the engine keeps {at}", stat.lastinfo),
+            "the dropped contacts do not push: bodies silently sink into each other",
+            BreakdownAdvice::only("let fewer bodies touch, or move them apart at the start"),
+        ),
+        Warning::ConstraintFull => (
+            rules::ENGINE_WARNING,
+            format!("there are more contacts, limits and other constraints than the engine keeps {at}"),
+            "the dropped constraints do not act: bodies silently sink into each other, and joints pass their limits",
+            BreakdownAdvice::only("let fewer bodies touch, or move them apart at the start"),
+        ),
+    };
+    advice.breakdown(rule, what, why)
+}

@@ -1,0 +1,46 @@
+//! What is read from a session between its steps: the traces and the readouts, and other expressions.
+
+use super::budget::{Budget, End};
+use super::cell::Cell;
+use super::session::Session;
+use super::trouble::Trouble;
+use crate::source::Text;
+use labspec_core as core;
+use labspec_expr::{Program, Value, rules};
+
+/// What a sample of a trace counts besides its own work.
+const SAMPLE: u64 = 100;
+
+impl Session<'_> {
+    /// Time and every probe. What throws is nothing, as on the page.
+    pub fn sample(&mut self) -> Vec<Cell> {
+        let mut row = Vec::with_capacity(self.programs.probes.len() + 1);
+        row.push(Cell::Number(self.world.data.time()));
+        let programs = self.programs.clone();
+        for probe in &programs.probes {
+            let value = probe.bound.as_ref().and_then(|b| self.evaluate(&b.program, &b.text));
+            row.push(value.map_or(Cell::Nothing, Cell::from));
+        }
+        row
+    }
+
+    /// The value of an expression now; `None` when it throws, and when the budget is spent. One that came to no end before is
+    /// not tried again.
+    pub fn evaluate(&mut self, program: &Program, text: &Text) -> Option<Value> {
+        let endless = |t: &Trouble| t.rule == rules::BUDGET && t.text == *text;
+        if matches!(self.end, Some(End::Budget { .. } | End::Foreign)) || self.troubles.iter().any(endless) {
+            return None;
+        }
+        self.sampled += SAMPLE;
+        let (time, left) = (self.world.data.time(), self.left());
+        core::limit(&mut self.world.data, left);
+        self.context.allow(left.min(Budget::SAMPLE.left));
+        match program.run(&mut self.world, &mut self.context, None) {
+            Ok(value) => self.settle(time).then_some(value),
+            Err(e) => {
+                self.threw(e, text, time);
+                None
+            }
+        }
+    }
+}

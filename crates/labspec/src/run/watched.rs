@@ -1,0 +1,49 @@
+//! A run that is watched for what goes wrong without a word, and which runs can be.
+
+use crate::bind::{Bound, Programs, World};
+use crate::monitors::watch::{self, Monitors};
+use labspec_core::reflect::{FieldId, Kind, data, option};
+use labspec_expr::FieldKey;
+
+/// What a program may write in every step that moves nothing by itself.
+const PUSHES: [FieldId; 3] = [data::ctrl, data::qfrc_applied, data::xfrc_applied];
+
+/// Whether a field is one that pushes.
+fn pushes(field: FieldKey) -> bool {
+    FieldId::new(field.0 as usize).is_some_and(|f| PUSHES.contains(&f))
+}
+
+/// Whether a field follows from others, or says what of them is computed: writing it moves nothing.
+fn follows(field: FieldKey) -> bool {
+    FieldId::new(field.0 as usize).is_some_and(|f| f.info().kind == Kind::Derived || f == option::enableflags)
+}
+
+/// Whether a program may move things by itself, or change the model.
+fn moves(bound: &Bound) -> bool {
+    let effects = bound.program.effects();
+    let still = |field: FieldKey| pushes(field) || follows(field);
+    effects.writes_everything || effects.calls_values || !effects.writes.iter().all(|a| still(a.field))
+}
+
+/// A run that is watched for what goes wrong without a word.
+#[derive(Clone, Debug)]
+pub(super) struct Watched {
+    pub(super) watch: Monitors,
+    /// Something from outside changed the state or the model since the last step.
+    pub(super) disturbed: bool,
+}
+
+impl Watched {
+    /// Watches a run that begins in this world; `None` where a program moves things by itself.
+    pub(super) fn begin(programs: &Programs, world: &World) -> Option<Watched> {
+        let probes = programs.probes.iter().filter_map(|p| p.bound.as_ref());
+        let running: Vec<&Bound> = probes.chain(&programs.controller).collect();
+        if running.iter().any(|bound| moves(bound)) {
+            return None;
+        }
+        let pushed =
+            running.iter().any(|bound| bound.program.effects().writes.iter().any(|a| pushes(a.field)));
+        let watch = watch::watch(&world.model, &world.data, pushed);
+        Some(Watched { watch, disturbed: false })
+    }
+}

@@ -1,0 +1,214 @@
+//! Reads the parts of a `verify` object that hold no lab.
+
+use super::claim::{Change, Column, Exact, Find, MOST_SWEPT, Said, Stands, Sweep};
+use super::fields::Fields;
+use super::format::{CLOSED_FORM, COLUMN, FIND, SPAN};
+use super::problem::{Mistake, Problem};
+use super::read;
+use crate::json::read::shorten;
+use crate::json::{Json, Member, Node, Number, Scalar};
+use crate::source::Text;
+
+/// A change of a model. Several numbers are written as a list.
+pub(super) fn read_change(member: &Member, problems: &mut Vec<Problem>) -> Option<Change> {
+    let what = "the value of an attribute";
+    let value = match &member.value.json {
+        Json::Array(items) => {
+            let numbers = items.iter().map(|n| read::number(n, what, problems).map(|n| n.value.to_string()));
+            numbers.collect::<Option<Vec<_>>>()?.join(" ")
+        }
+        _ => match read::scalar(&member.value, what, problems)? {
+            Scalar::Number(n) => n.value.to_string(),
+            Scalar::Text(t) => t.value,
+            Scalar::Bool(b, _) => b.to_string(),
+        },
+    };
+    Some(Change { path: member.key.clone(), value })
+}
+
+/// What a sweep changes, and the values: written one by one, or so many from one end to the other.
+pub(super) fn read_sweep(node: &Node, problems: &mut Vec<Problem>) -> Option<Sweep> {
+    let [member] = node.members() else {
+        if !node.is_broken() {
+            problems.push(Mistake::NoSweep.at(node.span.clone()));
+        }
+        return None;
+    };
+    let what = member.key.clone();
+    let values: Vec<f64> = match &member.value.json {
+        Json::Array(items) => {
+            let numbers =
+                items.iter().map(|n| read::number(n, "a value of a sweep", problems).map(|n| n.value));
+            numbers.collect::<Option<_>>()?
+        }
+        _ => {
+            let mut fields = Fields::open(&member.value, &SPAN, problems)?;
+            let [from, to, count] = [fields.number("from"), fields.number("to"), fields.whole("count")];
+            fields.finish();
+            let ([from, to], count) = ([from?.value, to?.value], count?.value.clamp(0.0, 1e6) as usize);
+            let part = |i: usize| i as f64 / count.saturating_sub(1).max(1) as f64;
+            (0..count.min(MOST_SWEPT + 1)).map(|i| from + (to - from) * part(i)).collect()
+        }
+    };
+    if !(2..=MOST_SWEPT).contains(&values.len()) {
+        problems.push(Mistake::SweptValues(values.len()).at(member.value.span.clone()));
+        return None;
+    }
+    Some(Sweep { what, values })
+}
+
+/// The range of a slider over which an answer holds.
+pub(super) fn read_over(member: &Member, problems: &mut Vec<Problem>) -> Option<(Text, [f64; 2])> {
+    if member.value.is_broken() {
+        return None;
+    }
+    if let Json::Array(items) = &member.value.json
+        && let [low, high] = items.as_slice()
+    {
+        let [low, high] = [low, high].map(|n| read::number(n, "an end of the range", problems));
+        let ends = [low?.value, high?.value];
+        if ends[0] < ends[1] {
+            return Some((member.key.clone(), ends));
+        }
+    }
+    problems.push(Mistake::NoRange.at(member.value.span.clone()));
+    None
+}
+
+/// A value that is searched for.
+pub(super) fn read_find(member: &Member, problems: &mut Vec<Problem>) -> Option<Find> {
+    let mut fields = Fields::open(&member.value, &FIND, problems)?;
+    let f = &mut fields;
+    let ends = [f.text("largest"), f.text("smallest")];
+    let [from, to, tol] = ["from", "to", "tol"].map(|key| f.number(key));
+    let (run, holds) = (f.text("run"), f.text("while"));
+    let largest = ends[0].is_some();
+    let what = match ends {
+        [Some(what), None] | [None, Some(what)] => Some(what),
+        _ => {
+            let mistake = Mistake::FindsNothing.at(f.span());
+            f.problems.push(mistake);
+            None
+        }
+    };
+    let range = from.zip(to).map(|(from, to)| [from.value, to.value]);
+    if let Some([from, to]) = range
+        && from >= to
+    {
+        let mistake = Mistake::FindsBackwards.at(f.span());
+        f.problems.push(mistake);
+        return None;
+    }
+    fields.finish();
+    let name = member.key.clone();
+    Some(Find { name, largest, what: what?, range: range?, run, holds: holds?, tol: tol? })
+}
+
+/// What a run is expected to do.
+pub(super) fn read_breaks(text: &Text, problems: &mut Vec<Problem>) -> bool {
+    if text.value != "breaks" {
+        problems.push(Mistake::RunExpects(text.value.clone()).at(text.span()));
+    }
+    text.value == "breaks"
+}
+
+/// The closed form of a trace: an expression, or an object with a tolerance.
+pub(super) fn read_exact(member: &Member, problems: &mut Vec<Problem>) -> Option<Exact> {
+    let trace = member.key.clone();
+    if !matches!(member.value.json, Json::Object(_)) {
+        let form = read::text(&member.value, &shorten(&trace.value), problems)?;
+        return Some(Exact { trace, form, tol: None });
+    }
+    let mut fields = Fields::open(&member.value, &CLOSED_FORM, problems)?;
+    let form = fields.text("is");
+    let tol = fields.number("tol");
+    fields.finish();
+    Some(Exact { trace, form: form?, tol })
+}
+
+pub(super) fn read_press(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Number)> {
+    if node.is_broken() {
+        return None;
+    }
+    if let Json::Array(pair) = &node.json
+        && let [label, time] = pair.as_slice()
+    {
+        let label = read::text(label, "the label of a button", problems);
+        let time = read::number(time, "the time of a press", problems);
+        return Some((label?, time?));
+    }
+    problems.push(Mistake::NoPress.at(node.span.clone()));
+    None
+}
+
+pub(super) fn read_says(node: &Node, problems: &mut Vec<Problem>) -> Option<Said> {
+    if node.is_broken() {
+        return None;
+    }
+    if let Json::Array(pair) = &node.json
+        && let [quote, expr] = pair.as_slice()
+    {
+        let quote = read::text(quote, "a quoted number", problems);
+        let mut expression = |node: &Node| read::text(node, "the expression of a quoted number", problems);
+        let exprs = match &expr.json {
+            Json::Array(items) if !items.is_empty() => items.iter().map(&mut expression).collect(),
+            _ => expression(expr).map(|one| vec![one]),
+        };
+        return Some(Said { quote: quote?, exprs: exprs? });
+    }
+    problems.push(Mistake::NoQuote.at(node.span.clone()));
+    None
+}
+
+/// The heading that tells rows apart, and the list of what stands below it.
+fn read_row_keys(node: &Node, problems: &mut Vec<Problem>) -> Option<(Text, Text)> {
+    if let Json::Array(pair) = &node.json
+        && let [heading, list] = pair.as_slice()
+    {
+        let heading = read::text(heading, "a heading", problems);
+        let list = read::text(list, "the list of its values", problems);
+        return Some((heading?, list?));
+    }
+    if !node.is_broken() {
+        problems.push(Mistake::NoQuote.at(node.span.clone()));
+    }
+    None
+}
+
+/// What stands in cells: numbers, or words with what must hold for each.
+fn read_cells(node: &Node, problems: &mut Vec<Problem>) -> Option<Stands> {
+    let text = |node: &Node, problems: &mut Vec<Problem>| read::text(node, "what the cells state", problems);
+    match &node.json {
+        Json::Object(members) => {
+            let one = |m: &Member| Some((m.key.clone(), text(&m.value, problems)?));
+            members.iter().map(one).collect::<Option<_>>().map(Stands::Words)
+        }
+        _ => text(node, problems).map(Stands::Number),
+    }
+}
+
+/// A column of a table, or a cell of it.
+pub(super) fn read_column(node: &Node, problems: &mut Vec<Problem>) -> Option<Column> {
+    let mut fields = Fields::open(node, &COLUMN, problems)?;
+    let f = &mut fields;
+    let (column, row) = (f.text("column"), f.text("row"));
+    let is = f.node("is").and_then(|n| read_cells(n, f.problems));
+    let by = f.node("by").and_then(|n| read_row_keys(n, f.problems));
+    if by.is_some() == row.is_some() {
+        let mistake = Mistake::NoRows.at(f.span());
+        f.problems.push(mistake);
+    }
+    let apart = by.is_some() != row.is_some();
+    fields.finish();
+    Some(Column { column: column?, by, row, is: is? }).filter(|_| apart)
+}
+
+pub(super) fn read_measures(fields: &mut Fields<'_, '_>, key: &'static str) -> Vec<(Text, Text)> {
+    let mut all = Vec::new();
+    for member in fields.map(key) {
+        if let Some(text) = read::text(&member.value, &shorten(&member.key.value), fields.problems) {
+            all.push((member.key.clone(), text));
+        }
+    }
+    all
+}

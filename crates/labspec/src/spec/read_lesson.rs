@@ -1,0 +1,292 @@
+//! From the text of a lesson to a [`Lesson`]: every fence, every comment of ours, or a stand-alone JSON file.
+
+use super::address::LabAddress;
+use super::kind::{FileKind, Nature, kind_of, nature};
+use super::lab::Lab;
+use super::lesson::{LabEntry, Lesson, Widget};
+use super::problem::{Mistake, Problem};
+use super::read_lab::read_lab;
+use super::{comment, quiz, shared};
+use crate::json::{self, Json, Node};
+use crate::markdown::{self, Block, BlockKind, Scan};
+use crate::source::{MAX_FILE, SourceFile, SourceMap};
+use std::ops::Range;
+use std::path::Path;
+
+/// Most problems that are looked for in a file: more than anybody reads.
+const MAX_PROBLEMS: usize = 10_000;
+
+/// Reads a lesson (Markdown) or, when the path ends in `.json`, a lab, a quiz or a list of them. This never fails: what is wrong
+/// is among the problems, and what is right is there.
+pub fn read_lesson(file: SourceFile) -> Lesson {
+    let mut lesson = read_at(file, None);
+    lesson.remarks =
+        comment::read_remarks(&lesson.file, &lesson.scan, &mut lesson.broken, &mut lesson.problems);
+    lesson.wholes = shared::resolve_uses(&lesson);
+    lesson
+}
+
+/// A lab of another lesson; all places in it are `at`, where it is named.
+///
+/// # Errors
+/// Why there is none.
+pub fn read_other(file: SourceFile, address: &LabAddress, at: Range<usize>) -> Result<Lab, String> {
+    let path = file.path().to_string();
+    let lesson = read_at(file, Some(at));
+    match lesson.lab(address) {
+        Some(_) if lesson.blocks_are_broken() => Err(format!("{path} has JSON that a page cannot read")),
+        Some(lab) => Ok(lab.clone()),
+        None => {
+            let all: Vec<String> = lesson.addressed().iter().take(12).map(|(a, _)| a.to_string()).collect();
+            let available = if all.is_empty() { "no labs".to_string() } else { all.join(", ") };
+            Err(format!("{path} has no lab {address}: it has {available}"))
+        }
+    }
+}
+
+/// Reads a lesson; all places in its JSON are `at`, if that is given.
+fn read_at(file: SourceFile, at: Option<Range<usize>>) -> Lesson {
+    let mut lesson = Lesson {
+        file,
+        labs: Vec::new(),
+        quizzes: Vec::new(),
+        widgets: Vec::new(),
+        broken: Vec::new(),
+        remarks: Vec::new(),
+        wholes: Vec::new(),
+        others: Vec::new(),
+        scan: Scan::default(),
+        problems: Vec::new(),
+        findings: Vec::new(),
+        snapshot: None,
+        place: None,
+    };
+    if lesson.file.text().len() as u64 > MAX_FILE {
+        lesson.problems.push(Mistake::TooLarge.at(0..0));
+    } else if kind_of(Path::new(&**lesson.file.path())) == FileKind::Json {
+        json_file(&mut lesson, at);
+    } else {
+        markdown_file(&mut lesson, at);
+    }
+    lesson
+}
+
+fn markdown_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
+    let file = lesson.file.clone();
+    let (mut scan, text) = (markdown::scan(&file), file.text());
+    lesson.problems.extend(scan.problems.drain(..).map(Problem::Fence));
+    for block in &scan.blocks {
+        if lesson.problems.len() > MAX_PROBLEMS {
+            break;
+        }
+        match &block.kind {
+            BlockKind::Lab(widget) if widget == "simlab" => {
+                let node = body(block, &at, lesson);
+                if let Some(node) = &node
+                    && nature(node) == Nature::Quiz
+                {
+                    let mistake = Mistake::HoldsQuiz(head(text, block, "quiz"));
+                    lesson.problems.push(mistake.at(block.info.clone()));
+                    lesson.quizzes.extend(quiz::read_quiz(node, &mut lesson.problems));
+                    continue;
+                }
+                let lab = node.and_then(|node| read_lab(&node, &mut lesson.problems));
+                push_lab(lesson, block.span.clone(), lab);
+            }
+            BlockKind::Lab(widget) => {
+                let node = body(block, &at, lesson);
+                let model = node.as_ref().and_then(|n| match &n.get("model")?.json {
+                    Json::Text(text) => Some(text.clone()),
+                    _ => None,
+                });
+                lesson.widgets.push(Widget { name: widget.clone(), span: block.span.clone(), model });
+            }
+            BlockKind::Quiz => {
+                let Some(node) = body(block, &at, lesson) else { continue };
+                if nature(&node) == Nature::Lab {
+                    let mistake = Mistake::HoldsLab(head(text, block, "lab simlab"));
+                    lesson.problems.push(mistake.at(block.info.clone()));
+                    let lab = read_lab(&node, &mut lesson.problems);
+                    push_lab(lesson, block.span.clone(), lab);
+                    continue;
+                }
+                lesson.quizzes.extend(quiz::read_quiz(&node, &mut lesson.problems));
+            }
+            BlockKind::Code { .. } => {}
+        }
+    }
+    lesson.scan = scan;
+}
+
+/// The opening line of a block, for another kind.
+fn head(text: &str, block: &Block, kind: &str) -> String {
+    let old = text.get(block.info.clone()).unwrap_or("");
+    let marks: String = old.chars().take_while(|c| matches!(c, '`' | '~')).collect();
+    format!("{marks}{kind}")
+}
+
+/// The JSON of a block.
+fn body(block: &Block, at: &Option<Range<usize>>, lesson: &mut Lesson) -> Option<Node> {
+    if block.body.value.trim().is_empty() {
+        lesson.broken.push(block.span.clone());
+        lesson.problems.push(Mistake::EmptyFence.at(block.info.clone()));
+        return None;
+    }
+    let map = at.as_ref().map(|at| SourceMap::whole(block.body.value.len(), at.clone()));
+    read_json(&block.body.value, map.as_ref().unwrap_or(&block.body.map), block.span.clone(), lesson)
+}
+
+/// Parses JSON, which may be broken: what can be read of it is read.
+fn read_json(text: &str, map: &SourceMap, span: Range<usize>, lesson: &mut Lesson) -> Option<Node> {
+    let parsed = json::parse(text, map);
+    if parsed.broken {
+        lesson.broken.push(span);
+    }
+    lesson.problems.extend(parsed.problems.into_iter().map(Problem::Json));
+    parsed.node
+}
+
+fn push_lab(lesson: &mut Lesson, span: Range<usize>, lab: Option<Lab>) {
+    let number = lesson.labs.len() + 1;
+    let broken = lab.is_none() || lesson.is_broken(&span);
+    lesson.labs.push(LabEntry { number, span, broken, lab });
+}
+
+/// A lab, a quiz, or a list of them, told apart by their keys.
+fn json_file(lesson: &mut Lesson, at: Option<Range<usize>>) {
+    let text = lesson.file.text();
+    // A byte order mark is no part of JSON, and editors hide it.
+    let start = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+    let (length, whole) = (text.len() - start, 0..text.len());
+    let map = at.map_or(SourceMap::verbatim(start..text.len()), |at| SourceMap::whole(length, at));
+    let text = text.get(start..).unwrap_or("").to_string();
+    let Some(node) = read_json(&text, &map, whole, lesson) else { return };
+    match &node.json {
+        Json::Array(items) => items.iter().for_each(|item| json_item(lesson, item)),
+        _ => json_item(lesson, &node),
+    }
+}
+
+fn json_item(lesson: &mut Lesson, node: &Node) {
+    match nature(node) {
+        Nature::Quiz => lesson.quizzes.extend(quiz::read_quiz(node, &mut lesson.problems)),
+        Nature::Lab => {
+            let lab = read_lab(node, &mut lesson.problems);
+            push_lab(lesson, node.span.clone(), lab);
+        }
+        Nature::Neither if node.is_broken() => {}
+        Nature::Neither => {
+            lesson.problems.push(Mistake::UnknownObject.at(node.span.clone()));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lint::{MAX_FINDINGS, ModelFolder, load_lesson};
+    use proptest::prelude::*;
+
+    /// Lessons put together from what breaks them.
+    fn hostile() -> impl Strategy<Value = String> {
+        let piece = prop::sample::select(vec![
+            "```lab simlab\n",
+            "```lab simlab ",
+            "```quiz\n",
+            "```\n",
+            "````\n",
+            "~~~\n",
+            "```python file=a.py ",
+            "> ",
+            "- ",
+            "    ",
+            "\n",
+            "\n\n",
+            "{",
+            "}",
+            "[",
+            "]",
+            "\"model\"",
+            ": ",
+            ", ",
+            "\"ball\"",
+            "“",
+            "”",
+            "‘",
+            "’",
+            "\"questions\": [",
+            "\"controls\": [{",
+            "\"label\": \"a\"",
+            "\"options\": [\"a\", \"b\"]",
+            "\"answer\": 7",
+            "\"verify\": {\"lab\": \"#1\"}",
+            "<option>",
+            "<div>\n",
+            "`x`",
+            "def f(): a = 1 b = 2\n",
+            "if name == “main”:\n",
+            "\\tau",
+            "\u{feff}",
+            "\r\n",
+            "é😀",
+            "\t",
+            "-1",
+            "0",
+            "1e999",
+            "true",
+            "null",
+            "{\"model\": \"ball\", \"readouts\": [{\"label\": \"t\", \"expr\": \"‘\"}]}\n",
+            "{\"id\": \"q\", \"questions\": []}\n",
+        ]);
+        prop::collection::vec(piece, 0..24).prop_map(|pieces| pieces.concat())
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        /// No lesson is a panic; every place is a place of the file; reports can be drawn.
+        #[test]
+        fn hostile_lessons_are_survived(text in hostile(), json in any::<bool>()) {
+            let name = if json { "h.json" } else { "h.md" };
+            let lesson = load_lesson(SourceFile::new(name, text.as_str()), &ModelFolder::with_names(["ball"]));
+            for finding in &lesson.findings {
+                let places = finding.related.iter().map(|p| &p.span).chain(finding.fix.as_ref().map(|f| &f.span));
+                for span in places.chain([&finding.span]) {
+                    prop_assert!(text.get(span.clone()).is_some(), "{:?} of {:?}", finding, text);
+                }
+            }
+            crate::report::human(&lesson.findings, &[&lesson.file], false);
+            crate::report::json(&lesson.findings, &[&lesson.file]);
+        }
+    }
+
+    #[test]
+    fn a_place_inside_a_character_is_widened() {
+        let lesson = load_lesson(SourceFile::new("h.json", "“\"model\""), &ModelFolder::unknown());
+        assert!(lesson.findings.iter().all(|f| lesson.file.text().get(f.span.clone()).is_some()));
+    }
+
+    /// Inputs that make careless checkers slow.
+    #[test]
+    fn large_lessons_take_a_moment() {
+        let wide = |item: &str, n: usize| item.repeat(n);
+        let lab = |inside: String| format!("```lab simlab\n{{\"model\": \"ball\", {inside}}}\n```\n");
+        for text in [
+            wide("```lab {\n", 20_000),
+            wide("{\"questions\" ", 20_000),
+            wide("```lab `x` {}\n\n", 20_000),
+            wide("“", 300_000),
+            wide("<option ", 100_000),
+            lab((0..9_000).map(|i| format!("\"stopAtt{i}\": 1")).collect::<Vec<_>>().join(", ")),
+            lab(format!("\"note\": \"{}\"", wide("$\\n", 300_000))),
+            format!("```python\n{}", wide("‘x’ “y”\n", 50_000)),
+        ] {
+            let start = std::time::Instant::now();
+            let lesson =
+                load_lesson(SourceFile::new("large.md", text.as_str()), &ModelFolder::with_names(["ball"]));
+            assert!(lesson.findings.len() <= MAX_FINDINGS + 1);
+            let head: String = text.chars().take(30).collect();
+            println!("{:.3} s, {} findings: {head}", start.elapsed().as_secs_f64(), lesson.findings.len());
+            assert!(start.elapsed().as_secs() < 20, "{head}");
+        }
+    }
+}

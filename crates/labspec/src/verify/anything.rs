@@ -1,0 +1,95 @@
+//! A simulation in which everything has some value: whatever a program reads of the data is drawn.
+
+use super::draws::Draws;
+use crate::bind::{World, functions};
+use labspec_core::reflect::{Elem, FieldId, Object, data};
+use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
+
+/// How the values of an imagined run are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Manner {
+    /// Each of any size.
+    Any,
+    /// Each about as large as a number of the text, or this one of any size.
+    Near(f64),
+    /// Nothing moves, and all is zero.
+    Zero,
+    /// Each has one value through the whole run.
+    Steady,
+}
+
+/// A simulation in which everything has some value: whatever is read of the data is drawn.
+pub(super) struct Anything<'w> {
+    pub(super) world: &'w World,
+    /// Of the run, and of the sample.
+    pub(super) seeds: [u64; 2],
+    pub(super) manner: Manner,
+    /// The time of the sample, s, where samples follow each other.
+    pub(super) time: Option<f64>,
+}
+
+impl<'w> Anything<'w> {
+    /// A sample alone.
+    pub(super) fn sample_of(world: &'w World, seed: u64) -> Anything<'w> {
+        Anything { world, seeds: [seed; 2], manner: Manner::Any, time: None }
+    }
+
+    /// The value of something.
+    fn draw(&self, what: u64) -> f64 {
+        let [run, sample] = self.seeds;
+        let mut draws = Draws::new(what ^ if self.manner == Manner::Steady { run } else { sample });
+        draws.unit();
+        match self.manner {
+            Manner::Any | Manner::Steady => draws.any(),
+            Manner::Near(x) => x * (4.0 * draws.unit() - 2.0),
+            Manner::Zero => 0.0,
+        }
+    }
+}
+
+impl Host for Anything<'_> {
+    fn get(&self, field: FieldKey, index: usize) -> Option<f64> {
+        let actual = self.world.get(field, index);
+        let Some(id) = FieldId::new(field.0 as usize) else { return actual };
+        let info = id.info();
+        if info.object != Object::Data || actual.is_none() && index > 4096 {
+            return actual;
+        }
+        if let Some(time) = self.time.filter(|_| id == data::time) {
+            return Some(time);
+        }
+        let x = self.draw((u64::from(field.0) << 32) ^ index as u64);
+        let kinetic = id == data::energy && index == 1;
+        Some(if info.elem != Elem::F64 {
+            x.abs().round()
+        } else if id == data::time || kinetic {
+            x.abs()
+        } else {
+            x
+        })
+    }
+
+    fn set(&mut self, _: FieldKey, _: usize, _: f64) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn len(&self, field: FieldKey) -> usize {
+        self.world.len(field)
+    }
+
+    fn call(&mut self, _: &mut Heap, function: FunctionId, args: &[Value]) -> Result<Value, String> {
+        if functions::name(function) == Some("abs") {
+            return Ok(Value::Number(args.first().map_or(f64::NAN, Value::to_number).abs()));
+        }
+        let of = args.iter().fold(u64::from(function.0), |h, a| h.wrapping_mul(31) ^ a.to_number().to_bits());
+        let x = self.draw(of);
+        Ok(match functions::name(function) {
+            Some("contact") => Value::Boolean(x > 0.0),
+            _ => Value::Number(x),
+        })
+    }
+
+    fn identity(&self) -> u64 {
+        self.world.identity()
+    }
+}

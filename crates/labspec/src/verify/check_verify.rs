@@ -1,0 +1,118 @@
+//! The claims of one `verify` object, judged: its runs are made, its answer, quotes and closed forms are checked.
+
+use super::bound::BoundVerify;
+use super::judgement::{Judgement, Measured, RunReport, unmade};
+use super::options::is_undecided;
+use super::outcome::Outcome;
+use super::outcomes::{Outcomes, run_all_numerics};
+use super::quote::ShownText;
+use super::quote_checker::QuoteChecker;
+use super::{answer, exact, says};
+use crate::finding::Finding;
+use crate::json::read::named;
+use crate::rules;
+use crate::run::StepVariant;
+use crate::spec::{Question, Verify};
+
+/// Checks the claims of one `verify` object. `question` is what carries it, unless a lab does; `shown` is what a reader of
+/// the lesson sees.
+pub fn check_verify(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    question: Option<&Question>,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> Judgement {
+    match run_all_numerics(bound, verify, findings) {
+        Some(outcomes) => judge(bound, &outcomes, verify, question, shown, findings),
+        None => unmade(verify, question, "a run cannot be made"),
+    }
+}
+
+/// The same with the numerics of the lesson alone: what a claim says, and not whether it survives others. `None` where a run cannot
+/// be made.
+pub(crate) fn check_nominal(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    question: Option<&Question>,
+    shown: &ShownText,
+) -> Option<Judgement> {
+    let findings = &mut Vec::new();
+    let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
+    let perturbed = std::array::from_fn(|_| Some(nominal.clone()));
+    let outcomes = Outcomes { nominal, perturbed, nudged_back: None };
+    Some(judge(bound, &outcomes, verify, question, shown, findings))
+}
+
+fn judge(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    verify: &Verify,
+    question: Option<&Question>,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> Judgement {
+    let mut judgement = Judgement {
+        runs: report_runs(bound, &outcomes.nominal, findings),
+        measures: list_measures(outcomes),
+        ..Judgement::default()
+    };
+    if let Some(question) = question {
+        judgement.answer = answer::check_answer(bound, outcomes, verify, question, findings);
+    }
+    judgement.quotes = {
+        let checker = QuoteChecker { bound, outcomes, shown };
+        says::check_quotes(checker, verify, question, findings)
+    };
+    judgement.exact =
+        verify.exact.iter().map(|claim| exact::check_closed_form(bound, claim, findings)).collect();
+    judgement
+}
+
+/// Looks at every text of a `verify` object, and runs nothing.
+pub(crate) fn lint_verify(bound: &BoundVerify<'_>, verify: &Verify, findings: &mut Vec<Finding>) {
+    let options = verify.options.iter().filter(|text| !is_undecided(text));
+    bound.lint_texts(options.chain(&verify.value).chain(verify.quoted()), findings);
+    for claim in &verify.exact {
+        let _ = exact::bind_closed_form(bound, claim, findings);
+    }
+}
+
+/// What became of the runs. One that breaks is a finding, and so is one that does not although the lesson says so.
+fn report_runs(bound: &BoundVerify<'_>, outcome: &Outcome, findings: &mut Vec<Finding>) -> Vec<RunReport> {
+    let mut all = Vec::new();
+    for (i, run) in outcome.runs.iter().enumerate() {
+        let (span, expected) = bound.run_place(i);
+        let title = run.title();
+        let [name, broke] = [title.as_str(), run.broke.as_deref().unwrap_or("")];
+        if run.broke.is_some() && !expected {
+            findings.push(
+                Finding::error(rules::RUN_BREAKS, span.clone(), format!("the run {} breaks: {broke}", named(name)))
+                    .why("its measures prove nothing")
+                    .help("fix the run; if the lesson is about the break, write \"expect\": \"breaks\" in the run, or a condition that reads its `warnings`"),
+            );
+        }
+        if run.broke.is_none() && expected {
+            findings.push(
+                Finding::error(
+                    rules::DOES_NOT_BREAK,
+                    span.clone(),
+                    format!("the run {} is expected to break, but it does not", named(name)),
+                )
+                .why("the lesson does not show what it says")
+                .help("delete \"expect\": \"breaks\", or change the run so that it breaks"),
+            );
+        }
+        all.push(RunReport { name: name.to_string(), span, broke: run.broke.clone(), expected });
+    }
+    all
+}
+
+fn list_measures(outcomes: &Outcomes) -> Vec<Measured> {
+    let halved = outcomes.perturbed[0].as_ref().map(Outcome::list);
+    let at = |i: usize, value: f64| {
+        halved.as_ref().and_then(|h| h.get(i)).map(|(_, x)| *x).filter(|x| *x != value)
+    };
+    let list = outcomes.nominal.list().into_iter().enumerate();
+    list.map(|(i, (name, value))| Measured { name, value, halved: at(i, value) }).collect()
+}

@@ -1,0 +1,81 @@
+//! The value that a claim may rest on, or why there is none.
+
+use super::bound::BoundVerify;
+use super::condition;
+use super::format::shorten;
+use super::found::{MeasuredValue, Undecided};
+use super::outcome::Outcome;
+use crate::finding::Finding;
+use crate::rules;
+use crate::source::Text;
+use labspec_expr::Value;
+
+/// The value of an expression that a claim may rest on: it has one, it depends on what was measured if it reads that, no NaN
+/// decides it, and the runs that it reads did not break. Otherwise why not, which is reported.
+pub(super) fn grounded_value(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    text: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<MeasuredValue, String> {
+    let found = decided_value(bound, outcome, text, findings)?;
+    // What has no finite value is told as that.
+    let some = !matches!(found.value, Value::Number(x) if !x.is_finite());
+    if some && (found.unread || !bound.could_differ(&found, None)) {
+        return Err(report_constant_claim(text, findings));
+    }
+    Ok(found)
+}
+
+/// The same for numerics other than the lesson's own, with which a claim is not tried again.
+pub(super) fn decided_value(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    text: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<MeasuredValue, String> {
+    if condition::is_bare_constant(&text.value) {
+        let message = format!("`{}` is a constant and proves nothing", text.value.trim());
+        findings.push(
+            Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
+                .why("it gives the same result whatever the simulation does, so it checks nothing")
+                .help("compare something that a run measures, or write the formula that gives the number"),
+        );
+        return Err(message);
+    }
+    let found = bound.find(outcome, text, findings).ok_or("the expression cannot be evaluated")?;
+    if let Some(broke) = &found.broke {
+        return Err(broke.clone());
+    }
+    match &found.undecided {
+        Some(undecided) => Err(report_undecided(text, undecided, findings)),
+        None => Ok(found),
+    }
+}
+
+/// An expression whose value is the same whatever was measured.
+pub(super) fn report_constant_claim(text: &Text, findings: &mut Vec<Finding>) -> String {
+    let message = format!(
+        "`{}` gives the same result whatever the runs give, so it proves nothing",
+        shorten(text.value.trim())
+    );
+    findings.push(
+        Finding::error(rules::CONSTANT_CLAIM, text.span(), message.clone())
+            .why("other values in place of the measured ones did not change it")
+            .help("compare a measure of a run with something that it could miss"),
+    );
+    message
+}
+
+/// An expression that a NaN decides.
+pub(super) fn report_undecided(text: &Text, undecided: &Undecided, findings: &mut Vec<Finding>) -> String {
+    let part = &undecided.part;
+    let because = undecided.because.as_deref();
+    let why = because.unwrap_or("a measure is NaN if its event never happens in the run").to_string();
+    findings.push(
+        Finding::error(rules::COMPARES_NAN, text.span(), format!("`{part}` compares NaN"))
+            .why(format!("a comparison with NaN says nothing about the claim: {why}"))
+            .help("make the run longer, correct the measure, or test for it with `isNaN(x)`"),
+    );
+    format!("`{part}` compares NaN")
+}

@@ -1,0 +1,90 @@
+//! What became of everything that one `verify` object claims.
+
+use super::exact::ClosedForm;
+use super::quote::QuoteState;
+use super::quote_checker::Quote;
+use super::verdict::{Answer, Verdict};
+use crate::ledger::State;
+use crate::spec::{Question, Run, Verify};
+use std::ops::Range;
+
+/// Everything that came of one `verify` object.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Judgement {
+    /// The answer of the question, when the object says how to check it.
+    pub answer: Option<Answer>,
+    /// The numbers under `says`, in order.
+    pub quotes: Vec<Quote>,
+    /// The closed forms under `exact`, in order.
+    pub exact: Vec<ClosedForm>,
+    /// The runs, in order.
+    pub runs: Vec<RunReport>,
+    /// Every measure of every run, named as conditions read it.
+    pub measures: Vec<Measured>,
+    /// Why no run was made, where none could be.
+    pub unmade: Option<String>,
+}
+
+/// A run of a `verify` object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunReport {
+    /// Its name.
+    pub name: String,
+    /// Its place in the lesson.
+    pub span: Range<usize>,
+    /// What broke in it.
+    pub broke: Option<String>,
+    /// The lesson says that it breaks.
+    pub expected: bool,
+}
+
+/// A measure under the numerics of the lesson, and under others.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// `run.measure`, or the measure alone where there is one run.
+    pub name: String,
+    /// Its value.
+    pub value: f64,
+    /// Its value at half the timestep; `None` when that was not needed, or the lesson states every timestep itself.
+    pub halved: Option<f64>,
+}
+
+/// What remains of a `verify` object whose runs cannot be made: claims that could not be checked.
+pub fn unmade(verify: &Verify, question: Option<&Question>, reason: &str) -> Judgement {
+    let run = |run: &Run| RunReport {
+        name: run.name.value.clone(),
+        span: run.name.span(),
+        broke: None,
+        expected: run.breaks,
+    };
+    Judgement {
+        answer: question.filter(|_| verify.claims_answer()).map(|_| Answer::failed(reason)),
+        quotes: verify
+            .says
+            .iter()
+            .map(|s| &s.quote)
+            .chain(verify.table.iter().map(|c| &c.column))
+            .map(|text| Quote::unclear(text, reason))
+            .collect(),
+        exact: verify.exact.iter().map(|e| ClosedForm::unchecked(e, reason)).collect(),
+        runs: verify.runs.iter().map(run).collect(),
+        measures: Vec::new(),
+        unmade: Some(reason.to_string()),
+    }
+}
+
+impl Judgement {
+    /// Calls nothing true of what it holds, for a reason that belongs to all of it.
+    pub(crate) fn withdraw(&mut self, reason: &str) {
+        let is_true = |state: State| matches!(state, State::True(_));
+        for answer in self.answer.iter_mut().filter(|a| is_true(a.verdict.state())) {
+            *answer = Answer { verdict: Verdict::Failed, reason: reason.to_string(), ..answer.clone() };
+        }
+        for quote in self.quotes.iter_mut().filter(|q| q.state == QuoteState::Right) {
+            (quote.state, quote.reason) = (QuoteState::Unclear, reason.to_string());
+        }
+        for form in self.exact.iter_mut().filter(|form| is_true(form.state)) {
+            (form.state, form.remark) = (State::Unchecked, reason.to_string());
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! What is known of the units of the measures.
+
+use labspec_expr::Given;
+use labspec_expr::dimension::Measure;
+
+/// What the measures of each run measure, by the place of the run.
+pub(super) type RunUnits = Vec<Vec<(String, Measure)>>;
+
+/// What is known of the numbers that claims read.
+#[derive(Debug)]
+pub(super) struct MeasureUnits {
+    /// What the controls of the lab give.
+    pub(super) given: Given,
+    pub(super) runs: RunUnits,
+}

@@ -1,0 +1,277 @@
+//! The answer of a numeric question: whether the keyed number is what an expression gives, within its tolerance and in its unit.
+
+use super::bound::BoundVerify;
+use super::format::significant;
+use super::found::MeasuredValue;
+use super::grounded::{decided_value, report_constant_claim, report_undecided};
+use super::outcome::Outcome;
+use super::outcomes::Outcomes;
+use super::survival::{fragile_answer, verdict_by, withstand_numerics};
+use super::verdict::{Answer, Verdict, Weight};
+use super::{quote, units};
+use crate::finding::Finding;
+use crate::rules;
+use crate::source::Text;
+use crate::spec::{Question, QuestionKind};
+use labspec_expr::Value;
+use std::ops::Range;
+
+/// Whether the keyed number is what the expression gives, and whether its tolerance refuses what mistakes (`wrong`) give.
+pub(super) fn check_number(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    text: &Text,
+    wrong: &[Text],
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Answer {
+    let (Some((answer, tol)), QuestionKind::Numeric { answer: Some(keyed), unit: asked, .. }) =
+        (question.numeric(), &question.kind)
+    else {
+        return Answer::failed("the question does not ask for a number");
+    };
+    let value = match finite_number(bound, &outcomes.nominal, text, findings) {
+        Ok(value) => value,
+        Err(reason) => return Answer::failed(reason),
+    };
+    let asked = asked.as_ref();
+    let measured = asked.and_then(|_| units::of_claim(bound, &outcomes.nominal, text));
+    let unit = quote::answer_unit(asked.map(|u| u.as_str()), measured);
+    let key = NumericKey { answer, tol, span: keyed.span.clone(), text, factor: unit.factor() };
+    if let Some(refused) = key.refuse_unit(&unit, findings) {
+        return refused;
+    }
+    let computed = key.factor * value.value.to_number();
+    if !computed.is_finite() {
+        findings.push(no_value(text, computed));
+        return Answer::failed("the simulation gives no number");
+    }
+    let margin = Some(key.margin(computed));
+    let mut weights = vec![Weight { option: None, holds: Some(key.accepts(computed)), margin, spread: None }];
+    let nominal = weights.clone();
+    let judged = |verdict, reason: String| Answer { verdict, reason, weights: nominal.clone() };
+    if !key.accepts(computed) {
+        return judged(Verdict::Refuted, key.refute(computed, findings));
+    }
+    let says = |value: &Value| key.accepts(key.factor * value.to_number());
+    if value.unread || !bound.could_differ(&value, Some(&says)) {
+        return Answer::failed(report_constant_claim(text, findings));
+    }
+    if let Err((verdict, reason)) = key.refuse_mistakes(bound, &outcomes.nominal, wrong, findings) {
+        return judged(verdict, reason);
+    }
+    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+        key.turned_over(bound, outcome, how, computed, weights)
+    };
+    if let Err((verdict, reason)) =
+        withstand_numerics(bound, outcomes, &mut weights, keyed.span.clone(), findings, &mut turns)
+    {
+        return judged(verdict, reason);
+    }
+    let uncompared = unit == quote::AnswerUnit::Unknown && asked.is_some_and(|u| quote::is_unit(u.as_str()));
+    let reason = if uncompared { UNIT_OPEN.to_string() } else { String::new() };
+    Answer { verdict: verdict_by(Some(value.evidence)), reason, weights }
+}
+
+/// The value of the expression of a numeric answer. Why there is none comes back, and is reported.
+fn finite_number(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    text: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<MeasuredValue, String> {
+    let value = decided_value(bound, outcome, text, findings)?;
+    if !matches!(value.value, Value::Number(_)) {
+        findings.push(no_quantity(text, &value.value));
+        return Err("the expression gives no number".to_string());
+    }
+    let gives = value.value.to_number();
+    if !gives.is_finite() {
+        findings.push(no_value(text, gives));
+        return Err("the simulation gives no number".to_string());
+    }
+    Ok(value)
+}
+
+/// The keyed number of a question, and the expression that it is compared with.
+struct NumericKey<'q> {
+    answer: f64,
+    tol: f64,
+    /// Where the number stands.
+    span: Range<usize>,
+    text: &'q Text,
+    /// What the numbers of the expression are multiplied with, to be in the unit of the question.
+    factor: f64,
+}
+
+impl NumericKey<'_> {
+    /// How far a number is inside the tolerance.
+    fn margin(&self, x: f64) -> f64 {
+        self.tol - (x - self.answer).abs()
+    }
+
+    fn accepts(&self, x: f64) -> bool {
+        self.margin(x) >= 0.0
+    }
+
+    /// The answer where the question asks in a unit that is unknown, or is not that of the expression.
+    fn refuse_unit(&self, unit: &quote::AnswerUnit, findings: &mut Vec<Finding>) -> Option<Answer> {
+        match unit {
+            quote::AnswerUnit::Unread(asked_in, gives) => {
+                let message = format!("\"{asked_in}\" is not a known unit, but the expression gives {gives}");
+                findings.push(
+                    Finding::error(rules::VERIFY_ANSWER, self.span.clone(), message.clone())
+                        .why("the unit of the answer could not be compared")
+                        .help("write the unit by its symbol: `s`, `mm`, `m/s^2`")
+                        .related(self.text.span(), format!("this is in {gives}")),
+                );
+                Some(Answer::failed(message))
+            }
+            quote::AnswerUnit::Wrong(asked_in, gives) => {
+                let message = format!("the question asks in {asked_in}, but the expression gives {gives}");
+                findings.push(wrong_unit(self.span.clone(), self.text, &message));
+                Some(Answer { verdict: Verdict::Refuted, reason: message, weights: Vec::new() })
+            }
+            quote::AnswerUnit::Equal(_) | quote::AnswerUnit::Unknown => None,
+        }
+    }
+
+    /// The simulation gives another number.
+    fn refute(&self, computed: f64, findings: &mut Vec<Finding>) -> String {
+        let (answer, tol) = (self.answer, self.tol);
+        let message = format!("the answer is {answer}, but the simulation gives {}", significant(computed));
+        findings.push(
+            Finding::error(rules::ANSWER_REFUTED, self.span.clone(), message.clone())
+                .why(format!(
+                    "they differ by {}, but the tolerance is {}",
+                    significant((computed - answer).abs()),
+                    significant(tol)
+                ))
+                .help("correct the answer, or its expression")
+                .related(self.text.span(), format!("this is {}", significant(computed))),
+        );
+        message
+    }
+
+    /// Tries what mistakes give: the tolerance must refuse it.
+    ///
+    /// # Errors
+    /// It accepts one, or one has no value: the verdict, and why.
+    fn refuse_mistakes(
+        &self,
+        bound: &BoundVerify<'_>,
+        nominal: &Outcome,
+        wrong: &[Text],
+        findings: &mut Vec<Finding>,
+    ) -> Result<(), (Verdict, String)> {
+        for mistake in wrong {
+            let x = self.factor
+                * mistaken_number(bound, nominal, mistake, findings).map_err(|reason| {
+                    (Verdict::Failed, format!("a value of `wrong` is unknown: {reason}"))
+                })?;
+            if self.accepts(x) {
+                let message = format!("the tolerance accepts {}, which a mistake gives", significant(x));
+                findings.push(
+                    Finding::error(rules::ANSWER_AMBIGUOUS, mistake.span(), message.clone())
+                        .why("a student who makes this mistake is graded as correct")
+                        .help(format!(
+                            "make the tolerance smaller than {} to reject it",
+                            significant((x - self.answer).abs())
+                        ))
+                        .related(self.span.clone(), "this is the answer"),
+                );
+                return Err((Verdict::Ambiguous, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// What turns over in an outcome under other numerics; `weights` are widened where nothing does. `computed` is the number under
+    /// the lesson's own.
+    fn turned_over(
+        &self,
+        bound: &BoundVerify<'_>,
+        outcome: &Outcome,
+        how: &str,
+        computed: f64,
+        weights: &mut [Weight],
+    ) -> Option<Finding> {
+        let again = decided_value(bound, outcome, self.text, &mut Vec::new());
+        let what = match again.map(|f| self.factor * f.value.to_number()) {
+            Err(reason) => reason,
+            Ok(x) if self.accepts(x) => {
+                weights.iter_mut().for_each(|w| w.widen(Some(self.margin(x))));
+                return None;
+            }
+            Ok(x) => {
+                format!("then it is {}, but the tolerance is {}", significant(x), significant(self.tol))
+            }
+        };
+        let nominal = format!("with the numerics of the lesson, this is {}", significant(computed));
+        Some(fragile_answer(self.span.clone(), how, &what).related(self.text.span(), nominal))
+    }
+}
+
+/// Of a right number whose unit is held to nothing.
+const UNIT_OPEN: &str = "its unit could not be compared, because the unit of the expression is uncertain";
+
+/// What a mistake gives, by an expression under `wrong`.
+fn mistaken_number(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    text: &Text,
+    findings: &mut Vec<Finding>,
+) -> Result<f64, String> {
+    // A mistake may be a bare number.
+    let found = bound.find(outcome, text, findings).ok_or("it cannot be evaluated")?;
+    if let Some(undecided) = &found.undecided {
+        return Err(report_undecided(text, undecided, findings));
+    }
+    match found.value {
+        Value::Number(x) if x.is_finite() => Ok(x),
+        Value::Number(x) => {
+            findings.push(no_value(text, x));
+            Err(format!("it is {}", name_not_finite(x)))
+        }
+        value => {
+            findings.push(no_quantity(text, &value));
+            Err("it gives no number".to_string())
+        }
+    }
+}
+
+/// A condition or a text where a number is asked for.
+fn no_quantity(text: &Text, value: &Value) -> Finding {
+    let what = match value {
+        Value::Boolean(_) => "a condition".to_string(),
+        Value::String(_) => "a text".to_string(),
+        other => format!("`{other}`"),
+    };
+    Finding::error(
+        rules::CLAIM_WITHOUT_NUMBER,
+        text.span(),
+        format!("this expression is {what}, but a number is needed"),
+    )
+    .why("a condition counts as 1 or 0: an answer of 1 would be correct whenever it holds")
+    .help("write the number of the answer: `final(speed)`")
+}
+
+/// The unit of a question that is not that of its value.
+fn wrong_unit(span: Range<usize>, text: &Text, message: &str) -> Finding {
+    Finding::error(rules::ANSWER_REFUTED, span, message)
+        .why("a student who answers in this unit is graded as wrong")
+        .help("correct the unit of the question, or convert the expression to it")
+        .related(text.span(), "the expression")
+}
+
+/// An expression that gives no number where one is claimed.
+fn no_value(text: &Text, x: f64) -> Finding {
+    let message = format!("this expression gives {}, which is not a number", name_not_finite(x));
+    Finding::error(rules::CLAIM_WITHOUT_NUMBER, text.span(), message)
+        .why("there is no number to compare with: its event may never happen in the run, or it divides by zero")
+        .help("make the run longer, or correct the expression")
+}
+
+fn name_not_finite(x: f64) -> &'static str {
+    if x.is_nan() { "NaN" } else { "infinity" }
+}

@@ -1,0 +1,269 @@
+//! The answer of a question with options: one condition per option, and whether the keyed option is the only one that holds.
+
+use super::bound::BoundVerify;
+use super::condition::ConditionMargin;
+use super::format::shorten;
+use super::found::MeasuredValue;
+use super::grounded::{decided_value, grounded_value};
+use super::option_numbers::check_option_numbers;
+use super::outcome::Outcome;
+use super::outcomes::Outcomes;
+use super::survival::{fragile_answer, verdict_by, withstand_numerics};
+use super::verdict::{Answer, Verdict, Weight};
+use crate::finding::Finding;
+use crate::rules;
+use crate::source::Text;
+use crate::spec::{Question, QuestionKind, Verify};
+use std::ops::Range;
+
+/// Which options hold, and so whether the keyed one is the only one.
+pub(super) fn check_options(
+    bound: &BoundVerify<'_>,
+    outcomes: &Outcomes,
+    verify: &Verify,
+    question: &Question,
+    findings: &mut Vec<Finding>,
+) -> Answer {
+    let (Some(answer), QuestionKind::Choice { options, answer: Some(keyed), .. }) =
+        (question.right_option(), &question.kind)
+    else {
+        return Answer::failed("the question has no correct option");
+    };
+    if verify.options.len() != options.len() {
+        return Answer::failed("the number of conditions differs from the number of options");
+    }
+    let values = match evaluate_conditions(bound, &outcomes.nominal, verify, true, findings) {
+        Ok(values) => values,
+        Err(reason) => return Answer::failed(reason),
+    };
+    let weights = values.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref())).collect();
+    let weighed = WeighedOptions { verify, options, answer, keyed: keyed.span.clone(), weights };
+    let undecided = weighed.options_with(None);
+    if let Some(answer) = weighed.refuse(&undecided, findings) {
+        return answer;
+    }
+    let holds: Vec<Option<bool>> = weighed.weights.iter().map(|w| w.holds).collect();
+    let conditions = &verify.options;
+    if let Some(reason) =
+        check_option_numbers(bound, &outcomes.nominal, options, conditions, &holds, findings)
+    {
+        return weighed.judged(Verdict::Failed, reason);
+    }
+    if undecided.len() + 1 == weighed.weights.len() {
+        return weighed.judged(Verdict::Failed, "no other option is decided".to_string());
+    }
+    let mut widened = weighed.weights.clone();
+    let mut turns = |outcome: &Outcome, how: &str, weights: &mut [Weight]| {
+        weighed.turned_over(bound, outcome, how, weights)
+    };
+    if let Err((verdict, reason)) =
+        withstand_numerics(bound, outcomes, &mut widened, keyed.span.clone(), findings, &mut turns)
+    {
+        return weighed.judged(verdict, reason);
+    }
+    let evidence = values.iter().flatten().map(|(value, _)| value.evidence).min();
+    Answer { verdict: verdict_by(evidence), reason: weighed.describe_undecided(&undecided), weights: widened }
+}
+
+/// The options of a question, and how each came out under the numerics of the lesson.
+struct WeighedOptions<'q> {
+    verify: &'q Verify,
+    options: &'q [Text],
+    /// The keyed option, and where its key stands.
+    answer: usize,
+    keyed: Range<usize>,
+    weights: Vec<Weight>,
+}
+
+impl WeighedOptions<'_> {
+    /// An option in words: `2 ("It slides.")`.
+    fn name(&self, i: usize) -> String {
+        format!("{} (\"{}\")", i, self.options.get(i).map_or(String::new(), |o| shorten(&o.value)))
+    }
+
+    fn names(&self, list: &[usize]) -> String {
+        list.iter().map(|&i| self.name(i)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Where the condition of an option stands.
+    fn condition(&self, i: usize) -> Range<usize> {
+        self.verify.options.get(i).map_or(self.verify.span.clone(), |c| c.span())
+    }
+
+    fn describe(&self, i: usize) -> String {
+        self.weights.get(i).map_or(String::new(), Weight::describe)
+    }
+
+    /// The options that hold, that do not, or that are not decided.
+    fn options_with(&self, holds: Option<bool>) -> Vec<usize> {
+        self.weights.iter().filter(|w| w.holds == holds).filter_map(|w| w.option).collect()
+    }
+
+    fn judged(&self, verdict: Verdict, reason: String) -> Answer {
+        Answer { verdict, reason, weights: self.weights.clone() }
+    }
+
+    /// The answer where the keyed option is not decided, does not hold, or does not hold alone.
+    fn refuse(&self, undecided: &[usize], findings: &mut Vec<Finding>) -> Option<Answer> {
+        let held = self.options_with(Some(true));
+        if undecided.contains(&self.answer) {
+            let reason = format!("answer {} is not decided by this evidence", self.name(self.answer));
+            return Some(self.judged(Verdict::Failed, reason));
+        }
+        if !held.contains(&self.answer) {
+            return Some(self.refute(&held, findings));
+        }
+        (held.len() > 1).then(|| self.report_ambiguous(&held, findings))
+    }
+
+    /// The keyed option does not hold.
+    fn refute(&self, held: &[usize], findings: &mut Vec<Finding>) -> Answer {
+        let message = format!("the simulation refutes answer {}", self.name(self.answer));
+        let f = Finding::error(rules::ANSWER_REFUTED, self.keyed.clone(), message.clone())
+            .why("a student who predicts the simulation correctly is graded as wrong")
+            .related(self.condition(self.answer), format!("this condition {}", self.describe(self.answer)));
+        findings.push(match held {
+            [] => f.help("correct the conditions, or the model: no condition holds"),
+            [one] => f
+                .help(format!("correct the answer or the conditions: the true option is {}", self.name(*one)))
+                .related(self.condition(*one), format!("this condition {}", self.describe(*one)))
+                .guess(self.keyed.clone(), one.to_string()),
+            all => f.help(format!(
+                "correct the answer or the conditions: the true options are {}",
+                self.names(all)
+            )),
+        });
+        self.judged(Verdict::Refuted, message)
+    }
+
+    /// The keyed option holds, and others too.
+    fn report_ambiguous(&self, held: &[usize], findings: &mut Vec<Finding>) -> Answer {
+        let others: Vec<usize> = held.iter().copied().filter(|&i| i != self.answer).collect();
+        let message =
+            format!("besides answer {}, {} is also true", self.name(self.answer), self.names(&others));
+        let mut f = Finding::error(rules::ANSWER_AMBIGUOUS, self.keyed.clone(), message.clone())
+            .why("a student who picks the other true option is graded as wrong")
+            .help("rewrite the options or their conditions, so that exactly one can hold");
+        for i in others {
+            f = f.related(self.condition(i), format!("this condition also {}", self.describe(i)));
+        }
+        findings.push(f);
+        self.judged(Verdict::Ambiguous, message)
+    }
+
+    /// What turns over in an outcome under other numerics; `weights` are widened by it.
+    fn turned_over(
+        &self,
+        bound: &BoundVerify<'_>,
+        outcome: &Outcome,
+        how: &str,
+        weights: &mut [Weight],
+    ) -> Option<Finding> {
+        let again = evaluate_conditions(bound, outcome, self.verify, false, &mut Vec::new());
+        for (weight, now) in weights.iter_mut().zip(again.iter().flatten()) {
+            weight.widen(now.as_ref().and_then(|(_, weighed)| weighed.margin));
+        }
+        let (i, what) = match &again {
+            Err(reason) => (self.answer, reason.clone()),
+            Ok(now) => {
+                let now = now.iter().enumerate().map(|(i, value)| option_weight(i, value.as_ref()));
+                let (now, _) = now.zip(weights.iter()).find(|(now, then)| now.holds != then.holds)?;
+                let i = now.option.unwrap_or(self.answer);
+                (i, format!("then the condition of {} {}", self.name(i), now.describe()))
+            }
+        };
+        let now = format!("with the numerics of the lesson, this {}", self.describe(i));
+        Some(fragile_answer(self.keyed.clone(), how, &what).related(self.condition(i), now))
+    }
+
+    /// Says which options are not decided.
+    fn describe_undecided(&self, undecided: &[usize]) -> String {
+        match undecided {
+            [] => String::new(),
+            [one] => format!("option {} is not decided", self.name(*one)),
+            all => format!("options {} are not decided", self.names(all)),
+        }
+    }
+}
+
+/// What stands for a condition where the evidence does not decide the option.
+pub const UNDECIDED: &str = "undecided";
+
+/// The conditions of all options, each with what it rests on; `None` for one that is not decided. `tried`: whether they are to
+/// be tried with other values of what was measured, as under the lesson's own numerics.
+fn evaluate_conditions(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    verify: &Verify,
+    tried: bool,
+    findings: &mut Vec<Finding>,
+) -> Result<Vec<Option<(MeasuredValue, ConditionMargin)>>, String> {
+    let ground = if tried { grounded_value } else { decided_value };
+    let mut all = Vec::new();
+    let mut reason = None;
+    for text in &verify.options {
+        if is_undecided(text) {
+            all.push(None);
+            continue;
+        }
+        match ground(bound, outcome, text, findings) {
+            Err(why) => reason = reason.or(Some(why)),
+            Ok(found) if tried && !bound.is_condition(&found, text, findings) => {
+                reason = reason.or_else(|| Some("an option has no condition".to_string()));
+            }
+            Ok(found) => {
+                let weighed = bound.weigh_found(&found);
+                all.push(Some((found, weighed)));
+            }
+        }
+    }
+    reason.map_or(Ok(all), Err)
+}
+
+/// Whether a text says that the evidence does not decide an option.
+pub(super) fn is_undecided(text: &Text) -> bool {
+    text.value.trim() == UNDECIDED
+}
+
+/// Whether exactly the same options hold, and how far that is from turning over.
+pub(super) enum SameOptions {
+    /// They do, by so much.
+    Yes(f64),
+    /// Another one holds, or one does not: the first one, in words.
+    No(String),
+    /// Nothing decides: why.
+    Open(String),
+}
+
+/// Whether exactly the same options hold as before, with an outcome of other settings.
+pub(super) fn compare_options(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    verify: &Verify,
+    weights: &[Weight],
+) -> SameOptions {
+    let values = match evaluate_conditions(bound, outcome, verify, false, &mut Vec::new()) {
+        Ok(values) => values,
+        Err(reason) => return SameOptions::Open(reason),
+    };
+    let now = values.iter().enumerate().map(|(i, found)| option_weight(i, found.as_ref()));
+    let mut least = f64::INFINITY;
+    for (now, then) in now.zip(weights) {
+        if now.holds != then.holds {
+            let i = now.option.unwrap_or(0);
+            return SameOptions::No(format!("the condition of option {i} {}", now.describe()));
+        }
+        least = least.min(now.margin.map_or(f64::INFINITY, f64::abs));
+    }
+    SameOptions::Yes(least)
+}
+
+fn option_weight(i: usize, found: Option<&(MeasuredValue, ConditionMargin)>) -> Weight {
+    let weighed = found.map(|(_, w)| w);
+    Weight {
+        option: Some(i),
+        holds: weighed.map(|w| w.holds),
+        margin: weighed.and_then(|w| w.margin),
+        spread: None,
+    }
+}

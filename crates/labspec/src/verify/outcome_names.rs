@@ -1,0 +1,208 @@
+//! How conditions name what the runs gave: `run.measure`, or the measure alone when there is one run.
+
+use super::layout::{Layout, LayoutRun};
+use super::measure_units::RunUnits;
+use crate::bind::{ModelNames, NUMBERS, Scope};
+use labspec_expr::dimension::Measure;
+use labspec_expr::{
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
+    Schema, Words,
+};
+use std::cell::Cell;
+
+/// Numbers of run objects start here: below are the model's own.
+const RUNS: u32 = 0x2000;
+
+/// The names of conditions: runs and measures; with one run also everything that a measure may use.
+pub(super) struct OutcomeNames<'a> {
+    layout: &'a Layout,
+    model: ModelNames<'a>,
+    /// What takes the numbers of several runs together.
+    claims: ModelNames<'a>,
+    /// What the measures of each run measure, where that is asked for.
+    units: Option<&'a RunUnits>,
+    /// What was asked for by its name.
+    met: Cell<NamesRead>,
+}
+
+/// What a text names of the runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct NamesRead {
+    /// A number.
+    pub(super) numbers: bool,
+    /// The list of a sweep.
+    pub(super) lists: bool,
+}
+
+impl<'a> OutcomeNames<'a> {
+    pub(super) fn new(layout: &'a Layout, model: ModelNames<'a>) -> OutcomeNames<'a> {
+        let mut claims = model;
+        claims.scope = Scope::Claim;
+        OutcomeNames { layout, model, claims, units: None, met: Cell::default() }
+    }
+
+    /// The same with the units of the measures.
+    pub(super) fn measuring(self, units: &'a RunUnits) -> OutcomeNames<'a> {
+        OutcomeNames { units: Some(units), ..self }
+    }
+
+    /// What a text that was compiled with these names asked for.
+    pub(super) fn met(&self) -> NamesRead {
+        self.met.get()
+    }
+
+    /// Whether this is the name of a function that is called over the numbers of several runs.
+    fn takes_several(&self, name: &str) -> bool {
+        name == "abs" || (self.layout.has_lists() && ["slope", "fit", "min", "max", "mean"].contains(&name))
+    }
+
+    fn only(&self) -> Option<&LayoutRun> {
+        match self.layout.runs.as_slice() {
+            [run] => Some(run),
+            _ => None,
+        }
+    }
+
+    fn run(&self, ObjectId(id): ObjectId) -> Option<&LayoutRun> {
+        self.layout.runs.get(id.checked_sub(RUNS)? as usize)
+    }
+
+    /// A number of the layout, or a list of so many, that a text names.
+    fn number(&self, path: String, first: usize, list: Option<usize>) -> Entry {
+        let met = self.met.get();
+        let [numbers, lists] = [met.numbers || list.is_none(), met.lists || list.is_some()];
+        self.met.set(NamesRead { numbers, lists });
+        number(path, first, list)
+    }
+
+    /// The number, or the list of numbers, that a run has under a name.
+    fn measured(&self, run: &LayoutRun, name: &str) -> Option<Entry> {
+        let (_, first) = run.at.iter().find(|(known, _)| known == name)?;
+        Some(self.number(format!("{}.{name}", run.name), *first, run.list))
+    }
+}
+
+/// A number of the layout; or a list of so many.
+fn number(path: String, first: usize, list: Option<usize>) -> Entry {
+    Entry::Field(Field {
+        key: NUMBERS,
+        path,
+        first,
+        shape: list.map(Some).into_iter().collect(),
+        kind: FieldKind::Structure,
+        elem: Elem::Double,
+        unit: String::new(),
+        doc: list.map_or(String::new(), |_| "a number for each value of the sweep".into()),
+        owner: list.map_or(String::new(), |count| format!("the sweep has {count} values")),
+    })
+}
+
+impl Schema for OutcomeNames<'_> {
+    fn identity(&self) -> u64 {
+        self.model.identity()
+    }
+
+    fn root(&self, name: &str) -> Option<Entry> {
+        if let Some((_, place)) = self.layout.found.iter().find(|(n, _)| n == name) {
+            return Some(self.number(name.to_string(), *place, None));
+        }
+        if let Some(i) = self.layout.runs.iter().position(|r| r.name == name) {
+            return Some(Entry::Object(ObjectId(RUNS + i as u32)));
+        }
+        match self.only() {
+            Some(run) => self.measured(run, name).or_else(|| self.model.root(name)),
+            None if self.takes_several(name) => self.claims.root(name),
+            None => None,
+        }
+    }
+
+    fn root_names(&self) -> Vec<String> {
+        let found = self.layout.found.iter().map(|(name, _)| name.clone());
+        let runs = found.chain(self.layout.runs.iter().map(|r| r.name.clone()));
+        match self.only() {
+            Some(run) => run.names().chain(runs).chain(self.model.root_names()).collect(),
+            None => {
+                let functions = self.claims.root_names().into_iter().filter(|name| self.takes_several(name));
+                let mut names: Vec<String> = runs.collect();
+                names.dedup();
+                names.into_iter().chain(functions).collect()
+            }
+        }
+    }
+
+    fn member(&self, object: ObjectId, name: &str) -> Option<Entry> {
+        match self.run(object) {
+            Some(run) => self.measured(run, name),
+            None => self.model.member(object, name),
+        }
+    }
+
+    fn member_names(&self, object: ObjectId) -> Vec<String> {
+        match self.run(object) {
+            Some(run) => run.names().collect(),
+            None => self.model.member_names(object),
+        }
+    }
+
+    fn describe(&self, object: ObjectId) -> String {
+        match self.run(object) {
+            Some(run) => format!("the run {}", crate::json::read::named(&run.name)),
+            None => self.model.describe(object),
+        }
+    }
+
+    fn lookup(&self, collection: CollectionId, name: &str) -> Option<ObjectId> {
+        self.model.lookup(collection, name)
+    }
+
+    fn names(&self, collection: CollectionId) -> Vec<String> {
+        self.model.names(collection)
+    }
+
+    fn noun(&self, collection: CollectionId) -> &str {
+        self.model.noun(collection)
+    }
+
+    fn function(&self, function: FunctionId) -> FunctionInfo {
+        self.model.function(function)
+    }
+
+    fn hint(&self, object: ObjectId, name: &str) -> Option<String> {
+        if self.run(object).is_some() { None } else { self.model.hint(object, name) }
+    }
+
+    fn role(&self, field: FieldKey, index: usize) -> Role {
+        self.model.role(field, index)
+    }
+
+    fn measure(&self, field: FieldKey, first: usize, count: Option<usize>) -> Measure {
+        match self.units {
+            Some(units) if field == NUMBERS => self.layout.unit_of(first, units),
+            _ => self.model.measure(field, first, count),
+        }
+    }
+
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+        self.model.gives(function, first)
+    }
+
+    fn element_help(&self, field: FieldKey, index: usize) -> Option<String> {
+        self.model.element_help(field, index)
+    }
+
+    fn named_element(&self, field: FieldKey, index: usize) -> Option<String> {
+        self.model.named_element(field, index)
+    }
+
+    fn result_field(&self, function: FunctionId, object: ObjectId) -> Option<Field> {
+        self.model.result_field(function, object)
+    }
+
+    fn words(&self) -> &'static Words {
+        self.model.words()
+    }
+
+    fn refresh(&self) -> Option<String> {
+        self.model.refresh()
+    }
+}

@@ -1,0 +1,97 @@
+//! Everything that the runs of a `verify` object give, its measures and the values that it searches for, under every numerics that its
+//! claims need.
+
+use super::bound::BoundVerify;
+use super::bound_run::BoundRun;
+use super::numerics::{CHANGES, NUDGED_BACK, PERTURBED};
+use super::outcome::Outcome;
+use super::search::{self, SearchCase};
+use crate::finding::Finding;
+use crate::rules;
+use crate::run::StepVariant;
+use crate::spec::{Find, Verify};
+
+impl BoundVerify<'_> {
+    /// Makes every run, takes every measure and searches for every value. `None` when a run cannot be made.
+    pub(super) fn outcome(&self, numerics: StepVariant, findings: &mut Vec<Finding>) -> Option<Outcome> {
+        let mut outcome = self.outcome_of_runs(numerics, findings)?;
+        for find in &self.verify.find {
+            let limit = self.search(find, numerics, findings)?;
+            outcome.found.push((find.name.value.clone(), limit.value));
+            outcome.looked.push(limit.looked);
+        }
+        Some(outcome)
+    }
+
+    /// Searches for a value; `None` when a run cannot be made, NaN when there is no such value, which is reported.
+    fn search(
+        &self,
+        find: &Find,
+        numerics: StepVariant,
+        findings: &mut Vec<Finding>,
+    ) -> Option<search::SearchLimit> {
+        let named = |run: &&BoundRun<'_>| find.run.as_ref().is_none_or(|name| name.value == run.name);
+        let mut runs = self.runs.iter().filter(named);
+        let (Some(run), None) = (runs.next(), runs.next()) else {
+            let place = find.run.as_ref().unwrap_or(&find.name).span();
+            findings.push(
+                Finding::error(rules::RUN_IMPOSSIBLE, place, "a search needs a single run, not a sweep")
+                    .help("name the run: \"run\": \"coarse\""),
+            );
+            return None;
+        };
+        let case = SearchCase {
+            find,
+            run: run.spec,
+            measure: &self.verify.measure,
+            scene: &self.scene_of(run)?.scene,
+        };
+        search::search(&case, self.stage, numerics, findings)
+    }
+}
+
+/// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
+pub(crate) fn measure_only_run(bound: &BoundVerify<'_>, numerics: StepVariant) -> Option<Vec<f64>> {
+    let outcome = bound.outcome(numerics, &mut Vec::new())?;
+    let run = outcome.runs.into_iter().next().filter(|run| run.broke.is_none())?;
+    Some(run.measures.into_iter().map(|(_, x)| x).collect())
+}
+
+/// The runs of a `verify` object under every numerics that its claims need.
+pub(super) struct Outcomes {
+    pub(super) nominal: Outcome,
+    /// In the order of [`PERTURBED`](super::numerics::PERTURBED); `None` where nothing needs them.
+    pub(super) perturbed: [Option<Outcome>; CHANGES],
+    /// The other direction, for a value that the first one moved.
+    pub(super) nudged_back: Option<Outcome>,
+}
+
+/// Every run under every numerics that is needed.
+pub(super) fn run_all_numerics(
+    bound: &BoundVerify<'_>,
+    verify: &Verify,
+    findings: &mut Vec<Finding>,
+) -> Option<Outcomes> {
+    let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
+    let answers = verify.claims_answer();
+    let quotes = !verify.says.is_empty() || !verify.table.is_empty();
+    let needed = |i: usize| answers || quotes && (i == 0 || i == 2);
+    let mut perturbed = [None, None, None, None];
+    let about_numerics = bound.states_every_timestep();
+    for (i, (numerics, how)) in PERTURBED.into_iter().enumerate().filter(|(i, _)| needed(*i)) {
+        let same = about_numerics && (numerics.timestep != 1.0 || numerics.integrator.is_some());
+        let mut refused = Vec::new();
+        perturbed[i] = if same { Some(nominal.clone()) } else { bound.outcome(numerics, &mut refused) };
+        if perturbed[i].is_none() {
+            // What stops the run here does not stop the nominal one: it takes too long.
+            findings.extend(refused.into_iter().take(1).map(|f| {
+                let message = format!("{how}: {}", f.message);
+                Finding { message, ..f }
+            }));
+            return None;
+        }
+    }
+    let moved = perturbed[2].as_ref().is_some_and(|o| o.list() != nominal.list());
+    let nudged_back = moved.then(|| bound.outcome(NUDGED_BACK, &mut Vec::new())).flatten();
+    Some(Outcomes { nominal, perturbed, nudged_back })
+}

@@ -1,0 +1,271 @@
+//! Compares a quoted number with what its expression gives, at every place where it stands; with its unit, where it has one.
+
+use super::messages;
+use super::number::Quoted;
+use super::quote_claim::{OtherValue, QuoteClaim, QuoteOutcome, QuotePlace, QuoteState, QuoteValue};
+use super::read::{Reading, Unread};
+use super::rendered::ShownText;
+use super::unit;
+use super::unit_check::{Held, conversion, hold, is_power_of_ten};
+use super::unit_text::{Link, Unit};
+use crate::finding::Finding;
+use crate::source::Text;
+use crate::spec::Question;
+use labspec_bind::units::written;
+use labspec_expr::dimension::Dimension;
+
+/// Compares a quoted number with what its expression gives, at the precision that it is printed with.
+pub(in crate::verify) fn check_quote(
+    claim: &QuoteClaim<'_>,
+    reading: &Result<Reading, Unread>,
+    mut places: Vec<QuotePlace>,
+    value: &QuoteValue<'_>,
+    shown: &ShownText,
+    findings: &mut Vec<Finding>,
+) -> QuoteOutcome {
+    let mut outcome = QuoteOutcome {
+        state: QuoteState::Unclear,
+        reason: String::new(),
+        read: None,
+        computed: value.computed,
+        places: places.iter().map(|p| p.at.clone()).collect(),
+        moved: Vec::new(),
+    };
+    let reading = match reading {
+        Ok(reading) => reading,
+        Err(unread) => return report_unread(claim, unread, outcome, findings),
+    };
+    let compared = Comparison::new(claim, reading, &mut places, value);
+    outcome.places = places.into_iter().map(|p| p.at).collect();
+    outcome.computed = compared.computed;
+    outcome.read = Some(compared.read);
+    if outcome.places.is_empty() {
+        let hidden = shown.hidden(claim.quote.as_str());
+        return unclear(outcome, "no reader sees this text", messages::not_found(claim, hidden), findings);
+    }
+    if !compared.computed.is_finite() {
+        let finding = messages::no_value(claim, compared.computed);
+        return unclear(outcome, "the expression has no value", finding, findings);
+    }
+    let chaotic = compared.moved(&compared.start);
+    if !chaotic.is_empty() {
+        outcome.moved = chaotic;
+        return compared.judge_chaotic(outcome, findings);
+    }
+    outcome.moved = compared.moved(&compared.timestep);
+    match compared.fits {
+        Some(fits) => compared.judge_unit(fits, outcome, findings),
+        None => compared.explain_difference(outcome, findings),
+    }
+}
+
+/// An outcome that nothing decides.
+fn unclear(
+    mut outcome: QuoteOutcome,
+    reason: &str,
+    finding: Finding,
+    findings: &mut Vec<Finding>,
+) -> QuoteOutcome {
+    outcome.reason = reason.to_string();
+    findings.push(finding);
+    outcome
+}
+
+/// A quote that states no number, or one that is not read.
+fn report_unread(
+    claim: &QuoteClaim<'_>,
+    unread: &Unread,
+    outcome: QuoteOutcome,
+    findings: &mut Vec<Finding>,
+) -> QuoteOutcome {
+    match unread {
+        Unread::NoNumber => {
+            unclear(outcome, "the quote contains no number", messages::no_number(claim), findings)
+        }
+        Unread::Form(form) => {
+            let reason = format!("the quote is {form}, which the checker cannot read");
+            unclear(outcome, &reason, messages::unread(claim, form), findings)
+        }
+    }
+}
+
+/// A number that was read beside what its expression gives, in the unit of the quote.
+struct Comparison<'q> {
+    claim: &'q QuoteClaim<'q>,
+    reading: &'q Reading,
+    /// The unit of the quote, and how it fits what the expression measures.
+    unit: Option<(Unit, Held)>,
+    measured: Option<Dimension>,
+    /// The expression is multiplied with this, to be in the unit of the quote.
+    factor: Option<f64>,
+    computed: f64,
+    timestep: Vec<OtherValue>,
+    start: Vec<OtherValue>,
+    /// The reading that is what the expression gives.
+    fits: Option<Quoted>,
+    /// That one, or else the first.
+    read: Quoted,
+}
+
+impl<'q> Comparison<'q> {
+    /// Converts what the expression gives; of the places those stay that have the unit of the quote.
+    fn new(
+        claim: &'q QuoteClaim<'q>,
+        reading: &'q Reading,
+        places: &mut Vec<QuotePlace>,
+        value: &QuoteValue<'_>,
+    ) -> Comparison<'q> {
+        let measured = match reading.unit.is_some() || places.iter().any(|p| p.unit.is_some()) {
+            true => (value.unit)(),
+            false => None,
+        };
+        let unit = unit_at(reading, places, measured.as_ref());
+        // Minutes and degrees are converted; a power of ten too many is reported.
+        let wanted = unit.as_ref().and_then(|(unit, _)| unit.dimension);
+        let factor = wanted.zip(measured).and_then(|(wanted, found)| conversion(&wanted, &found));
+        let factor = factor.filter(|f| !is_power_of_ten(*f)).filter(|_| reading.share.is_none());
+        // A unit that the clause names may be that of something else: it is the number's own where the number is right in it.
+        let apart = unit.as_ref().is_some_and(|(unit, _)| unit.link == Link::Clause);
+        let factor = factor.filter(|f| !apart || reading.read.is(f * value.computed));
+        let scale = |x: f64| factor.map_or(x, |f| x * f);
+        let scaled =
+            |list: &[OtherValue]| list.iter().map(|o| OtherValue { value: scale(o.value), ..*o }).collect();
+        let computed = scale(value.computed);
+        let fits = [Some(reading.read), reading.share].into_iter().flatten().find(|q| q.is(computed));
+        let (timestep, start) = (scaled(value.timestep), scaled(value.start));
+        let read = fits.unwrap_or(reading.read);
+        Comparison { claim, reading, unit, measured, factor, computed, timestep, start, fits, read }
+    }
+
+    /// The other runs in which the printed digits change, and what they print.
+    fn moved(&self, others: &[OtherValue]) -> Vec<(&'static str, String)> {
+        let differs = others.iter().filter(|o| self.read.differ(self.computed, o.value));
+        differs.map(|o| (o.how, messages::printed(&self.read, o.value))).collect()
+    }
+
+    /// The digits change with the start: nobody can reproduce them; or no run comes near to them.
+    fn judge_chaotic(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
+        let values: Vec<f64> = self.start.iter().map(|o| o.value).chain([self.computed]).collect();
+        let doubts = self.reading.doubts.iter().map(|(q, _)| *q);
+        let mut readings = [Some(self.read), self.reading.share].into_iter().flatten().chain(doubts);
+        if readings.any(|q| may_come_out(&q, &values)) {
+            let finding = messages::chaotic(self.claim, &outcome, &self.read, &values);
+            return unclear(outcome, "no reader can reproduce these digits", finding, findings);
+        }
+        outcome.reason = format!("the text says {}, but no run comes near", self.read);
+        outcome.state = QuoteState::Wrong;
+        findings.push(messages::far(self.claim, &outcome, &self.read, &values));
+        outcome
+    }
+
+    /// The number is right: its unit has to be, too.
+    fn judge_unit(
+        self,
+        fits: Quoted,
+        mut outcome: QuoteOutcome,
+        findings: &mut Vec<Finding>,
+    ) -> QuoteOutcome {
+        let Comparison { claim, reading, measured, read, .. } = self;
+        // Of a fraction that is told in percent the number is right in any unit, and a converted one is in that unit.
+        let kind = measured.filter(|m| m.is_exact() && !m.is_number());
+        let unit = self.unit.filter(|_| (fits == reading.read || kind.is_some()) && self.factor.is_none());
+        match (unit, measured) {
+            (Some((unit, Held::Wrong)), Some(found)) => {
+                let gives = written(&found);
+                outcome.reason = format!("the text says {}, but the expression gives {gives}", unit.text);
+                outcome.state = QuoteState::Wrong;
+                findings.push(messages::wrong_unit(claim, &outcome, &unit.text, &gives));
+                return outcome;
+            }
+            (Some((unit, Held::Unsure)), Some(found)) => {
+                let gives = written(&found);
+                let reason = match unit.link {
+                    Link::Clause => format!("the text names {} apart from the number", unit.text),
+                    _ => format!("{} may be a unit or a symbol", unit.text),
+                };
+                let finding = messages::unsure_unit(claim, &outcome, &unit, &gives);
+                return unclear(outcome, &reason, finding, findings);
+            }
+            _ => {}
+        }
+        if !outcome.moved.is_empty() {
+            findings.push(messages::of_timestep(claim, &outcome, &read));
+        }
+        outcome.state = QuoteState::Right;
+        outcome
+    }
+
+    /// The number is another one: it may be read otherwise, or be in another unit; or it is wrong.
+    fn explain_difference(&self, mut outcome: QuoteOutcome, findings: &mut Vec<Finding>) -> QuoteOutcome {
+        let Comparison { claim, reading, read, computed, .. } = self;
+        if let Some((other, why)) = reading.doubts.iter().find(|(q, _)| q.is(*computed)) {
+            let finding = messages::doubtful(claim, &outcome, read, why, Some(other));
+            return unclear(outcome, "the quote has two readings", finding, findings);
+        }
+        if let Some(why) = reading.unsure {
+            let finding = messages::doubtful(claim, &outcome, read, why, None);
+            return unclear(outcome, "the quote has two readings", finding, findings);
+        }
+        let text = reading.unit.as_ref().map_or("", |unit| unit.text.as_str());
+        if let Some(shift) = unit::shift(read, text, *computed) {
+            let finding = messages::other_unit(claim, &outcome, read, &shift);
+            let reason = "the text and the expression differ by a power of ten";
+            return unclear(outcome, reason, finding, findings);
+        }
+        findings.push(messages::wrong(claim, &outcome, read));
+        let gives = messages::printed(read, *computed);
+        outcome.reason = format!("the text says {read}, but the simulation gives {gives}");
+        outcome.state = QuoteState::Wrong;
+        outcome
+    }
+}
+
+/// Where a quote stands: in the question that claims it first.
+pub(in crate::verify) fn places_of_quote(
+    quote: &Text,
+    question: Option<&Question>,
+    shown: &ShownText,
+) -> Vec<QuotePlace> {
+    let inside =
+        |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);
+    let (inside, others): (Vec<_>, Vec<_>) = shown.found(quote.as_str()).iter().partition(inside);
+    inside.into_iter().chain(others).cloned().collect()
+}
+
+/// The unit of a number at the places where it stands, with what the expression measures. Places where the unit is another one for
+/// sure are no places, unless there are no others.
+fn unit_at(
+    reading: &Reading,
+    places: &mut Vec<QuotePlace>,
+    found: Option<&Dimension>,
+) -> Option<(Unit, Held)> {
+    let unit =
+        |place: &QuotePlace| reading.unit.clone().or_else(|| place.unit.clone().filter(|_| reading.last));
+    let held = |place: &QuotePlace| unit(place).map(|unit| (hold(&unit, found), unit));
+    let best = places.iter().map(|p| (held(p).map_or(Held::Fits, |(held, _)| held), p));
+    let rank = |held: Held| match held {
+        Held::Fits => 0,
+        Held::Unknown => 1,
+        Held::Unsure => 2,
+        Held::Wrong => 3,
+    };
+    let chosen = best.min_by_key(|(held, _)| rank(*held)).map(|(_, p)| unit(p));
+    match chosen {
+        None => reading.unit.clone().map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held)),
+        Some(chosen) => {
+            places.retain(|p| unit(p).map(|u| u.text) == chosen.as_ref().map(|u| u.text.clone()));
+            chosen.map(|unit| (hold(&unit, found), unit)).map(|(held, unit)| (unit, held))
+        }
+    }
+}
+
+/// Whether a run from another start could give these digits: what the runs gave lies around them, or so near that as much again
+/// reaches them.
+fn may_come_out(read: &Quoted, values: &[f64]) -> bool {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let spread = high - low;
+    // Where one of them is no number, nobody knows.
+    !values.iter().all(|x| x.is_finite())
+        || read.value + read.half_unit >= low - spread && read.value - read.half_unit <= high + spread
+}

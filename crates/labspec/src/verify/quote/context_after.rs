@@ -1,0 +1,224 @@
+//! What stands behind a quantity and makes it a part of something else.
+
+use super::clause_unit::{is_sure, is_word};
+use super::context::{BOUND, DIFFERENCE, FIGURES, FORMULA, LETTERS, NEAR};
+use super::numeral::{Chars, fraction};
+use labspec_bind::units::{self, is_wide};
+
+/// Words behind a number that change it.
+const BEHIND: [&str; 20] = [
+    "or more",
+    "or less",
+    "or longer",
+    "or higher",
+    "or above",
+    "or below",
+    "or lower",
+    "and more",
+    "and above",
+    "squared",
+    "cubed",
+    "to the power",
+    "dozen",
+    "score",
+    "times ten",
+    "at most",
+    "at least",
+    "and a half",
+    "oder mehr",
+    "ou plus",
+];
+
+const WIDE_BEHIND: [&str; 19] = [
+    "以上", "以下", "以内", "以內", "未満", "未满", "不到", "多", "余", "餘", "半", "平方", "立方", "次方",
+    "乗", "之", "分之", "分の", "割",
+];
+
+/// What follows a quantity and makes it a part of something else.
+/// The function is long because it is one table: a row for each character that may stand there.
+pub(super) fn after(chars: Chars<'_>, end: usize, has_unit: bool) -> Option<&'static str> {
+    let c = chars.at(end)?;
+    let next = chars.skip_blanks(end);
+    let apart = next > end;
+    let number_at = |i: usize| {
+        let i = chars.skip_blanks(i);
+        chars.digit(i)
+            || chars.at(i) == Some('.') && chars.digit(i + 1)
+            || chars.at(i).is_some_and(|c| fraction(c).is_some())
+    };
+    if !apart {
+        match c {
+            '^' => return Some("a power"),
+            '_' | '′' | '″' | '\\' | '#' | '@' | '$' | '&' => return Some(FORMULA),
+            '(' | '[' if chars.digit(end + 1) => return Some("an uncertainty in brackets"),
+            '(' if !has_unit => return Some(FORMULA),
+            ':' if chars.digit(end + 1) => return Some("a ratio or a time of day"),
+            '.' | ',' | '\'' if chars.digit(end + 1) => return Some("digits with several points"),
+            ')' | ']' => return behind_bracket(chars, end + 1),
+            c if is_wide(c) => return wide_after(chars, end),
+            'π' => return Some(FORMULA),
+            c if c.is_alphanumeric() || combines(c) => return Some(LETTERS),
+            '-' | '–' | '—' if number_at(end + 1) => return Some(DIFFERENCE),
+            '-' | '‑' if has_unit && is_unit_at(chars, end + 1) => return Some("a product"),
+            '/' => return Some(if number_at(end + 1) { "a fraction with a slash" } else { "a quotient" }),
+            _ => {}
+        }
+    }
+    let c = chars.at(next).filter(|c| *c != '\n')?;
+    let then = number_at(next + 1);
+    match c {
+        '-' if chars.at(next + 1) == Some('>') => None,
+        '^' | 'π' | '√' | '\\' | '÷' | '∙' | '⁄' | '∕' | '∓' | '±' | '%' | '‰' | '≠' => {
+            Some(FORMULA)
+        }
+        '×' | '·' | '*' => Some(if then { "a product" } else { FORMULA }),
+        '/' => Some(if then { "a fraction with a slash" } else { "a quotient" }),
+        'x' | 'X' if then => Some("a product"),
+        '+' => Some(if then { "a sum" } else { FORMULA }),
+        '-' | '–' if then => Some(DIFFERENCE),
+        '<' | '>' | '≤' | '≥' | '≪' | '≫' => Some(BOUND),
+        '(' if matches!(chars.at(next + 1), Some('-' | '–' | '+')) && chars.at(next + 2) == Some(')') => {
+            Some(FORMULA)
+        }
+        c if fraction(c).is_some() => Some("a product"),
+        // `0.5 10^3`, `3 0.5 s`
+        c if c.is_ascii_digit() => {
+            let end = chars.digits(next);
+            let power = chars.at(end) == Some('^') || chars.has(end, "**");
+            if power { Some("a product") } else { (!has_unit).then_some(BESIDE) }
+        }
+        c if is_wide(c) => wide_after(chars, next),
+        c if c.is_alphabetic() && !has_unit && has_unit_soon(&chars.text(next, next + NEAR)) => {
+            Some(UNIT_SOON)
+        }
+        '-' | '–' if apart => letter(chars, chars.skip_blanks(next + 1)),
+        c if c.is_alphabetic() => words_after(chars, next),
+        // A mark behind the whole of it, as in a list of what is done.
+        '\u{2600}'..='\u{27bf}' | '\u{1f000}'..='\u{1faff}' if has_unit => None,
+        c if c.is_ascii() && !matches!(c, '$' | '#' | '@' | '&') || PUNCTUATION.contains(c) => None,
+        _ => Some("a number followed by something that is not understood"),
+    }
+}
+
+/// What may stand behind a quantity, besides the characters of ASCII.
+const PUNCTUATION: &str = "”’»›“‘„«—–‑…†‡§≈≃≅∼≡→⇒∴•·、。，：；！？）」』】（「『【．～〜";
+
+/// Whether the word at a place is a unit.
+fn is_unit_at(chars: Chars<'_>, at: usize) -> bool {
+    let near = chars.text(at, at + NEAR);
+    let word: String = near.chars().take_while(|c| c.is_alphabetic()).collect();
+    units::is_unit(&word)
+}
+
+/// Marks that change the character before them.
+fn combines(c: char) -> bool {
+    matches!(c, '\u{300}'..='\u{36f}' | '\u{20d0}'..='\u{20ff}' | '\u{1ab0}'..='\u{1aff}' | '\u{fe20}'..='\u{fe2f}')
+}
+
+/// Behind the bracket that closes right behind a quantity.
+fn behind_bracket(chars: Chars<'_>, mut at: usize) -> Option<&'static str> {
+    while matches!(chars.at(at), Some(')' | ']')) {
+        at += 1;
+    }
+    let next = chars.skip_blanks(at);
+    match chars.at(next) {
+        Some('^' | '×' | '·' | '*' | '÷' | '/' | '⁄' | '∕' | '∙' | '√' | '²' | '³') => {
+            Some(FORMULA)
+        }
+        Some(c) if next == at && (c.is_alphanumeric() && !is_wide(c) || c == '(' || c == '\\') => {
+            Some(FORMULA)
+        }
+        Some('+') => Some(FORMULA),
+        Some('-' | '–') if chars.digit(chars.skip_blanks(next + 1)) => Some(FORMULA),
+        _ => None,
+    }
+}
+
+fn wide_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let near = chars.text(at, at + 4);
+    let figure = near.chars().next().is_some_and(|c| FIGURES.contains(c) || c == '每' || c == '毎');
+    let fraction = near
+        .strip_prefix('の')
+        .is_some_and(|t| t.starts_with(|c: char| c.is_numeric() || FIGURES.contains(c)));
+    (figure || fraction || WIDE_BEHIND.into_iter().any(|w| near.starts_with(w))).then_some(ODD_BEHIND)
+}
+
+const UNIT_SOON: &str = "a number with words between it and its unit";
+
+/// Words that begin another phrase: a unit behind them is not that of the number before them.
+const PHRASES: [&str; 55] = [
+    "in", "at", "after", "on", "for", "to", "from", "by", "with", "before", "and", "or", "but", "when",
+    "while", "as", "is", "are", "was", "were", "the", "this", "that", "these", "if", "than", "then", "until",
+    "within", "during", "between", "above", "below", "over", "under", "up", "down", "here", "there", "now",
+    "which", "who", "because", "since", "so", "not", "instead", "rather", "too", "also", "only", "later",
+    "earlier", "each", "every",
+];
+
+/// Whether a number without a unit is followed by one that its words belong to: `half seconds`, `of a minute`, `light-seconds`.
+fn has_unit_soon(line: &str) -> bool {
+    let phrase =
+        line.split(['.', ',', ';', ':', '(', ')', '!', '?', '\n', '—', '"', '|', '=']).next().unwrap_or("");
+    let mut words = phrase.split(' ').filter(|word| !word.is_empty());
+    let Some(first) = words.next() else { return false };
+    if let Some((_, last)) = first.rsplit_once('-') {
+        return units::is_unit(last);
+    }
+    let first = first.to_lowercase();
+    if PHRASES.contains(&first.as_str()) {
+        return false;
+    }
+    let of_one = |word: &&str| matches!(*word, "of" | "a" | "an" | "one" | "per" | "the" | "each" | "every");
+    // `makes A move`, `gives a second bounce`: such words are units only behind what makes a part of one.
+    let part = PARTS.contains(&first.as_str());
+    let is_unit = |word: &str| units::is_unit(word) && (part || is_sure(word) && !is_word(word));
+    words.find(|word| !of_one(word)).is_some_and(is_unit)
+}
+
+/// Words that make a part, or another power, of the unit behind them.
+const PARTS: [&str; 18] = [
+    "of",
+    "half",
+    "quarter",
+    "quarters",
+    "third",
+    "thirds",
+    "tenth",
+    "tenths",
+    "hundredths",
+    "thousandths",
+    "double",
+    "triple",
+    "inverse",
+    "reciprocal",
+    "square",
+    "cubic",
+    "times",
+    "pairs",
+];
+
+const BESIDE: &str = "a number directly followed by another one";
+const ODD_BEHIND: &str = "a number that the words after it modify";
+
+fn words_after(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let near = chars.text(at, at + NEAR);
+    let line = near.split('\n').next().unwrap_or("").to_lowercase();
+    let begins =
+        |word: &str| line.strip_prefix(word).is_some_and(|rest| !rest.starts_with(char::is_alphanumeric));
+    if BEHIND.into_iter().any(begins) {
+        return Some(ODD_BEHIND);
+    }
+    letter(chars, at)
+}
+
+/// A single letter is a symbol of a formula, unless it is a word.
+fn letter(chars: Chars<'_>, at: usize) -> Option<&'static str> {
+    let alone = !chars.at(at + 1).is_some_and(|c| c.is_alphanumeric() || c == '\'' || c == '-' || c == '.');
+    let c = chars.at(at)?;
+    let digits = matches!(c, 'e' | 'E') && chars.digit(at + 1);
+    let symbol = c.is_alphabetic()
+        && !is_wide(c)
+        && alone
+        && !matches!(c, 'a' | 'I' | 'à' | 'y' | 'e' | 'o' | 'u' | 'A' | 'i');
+    let indexed = c.is_alphabetic() && matches!(chars.at(at + 1), Some('_' | '^' | '('));
+    (symbol || digits || indexed).then_some(FORMULA)
+}

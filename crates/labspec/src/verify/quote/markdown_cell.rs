@@ -1,0 +1,49 @@
+//! The cell of a Markdown table that a place of the file stands in.
+
+use super::head_unit::unit_of_head;
+use super::table::shown;
+use super::unit_text::Unit;
+
+/// A cell of a table of Markdown.
+pub(super) struct MarkdownCell {
+    pub(super) row: String,
+    pub(super) head: String,
+}
+
+/// Most bytes of a row, and lines of a table.
+pub(super) const LONG: usize = 2000;
+
+const ROWS: usize = 200;
+
+impl MarkdownCell {
+    pub(super) fn at(file: &str, at: usize) -> Option<MarkdownCell> {
+        let before = file.get(..at)?;
+        let start = before.rfind('\n').map_or(0, |i| i + 1);
+        let end = file.get(at..)?.find('\n').map_or(file.len(), |i| at + i);
+        let row = file.get(start..end).filter(|row| row.trim_start().starts_with('|') && row.len() < LONG)?;
+        let column = file.get(start..at)?.matches('|').count();
+        let mut above = file.get(..start)?.lines().rev().take(ROWS);
+        let rule = |line: &str| line.trim_start().starts_with('|') && line.contains("---");
+        above.by_ref().take_while(|line| line.trim_start().starts_with('|')).find(|line| rule(line))?;
+        let head = above.next()?.split('|').nth(column)?.trim().to_string();
+        Some(MarkdownCell { row: row.to_string(), head })
+    }
+}
+
+/// The unit over the column of a cell.
+pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
+    unit_of_head(&shown(&MarkdownCell::at(file, at)?.head))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cell_knows_its_head() {
+        let text = "x\n\n| h (s) | error (mm) |\n|---:|---:|\n| 0.1 | -0.7 |\n| 0.2 | -1.4 |\n";
+        let at = text.find("1.4").unwrap_or(0);
+        assert_eq!(MarkdownCell::at(text, at).map(|c| c.head), Some("error (mm)".into()));
+        assert!(MarkdownCell::at("no 1 table", 3).is_none());
+    }
+}

@@ -1,0 +1,53 @@
+//! Everything that a reader of a lesson sees: its prose, and the shown texts of its labs and quizzes.
+
+use super::piece::ShownPiece;
+use super::prose;
+use crate::source::Text;
+use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind};
+
+pub(super) fn shown_pieces(lesson: &Lesson) -> Vec<ShownPiece> {
+    let mut all = prose::pieces(lesson);
+    for (_, lab) in lesson.addressed() {
+        push_lab(lab, &mut all);
+    }
+    for quiz in &lesson.quizzes {
+        push_plain(&quiz.title, &mut all);
+        for (_, question) in quiz.numbered() {
+            push_question(question, &mut all);
+        }
+    }
+    all
+}
+
+fn push_plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<ShownPiece>) {
+    all.extend(texts.into_iter().map(|text| ShownPiece { text: text.clone(), html: false }));
+}
+
+fn push_question(question: &Question, all: &mut Vec<ShownPiece>) {
+    push_plain(&question.label, all);
+    if let QuestionKind::Numeric { unit, .. } = &question.kind {
+        push_plain(unit, all);
+    }
+    all.extend(question.html().into_iter().map(|text| ShownPiece { text: text.clone(), html: true }));
+}
+
+fn push_lab(lab: &Lab, all: &mut Vec<ShownPiece>) {
+    push_plain(lab.title.iter().chain(&lab.kind), all);
+    all.extend(lab.note.iter().map(|text| ShownPiece { text: text.clone(), html: true }));
+    lab.controls.iter().for_each(|control| push_control(control, all));
+    for plot in &lab.plots {
+        push_plain(plot.ylabel.iter().chain(&plot.xlabel), all);
+        push_plain(plot.ref_lines.iter().filter_map(|line| line.label.as_ref()), all);
+        push_plain(plot.traces.iter().map(|trace| &trace.label), all);
+    }
+    push_plain(lab.readouts.iter().map(|readout| &readout.label), all);
+}
+
+fn push_control(control: &Control, all: &mut Vec<ShownPiece>) {
+    push_plain([&control.label], all);
+    match &control.kind {
+        ControlKind::Slider { unit, .. } => push_plain(unit, all),
+        ControlKind::Select { options, .. } => push_plain(options.iter().map(|choice| &choice.text), all),
+        ControlKind::Button { .. } => {}
+    }
+}

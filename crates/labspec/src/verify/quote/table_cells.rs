@@ -1,0 +1,64 @@
+//! The cells that a claim about a column of a table is about.
+
+use super::rendered::ShownText;
+use super::table;
+use crate::json::nearest;
+use crate::source::{SourceMap, Text};
+use crate::spec::Column;
+
+/// The cells of a column, or the one cell that is meant: each with what stands in the cell that tells its row.
+///
+/// # Errors
+/// Why there are none, and what to do.
+pub(in crate::verify) fn cells_of_column(
+    claim: &Column,
+    shown: &ShownText,
+) -> Result<Vec<[Text; 2]>, [String; 2]> {
+    let key = claim.by.as_ref().map(|(heading, _)| heading.as_str());
+    let headings: Vec<&str> = [Some(claim.column.as_str()), key].into_iter().flatten().collect();
+    let mut found = shown.tables(&headings);
+    let (Some(table), None) = (found.next(), found.next()) else {
+        let several = shown.tables(&headings).count() > 1;
+        let mut headings_there: Vec<&str> = shown.headings().take(24).collect();
+        headings_there.dedup();
+        return Err(if several {
+            [
+                format!("several tables have the columns {}", headings.join(", ")),
+                "give the tables different headings".into(),
+            ]
+        } else {
+            let near = headings
+                .iter()
+                .find(|h| !headings_there.contains(h))
+                .and_then(|h| nearest(h, headings_there.iter().copied()));
+            let help = near.map_or_else(
+                || format!("use the columns of a table: {}", headings_there.join(", ")),
+                |right| format!("did you mean \"{right}\"?"),
+            );
+            [format!("no table has the columns {}", headings.join(", ")), help]
+        });
+    };
+    let at = |heading: &str| table.column(heading).unwrap_or(0);
+    let (column, by) = (at(claim.column.as_str()), key.map_or(0, at));
+    let text = |cell: &table::TableCell| Text {
+        value: cell.text.clone(),
+        map: SourceMap::whole(cell.text.len(), cell.span.clone()),
+    };
+    let wanted = claim.row.as_ref().map(|row| table::shown(row.as_str()));
+    let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
+    let cells: Vec<[Text; 2]> =
+        rows.filter(|[key, _]| wanted.as_ref().is_none_or(|w| *w == key.value)).collect();
+    match (cells.is_empty(), &claim.row) {
+        (false, _) => Ok(cells),
+        (true, Some(row)) => Err([
+            format!("no row of this table begins with \"{}\"", row.value),
+            "write the text in the first cell of the row".into(),
+        ]),
+        (true, None) => Err(["this table has no rows".into(), "add rows to the table".into()]),
+    }
+}
+
+/// Whether a reader sees the same in both.
+pub(in crate::verify) fn reads_the_same(a: &str, b: &str) -> bool {
+    table::shown(a) == table::shown(b)
+}

@@ -1,0 +1,156 @@
+//! Checks one quote: a number, or words, against the value of its expression in the lesson's own runs and in others.
+
+use super::bound::BoundVerify;
+use super::found::MeasuredValue;
+use super::grounded::grounded_value;
+use super::outcome::Outcome;
+use super::outcomes::Outcomes;
+use super::quote::ShownText;
+use super::quote::{self, OtherValue, QuoteState};
+use super::units;
+use crate::finding::Finding;
+use crate::ledger::Evidence;
+use crate::source::Text;
+use labspec_expr::Value;
+use std::ops::Range;
+
+/// A number that is quoted, or words.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quote {
+    /// The text that is quoted.
+    pub text: String,
+    /// Where it is claimed: under `says`.
+    pub span: Range<usize>,
+    /// What became of it.
+    pub state: QuoteState,
+    /// How its value was found.
+    pub evidence: Evidence,
+    /// Why it is not right.
+    pub reason: String,
+    /// What the simulation gives; NaN when nothing could be computed. Of words 1 where they are right, and 0 where they are not.
+    pub computed: f64,
+}
+
+impl Quote {
+    /// One that could not be checked.
+    pub(super) fn unclear(text: &Text, reason: &str) -> Quote {
+        Quote {
+            text: text.value.clone(),
+            span: text.span(),
+            state: QuoteState::Unclear,
+            evidence: Evidence::Computed,
+            reason: reason.to_string(),
+            computed: f64::NAN,
+        }
+    }
+
+    /// In one word.
+    pub fn verdict(&self) -> &'static str {
+        match (self.state, self.evidence) {
+            (QuoteState::Right, Evidence::Simulated) => "verified",
+            (QuoteState::Right, Evidence::Computed) => "computed",
+            (QuoteState::Wrong, _) => "refuted",
+            (QuoteState::Unclear, _) => "failed",
+        }
+    }
+}
+
+/// What quotes are held to.
+#[derive(Clone, Copy)]
+pub(super) struct QuoteChecker<'c, 'b> {
+    pub(super) bound: &'c BoundVerify<'b>,
+    pub(super) outcomes: &'c Outcomes,
+    pub(super) shown: &'c ShownText,
+}
+
+/// The value of an expression in the lesson's own runs, and in others.
+pub(super) struct QuotedValue {
+    found: MeasuredValue,
+    timestep: Vec<OtherValue>,
+    start: Vec<OtherValue>,
+}
+
+impl QuotedValue {
+    pub(super) fn measure(
+        checker: QuoteChecker<'_, '_>,
+        expr: &Text,
+        findings: &mut Vec<Finding>,
+    ) -> Result<QuotedValue, String> {
+        let QuoteChecker { bound, outcomes, .. } = checker;
+        let found = grounded_value(bound, &outcomes.nominal, expr, findings)?;
+        let other = |n: usize, how| value_of(bound, outcomes.perturbed.get(n)?.as_ref()?, expr, how);
+        let back = "with a start moved by -1e-14";
+        let mut start: Vec<OtherValue> = other(2, "with a start moved by 1e-14").into_iter().collect();
+        start.extend(outcomes.nudged_back.as_ref().and_then(|o| value_of(bound, o, expr, back)));
+        Ok(QuotedValue { found, timestep: other(0, "at half the timestep").into_iter().collect(), start })
+    }
+
+    pub(super) fn is_condition(&self) -> bool {
+        matches!(self.found.value, Value::Boolean(_))
+    }
+
+    /// Whether it can decide about words; a finding where not.
+    pub(super) fn is_condition_of(
+        &self,
+        checker: QuoteChecker<'_, '_>,
+        expr: &Text,
+        findings: &mut Vec<Finding>,
+    ) -> bool {
+        checker.bound.is_condition(&self.found, expr, findings)
+    }
+
+    /// Whether what it says holds.
+    pub(super) fn holds(&self) -> bool {
+        self.found.value.truthy()
+    }
+}
+
+fn value_of(
+    bound: &BoundVerify<'_>,
+    outcome: &Outcome,
+    expr: &Text,
+    how: &'static str,
+) -> Option<OtherValue> {
+    let found = bound.find(outcome, expr, &mut Vec::new())?;
+    Some(OtherValue { how, value: found.value.to_number() })
+}
+
+/// What becomes of a number.
+pub(super) fn check_number(
+    checker: QuoteChecker<'_, '_>,
+    claim: &quote::QuoteClaim<'_>,
+    part: &quote::QuotePart,
+    given: QuotedValue,
+    places: Vec<quote::QuotePlace>,
+    findings: &mut Vec<Finding>,
+) -> Quote {
+    let unit = &|| units::of_claim(checker.bound, &checker.outcomes.nominal, claim.expr);
+    let computed = given.found.value.to_number();
+    let value = quote::QuoteValue { computed, timestep: &given.timestep, start: &given.start, unit };
+    let o = quote::check_quote(claim, &part.reading, places, &value, checker.shown, findings);
+    let text = claim.part.trim().to_string();
+    let (state, evidence, reason) = (o.state, given.found.evidence, o.reason);
+    Quote { text, span: claim.quote.span(), state, evidence, reason, computed }
+}
+
+/// What becomes of words that say that a condition holds.
+pub(super) fn check_words(
+    checker: QuoteChecker<'_, '_>,
+    claim: &quote::QuoteClaim<'_>,
+    given: &QuotedValue,
+    at: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) -> Quote {
+    let moved = |others: &[OtherValue]| -> Vec<&'static str> {
+        others.iter().filter(|o| (o.value != 0.0) != given.holds()).map(|o| o.how).collect()
+    };
+    let condition = quote::QuotedCondition {
+        holds: given.holds(),
+        timestep: moved(&given.timestep),
+        start: moved(&given.start),
+    };
+    let (state, reason) = quote::check_words(claim, at, &condition, checker.shown, findings);
+    let computed = f64::from(u8::from(given.holds()));
+    let (text, evidence) = (claim.quote.value.clone(), given.found.evidence);
+    Quote { text, span: claim.quote.span(), state, evidence, reason, computed }
+}

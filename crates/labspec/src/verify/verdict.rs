@@ -1,0 +1,122 @@
+//! What became of an answer: its verdict, why, and how far every option is from turning over.
+
+use super::format::significant;
+use crate::ledger::{Evidence, State};
+
+/// What became of an answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The simulation shows that exactly the keyed answer holds.
+    Verified,
+    /// Exactly the keyed answer holds, by formulas alone: nothing was simulated for it.
+    Computed,
+    /// It holds, but not under other numerics: a shorter timestep, a converged solver, a start moved by 1e-14, another integrator.
+    Fragile,
+    /// The keyed answer holds, and another one too.
+    Ambiguous,
+    /// The keyed answer does not hold.
+    Refuted,
+    /// It could not be checked: something is wrong with the runs or the conditions.
+    Failed,
+    /// There is nothing to check.
+    Unverified,
+}
+
+impl Verdict {
+    /// In one word.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Verdict::Verified => "verified",
+            Verdict::Computed => "computed",
+            Verdict::Fragile => "fragile",
+            Verdict::Ambiguous => "ambiguous",
+            Verdict::Refuted => "refuted",
+            Verdict::Failed => "failed",
+            Verdict::Unverified => "unverified",
+        }
+    }
+
+    /// The state of the claim in the ledger.
+    pub fn state(self) -> State {
+        match self {
+            Verdict::Verified => State::True(Evidence::Simulated),
+            Verdict::Computed => State::True(Evidence::Computed),
+            Verdict::Fragile | Verdict::Ambiguous | Verdict::Refuted => State::False,
+            Verdict::Failed => State::Unchecked,
+            Verdict::Unverified => State::NotClaimed,
+        }
+    }
+}
+
+/// A checked answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Answer {
+    /// What became of it.
+    pub verdict: Verdict,
+    /// Why, unless it is verified; or what the evidence does not decide.
+    pub reason: String,
+    /// Every option with its condition, or the value of a number.
+    pub weights: Vec<Weight>,
+}
+
+/// An option and how well its condition holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weight {
+    /// Its index, from 0; `None` for the value of a number.
+    pub option: Option<usize>,
+    /// The condition holds; `None` where the author says that this evidence does not decide the option.
+    pub holds: Option<bool>,
+    /// How far the comparison that decides is from turning over; negative where the condition does not hold.
+    pub margin: Option<f64>,
+    /// How much half and a quarter of the timestep, other integrators, a converged solver and a moved start change that.
+    pub spread: Option<f64>,
+}
+
+impl Weight {
+    /// Whether eight times what other numerics change could turn it over: with errors of the first order in the timestep, all
+    /// that is left to come is as much again as half of it changes.
+    pub(super) fn is_close(&self) -> bool {
+        self.margin
+            .zip(self.spread)
+            .is_some_and(|(margin, spread)| spread > 0.0 && 8.0 * spread >= margin.abs())
+    }
+
+    /// Takes in what the margin is under other numerics.
+    pub(super) fn widen(&mut self, other: Option<f64>) {
+        if let (Some(margin), Some(other)) = (self.margin, other) {
+            self.spread = Some(self.spread.unwrap_or(0.0).max((other - margin).abs()));
+        }
+    }
+
+    /// `holds, by 0.02`; `does not hold, by 0.6`.
+    pub fn describe(&self) -> String {
+        let Some(holds) = self.holds else { return "is not decided by this evidence".to_string() };
+        let spread = match self.spread {
+            Some(spread) if spread > 0.0 => {
+                format!("; other numerics change that by {}", significant(spread))
+            }
+            _ => String::new(),
+        };
+        let words = match (holds, self.margin) {
+            (true, Some(0.0)) => "holds exactly".to_string(),
+            (false, Some(0.0)) => "does not hold: both sides are equal".to_string(),
+            (true, Some(margin)) => format!("holds, by {}", significant(margin.abs())),
+            (false, Some(margin)) => format!("does not hold, by {}", significant(margin.abs())),
+            (true, None) => "holds".to_string(),
+            (false, None) => "does not hold".to_string(),
+        };
+        words + &spread
+    }
+}
+
+impl Answer {
+    /// An answer that nobody says how to check.
+    pub(crate) fn unverified(reason: impl Into<String>) -> Answer {
+        Answer { verdict: Verdict::Unverified, reason: reason.into(), weights: Vec::new() }
+    }
+
+    /// An answer that could not be checked.
+    pub(super) fn failed(reason: impl Into<String>) -> Answer {
+        Answer { verdict: Verdict::Failed, reason: reason.into(), weights: Vec::new() }
+    }
+}
