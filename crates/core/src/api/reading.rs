@@ -28,13 +28,13 @@ pub fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
 }
 
 /// The same with changes of the text, made before it is compiled; with what is wrong with each of them.
-pub fn examine_patched(
+pub fn check_patched(
     xml: &str,
     files: &dyn Files,
     path: Option<&str>,
     patches: &[Patch],
 ) -> (Examined, Vec<Option<Refusal>>) {
-    let (mjcf::Examined { model, findings }, refusals) = mjcf::examine_patched(xml, files, path, patches);
+    let (mjcf::Examined { model, findings }, refusals) = mjcf::check_patched(xml, files, path, patches);
     (Examined { model: model.map(Model::new), findings }, refusals)
 }
 
@@ -49,7 +49,7 @@ pub fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
     mjcf::compile(xml).map(Model::new)
 }
 
-/// Compiles a model from its text and the files that it names: see [`examine`].
+/// Compiles a model from its text and the files that it names: see [`check_xml`].
 pub fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     mjcf::compile_with(xml, files, path).map(Model::new)
 }

@@ -82,7 +82,7 @@ pub(crate) fn compile(xml: &str) -> Result<Model, Vec<Finding>> {
 ///
 /// # Errors
 ///
-/// All mistakes that were found, in the order of the texts. [`examine`] tells warnings, too.
+/// All mistakes that were found, in the order of the texts. [`check_xml`] returns warnings as well.
 pub(crate) fn compile_with(xml: &str, files: &dyn Files, path: Option<&str>) -> Result<Model, Vec<Finding>> {
     let mut report = Report::new();
     let model = built(xml, files, path, (&[], &mut Vec::new()), &mut report).map(|(_, model)| model);
@@ -102,11 +102,11 @@ pub(crate) struct Examined {
 
 /// Compiles a model as [`compile_with`] does, and tells what it may not be meant to be, besides what is wrong.
 pub(crate) fn check_xml(xml: &str, files: &dyn Files, path: Option<&str>) -> Examined {
-    examine_patched(xml, files, path, &[]).0
+    check_patched(xml, files, path, &[]).0
 }
 
 /// The same with changes of the text, made before it is compiled; with what is wrong with each of them.
-pub(crate) fn examine_patched(
+pub(crate) fn check_patched(
     xml: &str,
     files: &dyn Files,
     path: Option<&str>,

@@ -139,7 +139,7 @@ impl Models {
         let unreadable =
             || (None, Refusal { message: "the model cannot be read".into(), help: String::new() });
         let (examined, refusals) = self
-            .texts(lab, |text, files, path| xml::examine_patched(text, files, path, patches))
+            .texts(lab, |text, files, path| xml::check_patched(text, files, path, patches))
             .ok_or_else(unreadable)?;
         if let Some((i, refusal)) = refusals.into_iter().enumerate().find_map(|(i, r)| Some((i, r?))) {
             return Err((Some(i), refusal));

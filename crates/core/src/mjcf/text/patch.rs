@@ -210,7 +210,7 @@ fn near<'n>(word: &str, names: impl Iterator<Item = &'n str>, none: &str) -> Str
 #[cfg(test)]
 mod tests {
     use super::Patch;
-    use crate::mjcf::{NoFiles, examine_patched};
+    use crate::mjcf::{NoFiles, check_patched};
     use crate::model::Model;
 
     const TEXT: &str = "<mujoco><default><geom friction='0.3'/></default><worldbody><geom name='floor' type='plane' size='1 1 1'/>\
@@ -219,7 +219,7 @@ mod tests {
 
     fn patched(path: &str, value: &str) -> Result<Model, String> {
         let patch = Patch { path: path.into(), value: value.into() };
-        let (examined, refusals) = examine_patched(TEXT, &NoFiles, None, &[patch]);
+        let (examined, refusals) = check_patched(TEXT, &NoFiles, None, &[patch]);
         match (refusals.into_iter().next().flatten(), examined.model) {
             (Some(refusal), _) => Err(format!("{}; {}", refusal.message, refusal.help)),
             (None, model) => model.ok_or_else(|| examined.findings[0].message.clone()),
