@@ -4,7 +4,7 @@
 //! moves stays known. A finding about a claim is known by the claim, too, and by what was claimed and what came out: a key that moved, or
 //! another value, is new. Of several alike so many are known as there were.
 
-use super::Failure;
+use super::common::Failure;
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use crate::finding::Finding;

@@ -1,8 +1,8 @@
 //! Which lab a command runs, and how it is handled: `--set LABEL=VALUE`, `--press LABEL@TIME`.
 
+use super::common::{Failure, ModelOptions};
 use super::output::{Wanted, look_ahead};
 use super::target::{self, Target};
-use super::{Failure, ModelOptions};
 use crate::run::settings;
 use crate::spec::Lab;
 use labspec_expr::Value;

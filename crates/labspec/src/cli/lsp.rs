@@ -1,9 +1,9 @@
 //! `labspec lsp`.
 
+use super::common::{Failure, ModelOptions, Outcome};
 use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::complain;
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::lsp::{Course, serve};
@@ -45,7 +45,7 @@ pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
         if let Some(policy) = known.borrow().get(path) {
             return drop(policy.apply(findings));
         }
-        match Policies::new(&a.policy).and_then(|mut all| all.of(path)) {
+        match Policies::new(&a.policy).and_then(|mut all| all.policy_for(path)) {
             Ok(policy) => {
                 drop(policy.apply(findings));
                 known.borrow_mut().insert(path.to_path_buf(), policy);

@@ -1,7 +1,7 @@
 //! Files that are written: beside the old one and renamed, so that a full disk or a crash loses nothing; and never
 //! over a file that was read, nor two outputs into one file.
 
-use super::Failure;
+use super::common::Failure;
 use super::output_kind::OutputKind;
 use crate::report::printable_path;
 use std::collections::BTreeSet;

@@ -1,7 +1,9 @@
 //! `labspec plan`.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::stdio::print;
 use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, target};
+use super::target;
 use crate::profile::{Code, Cost, Options, REPEATS, Report, name};
 use crate::report::{printable, report};
 use crate::verify::significant;

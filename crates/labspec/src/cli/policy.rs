@@ -1,6 +1,6 @@
 //! Which findings are told, and how bad they are: what is said on the command line, and in the nearest `labspec.toml`.
 
-use super::Failure;
+use super::common::Failure;
 use crate::finding::{Finding, Severity};
 use crate::report::{printable, printable_path};
 use crate::rules;
@@ -164,7 +164,7 @@ impl Policies {
     ///
     /// # Errors
     /// The settings near it cannot be read.
-    pub(super) fn of(&mut self, path: &Path) -> Result<Policy, Failure> {
+    pub(super) fn policy_for(&mut self, path: &Path) -> Result<Policy, Failure> {
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let settings = match &self.given {
             Some(given) => Some(given.clone()),
@@ -305,13 +305,13 @@ mod tests {
         let mut all = Policies::new(&PolicyOptions::default()).unwrap();
         let key = ("unknown-key", Severity::Error);
         let grows = rules::find("energy-grows").unwrap().severity;
-        assert_eq!(reported_rules(&all.of(&lesson).unwrap()), [key, ("energy-grows", grows)]);
-        assert_eq!(reported_rules(&all.of(&draft).unwrap()), [key]);
+        assert_eq!(reported_rules(&all.policy_for(&lesson).unwrap()), [key, ("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.policy_for(&draft).unwrap()), [key]);
         let denied = [("duplicate-readout", Severity::Error), key, ("energy-grows", Severity::Error)];
-        assert_eq!(reported_rules(&all.of(&inner).unwrap()), denied);
+        assert_eq!(reported_rules(&all.policy_for(&inner).unwrap()), denied);
         let options = PolicyOptions { ignore: vec!["structure".into()], ..PolicyOptions::default() };
         let mut all = Policies::new(&options).unwrap();
-        assert_eq!(reported_rules(&all.of(&lesson).unwrap()), [("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.policy_for(&lesson).unwrap()), [("energy-grows", grows)]);
     }
 
     #[test]

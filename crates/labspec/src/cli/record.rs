@@ -1,7 +1,8 @@
 //! `labspec record`: our engine's numbers in the layout of a recording of MuJoCo, for the same states.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, interrupted, target};
+use super::target;
 use crate::report::{printable, printable_path, report, set_number, set_numbers};
 use crate::run::MAX_STEPS;
 use crate::source::read_text;

@@ -1,9 +1,12 @@
 //! `labspec run`.
 
+use super::common::{Failure, Outcome};
 use super::lab_args::Handled;
+use super::output::write_file;
 use super::output::{Wanted, wanted, write_png, write_with};
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::stream;
-use super::{Failure, Outcome, OutputKind, print, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};

@@ -1,9 +1,12 @@
 //! `labspec stability`.
 
+use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::Handled;
+use super::output::write_file;
 use super::output::{wanted, write_png};
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::{Progress, print_json};
-use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::Programs;
 use crate::report::{key, printable, set_number};
 use crate::run::two_digits;

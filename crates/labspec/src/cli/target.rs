@@ -1,6 +1,6 @@
 //! What a command is pointed at: a lab in a file, or a model.
 
-use super::{Failure, ModelOptions};
+use super::common::{Failure, ModelOptions};
 use crate::bind::Programs;
 use crate::bind::scene::{Compiled, Models, compile_file};
 use crate::finding::{Finding, InFile, Severity};

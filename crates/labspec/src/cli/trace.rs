@@ -1,8 +1,9 @@
 //! `labspec trace`.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::stdio::print;
 use super::stdio::{Progress, print_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, interrupted, print};
 use crate::bind::scene::Models;
 use crate::lint::load_lesson_file;
 use crate::report::{printable, printable_lines, printable_path, report};

@@ -1,6 +1,9 @@
 //! `labspec init`: a folder for lessons, with one that is true.
 
-use super::{Failure, Outcome, OutputKind, print, write_file};
+use super::common::{Failure, Outcome};
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use crate::report::printable_path;
 use std::path::{Path, PathBuf};
 

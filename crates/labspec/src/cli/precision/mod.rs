@@ -4,10 +4,13 @@ mod chart;
 mod machine;
 mod table;
 
+use super::common::{Failure, Outcome, interrupted};
 use super::lab_args::Handled;
+use super::output::write_file;
 use super::output::{wanted, write_png, write_with};
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::{Progress, print_json, stream};
-use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
 use crate::precision::{
     Axis, Fate, INTEGRATORS, Integrator, Options, Recording, Report, compare, milliseconds,
 };

@@ -3,10 +3,11 @@
 use super::lesson::Context;
 use super::plots::plots;
 use super::settings;
-use super::text::{code, many, plain, text};
+use super::text::{code, plain, text};
 use super::verdict::verdict;
 use crate::check::Claim;
 use crate::ledger::{Evidence, State, Subject};
+use crate::printable::counted;
 use crate::spec::Verify;
 use crate::verify::{Measured, Quote, QuoteState, significant};
 use std::fmt::Write;
@@ -28,7 +29,7 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'
         (judgement.quotes.len(), "quoted number"),
         (judgement.exact.len(), "closed form"),
     ];
-    let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| many(*n, one)).collect();
+    let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| counted(*n, one)).collect();
     if told.is_empty() {
         return out;
     }

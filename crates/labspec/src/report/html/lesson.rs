@@ -3,11 +3,12 @@
 use super::coverage::Coverage;
 use super::evidence::evidence;
 use super::question::{self, Asked};
-use super::text::{Names, code, many, plain, text};
+use super::text::{Names, code, plain, text};
 use super::verdict::{severity, verdict};
 use crate::check::{Allowed, Basis, Checked, Claim, Drawn, RunSettings};
 use crate::finding::Finding;
 use crate::ledger::{Entry, Ledger, State, Subject};
+use crate::printable::counted;
 use crate::source::SourceFile;
 use crate::spec::{Lesson, Quiz, Verify};
 use crate::verify::ShownText;
@@ -147,7 +148,7 @@ pub(super) fn write(part: &LessonPage<'_>) -> String {
         let _ = writeln!(
             out,
             "<details><summary>{} suppressed by the lesson</summary>\n<ul>",
-            many(allowed.len(), "finding")
+            counted(allowed.len(), "finding")
         );
         for a in allowed {
             let Finding { code: rule, message, span, .. } = &a.finding;
@@ -254,7 +255,7 @@ fn unclaimed(part: &LessonPage<'_>) -> String {
     }
     let mut out = format!(
         "<details class=\"numbers\"><summary>{} that nothing claims</summary>\n<ul>\n",
-        many(all.len(), "number with a unit").replace("number with a units", "numbers with units")
+        counted(all.len(), "number with a unit").replace("number with a units", "numbers with units")
     );
     for s in all.iter().take(LISTED) {
         let line = part.context.line(s.span.start);

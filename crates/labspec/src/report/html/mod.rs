@@ -27,9 +27,10 @@ mod verdict;
 use crate::check::{Allowed, Basis, Checked, Drawn};
 use crate::finding::Finding;
 use crate::ledger::Ledger;
+use crate::printable::counted;
 use crate::source::SourceFile;
 use lesson::LessonPage;
-use text::{Names, many, text};
+use text::{Names, text};
 
 /// What a page is made of.
 #[derive(Clone, Copy, Debug)]
@@ -72,7 +73,7 @@ pub fn page(material: &Material<'_>) -> String {
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
          <title>{}, checked</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n",
-        many(parts.len(), "lesson")
+        counted(parts.len(), "lesson")
     );
     out.push_str(&overview::write(&parts, &names.shorten(material.summary)));
     parts.iter().for_each(|part| out.push_str(&lesson::write(part)));

@@ -2,17 +2,18 @@
 
 use super::lesson::LessonPage;
 use super::question::Asked;
-use super::text::{many, plain, text};
+use super::text::{plain, text};
 use super::verdict::{bar, verdict};
 use crate::finding::Finding;
 use crate::ledger::State;
+use crate::printable::counted;
 use crate::report::Summary;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The whole course in one view.
 pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
-    let mut out = format!("<header>\n<h1>{}, checked</h1>\n", many(parts.len(), "lesson"));
+    let mut out = format!("<header>\n<h1>{}, checked</h1>\n", counted(parts.len(), "lesson"));
     let _ = writeln!(out, "<p class=\"summary\">{}</p>\n</header>", plain(summary));
     out.push_str("<section id=\"coverage\">\n<h2>How much is claimed</h2>\n");
     out.push_str(&whole(parts));
@@ -108,11 +109,11 @@ fn verdicts(parts: &[LessonPage<'_>]) -> String {
     let good = |state: &State| matches!(state, State::True(_));
     let (last, first): (Vec<_>, Vec<_>) = by_word.iter().partition(|((state, _), _)| good(state));
     for ((state, word), all) in first.into_iter().chain(last) {
-        let title = verdict(*state, &format!("{} {}", many(all.len(), "question"), called(*state, word)));
+        let title = verdict(*state, &format!("{} {}", counted(all.len(), "question"), called(*state, word)));
         out.push_str(&list(&title, all, !good(state)));
     }
     if !undecided.is_empty() {
-        let title = verdict(State::NotClaimed, &format!("{} undecided", many(options, "option")));
+        let title = verdict(State::NotClaimed, &format!("{} undecided", counted(options, "option")));
         out.push_str(&list(&title, &undecided, false));
     }
     out.push_str("</section>\n");

@@ -55,11 +55,6 @@ pub(super) fn escape(text: &str) -> String {
     out
 }
 
-/// `1 run`, `3 runs`.
-pub(super) fn many(n: usize, one: &str) -> String {
-    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
-}
-
 /// Paths without the folder that all of them share, so that a page says nothing of the machine.
 pub(super) struct Names {
     folder: String,
