@@ -1,6 +1,5 @@
 //! The last steps of a run, to be made again with other lengths.
 
-use super::moments::Evaluate;
 use crate::run::Session;
 use labspec_core::{self as core, Model, state};
 
@@ -59,6 +58,9 @@ impl Past {
         self.time(j.saturating_sub(1)) - self.time(j)
     }
 }
+
+/// Evaluates a target in a session.
+pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
 
 /// A copy of a run in which its last steps are made again.
 pub(super) struct Bench<'b> {

@@ -1,7 +1,7 @@
 //! Turning points, from the values of a number at Chebyshev's points of two steps.
 
-use super::bench::Bench;
-use super::moments::{Evaluate, Moment};
+use super::bench::{Bench, Evaluate};
+use super::moment::Moment;
 use std::f64::consts::PI;
 
 /// Degree of the polynomial.

@@ -2,9 +2,12 @@
 //! step, and a table of runs with halved steps is extrapolated to a step of nothing (Aitken and Neville; Hairer, Nørsett and Wanner
 //! 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls jump are cut at the jump.
 
-use super::case::{Ask, PrecisionCase, Run};
-use super::moments::{Moment, Sought};
-use super::reference::{Reference, agree, known, run, so_far, too_long, worst_part};
+use super::agreement::{Reference, agree, known, run, so_far, too_long, worst_part};
+use super::case::PrecisionCase;
+use super::moment::Moment;
+use super::moments::Sought;
+use super::numbers::milliseconds;
+use super::run_record::{Run, RunRequest};
 use crate::run::RunError;
 use labspec_core::integrator;
 
@@ -56,10 +59,10 @@ impl Best {
 /// The reference of a lab with a controller.
 pub(super) fn extrapolated(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let first = (own / 2.0).min(case.interval);
-    let ask = Ask { cut: true, ..Ask::FRESH };
+    let ask = RunRequest { cut: true, ..RunRequest::FRESH };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
     let sought = Sought::of(&look.values);
-    let ask = Ask { sought: Some(&sought), ..ask };
+    let ask = RunRequest { sought: Some(&sought), ..ask };
     let mut before: Vec<Entry> = Vec::new();
     let mut best: Option<Best> = None;
     let mut step = first;
@@ -101,7 +104,7 @@ fn next_row(run: &Run, before: &[Entry]) -> Vec<Entry> {
 /// Holds the steps between controls against another family's.
 fn finish(case: &PrecisionCase<'_>, best: Best, sought: Sought, first: f64) -> Result<Reference, RunError> {
     let Best { entry, coarse, mut uncertain, run: mut seen, step } = best;
-    let ask = Ask { cut: true, ..Ask::FRESH };
+    let ask = RunRequest { cut: true, ..RunRequest::FRESH };
     let other = if too_long(case, step) { None } else { run(case, integrator::GAUSS, step, ask)? };
     if let Some(other) = &other {
         let more = so_far(seen.values.iter().zip(&other.values));
@@ -120,8 +123,8 @@ fn finish(case: &PrecisionCase<'_>, best: Best, sought: Sought, first: f64) -> R
     let how = format!(
         "rkmk8{} with the controller at steps from {} to {} ms, extrapolated to none",
         if other.is_some() { " (and gauss)" } else { "" },
-        super::milliseconds(first),
-        super::milliseconds(step)
+        milliseconds(first),
+        milliseconds(step)
     );
     let jumps = seen.jumps;
     seen.values.clone_from(&entry.values);

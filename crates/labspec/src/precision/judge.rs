@@ -1,7 +1,9 @@
 //! Errors of a run against the reference.
 
-use super::case::{Fate, PrecisionCase, Run, Shown};
-use super::reference::{Reference, range};
+use super::agreement::Reference;
+use super::case::{PrecisionCase, Shown, Target};
+use super::numbers::range;
+use super::run_record::{Fate, Run};
 use crate::run::printed;
 
 /// How far a run is from the truth, in the unit of the trace.
@@ -118,7 +120,7 @@ const CONSTANT: f64 = 1e-6;
 
 /// What the targets of a case are held against; `own` is the run as the lab has it.
 pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
-    let one = |(i, target): (usize, &super::case::Target<'_>)| {
+    let one = |(i, target): (usize, &Target<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
         let uncertain = &reference.uncertain[i];

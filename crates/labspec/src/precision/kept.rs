@@ -1,6 +1,6 @@
 //! Energy and momentum that a scene keeps, and how much of them a run loses or gains.
 
-use super::case::Run;
+use super::run_record::Run;
 
 /// A scene keeps energy or momentum where the reference changes it by less than this part of its size.
 const KEPT: f64 = 1e-7;

@@ -5,9 +5,10 @@
 //! point is where the derivative of the interpolating polynomial at Chebyshev's points vanishes (Trefethen 2013, *Approximation
 //! Theory and Approximation Practice*, chapters 3 and 21).
 
-use super::bench::{Bench, Past};
+use super::bench::{Bench, Evaluate, Past};
 use super::chebyshev::turning_point;
-use super::reference::range;
+use super::moment::Moment;
+use super::numbers::range;
 use super::setting::Setting;
 use crate::run::Session;
 use labspec_core::Model;
@@ -42,24 +43,6 @@ impl Sought {
         };
         Sought { least: values.iter().map(least).collect() }
     }
-}
-
-/// When something happens in a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Moment {
-    /// The time, s; NaN where it does not happen.
-    pub(super) at: f64,
-    /// How far the search may be off, s.
-    pub(super) doubt: f64,
-    /// How fast the number passes, in its unit per s; infinite where another number does not move the time.
-    pub(super) slope: f64,
-    /// Whether a turning point is a maximum.
-    pub(super) top: bool,
-}
-
-impl Moment {
-    pub(super) const NONE: Moment =
-        Moment { at: f64::NAN, doubt: f64::NAN, slope: f64::INFINITY, top: false };
 }
 
 /// Follows a number to its first passage through zero.
@@ -103,9 +86,6 @@ pub(super) struct Finder<'s> {
     /// When the last of them was sure to be one, s.
     settled: f64,
 }
-
-/// Evaluates a target in a session.
-pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
 
 impl<'s> Finder<'s> {
     pub(super) fn new(sought: &'s Sought, m: &Model, setting: &Setting) -> Finder<'s> {

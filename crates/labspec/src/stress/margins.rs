@@ -7,7 +7,7 @@
 
 use super::bodies::{body_name, body_of};
 use super::case::{Outcome, StressCase};
-use super::fault::{Fault, FaultKind};
+use super::fault::{FaultKind, worst_fault};
 use super::interaction::{Interaction, Kind};
 use super::search::{self, Limit};
 use crate::interrupt;
@@ -156,7 +156,7 @@ fn search(
                 set = true;
                 return None;
             };
-            if let Some(fault) = worst(&outcome.faults, &[]) {
+            if let Some(fault) = worst_fault(&outcome.faults, &[]) {
                 how = Some((fault.kind, fault.who.clone()));
                 return Some(false);
             }
@@ -197,15 +197,6 @@ fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
     stability::suspects(m)
         .iter()
         .any(|s| object.is_none_or(|(kind, id)| kind == s.object && id.is_none_or(|id| id == s.id)))
-}
-
-/// What breaks a run, if anything does: creeping and programs that throw are no matter of margins.
-pub(super) fn worst<'f>(faults: &'f [Fault], known: &[(FaultKind, String)]) -> Option<&'f Fault> {
-    let counts = |f: &&Fault| {
-        !matches!(f.kind, FaultKind::Drifts | FaultKind::Throws | FaultKind::Warns)
-            && !known.iter().any(|(kind, who)| *kind == f.kind && *who == f.who)
-    };
-    faults.iter().filter(counts).min_by_key(|f| f.kind)
 }
 
 /// A run with something raised; `None` where a program of the lab sets it and it cannot be set after that.

@@ -1,7 +1,7 @@
 //! What helps: each candidate is tried by running, and only those are told with which the run comes to its end well.
 
 use super::case::{Change, Outcome, StressCase};
-use super::fault::{FaultGroup, FaultKind};
+use super::fault::{FaultGroup, FaultKind, Remedy, worst_fault};
 use super::interaction::{Action, Interaction};
 use super::truth;
 use crate::interrupt;
@@ -10,20 +10,6 @@ use crate::spec::{Control, ControlKind};
 use labspec_core::math::rows_mut;
 use labspec_core::{Model, integrator};
 use labspec_expr::Value;
-
-/// Something that helps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Remedy {
-    /// What to change, in words.
-    pub change: String,
-    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
-    pub work: f64,
-    /// The same as measured by a clock.
-    pub time: f64,
-    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
-    /// model describes, found with much shorter steps. `None` where that is not known.
-    pub error: Option<f64>,
-}
 
 /// A change that helps, with its work, and how a run is made with it.
 struct Helps {
@@ -54,7 +40,7 @@ pub(super) struct Tries<'c, 'a> {
     /// How long a student looks, s: errors are those that are seen.
     pub(super) window: f64,
     /// Work of a second of the lab as it stands.
-    pub(super) own: f64,
+    pub(super) work_per_second: f64,
     /// Work that may still be done.
     pub(super) left: u64,
     pub(super) work: u64,
@@ -117,8 +103,8 @@ impl Tries<'_, '_> {
             let error = if handling == found.handling {
                 truth.as_ref().and_then(|t| truth::error(self.case, t, apply, &mut work))
             } else {
-                let own = truth::truth(self.case, &handling, self.window, &mut work);
-                own.and_then(|t| truth::error(self.case, &t, apply, &mut work))
+                let truth = truth::truth(self.case, &handling, self.window, &mut work);
+                truth.and_then(|t| truth::error(self.case, &t, apply, &mut work))
             };
             if error.is_some_and(|error| error > USELESS) {
                 continue;
@@ -150,15 +136,15 @@ impl Tries<'_, '_> {
     ) -> Option<Option<f64>> {
         let change = |session: &mut Session<'_>| apply(&mut session.world.model);
         let outcome = self.run(&found.handling, Some(&change))?;
-        let cost = outcome.spent as f64 / outcome.covered.max(f64::MIN_POSITIVE) / self.own;
+        let cost = outcome.spent as f64 / outcome.covered.max(f64::MIN_POSITIVE) / self.work_per_second;
         Some((!outcome.cut && is_well(found, before, &outcome)).then_some(cost))
     }
 
     /// A slider that goes less far, where it alone does the harm: the farthest value that does none, by bisection on its grid.
     fn shorter_slider(&mut self, found: &FaultGroup, before: &Outcome) -> Option<Option<Helps>> {
         let base = &self.case.base.actions;
-        let mut own = found.handling.actions.iter().filter(|a| !base.contains(a));
-        let (Some(action), None) = (own.next(), own.next()) else { return Some(None) };
+        let mut added = found.handling.actions.iter().filter(|a| !base.contains(a));
+        let (Some(action), None) = (added.next(), added.next()) else { return Some(None) };
         let Some(control) = self.case.lab.controls.get(action.control) else { return Some(None) };
         let (ControlKind::Slider { min, value, .. }, Some(Value::Number(end))) =
             (&control.kind, &action.value)
@@ -215,11 +201,11 @@ fn is_well(found: &FaultGroup, before: &Outcome, after: &Outcome) -> bool {
     let FaultGroup { fault, .. } = found;
     if fault.kind == FaultKind::Drifts {
         let speed = after.speeds.iter().find(|(who, _)| *who == fault.who).map_or(0.0, |(_, speed)| *speed);
-        return speed <= STOPPED * fault.size && super::margins::worst(&after.faults, &[]).is_none();
+        return speed <= STOPPED * fault.size && worst_fault(&after.faults, &[]).is_none();
     }
     let others = before.faults.iter().filter(|f| (f.kind, &f.who) != (fault.kind, &fault.who));
-    let known: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.who.clone())).collect();
-    super::margins::worst(&after.faults, &known).is_none()
+    let others: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.who.clone())).collect();
+    worst_fault(&after.faults, &others).is_none()
 }
 
 /// What may help against a fault of this kind.

@@ -1,8 +1,7 @@
 //! What rests and creeps all the same: bodies that touch others with friction and move on at the same small speed, although nothing
 //! pushes them along, and joints that move on although their friction loss is more than what pulls at them.
 
-use super::bodies::{body_name, body_of, halves};
-use super::case::joint_of_dof;
+use super::bodies::{body_name, body_of, halves, joint_of_dof};
 use super::fault::{Evidence, Fault, FaultKind};
 use super::memory::Memory;
 use labspec_core::math::{Vec3, norm, rows, sub};

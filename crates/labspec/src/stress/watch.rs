@@ -2,6 +2,7 @@
 //! switch on and off, and motion that leaves every bound. Nothing of the run is touched.
 
 use super::bodies::{self, body_of, body_thickness, geom_name, halves, seen_from, thickness};
+use super::causes::stiffness_cause;
 use super::fault::{Evidence, Fault, FaultKind};
 use super::ground::{self, Over};
 use super::rest::Rest;
@@ -332,7 +333,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
 
 fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
     let [g, p] = t.geoms;
-    let cause = super::case::likely(m).unwrap_or_else(|| {
+    let cause = stiffness_cause(m).unwrap_or_else(|| {
         format!("the contact is too hard, or has too little damping, for a step of {} s", m.opt.timestep)
     });
     Fault {

@@ -6,6 +6,8 @@
 //! from where it was sensible to the end of the run, every eighth of the time is faster than all before. What is bounded, as a
 //! limit cycle however fast, does not run away.
 
+use super::bodies::joint_of_dof;
+use super::causes::stiffness_cause;
 use super::fault::{Evidence, Fault, FaultKind};
 use super::memory::Memory;
 use labspec_core::math::norm;
@@ -100,8 +102,8 @@ impl Wild {
         Some(Fault {
             kind: FaultKind::Silent,
             time,
-            who: super::case::joint_of_dof(m, dof),
-            cause: super::case::likely(m)
+            who: joint_of_dof(m, dof),
+            cause: stiffness_cause(m)
                 .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![
                 Evidence { name: "speed", value: speed, unit },
