@@ -232,6 +232,38 @@ fn cost(cost: Option<Cost>) -> [Value; 3] {
     }
 }
 
+/// The mean and the largest of a count.
+fn mean_and_most([mean, most]: [f64; 2]) -> Value {
+    json!({"mean": mean, "most": most})
+}
+
+fn codes(codes: &[Code]) -> Vec<Value> {
+    let one = |c: &Code| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
+    codes.iter().map(one).collect()
+}
+
+fn pairs_value(of: &Report) -> Value {
+    let p = &of.pairs;
+    json!({
+        "all": p.all,
+        "canTouch": p.can_touch,
+        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
+        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
+        "inReach": p.seen.map(|s| mean_and_most(s.in_reach)),
+        "contacts": p.seen.map(|s| mean_and_most(s.contacts)),
+    })
+}
+
+fn solver_value(of: &Report) -> Value {
+    let seen = of.pairs.seen;
+    json!({
+        "cone": of.cone,
+        "methods": codes(&of.solvers),
+        "rows": seen.map(|s| mean_and_most(s.rows)),
+        "iterations": seen.map(|s| mean_and_most(s.iterations)),
+    })
+}
+
 fn value(of: &Report) -> Value {
     let stages: Vec<Value> = of
         .rows
@@ -252,26 +284,6 @@ fn value(of: &Report) -> Value {
             "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns, "reason": of.controller})),
         })
     });
-    let p = &of.pairs;
-    let both = |[mean, most]: [f64; 2]| json!({"mean": mean, "most": most});
-    let pairs = json!({
-        "all": p.all,
-        "canTouch": p.can_touch,
-        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
-        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
-        "inReach": p.seen.map(|s| both(s.in_reach)),
-        "contacts": p.seen.map(|s| both(s.contacts)),
-    });
-    let codes = |codes: &[Code]| {
-        let one = |c: &Code| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
-        codes.iter().map(one).collect::<Vec<_>>()
-    };
-    let solver = json!({
-        "cone": of.cone,
-        "methods": codes(&of.solvers),
-        "rows": p.seen.map(|s| both(s.rows)),
-        "iterations": p.seen.map(|s| both(s.iterations)),
-    });
     let ways = of.ways.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
         json!({"name": w.name, "places": places, "forces": forces, "accelerations": accelerations})
@@ -286,9 +298,9 @@ fn value(of: &Report) -> Value {
         "writes": names(&of.demand.writes),
         "stages": stages,
         "step": step,
-        "pairs": pairs,
+        "pairs": pairs_value(of),
         "sensors": of.sensors.iter().map(|s| json!({"name": s.name, "keep": s.keep, "reason": s.reason})).collect::<Vec<_>>(),
-        "solver": solver,
+        "solver": solver_value(of),
         "integrators": codes(&of.integrators),
         "ways": ways.collect::<Vec<_>>(),
         "readers": readers.collect::<Vec<_>>(),

@@ -335,7 +335,7 @@ fn left_out(report: &Report) -> Vec<String> {
 }
 
 fn value(report: &Report, programs: &Programs) -> Value {
-    let tried = |t: &crate::stress::Tried| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
+    let tried = |t: &crate::stress::RunCount| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
     let found: Vec<Value> = report.found.iter().map(|f| found_value(f, programs)).collect();
     crate::report::report(
         "stability",

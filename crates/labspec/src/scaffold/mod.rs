@@ -18,7 +18,7 @@ use crate::bind::scene::Models;
 use crate::check::{self, CheckLevel};
 use crate::lint::reload_lesson;
 use crate::spec::{LabAddress, Lesson, Question, QuestionKind};
-use crate::trace::{self, Block, Origin, Traces, Tried, trace};
+use crate::trace::{self, Block, Origin, TracedLab, Traces, trace};
 use crate::verify::{Stage, Verdict};
 use choose::Choice;
 use serde_json::{Map, Value, json};
@@ -131,8 +131,8 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Sta
 }
 
 /// The labs that a question is about: its own, or those of the lesson.
-fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t Tried<'l>> {
-    let own: Vec<&Tried<'_>> =
+fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t TracedLab<'l>> {
+    let own: Vec<&TracedLab<'_>> =
         found.labs.iter().filter(|t| t.owner.as_ref().is_some_and(|o| *o == question.span)).collect();
     if !own.is_empty() || question.sim().is_some() {
         return own;

@@ -47,5 +47,5 @@ pub use map::{Cell, Map};
 pub use margins::{Knob, Margin};
 pub use messages::watched_run;
 pub(crate) use messages::{describe, with_tried_timestep};
-pub use probe::{Made, Options, Report, Tried, probe};
+pub use probe::{Made, Options, Report, RunCount, probe};
 pub use sensitivity::{Exponent, Horizon, Parting, Sensitivity};

@@ -55,7 +55,7 @@ pub struct Made {
 
 /// How many runs of a kind there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tried {
+pub struct RunCount {
     /// The kind.
     pub kind: Kind,
     /// Runs that were made to their end, or until they broke.
@@ -72,7 +72,7 @@ pub struct Report {
     /// How long a run is, s.
     pub length: f64,
     /// What was tried, kind by kind.
-    pub tried: Vec<Tried>,
+    pub tried: Vec<RunCount>,
     /// The runs.
     pub runs: Vec<Made>,
     /// How long the shortest of those runs was that were cut, s.
@@ -153,7 +153,7 @@ pub fn probe(
 fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> Report {
     Report {
         length,
-        tried: Kind::ALL.map(|kind| Tried { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
+        tried: Kind::ALL.map(|kind| RunCount { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
         runs: Vec::new(),
         shortest: None,
         pairs_left_out,

@@ -1,8 +1,8 @@
 //! What could be measured in a lab: what it shows, at the start, at the end, at named times and at contacts; how fast its bodies
 //! move; constants of its model. The simplest come first.
 
-use super::split_words;
-use super::trials::{second, si};
+use super::units::{LONGEST_TIMESTEP, second, si};
+use super::words::split_words;
 use crate::bind::{ModelNames, Programs, Scope, dimensions, of_label};
 use crate::check;
 use crate::run::{self, Play, Session};
@@ -309,7 +309,7 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
     for s in numbers {
         let t = si(s);
         let is_time = s.dimension == second().times(s.dimension.factor);
-        if is_time && t > super::trials::LONGEST && t <= 20.0 && !all.contains(&t) && all.len() < TIMES {
+        if is_time && t > LONGEST_TIMESTEP && t <= 20.0 && !all.contains(&t) && all.len() < TIMES {
             all.push(t);
         }
     }

@@ -1,7 +1,9 @@
 //! What was found, as an author takes it over: a `verify` object for each lab.
 
+use super::lesson::Traces;
+use super::rank::{Hit, Origin};
 use super::trials::Trial;
-use super::{Hit, Origin, Traces, split_words};
+use super::words::split_words;
 use crate::json::Scalar;
 use crate::spec::LabAddress;
 use serde_json::{Map, Value, json};

@@ -1,6 +1,6 @@
 //! What a claim rests on: its runs, its measures, the numbers it quotes, its closed forms.
 
-use super::lesson::Context;
+use super::context::LessonContext;
 use super::plots::plots;
 use super::settings;
 use super::text::{code, plain, text};
@@ -16,7 +16,7 @@ use std::fmt::Write;
 const PLACES: usize = 8;
 
 /// The pictures of a claim, and its tables, folded up where there is nothing to doubt.
-pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let mut out = String::new();
     let spec = spec.map(|verify| context.lesson.whole(verify));
     if let Some(drawn) = spec.and_then(|verify| context.curves.iter().find(|d| d.span == verify.span)) {
@@ -29,12 +29,13 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'
         (judgement.quotes.len(), "quoted number"),
         (judgement.exact.len(), "closed form"),
     ];
-    let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| counted(*n, one)).collect();
-    if told.is_empty() {
+    let nonzero: Vec<String> =
+        counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| counted(*n, one)).collect();
+    if nonzero.is_empty() {
         return out;
     }
     let open = if claim.is_doubtful() { " open=\"open\"" } else { "" };
-    let _ = writeln!(out, "<details{open}><summary>{}</summary>", told.join(", "));
+    let _ = writeln!(out, "<details{open}><summary>{}</summary>", nonzero.join(", "));
     for table in
         [quotes(claim, context), forms(claim, spec, context), measures(claim), runs(claim, spec, context)]
     {
@@ -70,7 +71,7 @@ fn number(x: f64) -> String {
     format!("<span class=\"number\">{}</span>", plain(&significant(x)))
 }
 
-fn quotes(claim: &Claim, context: &Context<'_>) -> String {
+fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
     let row = |q: &Quote| {
         let own = match q.state {
             QuoteState::Right => State::True(q.evidence),
@@ -98,7 +99,7 @@ fn quotes(claim: &Claim, context: &Context<'_>) -> String {
     table("Quoted numbers", &["text", "computed", "verdict", "line", "why"], &rows)
 }
 
-fn forms(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+fn forms(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let row = |form: &crate::verify::ClosedForm| {
         let word = match form.state {
             State::True(_) => "verified",
@@ -125,7 +126,7 @@ fn measures(claim: &Claim) -> String {
     table("Measures", &["measure", "value", "at half the timestep, where it differs"], &rows)
 }
 
-fn runs(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let judgement = &claim.judgement;
     let begun = context.runs(&claim.name).filter(|begun| begun.len() == judgement.runs.len()).unwrap_or(&[]);
     let numerics: Vec<String> =

@@ -1,8 +1,8 @@
 //! A question: what is asked, what is keyed, and how each option fared.
 
+use super::context::LessonContext;
 use super::evidence::evidence;
 use super::formula;
-use super::lesson::Context;
 use super::text::{code, plain, text};
 use super::verdict::{condition, verdict};
 use crate::check::Claim;
@@ -42,7 +42,7 @@ impl Asked<'_> {
 }
 
 /// The question as a piece of the page.
-pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
+pub(super) fn write(asked: &Asked<'_>, context: &LessonContext<'_>) -> String {
     let Asked { anchor, name, question, claim, state, word, remark } = asked;
     let spec = question.verify.as_ref();
     let line = context.line(question.span.start);
