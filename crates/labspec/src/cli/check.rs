@@ -6,8 +6,8 @@ use super::check_output::{Format, OutputOptions, PreviousRecord, report_results}
 use super::collect::{STDIN, collect};
 use super::common::{Color, Failure, ModelOptions, Outcome};
 use super::course::{CheckRequest, CrossCheckRequest};
-use super::fix::{Mode, fix};
-use super::output::{Wanted, look_ahead};
+use super::fix::{FixMode, fix};
+use super::output::{PlannedOutput, look_ahead};
 use super::output_kind::OutputKind;
 use super::policy::PolicyOptions;
 use super::scheduler::check_lessons;
@@ -112,15 +112,16 @@ struct CheckInputs<'a> {
     recording: Option<Recording>,
 }
 
-pub(super) fn check(a: &CheckArguments) -> Result<Outcome, Failure> {
+pub(super) fn check_command(a: &CheckArguments) -> Result<Outcome, Failure> {
     let level = if a.no_run { CheckLevel::STATIC } else { CheckLevel::FULL };
-    let fix = (a.fix || a.diff || a.unsafe_fixes).then_some(Mode { guesses: a.unsafe_fixes, diff: a.diff });
+    let fix =
+        (a.fix || a.diff || a.unsafe_fixes).then_some(FixMode { guesses: a.unsafe_fixes, diff: a.diff });
     let paths =
         RecordPaths { write: a.record.as_deref(), html: a.html.as_deref(), since: a.since.as_deref() };
     run_check(&a.common, level, false, fix, paths)
 }
 
-pub(super) fn verify(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn verify_command(a: &Arguments) -> Result<Outcome, Failure> {
     run_check(a, CheckLevel::CLAIMS, true, None, RecordPaths::default())
 }
 
@@ -129,7 +130,7 @@ fn run_check(
     a: &Arguments,
     level: CheckLevel,
     with_evidence: bool,
-    fix_mode: Option<Mode>,
+    fix_mode: Option<FixMode>,
     paths: RecordPaths<'_>,
 ) -> Result<Outcome, Failure> {
     let cache = Cache::open(a.no_cache, a.watch);
@@ -208,9 +209,9 @@ fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
         (OutputKind::JudgeRequest, a.judge_request.as_deref()),
         (OutputKind::Baseline, a.baseline.as_deref().filter(|_| a.update_baseline)),
     ];
-    let outputs: Vec<Wanted> = outputs
+    let outputs: Vec<PlannedOutput> = outputs
         .into_iter()
-        .filter_map(|(kind, file)| Some(Wanted { kind, path: file?.to_path_buf() }))
+        .filter_map(|(kind, file)| Some(PlannedOutput { kind, path: file?.to_path_buf() }))
         .collect();
     if outputs.is_empty() {
         return Ok(());
@@ -220,7 +221,7 @@ fn check_outputs(a: &Arguments, paths: RecordPaths<'_>) -> Result<(), Failure> {
 }
 
 /// Applies fixes. With `--diff` the command ends here, with this outcome.
-fn apply_fixes(request: &CheckRequest<'_>, mode: Mode) -> Result<Option<Outcome>, Failure> {
+fn apply_fixes(request: &CheckRequest<'_>, mode: FixMode) -> Result<Option<Outcome>, Failure> {
     let repaired = fix(request, mode)?;
     if mode.diff {
         return Ok(Some(if repaired.fixes > 0 { Outcome::Findings } else { Outcome::Clean }));

@@ -41,7 +41,7 @@ pub(super) enum Format {
 pub(super) type PreviousRecord<'a> = (&'a Path, Value);
 
 /// The file of the earlier record, and what changed since.
-type Changes<'a> = (&'a Path, Vec<since::Change>);
+type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
 
 /// What is printed and written.
 pub(super) struct OutputOptions<'a> {

@@ -100,8 +100,8 @@ fn execute(command: &Command) -> Result<Outcome, Failure> {
     match command {
         Command::Init(a) => init::init(a),
         Command::Completions(a) => completions::completions(a, &mut Cli::command()),
-        Command::Check(a) => check::check(a),
-        Command::Verify(a) => check::verify(a),
+        Command::Check(a) => check::check_command(a),
+        Command::Verify(a) => check::verify_command(a),
         Command::Snapshot(a) => snapshot::snapshot(a),
         Command::Fmt(a) => fmt::fmt(a),
         Command::Run(a) => run::run(a),

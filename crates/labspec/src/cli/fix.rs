@@ -22,7 +22,7 @@ use std::path::Path;
 
 /// What is repaired, and whether it is written.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mode {
+pub(super) struct FixMode {
     /// Guesses, too.
     pub(super) guesses: bool,
     /// Show what would change, and change nothing.
@@ -40,7 +40,7 @@ pub(super) struct Repaired {
 ///
 /// # Errors
 /// A file cannot be written. One that cannot be read is left to the check.
-pub(super) fn fix(request: &CheckRequest<'_>, mode: Mode) -> Result<Repaired, Failure> {
+pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<Repaired, Failure> {
     let mut policies = Policies::new(request.policy)?;
     let mut repaired = Repaired::default();
     for (path, named) in collect(request.paths).files {

@@ -111,7 +111,7 @@ fn taken(run: &Value) -> Result<Taken, String> {
 }
 
 /// What a judge makes of a results, all in all.
-struct Sum<'c> {
+struct CrossCheckSummary<'c> {
     /// File, owner, and what became of it.
     claims: Vec<(String, &'c str, &'c Judged)>,
     /// What no judge is asked about.
@@ -120,14 +120,14 @@ struct Sum<'c> {
     missing: usize,
 }
 
-impl<'c> Sum<'c> {
-    fn of(results: &'c CourseResults) -> Sum<'c> {
+impl<'c> CrossCheckSummary<'c> {
+    fn new(results: &'c CourseResults) -> CrossCheckSummary<'c> {
         let all = || results.checked.iter().zip(&results.cross_checks);
         let of = |(c, cross_check): (&crate::check::Checked, &'c CrossCheck)| {
             let file = file_name(&c.lesson);
             cross_check.claims.iter().map(move |(owner, judged)| (file.clone(), owner.as_str(), judged))
         };
-        Sum {
+        CrossCheckSummary {
             claims: all().flat_map(of).collect(),
             left: results.cross_checks.iter().fold(Left::default(), |sum, h| sum.and(h.left)),
             stale: results.cross_checks.iter().map(|h| h.stale).sum(),
@@ -142,13 +142,13 @@ impl<'c> Sum<'c> {
 
 /// Whether something that is claimed was not judged for want of a recording.
 pub(super) fn is_partial(results: &CourseResults) -> bool {
-    let sum = Sum::of(results);
+    let sum = CrossCheckSummary::new(results);
     sum.stale + sum.missing > 0
 }
 
 /// What the judge says, for people.
 pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> String {
-    let sum = Sum::of(results);
+    let sum = CrossCheckSummary::new(results);
     let (compared, differing) = (sum.count(|j| j.compared), sum.count(|j| j.differing.len()));
     let (claims, turned) = (sum.count(|j| j.claims), sum.count(|j| j.turned));
     let mut text = String::new();
@@ -203,7 +203,7 @@ pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> Str
 
 /// What the judge says, for programs.
 pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
-    let sum = Sum::of(results);
+    let sum = CrossCheckSummary::new(results);
     let differing = sum.claims.iter().flat_map(|(file, owner, judged)| {
         judged.differing.iter().map(move |(name, ours, theirs)| {
             let mut one =
@@ -233,8 +233,8 @@ fn left(left: Left) -> Option<String> {
         (left.ranges, "range", "ranges"),
         (left.forms, "closed form", "closed forms"),
     ];
-    let told = kinds.into_iter().filter(|(n, ..)| *n > 0);
-    let told: Vec<String> =
-        told.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many })).collect();
-    (!told.is_empty()).then(|| told.join(", "))
+    let nonzero = kinds.into_iter().filter(|(n, ..)| *n > 0);
+    let nonzero: Vec<String> =
+        nonzero.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many })).collect();
+    (!nonzero.is_empty()).then(|| nonzero.join(", "))
 }

@@ -4,7 +4,7 @@ use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::stdio::print;
 use super::stdio::print_json;
 use super::target;
-use crate::profile::{Code, Cost, Options, REPEATS, Report, name};
+use crate::profile::{EngineOption, Options, PlanReport, REPEATS, StageCost, name};
 use crate::report::{printable, report};
 use crate::verify::significant;
 use clap::ValueEnum;
@@ -61,7 +61,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-fn human(report: &Report) -> String {
+fn human(report: &PlanReport) -> String {
     let mut text = String::new();
     let list = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
     let _ = writeln!(text, "reads   {}", list(names(&report.demand.reads)));
@@ -76,8 +76,9 @@ fn human(report: &Report) -> String {
             false => writeln!(text, "{verb:<5}  {name:<14} {}", printable(reason)),
         };
     };
-    let costs =
-        |cost: Option<Cost>| cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)));
+    let costs = |cost: Option<StageCost>| {
+        cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)))
+    };
     for r in &report.rows {
         let (share, time) = match r.forced {
             Some(more) => (String::new(), format!("(+{})", ns(more))),
@@ -93,8 +94,8 @@ fn human(report: &Report) -> String {
             row("", "controller", share, time, when);
         }
     }
-    let kept = report.rows.iter().filter(|r| r.keep).count();
-    let _ = writeln!(text, "\n{kept} of {} stages run in every step", report.rows.len());
+    let running = report.rows.iter().filter(|r| r.keep).count();
+    let _ = writeln!(text, "\n{running} of {} stages run in every step", report.rows.len());
     if let Some(step) = &report.step {
         let [low, high] = step.quarters;
         let _ = writeln!(
@@ -120,7 +121,7 @@ fn human(report: &Report) -> String {
 }
 
 /// Pairs of geoms, the solver, the integrator, and ways of computing trees.
-fn parts(report: &Report, text: &mut String) {
+fn parts(report: &PlanReport, text: &mut String) {
     let pairs = &report.pairs;
     let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
     for (shapes, n, searched) in &pairs.tests {
@@ -155,12 +156,12 @@ fn parts(report: &Report, text: &mut String) {
 }
 
 /// The sensors, those alike in one line.
-fn sensors(report: &Report, text: &mut String) {
+fn sensors(report: &PlanReport, text: &mut String) {
     if report.sensors.is_empty() {
         return;
     }
-    let kept = report.sensors.iter().filter(|s| s.keep).count();
-    let _ = writeln!(text, "\nsensors  {kept} of {} are computed", report.sensors.len());
+    let computed = report.sensors.iter().filter(|s| s.keep).count();
+    let _ = writeln!(text, "\nsensors  {computed} of {} are computed", report.sensors.len());
     let mut left: Vec<_> = report.sensors.iter().collect();
     while let Some(first) = left.first().copied() {
         let (alike, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|s| s.reason == first.reason);
@@ -172,7 +173,7 @@ fn sensors(report: &Report, text: &mut String) {
 }
 
 /// Which ways trees take.
-fn ways(report: &Report, text: &mut String) {
+fn ways(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = way.trees;
@@ -189,10 +190,10 @@ fn ways(report: &Report, text: &mut String) {
 }
 
 /// Those that are used, then the others by reason.
-fn list(what: &str, codes: &[Code], text: &mut String) {
+fn list(what: &str, codes: &[EngineOption], text: &mut String) {
     let _ = writeln!(text, "\n{what}");
     for verb in ["keep ", "leave"] {
-        let mut codes: Vec<&Code> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
+        let mut codes: Vec<&EngineOption> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
         while let Some(first) = codes.first().copied() {
             let alike = codes.iter().filter(|c| c.reason == first.reason).map(|c| c.name);
             let alike = alike.collect::<Vec<_>>().join(", ");
@@ -203,7 +204,7 @@ fn list(what: &str, codes: &[Code], text: &mut String) {
 }
 
 /// What one more reader would cost.
-fn readers(report: &Report, text: &mut String) {
+fn readers(report: &PlanReport, text: &mut String) {
     if report.readers.is_empty() {
         return;
     }
@@ -225,7 +226,7 @@ fn readers(report: &Report, text: &mut String) {
     }
 }
 
-fn cost(cost: Option<Cost>) -> [Value; 3] {
+fn cost(cost: Option<StageCost>) -> [Value; 3] {
     match cost {
         Some(c) => [json!(c.share), json!(c.ns), json!(c.work)],
         None => [Value::Null, Value::Null, Value::Null],
@@ -237,12 +238,12 @@ fn mean_and_most([mean, most]: [f64; 2]) -> Value {
     json!({"mean": mean, "most": most})
 }
 
-fn codes(codes: &[Code]) -> Vec<Value> {
-    let one = |c: &Code| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
+fn codes(codes: &[EngineOption]) -> Vec<Value> {
+    let one = |c: &EngineOption| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
     codes.iter().map(one).collect()
 }
 
-fn pairs_value(of: &Report) -> Value {
+fn pairs_value(of: &PlanReport) -> Value {
     let p = &of.pairs;
     json!({
         "all": p.all,
@@ -254,7 +255,7 @@ fn pairs_value(of: &Report) -> Value {
     })
 }
 
-fn solver_value(of: &Report) -> Value {
+fn solver_value(of: &PlanReport) -> Value {
     let seen = of.pairs.seen;
     json!({
         "cone": of.cone,
@@ -264,7 +265,7 @@ fn solver_value(of: &Report) -> Value {
     })
 }
 
-fn value(of: &Report) -> Value {
+fn value(of: &PlanReport) -> Value {
     let stages: Vec<Value> = of
         .rows
         .iter()

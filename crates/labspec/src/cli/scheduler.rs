@@ -239,8 +239,8 @@ fn unreadable_finding(path: &Path, why: String) -> Finding {
 }
 
 fn lost_snapshot_finding(path: &Path) -> Finding {
-    let shown = printable_path(path);
-    let lesson = shown.strip_suffix(lint::SNAPSHOT).unwrap_or(&shown);
+    let name = printable_path(path);
+    let lesson = name.strip_suffix(lint::SNAPSHOT).unwrap_or(&name);
     let mut f = Finding::new(
         rules::SNAPSHOT_WITHOUT_LESSON,
         0..0,

@@ -246,10 +246,14 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
 
 /// What is said of a lab that is not as stored.
 fn about(lab: &RenewedLab) -> String {
-    let kept = &lab.kept;
-    let mut text =
-        format!("  {:<10} lab {}: {}\n", kept.word(), printable(&kept.lab), printable(&kept.remark()));
-    for line in kept.shown() {
+    let snapshot = &lab.kept;
+    let mut text = format!(
+        "  {:<10} lab {}: {}\n",
+        snapshot.word(),
+        printable(&snapshot.lab),
+        printable(&snapshot.remark())
+    );
+    for line in snapshot.shown() {
         let _ = writeln!(text, "  {:<10}   {}", "", printable(&line));
     }
     text

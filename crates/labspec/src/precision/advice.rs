@@ -163,14 +163,14 @@ fn about_own(report: &Report, own: usize) -> String {
             row.fate.word()
         );
     }
-    let known = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
-    if known.clone().next().is_none() {
+    let compared = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
+    if compared.clone().next().is_none() {
         return format!("With the settings of the lab, {name}, nothing could be compared.");
     }
-    if let Some((target, _)) = known.clone().find(|(_, e)| e.largest.is_nan()) {
+    if let Some((target, _)) = compared.clone().find(|(_, e)| e.largest.is_nan()) {
         return format!("With the settings of the lab, {name}, \"{}\" is not always a number.", target.label);
     }
-    let above = known.filter(|(_, e)| !e.below);
+    let above = compared.filter(|(_, e)| !e.below);
     let Some((target, e)) = above.max_by(|(_, a), (_, b)| a.seen[0].total_cmp(&b.seen[0])) else {
         return format!(
             "With the settings of the lab, {name}, {} is as exact as the reference.",

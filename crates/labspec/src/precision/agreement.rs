@@ -1,9 +1,9 @@
 //! A reference as far as two runs of different methods agree on it.
 
 use super::case::PrecisionCase;
+use super::event_finder::EventThresholds;
+use super::event_time::EventTime;
 use super::integrator::{INTEGRATORS, Integrator};
-use super::moment::Moment;
-use super::moments::Sought;
 use super::numbers::range;
 use super::run_record::{Fate, Run, RunRequest};
 use super::setting::Setting;
@@ -20,9 +20,9 @@ pub(super) struct Reference {
     /// The same of the depth, m.
     pub(super) depth_doubt: f64,
     /// First contact, passages and turning points.
-    pub(super) moments: Vec<Known>,
+    pub(super) moments: Vec<KnownEvent>,
     /// What is looked for in other runs.
-    pub(super) sought: Sought,
+    pub(super) sought: EventThresholds,
     /// Whether a force could jump in one of the runs.
     pub(super) jumps: bool,
     /// What the two families are, in words.
@@ -31,7 +31,7 @@ pub(super) struct Reference {
 
 /// A moment of the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Known {
+pub(super) struct KnownEvent {
     /// The time, s; NaN where it does not happen, or is not known.
     pub(super) at: f64,
     /// How far that may be off, s.
@@ -72,11 +72,11 @@ pub(super) fn too_long(case: &PrecisionCase<'_>, timestep: f64) -> bool {
 pub(super) fn known(
     case: &PrecisionCase<'_>,
     uncertain: &[Vec<f64>],
-    [a, b]: [&[Moment]; 2],
+    [a, b]: [&[EventTime]; 2],
     steps: f64,
-) -> Vec<Known> {
+) -> Vec<KnownEvent> {
     let n = case.targets.len();
-    let one = |(i, (a, b)): (usize, (&Moment, &Moment))| {
+    let one = |(i, (a, b)): (usize, (&EventTime, &EventTime))| {
         let target = (1..=n).contains(&i).then(|| uncertain.get(i - 1)).flatten();
         let sample = (a.at / case.interval).ceil() as usize;
         let value = target.and_then(|list| list.get(sample.min(list.len().saturating_sub(1))));
@@ -87,8 +87,8 @@ pub(super) fn known(
         let doubt = apart + a.doubt + b.doubt + moved + rounding;
         // A difference that is no number is no moment either.
         match doubt <= UNKNOWN * case.length() && a.top == b.top {
-            true => Known { at: a.at, doubt, top: a.top },
-            false => Known { at: f64::NAN, doubt: f64::NAN, top: false },
+            true => KnownEvent { at: a.at, doubt, top: a.top },
+            false => KnownEvent { at: f64::NAN, doubt: f64::NAN, top: false },
         }
     };
     a.iter().zip(b).enumerate().map(one).collect()

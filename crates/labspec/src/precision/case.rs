@@ -1,8 +1,8 @@
 //! A lab whose settings are compared: the numbers that it displays, and a run of it under a setting.
 
+use super::event_finder::EventFinder;
 use super::integrator_work::integrator_work;
 use super::jumps;
-use super::moments::Finder;
 use super::run_record::{EnergySampler, Rhythm, Run, RunRequest};
 use super::setting::Setting;
 use crate::bind::{
@@ -19,31 +19,31 @@ use labspec_expr::{Compiler, Type, Value};
 use std::ops::ControlFlow;
 
 /// A number that the lab shows.
-pub(super) struct Target<'a> {
+pub(super) struct ComparedNumber<'a> {
     pub(super) label: String,
     /// Its unit, where it is known.
     pub(super) unit: Option<String>,
     pub(super) bound: &'a Bound,
     /// Its closed form.
     pub(super) exact: Option<Bound>,
-    pub(super) shown: Shown,
+    pub(super) shown: DisplayPrecision,
 }
 
 /// How exactly a number is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shown {
+pub(super) enum DisplayPrecision {
     /// With so many decimals.
     Decimals(u32),
     /// As a curve: the ends of its axis, where they are fixed, and its height in pixels.
     Curve { ends: [Option<f64>; 2], height: f64 },
 }
 
-impl Shown {
+impl DisplayPrecision {
     /// The largest error that nobody sees, for values of some range: half a unit of the last digit, half a pixel.
     pub(super) fn unseen(self, range: f64) -> f64 {
         match self {
-            Shown::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
-            Shown::Curve { ends, height } => {
+            DisplayPrecision::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
+            DisplayPrecision::Curve { ends, height } => {
                 let tall = match ends {
                     [Some(low), Some(high)] if high > low => high - low,
                     _ => range,
@@ -71,7 +71,7 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) lab: &'a Lab,
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
-    pub(super) targets: Vec<Target<'a>>,
+    pub(super) targets: Vec<ComparedNumber<'a>>,
     pub(super) left_out: Vec<LeftOut>,
     pub(super) set: &'a [(String, Value)],
     /// Buttons and the times of their presses, s.
@@ -119,20 +119,21 @@ impl<'a> PrecisionCase<'a> {
         };
         let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
         let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
-        let curve = |plot: &Plot| Shown::Curve {
+        let curve = |plot: &Plot| DisplayPrecision::Curve {
             ends: [&plot.ymin, &plot.ymax].map(|end| end.as_ref().map(|x| x.value)),
             height: plot.height(),
         };
         let curves = |plot: &'a Plot| plot.traces.iter().map(move |t| (&t.label.value, curve(plot)));
         let traces = lab.plots.iter().flat_map(curves);
-        let readouts = lab.readouts.iter().map(|r| (&r.label.value, Shown::Decimals(r.digits())));
+        let readouts = lab.readouts.iter().map(|r| (&r.label.value, DisplayPrecision::Decimals(r.digits())));
         let measured = dimensions(lab, model, programs).probes;
         let probes = programs.probes.iter().zip(measured.into_iter().chain(std::iter::repeat(None)));
         for ((label, shown), (probe, measured)) in traces.chain(readouts).zip(probes) {
             let Some(bound) = &probe.bound else { continue };
             let unit = unit_of(label, measured.map(|m| m.value));
-            let closed =
-                exact.iter().find(|e| e.trace.value == *label && matches!(shown, Shown::Curve { .. }));
+            let closed = exact
+                .iter()
+                .find(|e| e.trace.value == *label && matches!(shown, DisplayPrecision::Curve { .. }));
             let closed = closed.and_then(|e| {
                 let mut globals = programs.globals.clone();
                 let compiled = Compiler::new(&names, &mut globals).expression(&e.form.value);
@@ -147,7 +148,7 @@ impl<'a> PrecisionCase<'a> {
     fn take(
         &mut self,
         (label, unit): (&str, Option<String>),
-        shown: Shown,
+        shown: DisplayPrecision,
         bound: &'a Bound,
         exact: Option<Bound>,
     ) {
@@ -163,7 +164,7 @@ impl<'a> PrecisionCase<'a> {
             if let Some(e) = &exact {
                 include(e.program.effects(), &mut self.demand);
             }
-            self.targets.push(Target { label: label.to_string(), unit, bound, exact, shown });
+            self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, shown });
             return;
         };
         self.left_out.push(LeftOut { label: label.to_string(), reason });
@@ -235,7 +236,7 @@ impl<'a> PrecisionCase<'a> {
         let steps = rhythm.count * rhythm.steps;
         let mut record = Run::with_capacity(self.targets.len(), rhythm.count + 1);
         let mut energy = EnergySampler::new(&session.world.model);
-        let mut finder = request.sought.map(|s| Finder::new(s, &session.world.model, setting));
+        let mut finder = request.sought.map(|s| EventFinder::new(s, &session.world.model, setting));
         let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
         let every = rhythm.count.div_ceil(LOOKS).max(1);
         let before = session.spent();
@@ -257,7 +258,7 @@ impl<'a> PrecisionCase<'a> {
             }
             sampling += session.spent() - began;
             let time = session.world.data.time();
-            let found = finder.as_ref().is_some_and(Finder::is_complete);
+            let found = finder.as_ref().is_some_and(EventFinder::is_complete);
             match request.stop.is_some_and(|stop| found || time > stop) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),

@@ -2,13 +2,13 @@
 
 use super::agreement::Reference;
 use super::case::{LeftOut, PrecisionCase};
-use super::cost::{self, Cost};
+use super::conserved::{Conserved, change};
 use super::events::{self, Event};
 use super::integrator::Integrator;
 use super::judge::{self, Compared, Errors};
-use super::kept::{Kept, change};
 use super::ladder::Ladder;
 use super::report::{Options, Report, Row};
+use super::run_cost::{self, RunCost};
 use super::run_record::{Fate, RunRequest};
 use super::setting::Setting;
 use super::{advice, orders, reference};
@@ -47,11 +47,11 @@ pub fn compare(
         .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is not a number at the start" }));
     let horizon = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let part = horizon.map_or(1.0, |t| t / case.length().max(f64::MIN_POSITIVE));
-    let judge = Judge {
+    let judge = Comparison {
         case: &case,
         ladder: &ladder,
         truth: &truth,
-        kept: Kept::of(&truth.run, part),
+        kept: Conserved::measure(&truth.run, part),
         events: events::events(&case, &truth, &targets),
         targets,
         part,
@@ -60,7 +60,7 @@ pub fn compare(
     orders::observe_orders(&mut rows, &judge.targets, !truth.jumps && horizon.is_none());
     tell("run times");
     measure_run_times(&case, &mut rows);
-    let Judge { kept, events, targets, .. } = judge;
+    let Comparison { kept, events, targets, .. } = judge;
     let known_to_end = |x: f64| if horizon.is_none() { x } else { f64::NAN };
     let mut report = Report {
         nearby: horizon.map(|_| events::nearby(&case, &targets, ladder.own)).transpose()?,
@@ -100,7 +100,7 @@ fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Optio
 fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
     let timed: Vec<Option<Setting>> =
         rows.iter().map(|r| (r.fate != Fate::Stopped).then_some(r.setting)).collect();
-    for (row, [median, low, high]) in rows.iter_mut().zip(cost::measure(case, &timed)) {
+    for (row, [median, low, high]) in rows.iter_mut().zip(run_cost::measure(case, &timed)) {
         (row.cost.median, row.cost.low, row.cost.high) = (median, low, high);
     }
 }
@@ -143,18 +143,18 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
 }
 
 /// What runs are held against.
-struct Judge<'j, 'a> {
+struct Comparison<'j, 'a> {
     case: &'j PrecisionCase<'a>,
     ladder: &'j Ladder,
     truth: &'j Reference,
     targets: Vec<Compared>,
     events: Vec<Event>,
-    kept: Kept,
+    kept: Conserved,
     /// The part of the run before the horizon of the truth.
     part: f64,
 }
 
-impl Judge<'_, '_> {
+impl Comparison<'_, '_> {
     /// All settings; of each method also longer steps, until something changes that a student sees.
     fn rows(&self, settings: &[Setting], tell: &mut dyn FnMut(&str)) -> Result<Vec<Row>, RunError> {
         let mut rows: Vec<Row> = Vec::new();
@@ -193,7 +193,7 @@ impl Judge<'_, '_> {
             energy: self.kept.energy.map(|_| change(&run.energy, self.part)),
             momentum: [0, 1].map(|k| self.kept.momentum[k].map(|_| self.kept.change(&run, k, self.part))),
             penetration: if self.part < 1.0 { f64::NAN } else { run.penetration },
-            cost: Cost::of_work(run.work),
+            cost: RunCost::of_work(run.work),
             fate: run.fate,
             reported: run.reported,
             score,
@@ -202,8 +202,8 @@ impl Judge<'_, '_> {
 }
 
 fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
-    let known = targets.iter().zip(errors).filter(|(t, _)| t.is_compared());
-    known.map(|(_, e)| e.seen[0]).reduce(f64::max).unwrap_or(f64::NAN)
+    let compared = targets.iter().zip(errors).filter(|(t, _)| t.is_compared());
+    compared.map(|(_, e)| e.seen[0]).reduce(f64::max).unwrap_or(f64::NAN)
 }
 
 /// The report of a lab that no method comes through: what became of each setting, and nothing else.
@@ -223,7 +223,7 @@ fn without_reference(
             energy: None,
             momentum: [None; 2],
             penetration: run.penetration,
-            cost: Cost::of_work(run.work),
+            cost: RunCost::of_work(run.work),
             fate: run.fate,
             reported: run.reported,
             score: f64::NAN,

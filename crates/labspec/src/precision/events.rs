@@ -1,6 +1,6 @@
 //! What happens in the reference, how far other runs are from it, and how long nearby starts stay together.
 
-use super::agreement::{Known, Reference, method};
+use super::agreement::{KnownEvent, Reference, method};
 use super::case::PrecisionCase;
 use super::judge::Compared;
 use super::run_record::{Run, RunRequest};
@@ -37,7 +37,7 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
     let n = case.targets.len();
     let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let contact = if truth.run.touching { "first new contact" } else { "first contact" };
-    let event = |(i, known): (usize, &Known)| {
+    let event = |(i, known): (usize, &KnownEvent)| {
         let target = i.checked_sub(1).and_then(|k| targets.get(k % n.max(1)));
         let name = match target {
             None => contact.to_string(),

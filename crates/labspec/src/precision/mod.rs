@@ -6,38 +6,38 @@
 
 mod advice;
 mod agreement;
-mod bench;
 mod beside;
 mod case;
 mod chebyshev;
 mod compare;
-mod cost;
+mod conserved;
+mod event_finder;
+mod event_time;
 mod events;
 mod extrapolation;
 mod integrator;
 mod integrator_work;
 mod judge;
 mod jumps;
-mod kept;
 mod ladder;
-mod moment;
-mod moments;
 mod numbers;
 mod orders;
 mod reference;
 mod report;
+mod run_cost;
 mod run_record;
 mod setting;
+mod step_replay;
 
 pub use beside::{Beside, BesideRow, Recording};
 pub use case::LeftOut;
 pub use compare::compare;
-pub use cost::Cost;
 pub use events::{Event, Nearby};
 pub use integrator::{INTEGRATORS, Integrator};
 pub use judge::{Compared, Errors};
 #[cfg(feature = "cli")]
 pub(crate) use numbers::milliseconds;
 pub use report::{Advice, Kind, Options, Report, Row};
+pub use run_cost::RunCost;
 pub use run_record::Fate;
 pub use setting::{Axis, Setting, Solver};

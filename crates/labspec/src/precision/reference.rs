@@ -7,8 +7,8 @@
 
 use super::agreement::{Reference, UNKNOWN, agree, known, method, run, so_far, too_long, worst_part};
 use super::case::PrecisionCase;
+use super::event_finder::EventThresholds;
 use super::extrapolation::extrapolated;
-use super::moments::Sought;
 use super::numbers::milliseconds;
 use super::run_record::{Run, RunRequest};
 use super::setting::Setting;
@@ -29,12 +29,12 @@ pub(super) fn reference(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Ref
 }
 
 /// A method and a step.
-type Way = (i32, f64);
+type MethodStep = (i32, f64);
 
 /// Two runs beside each other.
-struct Pair {
+struct AgreeingRuns {
     reference: Reference,
-    ways: [Way; 2],
+    ways: [MethodStep; 2],
 }
 
 fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
@@ -44,7 +44,7 @@ fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunEr
             first = run(case, way.0, way.1, RunRequest::FRESH)?.map(|run| (way, run));
         }
     }
-    let mut best: Option<Pair> = None;
+    let mut best: Option<AgreeingRuns> = None;
     let mut step = own.min(case.interval);
     for _ in 0..TRIES {
         if too_long(case, step) {
@@ -62,14 +62,14 @@ fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunEr
         let now = match &first {
             Some((way, seen)) => {
                 let how = format!("{} and {}", in_words(*way), in_words(mine));
-                Pair { reference: compare(seen.clone(), &second, how), ways: [*way, mine] }
+                AgreeingRuns { reference: compare(seen.clone(), &second, how), ways: [*way, mine] }
             }
             // One family alone: a run of half the step judges it.
             None => {
                 let half = (integrator::RKMK8, step / 2.0);
                 let Some(finer) = run(case, half.0, half.1, RunRequest::FRESH)? else { break };
                 let how = format!("{}, and at twice that", in_words(half));
-                Pair { reference: compare(finer, &second, how), ways: [half, mine] }
+                AgreeingRuns { reference: compare(finer, &second, how), ways: [half, mine] }
             }
         };
         let agreed = agrees(&now.reference);
@@ -86,12 +86,12 @@ fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunEr
     Ok(Some(best.reference))
 }
 
-fn in_words((id, timestep): Way) -> String {
+fn in_words((id, timestep): MethodStep) -> String {
     format!("{} at {} ms", method(id).name, milliseconds(timestep))
 }
 
 /// Runs both once more, for what happens in them.
-fn find_moments(case: &PrecisionCase<'_>, pair: &mut Pair) -> Result<(), RunError> {
+fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(), RunError> {
     let r = &mut pair.reference;
     let mut found: Vec<Run> = Vec::new();
     for (id, timestep) in pair.ways {
@@ -117,7 +117,7 @@ fn compare(mut first: Run, second: &Run, how: String) -> Reference {
     let jumps = first.jumps || second.jumps;
     first.penetration = second.penetration;
     let values = first.values.clone();
-    let sought = Sought::of(&values);
+    let sought = EventThresholds::for_values(&values);
     Reference { values, uncertain, run: first, depth_doubt, moments: Vec::new(), sought, jumps, how }
 }
 

@@ -2,10 +2,10 @@
 
 use super::beside::{Beside, Recording};
 use super::case::LeftOut;
-use super::cost::Cost;
 use super::events::{Event, Nearby};
 use super::integrator::Integrator;
 use super::judge::{Compared, Errors};
+use super::run_cost::RunCost;
 use super::run_record::Fate;
 use super::setting::{Axis, Setting};
 use labspec_expr::Value;
@@ -45,7 +45,7 @@ pub struct Row {
     /// How deep bodies were in each other at most, m; NaN where the truth is not known to the end.
     pub penetration: f64,
     /// What it costs.
-    pub cost: Cost,
+    pub cost: RunCost,
     /// What became of the run.
     pub fate: Fate,
     /// What was told about it.

@@ -1,7 +1,7 @@
 //! One run of a comparison: how it is made, what it showed, and how it ended.
 
-use super::moment::Moment;
-use super::moments::{Finder, Sought};
+use super::event_finder::{EventFinder, EventThresholds};
+use super::event_time::EventTime;
 use crate::run::{Breakdown, End, Session};
 use labspec_core::{self as core, Data, Full, Model, Warning, state};
 
@@ -27,7 +27,7 @@ pub(super) struct RunRequest<'s> {
     /// Steps are cut where controls jump.
     pub(super) cut: bool,
     /// The moments that are looked for.
-    pub(super) sought: Option<&'s Sought>,
+    pub(super) sought: Option<&'s EventThresholds>,
     /// The run is made for its moments alone: it is of no more use after this time, s, or when all are found.
     pub(super) stop: Option<f64>,
 }
@@ -45,7 +45,7 @@ pub(super) struct Run {
     pub(super) values: Vec<Vec<f64>>,
     pub(super) exact: Vec<Vec<f64>>,
     /// When bodies first touch, when each target first passes through zero, when each first turns back; empty where nobody asked.
-    pub(super) moments: Vec<Moment>,
+    pub(super) moments: Vec<EventTime>,
     /// When the last of them was sure to be one, s.
     pub(super) settled: f64,
     /// Whether bodies touch at the start.
@@ -104,7 +104,7 @@ impl Run {
     }
 
     /// Takes over the moments that were found.
-    pub(super) fn take_moments(&mut self, finder: Finder<'_>) {
+    pub(super) fn take_moments(&mut self, finder: EventFinder<'_>) {
         (self.touching, self.settled) = (finder.touches_at_start(), finder.settled());
         self.moments = finder.finish();
     }

@@ -6,8 +6,8 @@
 //! measured as well, and taken off. A stage of a few nanoseconds is known to a few nanoseconds. What a stage would cost that does
 //! not run is the difference of two runs, and nothing where the clock shows no difference.
 
-use super::parts::Seen;
-use super::reader::Reader;
+use super::parts::ConstraintCounts;
+use super::reader::ExtraReader;
 use super::start::plan_at_start;
 use crate::bind::Programs;
 use crate::interrupt;
@@ -28,7 +28,7 @@ const LOOK_EVERY: f64 = 5e4;
 
 /// What a stage costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Cost {
+pub struct StageCost {
     /// Nanoseconds of a step.
     pub ns: f64,
     /// The part of a step.
@@ -40,7 +40,7 @@ pub struct Cost {
 
 /// What a step costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Step {
+pub struct StepCost {
     /// Steps of the run that was measured.
     pub steps: usize,
     /// A step with the lab's controller, in the middle of the repeats, ns; a quarter of them is quicker, a quarter slower.
@@ -50,20 +50,20 @@ pub struct Step {
     /// The same where every stage runs.
     pub full: f64,
     /// What all stages leave: the integrator, and the look for numbers that are none.
-    pub integrator: Cost,
+    pub integrator: StageCost,
     /// The lab's controller, where it has one.
-    pub controller: Option<Cost>,
+    pub controller: Option<StageCost>,
     /// All work of a step, as the engine counts it.
     pub work: f64,
     /// What was seen.
-    pub seen: Seen,
+    pub seen: ConstraintCounts,
 }
 
 /// All that was measured, stages in the order of the plan.
 pub(super) struct Measured {
-    pub(super) step: Step,
-    pub(super) seen: Seen,
-    pub(super) stages: Vec<Option<Cost>>,
+    pub(super) step: StepCost,
+    pub(super) seen: ConstraintCounts,
+    pub(super) stages: Vec<Option<StageCost>>,
     pub(super) forced: Vec<Option<f64>>,
     pub(super) readers: Vec<f64>,
 }
@@ -192,7 +192,7 @@ pub(super) fn measure(
     lab: &Lab,
     model: &Model,
     programs: &Programs,
-    readers: &[Reader],
+    readers: &[ExtraReader],
 ) -> Result<Option<Measured>, RunError> {
     let (plan, _) = plan_at_start(lab, model, programs);
     let mut case = MeasuredLab { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
@@ -219,7 +219,7 @@ pub(super) fn measure(
     let all: f64 = laps.iter().sum();
     let cost = |i: usize, work: f64| {
         let share = laps.get(i).copied().unwrap_or(0.0) / all.max(f64::MIN_POSITIVE);
-        Cost { ns: share * ns, share, work }
+        StageCost { ns: share * ns, share, work }
     };
     let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
     (step.ns, step.quarters, step.full) = (ns, [low, high], of(1)[1]);
@@ -240,7 +240,7 @@ pub(super) fn measure(
 }
 
 /// The plans that are measured: the lab's own, one that reads everything, one with each stage that is left out, one with each reader.
-fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[Reader]) -> Vec<Plan> {
+fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec<Plan> {
     let demand = case.programs.demand;
     let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..demand });
     let left_out = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
@@ -267,7 +267,7 @@ fn measure_in_turn(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (V
 }
 
 /// Runs the lab once, to see how many steps are measured and what happens in them. The work of each stage comes with it.
-fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(Step, Vec<f64>), RunError> {
+fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec<f64>), RunError> {
     let mut session = case.start(plan);
     let most = count_steps(case.lab, None, None, session.world.model.opt.timestep)?;
     core::clock(&mut session.world.data, || 0);
@@ -292,11 +292,11 @@ fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(Step, Vec<f64>), 
     let [in_reach, contacts, rows, iterations] = seen.map(|[sum, most]| [sum / steps, most]);
     let laps = core::laps(&mut session.world.data);
     let works = plan.decisions().iter().map(|d| laps.of(d.stage).work as f64 / steps);
-    let step = Step {
+    let step = StepCost {
         steps: case.steps,
         work: (core::cost(&session.world.data) - before) as f64 / steps,
-        seen: Seen { in_reach, contacts, rows, iterations },
-        ..Step::default()
+        seen: ConstraintCounts { in_reach, contacts, rows, iterations },
+        ..StepCost::default()
     };
     Ok((step, works.collect()))
 }

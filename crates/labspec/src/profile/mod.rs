@@ -7,7 +7,7 @@ mod plan;
 mod reader;
 mod start;
 
-pub use measure::{Cost, REPEATS, Step};
-pub use parts::{Code, Pairs, Seen, Sensor, Way};
-pub use plan::{Options, Report, Row, name, plan};
-pub use reader::Reader;
+pub use measure::{REPEATS, StageCost, StepCost};
+pub use parts::{ConstraintCounts, EngineOption, PairSummary, SensorRow, TreeAlgorithmUse};
+pub use plan::{Options, PlanReport, StageRow, name, plan};
+pub use reader::ExtraReader;

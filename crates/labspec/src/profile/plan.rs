@@ -1,8 +1,8 @@
 //! The plan of a lab with its costs.
 
-use super::measure::{self, Cost, Step};
-use super::parts::{self, Code, Pairs, Sensor, Way};
-use super::reader::{self, Reader};
+use super::measure::{self, StageCost, StepCost};
+use super::parts::{self, EngineOption, PairSummary, SensorRow, TreeAlgorithmUse};
+use super::reader::{self, ExtraReader};
 use super::start::plan_at_start;
 use crate::bind::Programs;
 use crate::run::{RunError, is_steady};
@@ -12,7 +12,7 @@ use labspec_core::{AccessSet, Model};
 
 /// A stage.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct StageRow {
     /// Which.
     pub stage: Stage,
     /// Whether it runs in every step.
@@ -20,36 +20,36 @@ pub struct Row {
     /// Why, or why not.
     pub reason: String,
     /// What it costs; `None` where nothing was run, or it does not run.
-    pub cost: Option<Cost>,
+    pub cost: Option<StageCost>,
     /// What a step would take longer, ns, if it ran, with all that it uses; `None` where nothing was run, or it runs.
     pub forced: Option<f64>,
 }
 
 /// The plan of a lab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct PlanReport {
     /// What its programs read and write.
     pub demand: AccessSet,
     /// The stages, in the order of a step.
-    pub rows: Vec<Row>,
+    pub rows: Vec<StageRow>,
     /// When the lab's controller runs, where it has one.
     pub controller: Option<&'static str>,
     /// What a step costs; `None` where nothing was run.
-    pub step: Option<Step>,
+    pub step: Option<StepCost>,
     /// The pairs of geoms.
-    pub pairs: Pairs,
+    pub pairs: PairSummary,
     /// The cone of friction.
     pub cone: &'static str,
     /// Methods of the constraint solver, integrators, and ways of computing trees.
-    pub solvers: Vec<Code>,
+    pub solvers: Vec<EngineOption>,
     /// Likewise.
-    pub integrators: Vec<Code>,
+    pub integrators: Vec<EngineOption>,
     /// Likewise.
-    pub ways: Vec<Way>,
+    pub ways: Vec<TreeAlgorithmUse>,
     /// The sensors, one by one.
-    pub sensors: Vec<Sensor>,
+    pub sensors: Vec<SensorRow>,
     /// What more readers would cost.
-    pub readers: Vec<Reader>,
+    pub readers: Vec<ExtraReader>,
 }
 
 /// What is asked of a plan.
@@ -65,7 +65,12 @@ pub struct Options {
 ///
 /// # Errors
 /// A reader that is not to be found, or a lab that cannot run.
-pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) -> Result<Report, RunError> {
+pub fn plan(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    options: &Options,
+) -> Result<PlanReport, RunError> {
     let demand = programs.demand;
     let (plan, now) = plan_at_start(lab, model, programs);
     let mut readers = reader::readers(model, programs, &options.read)?;
@@ -73,7 +78,7 @@ pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) ->
         true => measure::measure(lab, model, programs, &readers)?,
         false => None,
     };
-    let rows = plan.decisions().iter().enumerate().map(|(i, d)| Row {
+    let rows = plan.decisions().iter().enumerate().map(|(i, d)| StageRow {
         stage: d.stage,
         keep: d.keep,
         reason: d.reason.clone(),
@@ -84,7 +89,7 @@ pub fn plan(lab: &Lab, model: &Model, programs: &Programs, options: &Options) ->
     for (i, reader) in readers.iter_mut().enumerate() {
         reader.cost = measured.as_ref().and_then(|m| m.readers.get(i).copied());
     }
-    Ok(Report {
+    Ok(PlanReport {
         demand,
         rows,
         controller: programs.controller.as_ref().map(|bound| match is_steady(&bound.program) {

@@ -5,7 +5,7 @@ use super::relation::{Relation, says};
 use crate::run::StepVariant;
 use crate::source::Text;
 use crate::spec::Question;
-use crate::trace::{Block, Candidate, TracedLab, Trial, split_words};
+use crate::trace::{Candidate, ProposedVerify, TracedLab, Trial, split_words};
 use crate::verify::{Stage, Stated, plain};
 use std::collections::BTreeSet;
 
@@ -16,7 +16,7 @@ const MOST_WORDS: usize = 4;
 const UNNAMED: f64 = 0.3;
 
 /// What was chosen: two numbers, and what each option says of them.
-pub(super) struct Choice<'t, 'l> {
+pub(super) struct MeasureChoice<'t, 'l> {
     pub(super) tried: &'t TracedLab<'l>,
     trials: Vec<Trial>,
     /// The run and the measure of each number.
@@ -31,9 +31,13 @@ pub(super) struct Choice<'t, 'l> {
     cost: f64,
 }
 
-impl Choice<'_, '_> {
+impl MeasureChoice<'_, '_> {
     /// A condition for each option; measures go to the block, and their values to the list.
-    pub(super) fn conditions(&self, block: &mut Block, values: &mut Vec<(String, f64)>) -> Vec<String> {
+    pub(super) fn conditions(
+        &self,
+        block: &mut ProposedVerify,
+        values: &mut Vec<(String, f64)>,
+    ) -> Vec<String> {
         let [a, b] =
             self.numbers.each_ref().map(|(run, text)| block.measured(*run, self.trials.get(*run), text));
         let run = b.split('.').next().unwrap_or("run").to_string();
@@ -61,7 +65,7 @@ pub(super) fn choose<'t, 'l>(
     labs: &[&'t TracedLab<'l>],
     numbers: &[Stated],
     stage: &Stage<'_>,
-) -> Result<Choice<'t, 'l>, String> {
+) -> Result<MeasureChoice<'t, 'l>, String> {
     let asked = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
     let spoken: BTreeSet<String> =
@@ -69,7 +73,7 @@ pub(super) fn choose<'t, 'l>(
     let relations: Vec<Option<Relation>> = options.iter().map(|o| Relation::read(o)).collect();
     let order = ["first", "earlier", "sooner", "before"].iter().any(|w| says(&asked, w));
     let comparable = relations.iter().flatten().count();
-    let mut choices: Vec<Choice<'t, 'l>> = Vec::new();
+    let mut choices: Vec<MeasureChoice<'t, 'l>> = Vec::new();
     for tried in labs {
         if order {
             choices.extend(orders(tried, &options));
@@ -80,7 +84,7 @@ pub(super) fn choose<'t, 'l>(
         }
     }
     // The first of those that cost least.
-    let cheaper = |best: Choice<'t, 'l>, other: Choice<'t, 'l>| {
+    let cheaper = |best: MeasureChoice<'t, 'l>, other: MeasureChoice<'t, 'l>| {
         if other.cost < best.cost { other } else { best }
     };
     choices.into_iter().reduce(cheaper).ok_or_else(|| match comparable {
@@ -100,7 +104,7 @@ fn comparisons<'t, 'l>(
     relations: &[Option<Relation>],
     spoken: &BTreeSet<String>,
     stage: &Stage<'_>,
-) -> Vec<Choice<'t, 'l>> {
+) -> Vec<MeasureChoice<'t, 'l>> {
     let values: Vec<Vec<f64>> =
         runs.trials.iter().map(|t| tried.values_of(t, stage, StepVariant::NOMINAL)).collect();
     let broke = |run: usize| values.get(run).is_none_or(|v| v.iter().all(|x| x.is_nan()));
@@ -117,7 +121,7 @@ fn comparisons<'t, 'l>(
             }
             let holding = relations.iter().map(|r| r.is_some_and(|r| r.holds(a, b, broken)));
             let Some(option) = only(holding) else { continue };
-            choices.push(Choice {
+            choices.push(MeasureChoice {
                 tried,
                 trials: runs.trials.clone(),
                 numbers: [(before, candidate.text.clone()), (after, candidate.text.clone())],
@@ -158,7 +162,7 @@ fn named(trials: &[Trial], runs: [usize; 2], measures: [&String; 2], values: [f6
 }
 
 /// What happens first: contacts of two geoms with a third, and options that name one of the two, or both.
-fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<Choice<'t, 'l>> {
+fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureChoice<'t, 'l>> {
     let meets: Vec<(usize, Vec<&str>)> = tried
         .candidates
         .iter()
@@ -200,7 +204,7 @@ fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<Choice<'t
                 continue;
             };
             let values = named(&tried.trials, [0, 0], [&texts[0], &texts[1]], found);
-            all.push(Choice {
+            all.push(MeasureChoice {
                 tried,
                 trials: tried.trials.clone(),
                 numbers: texts.map(|text| (0, text)),

@@ -30,7 +30,7 @@ pub(crate) struct StressCase<'a> {
 
 /// What a run came to.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Outcome {
+pub(crate) struct RunOutcome {
     pub(crate) faults: Vec<Fault>,
     /// How much of the run was made, s.
     pub(super) covered: f64,
@@ -45,7 +45,7 @@ pub(crate) struct Outcome {
 }
 
 /// A run under the hands of a student: what is still to be done to it, and everything that is looked at meanwhile.
-pub(crate) struct Eyes<'h> {
+pub(crate) struct RunWatcher<'h> {
     /// What is to be done, in order of time.
     pending: VecDeque<&'h Action>,
     watch: RunMonitor,
@@ -53,7 +53,7 @@ pub(crate) struct Eyes<'h> {
     controlled: bool,
 }
 
-impl Eyes<'_> {
+impl RunWatcher<'_> {
     /// Does what is due; whether something was.
     fn act(&mut self, session: &mut Session<'_>) -> bool {
         let now = session.world.data.time();
@@ -186,8 +186,8 @@ impl<'a> StressCase<'a> {
     }
 
     /// The eyes on a run that has begun.
-    pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> Eyes<'h> {
-        Eyes {
+    pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
+        RunWatcher {
             pending: handling.actions.iter().filter(|a| a.time > 0.0).collect(),
             watch: RunMonitor::new(&session.world.model, self.jumps),
             shows: self.shows,
@@ -196,8 +196,16 @@ impl<'a> StressCase<'a> {
     }
 
     /// The same on a run whose samples evaluate what is shown, and that begins with what `handling` presses.
-    pub(super) fn eyes_of_table<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> Eyes<'h> {
-        Eyes { pending: handling.actions.iter().collect(), shows: false, ..self.eyes(handling, session) }
+    pub(super) fn eyes_of_table<'h>(
+        &self,
+        handling: &'h Interaction,
+        session: &Session<'_>,
+    ) -> RunWatcher<'h> {
+        RunWatcher {
+            pending: handling.actions.iter().collect(),
+            shows: false,
+            ..self.eyes(handling, session)
+        }
     }
 
     /// Makes a run of so many seconds.
@@ -207,7 +215,7 @@ impl<'a> StressCase<'a> {
         change: Option<Change<'_>>,
         length: f64,
         budget: u64,
-    ) -> Outcome {
+    ) -> RunOutcome {
         self.run_to_model(handling, change, length, budget).0
     }
 
@@ -218,7 +226,7 @@ impl<'a> StressCase<'a> {
         change: Option<Change<'_>>,
         length: f64,
         budget: u64,
-    ) -> (Outcome, Model) {
+    ) -> (RunOutcome, Model) {
         let mut session = self.start(handling, budget);
         if let Some(change) = change {
             change(&mut session);
@@ -236,7 +244,7 @@ impl<'a> StressCase<'a> {
         let speeds = eyes.watch.rest.speeds(&session.world.model);
         let touching = eyes.watch.touching();
         let faults = eyes.faults(&session);
-        let outcome = Outcome {
+        let outcome = RunOutcome {
             faults,
             covered: if made == steps { length } else { made as f64 * timestep },
             spent: session.spent(),

@@ -1,7 +1,7 @@
 //! What goes wrong in a run, in the words in which `run`, `check` and `stability` alike report it, and the shorter timesteps that
 //! were tried against it.
 
-use super::case::{Outcome, StressCase};
+use super::case::{RunOutcome, StressCase};
 use super::drift::genuine;
 use super::fault::{Fault, FaultKind, worst_fault};
 use super::interaction::{Action, Interaction, Kind};
@@ -96,7 +96,7 @@ pub(crate) fn with_tried_timestep(
 }
 
 /// Whether nothing goes wrong in a run but what creeps, and what was reported is not there.
-fn is_sound(outcome: &Outcome, rule: &Rule) -> bool {
+fn is_sound(outcome: &RunOutcome, rule: &Rule) -> bool {
     let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
     worst_fault(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
 }

@@ -5,8 +5,8 @@
 //!
 //! * `interaction`: what a student can do, and the list of what is tried
 //! * `fault`: what goes wrong, with its evidence
-//! * `bodies`, `causes`, `memory`: geoms and names of a model, stiffness, the history of a run
-//! * `ground`, `rest`, `wild`, `watch`: monitors of a run
+//! * `bodies`, `causes`, `history`: geoms and names of a model, stiffness, the history of a run
+//! * `height_field`, `creep`, `runaway`, `watch`: monitors of a run
 //! * `run_faults`, `case`, `drift`: a run under an interaction, and its faults
 //! * `messages`: the messages for authors, and shorter timesteps that help
 //!
@@ -19,23 +19,23 @@
 mod bodies;
 mod case;
 mod causes;
+mod creep;
 mod drift;
 mod fault;
-mod ground;
+mod height_field;
+mod history;
 mod interaction;
 mod map;
 mod margins;
-mod memory;
 mod messages;
 mod probe;
 mod remedy;
-mod rest;
 mod run_faults;
+mod runaway;
 mod search;
 mod sensitivity;
 mod truth;
 mod watch;
-mod wild;
 
 pub(crate) use case::StressCase;
 pub(crate) use drift::genuine;
@@ -43,9 +43,9 @@ pub(crate) use fault::add;
 pub use fault::{Evidence, Fault, FaultGroup, FaultKind, Remedy};
 pub(crate) use interaction::list;
 pub use interaction::{Action, Interaction, Kind, window};
-pub use map::{Cell, Map};
+pub use map::{MapCell, StabilityMap};
 pub use margins::{Knob, Margin};
 pub use messages::watched_run;
 pub(crate) use messages::{describe, with_tried_timestep};
-pub use probe::{Made, Options, Report, RunCount, probe};
+pub use probe::{Options, RunCount, StressReport, StressRun, probe};
 pub use sensitivity::{Exponent, Horizon, Parting, Sensitivity};

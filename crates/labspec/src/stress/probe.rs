@@ -5,9 +5,9 @@ use super::case::StressCase;
 use super::drift::genuine;
 use super::fault::{FaultGroup, FaultKind, add};
 use super::interaction::{Interaction, Kind, list, window};
-use super::map::{self, Map};
+use super::map::{self, StabilityMap};
 use super::margins::{self, Margin};
-use super::remedy::Tries;
+use super::remedy::RemedyTests;
 use super::sensitivity::{self, Sensitivity};
 use super::watch;
 use crate::bind::Programs;
@@ -42,7 +42,7 @@ pub struct Options {
 
 /// A run that was made.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Made {
+pub struct StressRun {
     /// What was done.
     pub handling: Interaction,
     /// How much of it was made, s.
@@ -68,13 +68,13 @@ pub struct RunCount {
 
 /// All runs of a lab.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct StressReport {
     /// How long a run is, s.
     pub length: f64,
     /// What was tried, kind by kind.
     pub tried: Vec<RunCount>,
     /// The runs.
-    pub runs: Vec<Made>,
+    pub runs: Vec<StressRun>,
     /// How long the shortest of those runs was that were cut, s.
     pub shortest: Option<f64>,
     /// Pairs of settings that meet in no run, as there are too many.
@@ -90,12 +90,12 @@ pub struct Report {
     /// How much the lab depends on its start.
     pub sensitivity: Sensitivity,
     /// The stable region over two controls, where that was asked for.
-    pub map: Option<Map>,
+    pub map: Option<StabilityMap>,
     /// Work that all of it took.
     pub work: u64,
 }
 
-impl Report {
+impl StressReport {
     /// Whether everything that was to be tried was tried and is fine.
     pub fn fine(&self) -> bool {
         let whole = self.tried.iter().all(|t| t.cut == 0 && t.left_out == 0);
@@ -113,7 +113,7 @@ pub fn probe(
     programs: &Programs,
     options: &Options,
     tell: &mut dyn FnMut(&str),
-) -> Result<Report, RunError> {
+) -> Result<StressReport, RunError> {
     let length = options.until.unwrap_or(LONGER * window(lab));
     let short = window(lab).min(length);
     let base = Interaction::base(lab, programs, &options.set, &options.press)?;
@@ -150,8 +150,8 @@ pub fn probe(
 }
 
 /// A report of runs of this length, before the first of them.
-fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> Report {
-    Report {
+fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> StressReport {
+    StressReport {
         length,
         tried: Kind::ALL.map(|kind| RunCount { kind, made: 0, cut: 0, left_out: 0 }).to_vec(),
         runs: Vec::new(),
@@ -177,7 +177,7 @@ fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> Report {
 fn run_interactions(
     case: &StressCase<'_>,
     interactions: &[Interaction],
-    report: &mut Report,
+    report: &mut StressReport,
     tell: &mut dyn FnMut(&str),
 ) -> f64 {
     let length = report.length;
@@ -212,7 +212,7 @@ fn run_interactions(
         wrong.sort_unstable();
         wrong.dedup();
         faults.into_iter().for_each(|fault| add(&mut report.found, fault, interaction));
-        report.runs.push(Made { handling: interaction.clone(), covered, cut, wrong });
+        report.runs.push(StressRun { handling: interaction.clone(), covered, cut, wrong });
     }
     work_per_second
 }
@@ -220,11 +220,11 @@ fn run_interactions(
 /// Tries remedies for the faults, the simplest first.
 fn try_remedies(
     case: &StressCase<'_>,
-    report: &mut Report,
+    report: &mut StressReport,
     work_per_second: f64,
     tell: &mut dyn FnMut(&str),
 ) {
-    let mut tries = Tries {
+    let mut tries = RemedyTests {
         case,
         length: report.length,
         window: report.window,

@@ -1,6 +1,6 @@
 //! What helps: each candidate is tried by running, and only those are told with which the run comes to its end well.
 
-use super::case::{Change, Outcome, StressCase};
+use super::case::{Change, RunOutcome, StressCase};
 use super::fault::{FaultGroup, FaultKind, Remedy, worst_fault};
 use super::interaction::{Action, Interaction};
 use super::truth;
@@ -12,7 +12,7 @@ use labspec_core::{Model, integrator};
 use labspec_expr::Value;
 
 /// A change that helps, with its work, and how a run is made with it.
-struct Helps {
+struct WorkingRemedy {
     change: String,
     /// A shorter timestep: of several one is enough.
     timestep: bool,
@@ -31,10 +31,10 @@ const USELESS: f64 = 0.5;
 const STOPPED: f64 = 0.1;
 
 /// A change of the model, in words.
-type Candidate = (String, Box<dyn Fn(&mut Model)>);
+type ModelChange = (String, Box<dyn Fn(&mut Model)>);
 
 /// The tries for one finding.
-pub(super) struct Tries<'c, 'a> {
+pub(super) struct RemedyTests<'c, 'a> {
     pub(super) case: &'c StressCase<'a>,
     pub(super) length: f64,
     /// How long a student looks, s: errors are those that are seen.
@@ -46,7 +46,7 @@ pub(super) struct Tries<'c, 'a> {
     pub(super) work: u64,
 }
 
-impl Tries<'_, '_> {
+impl RemedyTests<'_, '_> {
     /// What helps against a finding; `None` when nothing more can be tried.
     pub(super) fn remedies(&mut self, found: &FaultGroup) -> Option<Vec<Remedy>> {
         let before = self.run(&found.handling, None)?;
@@ -63,7 +63,7 @@ impl Tries<'_, '_> {
             let apply = move |m: &mut Model| *m.edit().opt.timestep = h;
             if let Some(work) = self.helps(found, &before, &apply)? {
                 let change = format!("a timestep of {} s", two_digits(h));
-                list.push(Helps {
+                list.push(WorkingRemedy {
                     change,
                     timestep: true,
                     work,
@@ -77,7 +77,7 @@ impl Tries<'_, '_> {
         }
         for (change, apply) in candidates(&model, found.fault.kind) {
             if let Some(work) = self.helps(found, &before, &apply)? {
-                list.push(Helps { change, timestep: false, work, handling: handling(), apply });
+                list.push(WorkingRemedy { change, timestep: false, work, handling: handling(), apply });
             }
         }
         list.extend(self.shorter_slider(found, &before)?);
@@ -85,7 +85,7 @@ impl Tries<'_, '_> {
     }
 
     /// Each with its cost: in error against the truth of what the student does, and in time.
-    fn costs(&mut self, found: &FaultGroup, list: Vec<Helps>) -> Vec<Remedy> {
+    fn costs(&mut self, found: &FaultGroup, list: Vec<WorkingRemedy>) -> Vec<Remedy> {
         if list.is_empty() {
             return Vec::new();
         }
@@ -93,7 +93,7 @@ impl Tries<'_, '_> {
         let truth = truth::truth(self.case, &found.handling, self.window, &mut work);
         let mut remedies: Vec<Remedy> = Vec::new();
         let mut enough = false;
-        for Helps { change, timestep, work: cost, handling, apply } in list {
+        for WorkingRemedy { change, timestep, work: cost, handling, apply } in list {
             if timestep && enough {
                 continue;
             }
@@ -117,7 +117,11 @@ impl Tries<'_, '_> {
         remedies
     }
 
-    fn run(&mut self, handling: &Interaction, change: Option<&dyn Fn(&mut Session<'_>)>) -> Option<Outcome> {
+    fn run(
+        &mut self,
+        handling: &Interaction,
+        change: Option<&dyn Fn(&mut Session<'_>)>,
+    ) -> Option<RunOutcome> {
         if self.left == 0 || interrupt::requested() {
             return None;
         }
@@ -131,7 +135,7 @@ impl Tries<'_, '_> {
     fn helps(
         &mut self,
         found: &FaultGroup,
-        before: &Outcome,
+        before: &RunOutcome,
         apply: &dyn Fn(&mut Model),
     ) -> Option<Option<f64>> {
         let change = |session: &mut Session<'_>| apply(&mut session.world.model);
@@ -141,7 +145,7 @@ impl Tries<'_, '_> {
     }
 
     /// A slider that goes less far, where it alone does the harm: the farthest value that does none, by bisection on its grid.
-    fn shorter_slider(&mut self, found: &FaultGroup, before: &Outcome) -> Option<Option<Helps>> {
+    fn shorter_slider(&mut self, found: &FaultGroup, before: &RunOutcome) -> Option<Option<WorkingRemedy>> {
         let base = &self.case.base.actions;
         let mut added = found.handling.actions.iter().filter(|a| !base.contains(a));
         let (Some(action), None) = (added.next(), added.next()) else { return Some(None) };
@@ -168,7 +172,7 @@ impl Tries<'_, '_> {
         let last = on_grid(min, step, good);
         let moved = if up { last > value.value } else { last < value.value };
         let handling = with(found, action, last);
-        Some(moved.then(|| Helps {
+        Some(moved.then(|| WorkingRemedy {
             change: ends(control, last),
             timestep: false,
             work: 1.0,
@@ -197,7 +201,7 @@ fn ends(control: &Control, last: f64) -> String {
 }
 
 /// Whether a run shows nothing that breaks but what was there before besides the finding.
-fn is_well(found: &FaultGroup, before: &Outcome, after: &Outcome) -> bool {
+fn is_well(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool {
     let FaultGroup { fault, .. } = found;
     if fault.kind == FaultKind::Drifts {
         let speed = after.speeds.iter().find(|(who, _)| *who == fault.who).map_or(0.0, |(_, speed)| *speed);
@@ -209,8 +213,8 @@ fn is_well(found: &FaultGroup, before: &Outcome, after: &Outcome) -> bool {
 }
 
 /// What may help against a fault of this kind.
-fn candidates(model: &Model, kind: FaultKind) -> Vec<Candidate> {
-    let mut list: Vec<Candidate> = Vec::new();
+fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
+    let mut list: Vec<ModelChange> = Vec::new();
     let steps = [
         ("`integrator=\"discrete\"`", integrator::DISCRETE),
         ("`integrator=\"implicitfast\"`", integrator::IMPLICITFAST),

@@ -322,9 +322,9 @@ impl Parser<'_> {
     /// What a symbol is: what the text last said before the number, else what it says behind it.
     fn bound(&self, name: &str) -> Option<Worked> {
         let here = self.s.span.start;
-        let known = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
+        let bound = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
         let found =
-            known().filter(|b| b.at < here).max_by_key(|b| b.at).or_else(|| known().min_by_key(|b| b.at));
+            bound().filter(|b| b.at < here).max_by_key(|b| b.at).or_else(|| bound().min_by_key(|b| b.at));
         let constant = match name {
             "pi" | "π" => Some(("Math.PI".to_string(), std::f64::consts::PI)),
             "e" => Some(("Math.E".to_string(), std::f64::consts::E)),

@@ -28,7 +28,7 @@ mod words;
 pub(crate) use candidates::Candidate;
 pub(crate) use lab::TracedLab;
 pub use lesson::{Traced, Traces, trace};
-pub(crate) use propose::Block;
+pub(crate) use propose::ProposedVerify;
 pub use propose::{blocks, laid_out};
 pub use rank::{Hit, Origin};
 pub(crate) use trials::{Trial, trials};

@@ -95,7 +95,7 @@ struct Match {
 
 /// Where a number comes from.
 pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bindings: &[Binding]) -> Origin {
-    let around = Around::of(s, numbers);
+    let around = NumberContext::new(s, numbers);
     if si(s) == 0.0 || s.bound {
         return Origin::Unknown;
     }
@@ -125,7 +125,11 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bin
 }
 
 /// Compares a number with every value of its dimension: the cost and the size of each value, and those with its digits.
-fn compare_values(s: &Stated, around: &Around<'_>, labs: &[TracedLab<'_>]) -> (Vec<(f64, f64)>, Vec<Match>) {
+fn compare_values(
+    s: &Stated,
+    around: &NumberContext<'_>,
+    labs: &[TracedLab<'_>],
+) -> (Vec<(f64, f64)>, Vec<Match>) {
     let mut tried: Vec<(f64, f64)> = Vec::new();
     let mut matches: Vec<Match> = Vec::new();
     let distances = distances(s, labs);
@@ -179,10 +183,11 @@ const KNOWN: f64 = 3.0;
 /// A number that stands again is what it was, and a time at which something was measured is set.
 pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
     let open = |o: &Origin| matches!(o, Origin::Unknown | Origin::Chance(_));
-    let known: Vec<(usize, Origin)> = origins.iter().cloned().enumerate().filter(|(_, o)| !open(o)).collect();
+    let traced: Vec<(usize, Origin)> =
+        origins.iter().cloned().enumerate().filter(|(_, o)| !open(o)).collect();
     for (s, origin) in numbers.iter().zip(origins.iter_mut()).filter(|(s, o)| open(o) && !s.bound) {
         let digits = (s.read.value / (2.0 * s.read.half_unit)).abs().log10();
-        let again = known.iter().find(|(i, o)| {
+        let again = traced.iter().find(|(i, o)| {
             matches!(o, Origin::From(_)) && numbers.get(*i).is_some_and(|n| n.quote == s.quote)
         });
         // What explains it there explains it here best, too: fewer digits are enough.
@@ -195,7 +200,7 @@ pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
         let read_then = |o: &Origin| matches!(o, Origin::From(hit) if hit.measure.contains(&marked));
         if let Some((_, from)) = again {
             *origin = from.clone();
-        } else if s.unit.ends_with('s') && known.iter().any(|(_, o)| read_then(o)) {
+        } else if s.unit.ends_with('s') && traced.iter().any(|(_, o)| read_then(o)) {
             *origin = Origin::Setting("the time at which other numbers are read".into());
         }
     }
@@ -248,7 +253,7 @@ fn distances(s: &Stated, labs: &[TracedLab<'_>]) -> Vec<f64> {
     for i in order {
         let (Some(tried), Some(place)) = (labs.get(i), all.get_mut(i)) else { continue };
         let name = tried.lab.model.as_ref().map(|m| m.as_str());
-        let rank = match models.iter().position(|known| name.is_some() && *known == name) {
+        let rank = match models.iter().position(|model| name.is_some() && *model == name) {
             Some(rank) => rank,
             None => {
                 models.push(name);
@@ -262,7 +267,7 @@ fn distances(s: &Stated, labs: &[TracedLab<'_>]) -> Vec<f64> {
 }
 
 /// What stands around a number.
-struct Around<'n> {
+struct NumberContext<'n> {
     words: BTreeSet<String>,
     /// Those of the whole paragraph.
     wide: BTreeSet<String>,
@@ -272,15 +277,15 @@ struct Around<'n> {
     near: Vec<&'n Stated>,
 }
 
-impl<'n> Around<'n> {
-    fn of(s: &Stated, numbers: &'n [Stated]) -> Around<'n> {
+impl<'n> NumberContext<'n> {
+    fn new(s: &Stated, numbers: &'n [Stated]) -> NumberContext<'n> {
         let other = |n: &&Stated| n.span != s.span;
         let beside = numbers.iter().filter(other).filter(|n| n.context == s.context).collect();
         let paragraph = numbers.iter().filter(other).filter(|n| n.paragraph == s.paragraph).collect();
         let text = format!("{} {}", s.context, s.column).to_lowercase();
         let wide = split_words(&s.paragraph).collect();
         let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR).collect();
-        Around { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
+        NumberContext { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
     }
 
     /// How far-fetched a time is here.

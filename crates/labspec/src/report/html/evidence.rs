@@ -73,12 +73,13 @@ fn number(x: f64) -> String {
 
 fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
     let row = |q: &Quote| {
-        let own = match q.state {
+        let state_of_quote = match q.state {
             QuoteState::Right => State::True(q.evidence),
             QuoteState::Wrong => State::False,
             QuoteState::Unclear => State::Unchecked,
         };
-        let (state, word) = context.state(Subject::Quote, &q.span, &q.text).unwrap_or((own, q.verdict()));
+        let (state, word) =
+            context.state(Subject::Quote, &q.span, &q.text).unwrap_or((state_of_quote, q.verdict()));
         let mut lines: Vec<usize> =
             context.shown.places(&q.text).iter().map(|at| context.line(at.start)).collect();
         // A cell of a table stands where it is claimed.
@@ -134,22 +135,22 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> St
     // What all of them have is said once.
     let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
     let row = |(i, r): (usize, &crate::verify::RunReport)| {
-        let own = match (&judgement.unmade, &r.broke, r.expected) {
+        let outcome = match (&judgement.unmade, &r.broke, r.expected) {
             (Some(_), ..) => (State::Unchecked, "not made"),
             (None, Some(_), true) => (State::True(Evidence::Simulated), "breaks"),
             (None, Some(_), false) => (State::False, "broken"),
             (None, None, true) => (State::False, "does not break"),
             (None, None, false) => (State::True(Evidence::Simulated), "made"),
         };
-        let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(own);
+        let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(outcome);
         let how = judgement.unmade.as_deref().or(r.broke.as_deref()).unwrap_or("");
         let made = spec.and_then(|v| v.runs.iter().find(|run| run.name.span() == r.span));
-        let own = numerics.get(i).filter(|_| same.is_none()).cloned().unwrap_or_default();
+        let settings_of_run = numerics.get(i).filter(|_| same.is_none()).cloned().unwrap_or_default();
         vec![
             code(&r.name),
             verdict(state, word),
             settings::done(made, &r.name),
-            own,
+            settings_of_run,
             text(&context.names.shorten(how)),
         ]
     };

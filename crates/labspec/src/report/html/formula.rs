@@ -73,13 +73,13 @@ pub(super) fn of_html(html: &str) -> String {
 
 /// A text with its formulas.
 fn text(text: &str) -> String {
-    let shown: Vec<&str> = cut(text).split_whitespace().collect();
-    let shown = shown.join(" ");
-    if shown.is_empty() {
+    let visible: Vec<&str> = cut(text).split_whitespace().collect();
+    let visible = visible.join(" ");
+    if visible.is_empty() {
         return rest(text);
     }
     let mut out = String::from("<bdi>");
-    let mut left = shown.as_str();
+    let mut left = visible.as_str();
     while let Some((before, tex, after)) = formula(left) {
         out.push_str(&escape(before));
         out.push_str(&read(tex, 0).unwrap_or_else(|| format!("<code>{}</code>", escape(tex.trim()))));

@@ -4,7 +4,7 @@ use super::context::LessonContext;
 use super::coverage::Coverage;
 use super::evidence::evidence;
 use super::material::Material;
-use super::question::{self, Asked};
+use super::question::{self, QuestionPage};
 use super::text::{Names, code, plain, text};
 use super::verdict::{severity, verdict};
 use crate::check::{Allowed, Checked, Claim};
@@ -30,7 +30,7 @@ pub(super) struct LessonPage<'a> {
     pub(super) findings: Vec<&'a Finding>,
     pub(super) allowed: Vec<&'a Allowed>,
     pub(super) coverage: Coverage,
-    pub(super) questions: Vec<Asked<'a>>,
+    pub(super) questions: Vec<QuestionPage<'a>>,
     checked: &'a Checked,
     context: LessonContext<'a>,
 }
@@ -66,7 +66,7 @@ impl<'a> LessonPage<'a> {
             summary: ledger.summary(),
             findings: page.findings.iter().filter(|f| f.path == *path).collect(),
             allowed: page.allowed.iter().filter(|a| a.finding.path == *path).collect(),
-            coverage: Coverage::of(checked),
+            coverage: Coverage::measure(checked),
             anchor,
             questions,
             checked,
@@ -76,7 +76,7 @@ impl<'a> LessonPage<'a> {
 }
 
 /// Every question of a lesson, with its claim.
-fn asked<'a>(checked: &'a Checked, context: &LessonContext<'a>, anchor: &str) -> Vec<Asked<'a>> {
+fn asked<'a>(checked: &'a Checked, context: &LessonContext<'a>, anchor: &str) -> Vec<QuestionPage<'a>> {
     let claims: BTreeMap<(usize, usize), &Claim> =
         checked.claims.iter().map(|c| ((c.span.start, c.span.end), c)).collect();
     let mut all = Vec::new();
@@ -85,7 +85,7 @@ fn asked<'a>(checked: &'a Checked, context: &LessonContext<'a>, anchor: &str) ->
         for (n, question) in Quiz::numbered(quiz) {
             let span = question.verify.as_ref().map_or(&question.span, |v| &v.span);
             let entry = context.entry(Subject::Answer, span, "");
-            all.push(Asked {
+            all.push(QuestionPage {
                 anchor: format!("{anchor}-question-{}", all.len() + 1),
                 name: format!("quiz {id}, question {n}"),
                 question,

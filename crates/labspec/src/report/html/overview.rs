@@ -1,7 +1,7 @@
 //! The top of the page: what it all comes to, and how much of what the course says is claimed.
 
 use super::lesson::LessonPage;
-use super::question::Asked;
+use super::question::QuestionPage;
 use super::text::{plain, text};
 use super::verdict::{bar, verdict};
 use crate::finding::Finding;
@@ -24,11 +24,11 @@ pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
 }
 
 /// Questions that have a keyed answer.
-fn keyed<'p, 'a>(part: &'p LessonPage<'a>) -> impl Iterator<Item = &'p Asked<'a>> {
+fn keyed<'p, 'a>(part: &'p LessonPage<'a>) -> impl Iterator<Item = &'p QuestionPage<'a>> {
     part.questions.iter().filter(|q| q.word != "open")
 }
 
-fn is_claimed(asked: &&Asked<'_>) -> bool {
+fn is_claimed(asked: &&QuestionPage<'_>) -> bool {
     asked.state != State::NotClaimed
 }
 
@@ -89,7 +89,7 @@ fn called(state: State, word: &str) -> &str {
 
 /// Every question under its verdict, and those with options that nothing decides.
 fn verdicts(parts: &[LessonPage<'_>]) -> String {
-    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &Asked<'_>)>> = BTreeMap::new();
+    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &QuestionPage<'_>)>> = BTreeMap::new();
     let mut undecided = Vec::new();
     let mut options = 0;
     for part in parts {
@@ -120,7 +120,7 @@ fn verdicts(parts: &[LessonPage<'_>]) -> String {
     out
 }
 
-fn list(title: &str, all: &[(&LessonPage<'_>, &Asked<'_>)], open: bool) -> String {
+fn list(title: &str, all: &[(&LessonPage<'_>, &QuestionPage<'_>)], open: bool) -> String {
     let open = if open { " open=\"open\"" } else { "" };
     let mut out = format!("<details{open}><summary>{title}</summary>\n<ul>\n");
     for (part, q) in all {

@@ -14,7 +14,7 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'";
 
 /// The page. The same material gives the same bytes.
 pub fn page(material: &Material<'_>) -> String {
-    let names = Names::of(material.lessons.iter().map(|c| &**c.lesson.file.path()));
+    let names = Names::shorten_paths(material.lessons.iter().map(|c| &**c.lesson.file.path()));
     let parts: Vec<LessonPage<'_>> = material
         .lessons
         .iter()

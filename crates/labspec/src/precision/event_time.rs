@@ -2,7 +2,7 @@
 
 /// When something happens in a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Moment {
+pub(super) struct EventTime {
     /// The time, s; NaN where it does not happen.
     pub(super) at: f64,
     /// How far the search may be off, s.
@@ -13,7 +13,7 @@ pub(super) struct Moment {
     pub(super) top: bool,
 }
 
-impl Moment {
-    pub(super) const NONE: Moment =
-        Moment { at: f64::NAN, doubt: f64::NAN, slope: f64::INFINITY, top: false };
+impl EventTime {
+    pub(super) const NONE: EventTime =
+        EventTime { at: f64::NAN, doubt: f64::NAN, slope: f64::INFINITY, top: false };
 }

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 /// What a simulated second costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cost {
+pub struct RunCost {
     /// The middle of the repeats, µs of run time; NaN where nothing was measured.
     pub median: f64,
     /// A quarter of the repeats is quicker than this,
@@ -20,10 +20,10 @@ pub struct Cost {
     pub work: f64,
 }
 
-impl Cost {
+impl RunCost {
     /// Work whose time is not measured.
-    pub(super) fn of_work(work: f64) -> Cost {
-        Cost { median: f64::NAN, low: f64::NAN, high: f64::NAN, work }
+    pub(super) fn of_work(work: f64) -> RunCost {
+        RunCost { median: f64::NAN, low: f64::NAN, high: f64::NAN, work }
     }
 }
 
