@@ -42,6 +42,12 @@ pub fn printable_json(json: &str) -> Cow<'_, str> {
     )
 }
 
+/// `1 lab`, `2 labs`.
+#[cfg(feature = "cli")]
+pub(crate) fn counted(n: usize, one: &str) -> String {
+    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
+}
+
 fn written_out(text: &str, hidden: impl Fn(char) -> bool, write: impl Fn(char, &mut String)) -> Cow<'_, str> {
     if !text.contains(&hidden) {
         return Cow::Borrowed(text);

@@ -4,7 +4,7 @@
 //! moves stays known. A finding about a claim is known by the claim, too, and by what was claimed and what came out: a key that moved, or
 //! another value, is new. Of several alike so many are known as there were.
 
-use super::Failure;
+use super::common::Failure;
 use super::output::write_file;
 use super::output_kind::OutputKind;
 use crate::finding::Finding;
@@ -67,18 +67,18 @@ impl Baseline {
     /// Takes out what is known.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>, files: &[&SourceFile]) -> Vec<Finding> {
         let mut met: BTreeMap<Mark, usize> = BTreeMap::new();
-        let mut known = Vec::new();
+        let mut baselined = Vec::new();
         findings.retain(|f| {
             let mark = self.mark(f, files);
             let Some(&most) = self.known.get(&mark) else { return true };
             let count = met.entry(mark).or_default();
             *count += 1;
             if *count <= most {
-                known.push(f.clone());
+                baselined.push(f.clone());
             }
             *count > most
         });
-        known
+        baselined
     }
 
     /// Makes findings known, and writes them.

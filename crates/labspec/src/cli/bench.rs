@@ -1,7 +1,8 @@
 //! `labspec bench`: the cost of a step, as JSON. This is also what an instruction counter runs.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, interrupted, target};
+use super::target;
 use crate::report::{report, set_number};
 use crate::run::Session;
 use clap::builder::{PossibleValuesParser, TypedValueParser};

@@ -37,9 +37,9 @@ impl Cache {
         }
         let program = folder.as_deref().map(program);
         // A program that cannot be known again keeps nothing on a disk.
-        let known = program.as_ref().is_some_and(Option::is_some);
+        let has_digest = program.as_ref().is_some_and(Option::is_some);
         Cache {
-            folder: folder.filter(|_| known),
+            folder: folder.filter(|_| has_digest),
             memory: memory.then(Mutex::default),
             program: program.flatten().unwrap_or_default(),
         }
@@ -86,12 +86,12 @@ impl Cache {
         };
         let texts = [file.path().as_bytes(), file.text().as_bytes(), snapshot.as_bytes()];
         let [path, text, snapshot] = texts;
-        let own = [self.program.as_bytes(), &flags, path, text, &[stored], snapshot];
+        let inputs = [self.program.as_bytes(), &flags, path, text, &[stored], snapshot];
         let others = lesson.others.iter().flat_map(|other| {
             let why = other.lab.as_ref().err().map_or("", String::as_str);
             [other.path.as_bytes(), other.text.as_bytes(), why.as_bytes()]
         });
-        digest::hex_of(&own.into_iter().chain(others).collect::<Vec<_>>())
+        digest::hex_of(&inputs.into_iter().chain(others).collect::<Vec<_>>())
     }
 
     fn load(&self, slot: &str) -> Option<String> {
@@ -117,8 +117,8 @@ impl Cache {
 fn folder() -> Option<PathBuf> {
     let set = |name: &str| std::env::var_os(name).map(PathBuf::from);
     let full = |path: &PathBuf| path.is_absolute();
-    if let Some(own) = set("LABSPEC_CACHE") {
-        return Some(own).filter(|own| !own.as_os_str().is_empty() && own.as_os_str() != "off");
+    if let Some(folder) = set("LABSPEC_CACHE") {
+        return Some(folder).filter(|folder| !folder.as_os_str().is_empty() && folder.as_os_str() != "off");
     }
     let caches = if cfg!(windows) {
         set("LOCALAPPDATA").filter(full)
@@ -211,12 +211,12 @@ fn read_parts(parts: &Value) -> Option<Vec<ModelFile>> {
 fn program(folder: &Path) -> Option<String> {
     let path = std::env::current_exe().ok()?;
     let slot = format!("program-{}", digest::hex_of(&[identity(&path)?.as_bytes()]));
-    let known = std::fs::read_to_string(folder.join(&slot)).ok();
+    let cached = std::fs::read_to_string(folder.join(&slot)).ok();
     let whole = |text: &String| {
         let (mark, digest) = text.split_once('\n')?;
         (digest::hex(digest.as_bytes()) == mark).then(|| digest.to_string())
     };
-    let digest = match known.as_ref().and_then(whole) {
+    let digest = match cached.as_ref().and_then(whole) {
         Some(digest) => digest,
         None => {
             let digest = digest::hex(&std::fs::read(&path).ok()?);

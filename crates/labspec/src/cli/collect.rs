@@ -28,9 +28,9 @@ pub(super) fn lost_snapshots(paths: &[PathBuf]) -> Vec<PathBuf> {
 }
 
 /// A file to check, and whether it was named itself.
-type ToCheck = (PathBuf, bool);
+pub(super) type ListedFile = (PathBuf, bool);
 /// What could not be read, and why.
-type Unread = (PathBuf, String);
+pub(super) type UnreadFile = (PathBuf, String);
 
 /// What stands for standard input.
 pub(super) const STDIN: &str = "-";
@@ -39,11 +39,11 @@ pub(super) const STDIN: &str = "-";
 #[derive(Default)]
 pub(super) struct Collected {
     /// The files, in a fixed order.
-    pub(super) files: Vec<ToCheck>,
+    pub(super) files: Vec<ListedFile>,
     /// What could not be read, and why.
-    pub(super) problems: Vec<Unread>,
+    pub(super) problems: Vec<UnreadFile>,
     /// What was left out, and why: links that lead out of the root.
-    pub(super) left_out: Vec<Unread>,
+    pub(super) left_out: Vec<UnreadFile>,
 }
 
 impl Collected {
@@ -77,9 +77,9 @@ fn unreadable(path: &Path, e: &std::io::Error) -> String {
 }
 
 /// Each file once, however often and under whatever paths it was given: under the first of them.
-fn once(files: Vec<ToCheck>) -> Vec<ToCheck> {
+fn once(files: Vec<ListedFile>) -> Vec<ListedFile> {
     let mut places: BTreeMap<PathBuf, usize> = BTreeMap::new();
-    let mut all: Vec<ToCheck> = Vec::new();
+    let mut all: Vec<ListedFile> = Vec::new();
     for (path, named) in files {
         let real = path.canonicalize().unwrap_or_else(|_| path.clone());
         let place = *places.entry(real).or_insert(all.len());

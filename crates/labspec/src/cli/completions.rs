@@ -1,7 +1,7 @@
 //! `labspec completions`: what a shell needs to complete commands and options.
 
-use super::{Cli, Failure, Outcome, print};
-use clap::CommandFactory;
+use super::common::{Failure, Outcome};
+use super::stdio::print;
 use clap_complete::{Shell, generate};
 
 /// Arguments of `completions`.
@@ -12,9 +12,9 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-pub(super) fn completions(a: &Arguments) -> Result<Outcome, Failure> {
+pub(super) fn completions(a: &Arguments, command: &mut clap::Command) -> Result<Outcome, Failure> {
     let mut script = Vec::new();
-    generate(a.shell, &mut Cli::command(), "labspec", &mut script);
+    generate(a.shell, command, "labspec", &mut script);
     print(&String::from_utf8_lossy(&script))?;
     Ok(Outcome::Clean)
 }

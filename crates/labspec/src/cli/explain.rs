@@ -1,6 +1,7 @@
 //! `labspec explain`.
 
-use super::{Failure, Outcome, print};
+use super::common::{Failure, Outcome};
+use super::stdio::print;
 use crate::{json, rules};
 
 /// Arguments of `explain`.

@@ -3,10 +3,14 @@
 //! Which repairs are kept, and how they are proven, is decided in [`crate::repair`]. All other bytes of the file stay what they are.
 
 use super::collect::collect;
+use super::common::{Failure, interrupted};
+use super::course::CheckRequest;
+use super::file_check::is_other_json;
+use super::output::write_file;
+use super::output_kind::OutputKind;
 use super::policy::Policies;
-use super::scheduler::{Plan, is_other_json};
+use super::stdio::print;
 use super::target::model_folder_within;
-use super::{Failure, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::check;
 use crate::lint::{load_lesson_file, reload_lesson};
@@ -18,7 +22,7 @@ use std::path::Path;
 
 /// What is repaired, and whether it is written.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mode {
+pub(super) struct FixMode {
     /// Guesses, too.
     pub(super) guesses: bool,
     /// Show what would change, and change nothing.
@@ -36,27 +40,27 @@ pub(super) struct Repaired {
 ///
 /// # Errors
 /// A file cannot be written. One that cannot be read is left to the check.
-pub(super) fn fix(plan: &Plan<'_>, mode: Mode) -> Result<Repaired, Failure> {
-    let mut policies = Policies::new(plan.policy)?;
+pub(super) fn fix(request: &CheckRequest<'_>, mode: FixMode) -> Result<Repaired, Failure> {
+    let mut policies = Policies::new(request.policy)?;
     let mut repaired = Repaired::default();
-    for (path, named) in collect(plan.paths).files {
+    for (path, named) in collect(request.paths).files {
         if interrupted() {
             break;
         }
         if !matches!(kind_of(&path), FileKind::Lesson | FileKind::Json) {
             continue;
         }
-        let folder = model_folder_within(plan.models, &path, plan.paths)?;
+        let folder = model_folder_within(request.models, &path, request.paths)?;
         let Ok(lesson) = load_lesson_file(&path, &folder) else { continue };
         if !named && is_other_json(&lesson) {
             continue;
         }
-        let policy = policies.of(&path)?;
+        let policy = policies.policy_for(&path)?;
         let models = Models::new(folder);
         let look = |lesson: Lesson| {
-            let found = check::examine(&lesson, &models, plan.depth);
+            let found = check::examine(&lesson, &models, request.level);
             let broken = lesson.broken.len();
-            let checked = check::join(lesson, found, plan.depth);
+            let checked = check::join(lesson, found, request.level);
             let mut findings = checked.findings;
             policy.apply(&mut findings);
             CheckedText { text: checked.lesson.file.text().to_string(), findings, broken }

@@ -1,9 +1,12 @@
 //! `labspec fmt`.
 
 use super::collect::{Collected, collect};
-use super::scheduler::is_other_json;
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::file_check::is_other_json;
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::format;
 use crate::lint::{load_lesson_at, reload_lesson};

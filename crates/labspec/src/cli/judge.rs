@@ -2,10 +2,10 @@
 //!
 //! We write what it is to run, `tests/judge/record.mjs` runs it, and what that has recorded is read here.
 
-use super::Failure;
+use super::common::Failure;
+use super::course::CourseResults;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use super::scheduler::Course;
 use crate::check::{CrossCheck, Recording, file_name};
 use crate::printable::printable_lines;
 use crate::report::{printable_path, set_number};
@@ -25,11 +25,11 @@ const VERSION: u64 = 1;
 ///
 /// # Errors
 /// The file cannot be written.
-pub(super) fn ask(file: &Path, course: &Course) -> Result<(), Failure> {
+pub(super) fn write_request(file: &Path, results: &CourseResults) -> Result<(), Failure> {
     let mut runs = Vec::new();
-    for (c, hearing) in course.checked.iter().zip(&course.hearings) {
+    for (c, cross_check) in results.checked.iter().zip(&results.cross_checks) {
         let name = file_name(&c.lesson);
-        runs.extend(hearing.requests.iter().map(|r| match &r.task {
+        runs.extend(cross_check.requests.iter().map(|r| match &r.task {
             Ok(task) => json!({"file": name, "claim": r.claim, "run": r.run, "hash": r.hash, "task": task}),
             Err(why) => json!({"file": name, "claim": r.claim, "run": r.run, "hash": r.hash, "refused": why}),
         }));
@@ -110,8 +110,8 @@ fn taken(run: &Value) -> Result<RecordedRun, String> {
     Ok(taken)
 }
 
-/// What a judge makes of a course, all in all.
-struct Sum<'c> {
+/// What a judge makes of a results, all in all.
+struct CrossCheckSummary<'c> {
     /// File, owner, and what became of it.
     claims: Vec<(String, &'c str, &'c Judged)>,
     /// What no judge is asked about.
@@ -120,18 +120,18 @@ struct Sum<'c> {
     missing: usize,
 }
 
-impl<'c> Sum<'c> {
-    fn of(course: &'c Course) -> Sum<'c> {
-        let all = || course.checked.iter().zip(&course.hearings);
-        let of = |(c, hearing): (&crate::check::Checked, &'c CrossCheck)| {
+impl<'c> CrossCheckSummary<'c> {
+    fn new(results: &'c CourseResults) -> CrossCheckSummary<'c> {
+        let all = || results.checked.iter().zip(&results.cross_checks);
+        let of = |(c, cross_check): (&crate::check::Checked, &'c CrossCheck)| {
             let file = file_name(&c.lesson);
-            hearing.claims.iter().map(move |(owner, judged)| (file.clone(), owner.as_str(), judged))
+            cross_check.claims.iter().map(move |(owner, judged)| (file.clone(), owner.as_str(), judged))
         };
-        Sum {
+        CrossCheckSummary {
             claims: all().flat_map(of).collect(),
-            left: course.hearings.iter().fold(Left::default(), |sum, h| sum.and(h.left)),
-            stale: course.hearings.iter().map(|h| h.stale).sum(),
-            missing: course.hearings.iter().map(|h| h.missing).sum(),
+            left: results.cross_checks.iter().fold(Left::default(), |sum, h| sum.and(h.left)),
+            stale: results.cross_checks.iter().map(|h| h.stale).sum(),
+            missing: results.cross_checks.iter().map(|h| h.missing).sum(),
         }
     }
 
@@ -141,14 +141,14 @@ impl<'c> Sum<'c> {
 }
 
 /// Whether something that is claimed was not judged for want of a recording.
-pub(super) fn is_partial(course: &Course) -> bool {
-    let sum = Sum::of(course);
+pub(super) fn is_partial(results: &CourseResults) -> bool {
+    let sum = CrossCheckSummary::new(results);
     sum.stale + sum.missing > 0
 }
 
 /// What the judge says, for people.
-pub(super) fn summary(file: &Path, engine: &str, course: &Course) -> String {
-    let sum = Sum::of(course);
+pub(super) fn summary(file: &Path, engine: &str, results: &CourseResults) -> String {
+    let sum = CrossCheckSummary::new(results);
     let (compared, differing) = (sum.count(|j| j.compared), sum.count(|j| j.differing.len()));
     let (claims, turned) = (sum.count(|j| j.claims), sum.count(|j| j.turned));
     let mut text = String::new();
@@ -202,8 +202,8 @@ pub(super) fn summary(file: &Path, engine: &str, course: &Course) -> String {
 }
 
 /// What the judge says, for programs.
-pub(super) fn machine(engine: &str, course: &Course) -> Value {
-    let sum = Sum::of(course);
+pub(super) fn machine(engine: &str, results: &CourseResults) -> Value {
+    let sum = CrossCheckSummary::new(results);
     let differing = sum.claims.iter().flat_map(|(file, owner, judged)| {
         judged.differing.iter().map(move |(name, ours, theirs)| {
             let mut one =
@@ -233,8 +233,8 @@ fn left(left: Left) -> Option<String> {
         (left.ranges, "range", "ranges"),
         (left.forms, "closed form", "closed forms"),
     ];
-    let told = kinds.into_iter().filter(|(n, ..)| *n > 0);
-    let told: Vec<String> =
-        told.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many })).collect();
-    (!told.is_empty()).then(|| told.join(", "))
+    let nonzero = kinds.into_iter().filter(|(n, ..)| *n > 0);
+    let nonzero: Vec<String> =
+        nonzero.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many })).collect();
+    (!nonzero.is_empty()).then(|| nonzero.join(", "))
 }

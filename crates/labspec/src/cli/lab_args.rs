@@ -1,15 +1,15 @@
 //! Which lab a command runs, and how it is handled: `--set LABEL=VALUE`, `--press LABEL@TIME`.
 
-use super::output::{Wanted, look_ahead};
-use super::target::{self, Target};
-use super::{Failure, ModelOptions};
+use super::common::{Failure, ModelOptions};
+use super::output::{PlannedOutput, look_ahead};
+use super::target::{self, LabTarget};
 use crate::run::settings;
 use crate::spec::Lab;
 use labspec_expr::Value;
 
 /// The first arguments of every command that runs a lab.
 #[derive(clap::Args, Debug)]
-pub(super) struct Handled {
+pub(super) struct LabArguments {
     /// LAB.json, LESSON.md#2 (its second lab), LESSON.md#quiz-id.1 (a question's sim), or MODEL.xml
     lab: String,
     #[command(flatten)]
@@ -22,13 +22,13 @@ pub(super) struct Handled {
     press: Vec<String>,
 }
 
-impl Handled {
-    pub(super) fn open(&self) -> Result<Target, Failure> {
+impl LabArguments {
+    pub(super) fn open(&self) -> Result<LabTarget, Failure> {
         target::open(&self.lab, &self.models)
     }
 
     /// Looks whether these files can be written, and would not overwrite what was read.
-    pub(super) fn look_ahead(&self, target: &Target, outputs: &[Wanted]) -> Result<(), Failure> {
+    pub(super) fn look_ahead(&self, target: &LabTarget, outputs: &[PlannedOutput]) -> Result<(), Failure> {
         look_ahead(&target::read_for(&self.lab, &self.models, &target.lab), outputs)
     }
 
@@ -61,6 +61,6 @@ fn press(lab: &Lab, text: &str) -> Result<(String, f64), Failure> {
 /// The label of a control and what stands behind the mark after it.
 fn split<'t>(lab: &Lab, text: &'t str, mark: char) -> Option<(&'t str, &'t str)> {
     let places = text.match_indices(mark).map(|(i, m)| (&text[..i], &text[i + m.len()..]));
-    let known = places.into_iter().find(|(label, _)| lab.control(label).is_some());
-    known.or_else(|| text.rsplit_once(mark))
+    let at_label = places.into_iter().find(|(label, _)| lab.control(label).is_some());
+    at_label.or_else(|| text.rsplit_once(mark))
 }

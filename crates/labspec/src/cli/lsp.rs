@@ -1,9 +1,9 @@
 //! `labspec lsp`.
 
+use super::common::{Failure, ModelOptions, Outcome};
 use super::policy::{Policies, Policy, PolicyOptions};
 use super::stdio::complain;
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::lsp::{Course, serve};
@@ -40,20 +40,20 @@ pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
         })
     };
     // Settings may change while the editor is open: they are read anew where files may have changed.
-    let known: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
+    let policies: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
     let mut policy = |path: &Path, findings: &mut Vec<Finding>| {
-        if let Some(policy) = known.borrow().get(path) {
+        if let Some(policy) = policies.borrow().get(path) {
             return drop(policy.apply(findings));
         }
-        match Policies::new(&a.policy).and_then(|mut all| all.of(path)) {
+        match Policies::new(&a.policy).and_then(|mut all| all.policy_for(path)) {
             Ok(policy) => {
                 drop(policy.apply(findings));
-                known.borrow_mut().insert(path.to_path_buf(), policy);
+                policies.borrow_mut().insert(path.to_path_buf(), policy);
             }
             Err(why) => say(why),
         }
     };
-    let refresh = || known.borrow_mut().clear();
+    let refresh = || policies.borrow_mut().clear();
     let course = Course { models: &models, policy: &mut policy, refresh: &refresh };
     let input = BufReader::new(std::io::stdin());
     match serve(course, input, &mut std::io::stdout().lock()) {

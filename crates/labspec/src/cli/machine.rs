@@ -1,6 +1,6 @@
 //! What `check` and `verify` print for programs: findings, the summary, every lesson, and the ledger.
 
-use super::scheduler::Course;
+use super::course::CourseResults;
 use crate::check::{Checked, Claim, Divergence, RanLab, SnapshotResult};
 use crate::ledger::{Count, Entry, Evidence, Outcome, State, Subject};
 use crate::report::{self, key, set_number, set_place};
@@ -9,19 +9,19 @@ use crate::verify::{Answer, Measured, Quote};
 use serde_json::{Map, Value, json};
 
 /// The whole report, and what it comes to. `sources` are the files that places lie in.
-pub(super) fn value(name: &str, outcome: Outcome, course: &Course, sources: &[&SourceFile]) -> Value {
-    let Course { checked, ledger, suppressed: aside, .. } = course;
-    let mut value = report::json(&course.findings, sources);
+pub(super) fn value(name: &str, outcome: Outcome, results: &CourseResults, sources: &[&SourceFile]) -> Value {
+    let CourseResults { checked, ledger, suppressed, .. } = results;
+    let mut value = report::json(&results.findings, sources);
     value["summary"]["outcome"] = json!(outcome.as_str());
     value["summary"]["claims"] =
         Subject::ALL.iter().map(|s| (key(s.as_str()), count(&ledger.count(*s)))).collect();
-    let allowed = aside.allowed.iter().map(|a| {
+    let allowed = suppressed.allowed.iter().map(|a| {
         let mut value = json!({"code": a.finding.code, "why": a.why});
         set_place(&mut value, sources, &a.finding.path, &a.finding.span);
         value
     });
     value["aside"] = json!({
-        "ignored": aside.ignored.len(), "known": aside.baselined.len(), "allowed": allowed.collect::<Vec<_>>(),
+        "ignored": suppressed.ignored.len(), "known": suppressed.baselined.len(), "allowed": allowed.collect::<Vec<_>>(),
     });
     value["lessons"] = checked.iter().map(lesson).collect();
     value["ledger"] = ledger.entries().iter().map(|e| entry(e, sources)).collect();

@@ -4,10 +4,16 @@ mod baseline;
 mod bench;
 mod cache;
 mod check;
+mod check_output;
 mod collect;
+mod commands;
+mod common;
 mod completions;
+mod course;
+mod course_ledger;
 mod digest;
 mod explain;
+mod file_check;
 mod fix;
 mod fmt;
 mod init;
@@ -18,6 +24,8 @@ mod lsp;
 mod machine;
 mod output;
 mod output_kind;
+mod overview;
+mod parallel;
 mod plan;
 mod policy;
 mod precision;
@@ -35,219 +43,4 @@ mod target;
 mod trace;
 mod watch;
 
-use crate::interrupt;
-use crate::report::{printable_lines, printable_path};
-use crate::threads;
-use clap::{Args, Parser, Subcommand, ValueEnum};
-use output::write_file;
-use output_kind::OutputKind;
-use std::ffi::OsString;
-use std::io::{IsTerminal, Write};
-use std::path::PathBuf;
-use std::process::ExitCode;
-use stdio::{complain, print};
-
-/// Checks that physics lessons tell the truth.
-#[derive(Parser, Debug)]
-#[command(name = "labspec", version, about, max_term_width = 100)]
-struct Cli {
-    #[command(subcommand)]
-    command: Command,
-}
-
-#[derive(Subcommand, Debug)]
-enum Command {
-    /// Create a folder for lessons: settings, a first lesson with its model, a workflow
-    Init(init::Arguments),
-    /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
-    Check(check::CheckArguments),
-    /// Verify the claims of quizzes and labs only, with every measure
-    Verify(check::Arguments),
-    /// Store the output of labs in snapshots for review; `check` compares the labs with them
-    Snapshot(snapshot::Arguments),
-    /// Format the code in lessons; with --modernize, replace bare indexes by names
-    Fmt(fmt::Arguments),
-    /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
-    Run(run::Arguments),
-    /// Compare error and run time of integrators and timesteps, for one lab
-    Precision(precision::Arguments),
-    /// Find what breaks in one lab when a student moves its controls in every way
-    Stability(stability::Arguments),
-    /// Show which stages of the engine a lab or model needs, why, and what each costs
-    Plan(plan::Arguments),
-    /// Find the origin of the numbers in a lesson: runs and measures with the same digits
-    Trace(trace::Arguments),
-    /// Propose a first, tested `verify` object for every question and lab that has none
-    Scaffold(scaffold::Arguments),
-    /// Explain the code of a finding, with an example; without a code, list all codes
-    Explain(explain::Arguments),
-    /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
-    Schema(schema::Arguments),
-    /// Serve an editor: findings, completion, values and names while typing (Language Server Protocol)
-    #[cfg(feature = "lsp")]
-    Lsp(lsp::Arguments),
-    /// For engineers: compute the numbers of this engine for the states of a MuJoCo recording
-    Record(record::Arguments),
-    /// For engineers: measure the time of a step
-    Bench(bench::Arguments),
-    /// Print a completion script for a shell
-    Completions(completions::Arguments),
-    /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
-    #[command(hide = true)]
-    Reference {
-        /// The folder
-        folder: PathBuf,
-    },
-}
-
-/// Where models are.
-#[derive(Args, Debug, Clone)]
-struct ModelOptions {
-    /// The folder of models [default: `models/` beside or above the lesson]
-    #[arg(long, value_name = "DIR")]
-    models: Option<PathBuf>,
-    /// Models can read meshes and included files only in this folder [default: the nearest folder around the
-    /// models with `labspec.toml`, else their repository or environment of packages, else the folder that is checked,
-    /// else their own folder]
-    #[arg(long, value_name = "DIR")]
-    root: Option<PathBuf>,
-}
-
-/// When to use colours.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Color {
-    /// On a terminal, unless NO_COLOR is set
-    Auto,
-    Always,
-    Never,
-}
-
-impl Color {
-    fn on(self) -> bool {
-        match self {
-            Color::Auto => std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none(),
-            Color::Always => true,
-            Color::Never => false,
-        }
-    }
-}
-
-/// What a command came to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Outcome {
-    Clean,
-    Findings,
-    /// What was checked is in order, and not everything was asked for.
-    Partial,
-}
-
-/// Why a command could not run: a sentence for the user that says what to do next.
-type Failure = String;
-
-/// Runs the program with these arguments, the first being its own name.
-pub fn main(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
-        Ok(cli) => cli,
-        Err(e) => {
-            return usage(&e);
-        }
-    };
-    if cli.command.prints_what_is_finished() {
-        interrupt::listen();
-    }
-    // The same stack for all work, whatever the system gives the first thread.
-    match threads::run(|| execute(&cli.command)) {
-        Ok(_) if interrupted() => ExitCode::from(130),
-        Ok(Outcome::Clean) => ExitCode::SUCCESS,
-        Ok(Outcome::Findings) => ExitCode::from(1),
-        Ok(Outcome::Partial) => ExitCode::from(3),
-        Err(message) => {
-            complain(&format!("labspec: {}\n", printable_lines(&message)));
-            ExitCode::from(2)
-        }
-    }
-}
-
-fn execute(command: &Command) -> Result<Outcome, Failure> {
-    match command {
-        Command::Init(a) => init::init(a),
-        Command::Completions(a) => completions::completions(a),
-        Command::Check(a) => check::check(a),
-        Command::Verify(a) => check::verify(a),
-        Command::Snapshot(a) => snapshot::snapshot(a),
-        Command::Fmt(a) => fmt::fmt(a),
-        Command::Run(a) => run::run(a),
-        Command::Precision(a) => precision::precision(a),
-        Command::Stability(a) => stability::stability(a),
-        Command::Plan(a) => plan::plan(a),
-        Command::Trace(a) => trace::trace(a),
-        Command::Scaffold(a) => scaffold::scaffold(a),
-        Command::Explain(a) => explain::explain(a),
-        Command::Schema(a) => schema::schema(a),
-        #[cfg(feature = "lsp")]
-        Command::Lsp(a) => lsp::lsp(a),
-        Command::Record(a) => record::record(a),
-        Command::Bench(a) => bench::bench(a),
-        Command::Reference { folder } => reference(folder),
-    }
-}
-
-impl Command {
-    /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
-    fn prints_what_is_finished(&self) -> bool {
-        use Command::{
-            Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
-        };
-        matches!(
-            self,
-            Check(_)
-                | Verify(_)
-                | Snapshot(_)
-                | Fmt(_)
-                | Run(_)
-                | Precision(_)
-                | Plan(_)
-                | Stability(_)
-                | Trace(_)
-                | Scaffold(_)
-                | Record(_)
-                | Bench(_)
-        )
-    }
-}
-
-/// Whether the person at the terminal has pressed Ctrl-C: print what is finished and stop. The exit code is then 130.
-fn interrupted() -> bool {
-    interrupt::requested()
-}
-
-/// Help and version, which are no errors, or what is wrong with the arguments.
-fn usage(e: &clap::Error) -> ExitCode {
-    if e.use_stderr() {
-        // An argument may be the name of a file that someone else chose.
-        complain(&printable_lines(&e.render().to_string()));
-        return ExitCode::from(2);
-    }
-    match stdio::outcome(e.print().and_then(|()| std::io::stdout().flush())) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
-            complain(&format!("labspec: {message}\n"));
-            ExitCode::from(2)
-        }
-    }
-}
-
-fn reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
-    let schemas = folder.parent().unwrap_or(folder).join("schema");
-    for folder in [folder, &schemas] {
-        std::fs::create_dir_all(folder)
-            .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
-    }
-    for (name, text) in crate::reference::pages() {
-        write_file(&folder.join(name), OutputKind::Reference, &text)?;
-    }
-    for (name, text) in crate::reference::schemas() {
-        write_file(&schemas.join(name), OutputKind::Reference, &text)?;
-    }
-    Ok(Outcome::Clean)
-}
+pub use commands::main;

@@ -1,7 +1,7 @@
 //! Files that are written: beside the old one and renamed, so that a full disk or a crash loses nothing; and never
 //! over a file that was read, nor two outputs into one file.
 
-use super::Failure;
+use super::common::Failure;
 use super::output_kind::OutputKind;
 use crate::report::printable_path;
 use std::collections::BTreeSet;
@@ -210,7 +210,7 @@ struct Identity {
 }
 
 impl Identity {
-    fn of(path: &Path) -> io::Result<Identity> {
+    fn read(path: &Path) -> io::Result<Identity> {
         let place = place(path)?;
         let number = fs::metadata(&place).ok().and_then(|m| number(&m));
         Ok(Identity { place, number })
@@ -235,15 +235,16 @@ fn number(meta: &fs::Metadata) -> Option<(u64, u64)> {
 }
 
 /// An output that was asked for: what it is, and the file.
-pub(super) struct Wanted {
+pub(super) struct PlannedOutput {
     pub(super) kind: OutputKind<'static>,
     pub(super) path: PathBuf,
 }
 
 /// Those of the outputs that were asked for.
-pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<Wanted> {
-    let asked =
-        outputs.iter().filter_map(|(kind, path)| Some(Wanted { kind: *kind, path: path.as_ref()?.clone() }));
+pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<PlannedOutput> {
+    let asked = outputs
+        .iter()
+        .filter_map(|(kind, path)| Some(PlannedOutput { kind: *kind, path: path.as_ref()?.clone() }));
     asked.collect()
 }
 
@@ -251,18 +252,18 @@ pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec
 ///
 /// # Errors
 /// One would overwrite a file that is read or another output, or cannot be written.
-pub(super) fn look_ahead(read: &[PathBuf], outputs: &[Wanted]) -> Result<(), Failure> {
-    let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::of(p).ok()).collect();
+pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
+    let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::read(p).ok()).collect();
     let mut taken: Vec<(Identity, String)> = Vec::new();
     // Where standard output itself goes to a file.
     #[cfg(unix)]
     if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
         taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
     }
-    for Wanted { kind, path } in outputs {
+    for PlannedOutput { kind, path } in outputs {
         let named = format!("{} {}", kind.option(), printable_path(path));
         let cannot = |e: io::Error| format!("cannot write {named}: {e}");
-        let identity = Identity::of(path).map_err(cannot)?;
+        let identity = Identity::read(path).map_err(cannot)?;
         let old = writable(&identity.place).map_err(cannot)?;
         let is_read = old.is_some() && kind.is_input(&identity.place);
         if is_read || inputs.iter().any(|input| input.is(&identity)) {

@@ -1,8 +1,10 @@
 //! `labspec plan`.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::stdio::print;
 use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, interrupted, print, target};
-use crate::profile::{Code, Cost, Options, REPEATS, Report, name};
+use super::target;
+use crate::profile::{EngineOption, Options, PlanReport, REPEATS, StageCost, name};
 use crate::report::{printable, report};
 use crate::verify::significant;
 use clap::ValueEnum;
@@ -59,7 +61,7 @@ fn percent(share: f64) -> String {
     format!("{:.0} %", 100.0 * share)
 }
 
-fn human(report: &Report) -> String {
+fn human(report: &PlanReport) -> String {
     let mut text = String::new();
     let list = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
     let _ = writeln!(text, "reads   {}", list(names(&report.demand.reads)));
@@ -74,8 +76,9 @@ fn human(report: &Report) -> String {
             false => writeln!(text, "{verb:<5}  {name:<14} {}", printable(reason)),
         };
     };
-    let costs =
-        |cost: Option<Cost>| cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)));
+    let costs = |cost: Option<StageCost>| {
+        cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)))
+    };
     for r in &report.rows {
         let (share, time) = match r.forced {
             Some(more) => (String::new(), format!("(+{})", ns(more))),
@@ -91,8 +94,8 @@ fn human(report: &Report) -> String {
             row("", "controller", share, time, when);
         }
     }
-    let kept = report.rows.iter().filter(|r| r.keep).count();
-    let _ = writeln!(text, "\n{kept} of {} stages run in every step", report.rows.len());
+    let running = report.rows.iter().filter(|r| r.keep).count();
+    let _ = writeln!(text, "\n{running} of {} stages run in every step", report.rows.len());
     if let Some(step) = &report.step {
         let [low, high] = step.quarters;
         let _ = writeln!(
@@ -118,7 +121,7 @@ fn human(report: &Report) -> String {
 }
 
 /// Pairs of geoms, the solver, the integrator, and ways of computing trees.
-fn parts(report: &Report, text: &mut String) {
+fn parts(report: &PlanReport, text: &mut String) {
     let pairs = &report.pairs;
     let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
     for (shapes, n, searched) in &pairs.tests {
@@ -153,12 +156,12 @@ fn parts(report: &Report, text: &mut String) {
 }
 
 /// The sensors, those alike in one line.
-fn sensors(report: &Report, text: &mut String) {
+fn sensors(report: &PlanReport, text: &mut String) {
     if report.sensors.is_empty() {
         return;
     }
-    let kept = report.sensors.iter().filter(|s| s.keep).count();
-    let _ = writeln!(text, "\nsensors  {kept} of {} are computed", report.sensors.len());
+    let computed = report.sensors.iter().filter(|s| s.keep).count();
+    let _ = writeln!(text, "\nsensors  {computed} of {} are computed", report.sensors.len());
     let mut left: Vec<_> = report.sensors.iter().collect();
     while let Some(first) = left.first().copied() {
         let (alike, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|s| s.reason == first.reason);
@@ -170,7 +173,7 @@ fn sensors(report: &Report, text: &mut String) {
 }
 
 /// Which ways trees take.
-fn ways(report: &Report, text: &mut String) {
+fn ways(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
     for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
         let [places, forces, factors] = way.trees;
@@ -187,10 +190,10 @@ fn ways(report: &Report, text: &mut String) {
 }
 
 /// Those that are used, then the others by reason.
-fn list(what: &str, codes: &[Code], text: &mut String) {
+fn list(what: &str, codes: &[EngineOption], text: &mut String) {
     let _ = writeln!(text, "\n{what}");
     for verb in ["keep ", "leave"] {
-        let mut codes: Vec<&Code> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
+        let mut codes: Vec<&EngineOption> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
         while let Some(first) = codes.first().copied() {
             let alike = codes.iter().filter(|c| c.reason == first.reason).map(|c| c.name);
             let alike = alike.collect::<Vec<_>>().join(", ");
@@ -201,7 +204,7 @@ fn list(what: &str, codes: &[Code], text: &mut String) {
 }
 
 /// What one more reader would cost.
-fn readers(report: &Report, text: &mut String) {
+fn readers(report: &PlanReport, text: &mut String) {
     if report.readers.is_empty() {
         return;
     }
@@ -223,14 +226,46 @@ fn readers(report: &Report, text: &mut String) {
     }
 }
 
-fn cost(cost: Option<Cost>) -> [Value; 3] {
+fn cost(cost: Option<StageCost>) -> [Value; 3] {
     match cost {
         Some(c) => [json!(c.share), json!(c.ns), json!(c.work)],
         None => [Value::Null, Value::Null, Value::Null],
     }
 }
 
-fn value(of: &Report) -> Value {
+/// The mean and the largest of a count.
+fn mean_and_most([mean, most]: [f64; 2]) -> Value {
+    json!({"mean": mean, "most": most})
+}
+
+fn codes(codes: &[EngineOption]) -> Vec<Value> {
+    let one = |c: &EngineOption| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
+    codes.iter().map(one).collect()
+}
+
+fn pairs_value(of: &PlanReport) -> Value {
+    let p = &of.pairs;
+    json!({
+        "all": p.all,
+        "canTouch": p.can_touch,
+        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
+        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
+        "inReach": p.seen.map(|s| mean_and_most(s.in_reach)),
+        "contacts": p.seen.map(|s| mean_and_most(s.contacts)),
+    })
+}
+
+fn solver_value(of: &PlanReport) -> Value {
+    let seen = of.pairs.seen;
+    json!({
+        "cone": of.cone,
+        "methods": codes(&of.solvers),
+        "rows": seen.map(|s| mean_and_most(s.rows)),
+        "iterations": seen.map(|s| mean_and_most(s.iterations)),
+    })
+}
+
+fn value(of: &PlanReport) -> Value {
     let stages: Vec<Value> = of
         .rows
         .iter()
@@ -250,26 +285,6 @@ fn value(of: &Report) -> Value {
             "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns, "reason": of.controller})),
         })
     });
-    let p = &of.pairs;
-    let both = |[mean, most]: [f64; 2]| json!({"mean": mean, "most": most});
-    let pairs = json!({
-        "all": p.all,
-        "canTouch": p.can_touch,
-        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
-        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
-        "inReach": p.seen.map(|s| both(s.in_reach)),
-        "contacts": p.seen.map(|s| both(s.contacts)),
-    });
-    let codes = |codes: &[Code]| {
-        let one = |c: &Code| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
-        codes.iter().map(one).collect::<Vec<_>>()
-    };
-    let solver = json!({
-        "cone": of.cone,
-        "methods": codes(&of.solvers),
-        "rows": p.seen.map(|s| both(s.rows)),
-        "iterations": p.seen.map(|s| both(s.iterations)),
-    });
     let ways = of.ways.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
         json!({"name": w.name, "places": places, "forces": forces, "accelerations": accelerations})
@@ -284,9 +299,9 @@ fn value(of: &Report) -> Value {
         "writes": names(&of.demand.writes),
         "stages": stages,
         "step": step,
-        "pairs": pairs,
+        "pairs": pairs_value(of),
         "sensors": of.sensors.iter().map(|s| json!({"name": s.name, "keep": s.keep, "reason": s.reason})).collect::<Vec<_>>(),
-        "solver": solver,
+        "solver": solver_value(of),
         "integrators": codes(&of.integrators),
         "ways": ways.collect::<Vec<_>>(),
         "readers": readers.collect::<Vec<_>>(),

@@ -1,6 +1,6 @@
 //! Which findings are told, and how bad they are: what is said on the command line, and in the nearest `labspec.toml`.
 
-use super::Failure;
+use super::common::Failure;
 use crate::finding::{Finding, Severity};
 use crate::report::{printable, printable_path};
 use crate::rules;
@@ -43,7 +43,7 @@ impl PolicyOptions {
 
 /// Some rules.
 #[derive(Clone, Debug, Default)]
-struct Set {
+struct RuleSet {
     codes: Vec<&'static str>,
     layers: Vec<Layer>,
     severities: Vec<Severity>,
@@ -54,7 +54,7 @@ struct Set {
 const SEVERITIES: [(&str, Severity); 3] =
     [("errors", Severity::Error), ("warnings", Severity::Warning), ("notes", Severity::Note)];
 
-impl Set {
+impl RuleSet {
     /// Adds what a word means.
     fn add(&mut self, word: &str) -> Result<(), String> {
         let word = word.trim();
@@ -64,7 +64,7 @@ impl Set {
         };
         if word == "all" {
             self.all = true;
-        } else if let Some((_, severity)) = SEVERITIES.iter().find(|(known, _)| *known == word) {
+        } else if let Some((_, severity)) = SEVERITIES.iter().find(|(keyword, _)| *keyword == word) {
             self.severities.push(*severity);
         } else if let Some(layer) = Layer::ALL.into_iter().find(|layer| layer.as_str() == word) {
             self.layers.push(layer);
@@ -78,8 +78,8 @@ impl Set {
         Ok(())
     }
 
-    fn of<'w>(words: impl IntoIterator<Item = &'w String>) -> Result<Set, String> {
-        let mut set = Set::default();
+    fn parse<'w>(words: impl IntoIterator<Item = &'w String>) -> Result<RuleSet, String> {
+        let mut set = RuleSet::default();
         words.into_iter().try_for_each(|word| set.add(word)).map(|()| set)
     }
 
@@ -99,9 +99,9 @@ impl Set {
 /// What is done with the findings of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Policy {
-    select: Set,
-    ignore: Set,
-    deny: Set,
+    select: RuleSet,
+    ignore: RuleSet,
+    deny: RuleSet,
     /// Widgets that the page has, besides ours.
     pub(super) widgets: Vec<String>,
 }
@@ -111,11 +111,11 @@ impl Policy {
     pub(super) fn apply(&self, findings: &mut Vec<Finding>) -> Vec<Finding> {
         let mut ignored = Vec::new();
         findings.retain(|f| {
-            let told = (self.select.is_empty() || self.select.holds(f)) && !self.ignore.holds(f);
-            if !told {
+            let reported = (self.select.is_empty() || self.select.holds(f)) && !self.ignore.holds(f);
+            if !reported {
                 ignored.push(f.clone());
             }
-            told
+            reported
         });
         for f in findings.iter_mut().filter(|f| self.deny.holds(f)) {
             f.severity = Severity::Error;
@@ -154,7 +154,7 @@ impl Policies {
         for (name, words) in
             [("--select", &options.select), ("--ignore", &options.ignore), ("--deny", &options.deny)]
         {
-            Set::of(words).map_err(|e| format!("{name}: {e}"))?;
+            RuleSet::parse(words).map_err(|e| format!("{name}: {e}"))?;
         }
         let given = options.config.as_ref().map(|path| read(path)).transpose()?.map(Arc::new);
         Ok(Policies { options: options.clone(), read: BTreeMap::new(), given })
@@ -164,7 +164,7 @@ impl Policies {
     ///
     /// # Errors
     /// The settings near it cannot be read.
-    pub(super) fn of(&mut self, path: &Path) -> Result<Policy, Failure> {
+    pub(super) fn policy_for(&mut self, path: &Path) -> Result<Policy, Failure> {
         let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
         let settings = match &self.given {
             Some(given) => Some(given.clone()),
@@ -172,20 +172,26 @@ impl Policies {
         };
         let none = PolicyFile::default();
         let near = settings.as_deref().unwrap_or(&none);
-        let own = &self.options;
-        let select = if own.select.is_empty() { &near.select } else { &own.select };
+        let options = &self.options;
+        let select = if options.select.is_empty() { &near.select } else { &options.select };
         let here = || near.paths.iter().filter(|(globs, ..)| globs.hold(&whole));
-        let ignore = near.ignore.iter().chain(here().flat_map(|(_, ignore, _)| ignore)).chain(&own.ignore);
-        let deny = near.deny.iter().chain(here().flat_map(|(.., deny)| deny)).chain(&own.deny);
+        let ignore =
+            near.ignore.iter().chain(here().flat_map(|(_, ignore, _)| ignore)).chain(&options.ignore);
+        let deny = near.deny.iter().chain(here().flat_map(|(.., deny)| deny)).chain(&options.deny);
         let widgets = near.widgets.clone();
-        Ok(Policy { select: Set::of(select)?, ignore: Set::of(ignore)?, deny: Set::of(deny)?, widgets })
+        Ok(Policy {
+            select: RuleSet::parse(select)?,
+            ignore: RuleSet::parse(ignore)?,
+            deny: RuleSet::parse(deny)?,
+            widgets,
+        })
     }
 
     /// The settings of a folder: its own, else those of the nearest folder around it.
     fn near(&mut self, folder: Option<&Path>) -> Result<Option<Arc<PolicyFile>>, Failure> {
         let Some(folder) = folder else { return Ok(None) };
-        if let Some(known) = self.read.get(folder) {
-            return Ok(known.clone());
+        if let Some(cached) = self.read.get(folder) {
+            return Ok(cached.clone());
         }
         let file = folder.join(FILE);
         let found = if file.is_file() { Some(Arc::new(read(&file)?)) } else { self.near(folder.parent())? };
@@ -213,8 +219,8 @@ const KEYS: [&str; 5] = ["select", "ignore", "deny", "widgets", "paths"];
 const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
 
 fn read(path: &Path) -> Result<PolicyFile, Failure> {
-    let shown = printable_path(path);
-    let cannot = |e: String| format!("{shown}: {e}");
+    let name = printable_path(path);
+    let cannot = |e: String| format!("{name}: {e}");
     let text = read_text(path, MOST, "settings")?;
     let table: toml::Table = toml::from_str(&text).map_err(|e| {
         let place = e.span().map_or(String::new(), |span| {
@@ -267,7 +273,7 @@ fn string_list(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<St
     let words: Option<Vec<String>> = list.unwrap_or(None);
     let words = words.ok_or_else(|| format!("`{name}` must be a list of texts"))?;
     if of_rules {
-        Set::of(&words).map_err(|e| format!("{name}: {e}"))?;
+        RuleSet::parse(&words).map_err(|e| format!("{name}: {e}"))?;
     }
     Ok(words)
 }
@@ -305,13 +311,13 @@ mod tests {
         let mut all = Policies::new(&PolicyOptions::default()).unwrap();
         let key = ("unknown-key", Severity::Error);
         let grows = rules::find("energy-grows").unwrap().severity;
-        assert_eq!(reported_rules(&all.of(&lesson).unwrap()), [key, ("energy-grows", grows)]);
-        assert_eq!(reported_rules(&all.of(&draft).unwrap()), [key]);
+        assert_eq!(reported_rules(&all.policy_for(&lesson).unwrap()), [key, ("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.policy_for(&draft).unwrap()), [key]);
         let denied = [("duplicate-readout", Severity::Error), key, ("energy-grows", Severity::Error)];
-        assert_eq!(reported_rules(&all.of(&inner).unwrap()), denied);
+        assert_eq!(reported_rules(&all.policy_for(&inner).unwrap()), denied);
         let options = PolicyOptions { ignore: vec!["structure".into()], ..PolicyOptions::default() };
         let mut all = Policies::new(&options).unwrap();
-        assert_eq!(reported_rules(&all.of(&lesson).unwrap()), [("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.policy_for(&lesson).unwrap()), [("energy-grows", grows)]);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! `labspec record`: our engine's numbers in the layout of a recording of MuJoCo, for the same states.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
 use super::stdio::print_json;
-use super::{Failure, ModelOptions, Outcome, interrupted, target};
+use super::target;
 use crate::report::{printable, printable_path, report, set_number, set_numbers};
 use crate::run::MAX_STEPS;
 use crate::source::read_text;
@@ -53,69 +54,12 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
         (*opt.tolerance, *opt.ls_tolerance) = (0.0, 1e-10);
         (*opt.iterations, *opt.ls_iterations) = (200, 100);
     }
-    let text = read_text(&a.states, MAX_RECORDING, "a recording")?;
-    let oracle: Value =
-        serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", printable_path(&a.states)))?;
-    drop(text);
-    let every = a.every.max(1);
-    let rows = (a.steps / every).saturating_add(1);
-    if a.steps > MAX_STEPS || rows.saturating_mul(m.nq + m.nv + m.na + 3) > MAX_NUMBERS {
-        return Err(format!(
-            "a trajectory of {} steps with a row after every {every} is too long; request fewer steps, or fewer rows with --every",
-            a.steps
-        ));
-    }
+    let oracle = read_oracle(a)?;
+    check_length(a, &m)?;
     let mut d = Data::new(&m);
-
     let model = names(&oracle["model"], |row, name| set_field(row, &m, &d, Object::Model, name));
-    let mut forward = Vec::new();
-    let mut written = 0;
-    for state in oracle["forward"].as_array().into_iter().flatten() {
-        start(&m, &mut d)?;
-        for name in STATE {
-            set_array(&mut m, &mut d, name, &state[name])?;
-        }
-        core::forward(&m, &mut d)?;
-        let row = names(state, |row, name| match name {
-            "contact" => row[name] = contacts(&d),
-            // As it was recorded, not as a step may have changed it.
-            _ if STATE.contains(&name) => set_list(row, name, &recorded(&state[name])),
-            "M" => core::full_m(&m, &d).iter().for_each(|m| set_list(row, name, m)),
-            _ => set_field(row, &m, &d, Object::Data, name),
-        });
-        written += size(&row);
-        if written > MAX_NUMBERS {
-            return Err(format!(
-                "the states of {} request more than {MAX_NUMBERS} numbers; name fewer fields or fewer states",
-                printable_path(&a.states)
-            ));
-        }
-        forward.push(row);
-        if interrupted() {
-            break;
-        }
-    }
-
-    start(&m, &mut d)?;
-    let mut trajectory = Vec::new();
-    for i in 0..=a.steps {
-        if interrupted() {
-            break;
-        }
-        if i % every == 0 {
-            let mut row = json!({});
-            set_number(&mut row, "time", d.time);
-            set_list(&mut row, "qpos", &d.qpos);
-            set_list(&mut row, "qvel", &d.qvel);
-            set_list(&mut row, "act", &d.act);
-            row["ncon"] = json!(d.ncon);
-            row["nefc"] = json!(d.nefc);
-            trajectory.push(row);
-        }
-        if i < a.steps {
-            core::step(&m, &mut d)?;
-        }
-    }
+    let forward = forward_rows(a, &oracle, &mut m, &mut d)?;
+    let trajectory = trajectory_rows(a, &m, &mut d)?;
     let warnings: serde_json::Map<String, Value> = Warning::ALL
         .iter()
         .zip(&d.warning)
@@ -129,6 +73,87 @@ pub(super) fn record(a: &Arguments) -> Result<Outcome, Failure> {
     });
     print_json(&report("record", value), false)?;
     Ok(Outcome::Clean)
+}
+
+/// Reads the recording of MuJoCo.
+fn read_oracle(a: &Arguments) -> Result<Value, Failure> {
+    let text = read_text(&a.states, MAX_RECORDING, "a recording")?;
+    serde_json::from_str(&text).map_err(|e| format!("{} is not JSON: {e}", printable_path(&a.states)))
+}
+
+fn rows_every(a: &Arguments) -> usize {
+    a.every.max(1)
+}
+
+/// # Errors
+/// The trajectory has too many steps or numbers.
+fn check_length(a: &Arguments, m: &Model) -> Result<(), Failure> {
+    let every = rows_every(a);
+    let rows = (a.steps / every).saturating_add(1);
+    if a.steps > MAX_STEPS || rows.saturating_mul(m.nq + m.nv + m.na + 3) > MAX_NUMBERS {
+        return Err(format!(
+            "a trajectory of {} steps with a row after every {every} is too long; request fewer steps, or fewer rows with --every",
+            a.steps
+        ));
+    }
+    Ok(())
+}
+
+/// The arrays that the recording names, computed for each of its states.
+fn forward_rows(a: &Arguments, oracle: &Value, m: &mut Model, d: &mut Data) -> Result<Vec<Value>, Failure> {
+    let mut rows = Vec::new();
+    let mut written = 0;
+    for state in oracle["forward"].as_array().into_iter().flatten() {
+        start(m, d)?;
+        for name in STATE {
+            set_array(m, d, name, &state[name])?;
+        }
+        core::forward(m, d)?;
+        let row = names(state, |row, name| match name {
+            "contact" => row[name] = contacts(d),
+            // As it was recorded, not as a step may have changed it.
+            _ if STATE.contains(&name) => set_list(row, name, &recorded(&state[name])),
+            "M" => core::full_m(m, d).iter().for_each(|m| set_list(row, name, m)),
+            _ => set_field(row, m, d, Object::Data, name),
+        });
+        written += size(&row);
+        if written > MAX_NUMBERS {
+            return Err(format!(
+                "the states of {} request more than {MAX_NUMBERS} numbers; name fewer fields or fewer states",
+                printable_path(&a.states)
+            ));
+        }
+        rows.push(row);
+        if interrupted() {
+            break;
+        }
+    }
+    Ok(rows)
+}
+
+/// The state of a run after every so many steps.
+fn trajectory_rows(a: &Arguments, m: &Model, d: &mut Data) -> Result<Vec<Value>, Failure> {
+    start(m, d)?;
+    let mut rows = Vec::new();
+    for i in 0..=a.steps {
+        if interrupted() {
+            break;
+        }
+        if i % rows_every(a) == 0 {
+            let mut row = json!({});
+            set_number(&mut row, "time", d.time);
+            set_list(&mut row, "qpos", &d.qpos);
+            set_list(&mut row, "qvel", &d.qvel);
+            set_list(&mut row, "act", &d.act);
+            row["ncon"] = json!(d.ncon);
+            row["nefc"] = json!(d.nefc);
+            rows.push(row);
+        }
+        if i < a.steps {
+            core::step(m, d)?;
+        }
+    }
+    Ok(rows)
 }
 
 /// How many values a recorded value holds.

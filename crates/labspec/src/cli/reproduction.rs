@@ -2,10 +2,10 @@
 //!
 //! Files are named from the folder of the record, so that it says the same on every machine.
 
-use super::Failure;
+use super::common::Failure;
+use super::course::CourseResults;
 use super::output::write_file;
 use super::output_kind::OutputKind;
-use super::scheduler::Course;
 use crate::check::{Basis, Checked, Claim, ClaimBasis, LabBasis, RunSettings};
 use crate::ledger::{Entry, Ledger};
 use crate::report::{self, key, printable_path, set_number};
@@ -20,16 +20,16 @@ const ENGINE: &str = "MuJoCo 3.14.0";
 /// The format of lessons.
 const FORMAT: &str = "0.1";
 
-/// What a course says now, as it would be recorded in this file.
-pub(super) fn now(file: &Path, course: &Course) -> Value {
+/// What a results says now, as it would be recorded in this file.
+pub(super) fn now(file: &Path, results: &CourseResults) -> Value {
     let folder = folder_of(file);
-    let mut lessons: Vec<(String, Value)> = course
+    let mut lessons: Vec<(String, Value)> = results
         .checked
         .iter()
-        .zip(&course.bases)
+        .zip(&results.bases)
         .map(|(c, basis)| {
             let name = name_of(&folder, c.lesson.file.path());
-            (name.clone(), lesson(&name, c, basis, &course.ledger))
+            (name.clone(), lesson(&name, c, basis, &results.ledger))
         })
         .collect();
     lessons.sort_by(|a, b| a.0.cmp(&b.0));

@@ -1,9 +1,12 @@
 //! `labspec run`.
 
-use super::lab_args::Handled;
-use super::output::{Wanted, wanted, write_png, write_with};
+use super::common::{Failure, Outcome};
+use super::lab_args::LabArguments;
+use super::output::write_file;
+use super::output::{PlannedOutput, wanted, write_png, write_with};
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::stream;
-use super::{Failure, Outcome, OutputKind, print, write_file};
 use crate::report::{printable, printable_path};
 use crate::run::{Cell, RunOptions, Table, shown};
 use crate::spec::{Lab, Plot};
@@ -17,7 +20,7 @@ use std::path::{Path, PathBuf};
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
     #[command(flatten)]
-    handled: Handled,
+    handled: LabArguments,
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
@@ -75,8 +78,8 @@ pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
     };
     let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
     let mut files = wanted(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
-    files.extend(drawn.iter().map(|path| Wanted { kind: OutputKind::Plot, path: path.clone() }));
-    files.extend(painted.iter().map(|path| Wanted { kind: OutputKind::Picture, path: path.clone() }));
+    files.extend(drawn.iter().map(|path| PlannedOutput { kind: OutputKind::Plot, path: path.clone() }));
+    files.extend(painted.iter().map(|path| PlannedOutput { kind: OutputKind::Picture, path: path.clone() }));
     a.handled.look_ahead(&target, &files)?;
     let table =
         stress::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
@@ -154,9 +157,9 @@ fn plot_files(lab: &Lab, file: &Path, ending: &str) -> Result<Vec<PathBuf>, Fail
     if count == 0 {
         return Err("this lab has no plots to write".into());
     }
-    let shown = printable_path(file);
-    if file.is_dir() || shown.ends_with(std::path::is_separator) {
-        std::fs::create_dir_all(file).map_err(|e| format!("cannot make the folder {shown}: {e}"))?;
+    let name = printable_path(file);
+    if file.is_dir() || name.ends_with(std::path::is_separator) {
+        std::fs::create_dir_all(file).map_err(|e| format!("cannot make the folder {name}: {e}"))?;
         return Ok((1..=count).map(|i| file.join(format!("plot-{i}.{ending}"))).collect());
     }
     if count > MAX_LOOSE {

@@ -1,8 +1,11 @@
 //! `labspec scaffold`.
 
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::{Progress, print_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::scene::Models;
 use crate::lint::{load_lesson_file, reload_lesson};
 use crate::report::{printable, printable_lines, printable_path, report};

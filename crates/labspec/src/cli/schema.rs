@@ -1,6 +1,7 @@
 //! `labspec schema`.
 
-use super::{Failure, Outcome, print};
+use super::common::{Failure, Outcome};
+use super::stdio::print;
 use crate::spec::format;
 use clap::ValueEnum;
 

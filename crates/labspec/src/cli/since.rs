@@ -8,20 +8,20 @@ use std::fmt::Write;
 
 /// What changed of one lab, one question, or of labspec itself.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Change {
+pub(super) struct LessonChange {
     /// The lesson; empty for what concerns all of them.
     pub(super) file: String,
     /// The lab or the question.
     pub(super) owner: String,
     /// What it came to: verdicts and values.
-    pub(super) effects: Vec<Step>,
+    pub(super) effects: Vec<ChangedValue>,
     /// What changed with it: settings, contacts, models, texts.
-    pub(super) causes: Vec<Step>,
+    pub(super) causes: Vec<ChangedValue>,
 }
 
 /// Something that was one thing and is another.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Step {
+pub(super) struct ChangedValue {
     pub(super) what: String,
     /// `null` where it was not there.
     pub(super) before: Value,
@@ -30,10 +30,14 @@ pub(super) struct Step {
 }
 
 /// Everything that differs, in the order of the files.
-pub(super) fn changes(before: &Value, now: &Value) -> Vec<Change> {
+pub(super) fn changes(before: &Value, now: &Value) -> Vec<LessonChange> {
     let mut all = Vec::new();
-    let mut head =
-        Change { file: String::new(), owner: "labspec".into(), effects: Vec::new(), causes: Vec::new() };
+    let mut head = LessonChange {
+        file: String::new(),
+        owner: "labspec".into(),
+        effects: Vec::new(),
+        causes: Vec::new(),
+    };
     for key in ["labspec", "format", "engine"] {
         differ(key, &before[key], &now[key], &mut head.causes);
     }
@@ -43,8 +47,8 @@ pub(super) fn changes(before: &Value, now: &Value) -> Vec<Change> {
         if old.is_null() || new.is_null() {
             let what =
                 if old.is_null() { "new lesson" } else { "lesson that was not checked, or no longer exists" };
-            let step = Step { what: what.into(), before: Value::Null, now: Value::Null };
-            all.push(Change {
+            let step = ChangedValue { what: what.into(), before: Value::Null, now: Value::Null };
+            all.push(LessonChange {
                 file: file.clone(),
                 owner: String::new(),
                 effects: vec![step],
@@ -61,7 +65,7 @@ pub(super) fn changes(before: &Value, now: &Value) -> Vec<Change> {
     all
 }
 
-fn lesson(file: &str, old: &Value, new: &Value, all: &mut Vec<Change>) {
+fn lesson(file: &str, old: &Value, new: &Value, all: &mut Vec<LessonChange>) {
     let owners = |v: &Value| {
         let verdicts = names(&v["verdicts"], "owner");
         let labs = names(&v["labs"], "lab").into_iter().map(|lab| format!("lab {lab}"));
@@ -69,7 +73,7 @@ fn lesson(file: &str, old: &Value, new: &Value, all: &mut Vec<Change>) {
     };
     for owner in owners(old).union(&owners(new)) {
         let mut change =
-            Change { file: file.into(), owner: owner.clone(), effects: Vec::new(), causes: Vec::new() };
+            LessonChange { file: file.into(), owner: owner.clone(), effects: Vec::new(), causes: Vec::new() };
         let of = |v: &Value| {
             let list = v["verdicts"].as_array().into_iter().flatten();
             list.filter(|e| e["owner"] == owner.as_str()).cloned().collect::<Vec<Value>>()
@@ -87,8 +91,8 @@ fn lesson(file: &str, old: &Value, new: &Value, all: &mut Vec<Change>) {
         if c.is_null() && d.is_null() {
             differ("the text", &a["block"], &b["block"], &mut change.causes);
         }
-        let known = change.causes.iter().any(|s| s.what == "the model");
-        if !known {
+        let model_changed = change.causes.iter().any(|s| s.what == "the model");
+        if !model_changed {
             differ("the model", &a["model"], &b["model"], &mut change.causes);
         }
         let compiled = a["model"] != b["model"];
@@ -102,7 +106,7 @@ fn lesson(file: &str, old: &Value, new: &Value, all: &mut Vec<Change>) {
 }
 
 /// Verdicts about one owner: of several of the same kind in their order.
-fn verdicts(old: &[Value], new: &[Value], steps: &mut Vec<Step>) {
+fn verdicts(old: &[Value], new: &[Value], steps: &mut Vec<ChangedValue>) {
     let mark = |e: &Value| (e["subject"].to_string(), e["what"].to_string());
     let keys: BTreeSet<(String, String)> = old.iter().chain(new).map(mark).collect();
     for key in keys {
@@ -120,7 +124,7 @@ fn verdicts(old: &[Value], new: &[Value], steps: &mut Vec<Step>) {
 }
 
 /// Values of measures and of what is quoted.
-fn values(a: &Value, b: &Value, steps: &mut Vec<Step>) {
+fn values(a: &Value, b: &Value, steps: &mut Vec<ChangedValue>) {
     let measures = |v: &Value| v["measures"].as_object().cloned().unwrap_or_default();
     let [old, new] = [measures(a), measures(b)];
     let all: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
@@ -149,8 +153,8 @@ fn quoted(quote: &Value) -> Value {
 }
 
 /// Settings of a run that begins. `compiled`: that the model changed has been said.
-fn settings(of: &str, a: &Value, b: &Value, compiled: bool, steps: &mut Vec<Step>) {
-    let told = steps.len();
+fn settings(of: &str, a: &Value, b: &Value, compiled: bool, steps: &mut Vec<ChangedValue>) {
+    let before = steps.len();
     for key in ["timestep", "integrator", "solver", "cone", "iterations", "tolerance"] {
         differ(&format!("{key}{of}"), &a[key], &b[key], steps);
     }
@@ -168,7 +172,7 @@ fn settings(of: &str, a: &Value, b: &Value, compiled: bool, steps: &mut Vec<Step
         }
     }
     // Something of the model that has no name here: a mass, a length.
-    if !compiled && told == steps.len() {
+    if !compiled && before == steps.len() {
         differ(&format!("the initial model{of}"), &a["model"], &b["model"], steps);
     }
 }
@@ -177,9 +181,9 @@ fn or(value: &Value, default: &str) -> Value {
     if value.is_null() { json!(default) } else { value.clone() }
 }
 
-fn differ(what: &str, before: &Value, now: &Value, steps: &mut Vec<Step>) {
+fn differ(what: &str, before: &Value, now: &Value, steps: &mut Vec<ChangedValue>) {
     if before != now {
-        steps.push(Step { what: what.into(), before: before.clone(), now: now.clone() });
+        steps.push(ChangedValue { what: what.into(), before: before.clone(), now: now.clone() });
     }
 }
 
@@ -210,7 +214,7 @@ fn describe_key(key: &str) -> String {
 }
 
 /// All changes, for people.
-pub(super) fn summary(name: &str, all: &[Change]) -> String {
+pub(super) fn summary(name: &str, all: &[LessonChange]) -> String {
     let name = printable(name);
     if all.is_empty() {
         return format!("nothing has changed since {name}\n");
@@ -234,7 +238,7 @@ pub(super) fn summary(name: &str, all: &[Change]) -> String {
     text
 }
 
-fn line(step: &Step) -> String {
+fn line(step: &ChangedValue) -> String {
     let digest = |v: &Value| v.as_str().is_some_and(|t| t.len() == 64);
     let by = difference(step)
         .map_or(String::new(), |d| format!(" ({}{})", if d > 0.0 { "+" } else { "" }, significant(d)));
@@ -246,7 +250,7 @@ fn line(step: &Step) -> String {
 }
 
 /// By how much a number has changed.
-fn difference(step: &Step) -> Option<f64> {
+fn difference(step: &ChangedValue) -> Option<f64> {
     Some(step.now.as_f64()? - step.before.as_f64()?)
 }
 
@@ -262,10 +266,9 @@ fn format_value(value: &Value) -> String {
 }
 
 /// All changes, for programs.
-pub(super) fn machine(all: &[Change]) -> Value {
-    let step =
-        |s: &Step| json!({"what": s.what, "before": s.before, "now": s.now, "difference": difference(s)});
-    let steps = |list: &[Step]| list.iter().map(step).collect::<Vec<_>>();
-    let change = |c: &Change| json!({"file": c.file, "owner": c.owner, "effects": steps(&c.effects), "causes": steps(&c.causes)});
+pub(super) fn machine(all: &[LessonChange]) -> Value {
+    let step = |s: &ChangedValue| json!({"what": s.what, "before": s.before, "now": s.now, "difference": difference(s)});
+    let steps = |list: &[ChangedValue]| list.iter().map(step).collect::<Vec<_>>();
+    let change = |c: &LessonChange| json!({"file": c.file, "owner": c.owner, "effects": steps(&c.effects), "causes": steps(&c.causes)});
     all.iter().map(change).collect()
 }

@@ -1,16 +1,18 @@
 //! `labspec snapshot`: what the labs of lessons show, stored beside them; and the review of what has changed.
 
 use super::collect::{Collected, collect, lost_snapshots};
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::file_check::is_other_json;
+use super::machine;
 use super::output::{remove_file, write_file};
 use super::output_kind::OutputKind;
-use super::scheduler::is_other_json;
 use super::stdio::{print, print_json};
 use super::target::model_folder_within;
-use super::{Failure, ModelOptions, Outcome, interrupted, machine};
 use crate::bind::scene::Models;
 use crate::check::{self, Renewal, RenewedLab};
 use crate::ledger::State;
 use crate::lint::{ModelFolder, load_lesson_file, snapshot_path};
+use crate::printable::counted;
 use crate::report::{self, printable, printable_path};
 use crate::spec::{FileKind, kind_of};
 use clap::ValueEnum;
@@ -244,10 +246,14 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
 
 /// What is said of a lab that is not as stored.
 fn about(lab: &RenewedLab) -> String {
-    let kept = &lab.kept;
-    let mut text =
-        format!("  {:<10} lab {}: {}\n", kept.word(), printable(&kept.lab), printable(&kept.remark()));
-    for line in kept.shown() {
+    let snapshot = &lab.kept;
+    let mut text = format!(
+        "  {:<10} lab {}: {}\n",
+        snapshot.word(),
+        printable(&snapshot.lab),
+        printable(&snapshot.remark())
+    );
+    for line in snapshot.shown() {
         let _ = writeln!(text, "  {:<10}   {}", "", printable(&line));
     }
     text
@@ -268,7 +274,7 @@ fn summary(all: &[Looked], asked: bool) -> String {
                 open += 1;
                 _ = writeln!(text, "gone       {file}: its lesson does not exist");
             }
-            (_, true) => _ = writeln!(text, "stored     {file}: {}", many(labs, "lab")),
+            (_, true) => _ = writeln!(text, "stored     {file}: {}", counted(labs, "lab")),
             (Standing::Unreadable, false) => {
                 open += 1;
                 _ = writeln!(text, "unreadable {}", printable(fault));
@@ -286,16 +292,12 @@ fn summary(all: &[Looked], asked: bool) -> String {
         }
     }
     if same > 0 {
-        let _ = writeln!(text, "as stored  {}", many(same, "lesson"));
+        let _ = writeln!(text, "as stored  {}", counted(same, "lesson"));
     }
     if open > 0 {
         text.push_str("labspec snapshot --review shows each change and asks; --accept accepts all of them\n");
     }
     text
-}
-
-fn many(n: usize, one: &str) -> String {
-    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
 }
 
 fn machine(all: &[Looked]) -> Value {

@@ -1,16 +1,19 @@
 //! `labspec stability`.
 
-use super::lab_args::Handled;
+use super::common::{Failure, Outcome, interrupted};
+use super::lab_args::LabArguments;
+use super::output::write_file;
 use super::output::{wanted, write_png};
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::{Progress, print_json};
-use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
 use crate::bind::Programs;
 use crate::report::{key, printable, set_number};
 use crate::run::two_digits;
 use crate::spec::Lab;
 use crate::stress::{
-    Cell, Evidence, Fault, FaultGroup, FaultKind, Interaction, Kind, Made, Map, Margin, Options, Report,
-    Sensitivity, probe,
+    Evidence, Fault, FaultGroup, FaultKind, Interaction, Kind, MapCell, Margin, Options, Sensitivity,
+    StabilityMap, StressReport, StressRun, probe,
 };
 use clap::ValueEnum;
 use labspec_plot::{Cells, cells};
@@ -22,7 +25,7 @@ use std::path::PathBuf;
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
     #[command(flatten)]
-    handled: Handled,
+    handled: LabArguments,
     /// Length of each run in seconds [default: ten times the lab's stopAt or the window of its plots]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
@@ -75,12 +78,12 @@ pub(super) fn stability(a: &Arguments) -> Result<Outcome, Failure> {
 /// `CONTROL1,CONTROL2`. Both labels may hold commas: it is split where the label of a control ends, else at the last one.
 fn two_labels(lab: &Lab, text: &str) -> Result<[String; 2], Failure> {
     let splits = || text.match_indices(',').map(|(i, _)| [text[..i].trim(), text[i + 1..].trim()]);
-    let known = splits().find(|two| two.iter().all(|label| lab.control(label).is_some()));
-    let two = known.or_else(|| splits().next_back());
+    let at_labels = splits().find(|two| two.iter().all(|label| lab.control(label).is_some()));
+    let two = at_labels.or_else(|| splits().next_back());
     two.map(|two| two.map(String::from)).ok_or_else(|| format!("--map {text}: write CONTROL1,CONTROL2"))
 }
 
-fn human(report: &Report, programs: &Programs) -> String {
+fn human(report: &StressReport, programs: &Programs) -> String {
     let mut text = String::new();
     let runs: usize = report.tried.iter().map(|t| t.made + t.cut).sum();
     let kinds: Vec<String> =
@@ -151,7 +154,7 @@ fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
 }
 
 /// How far everything may be raised.
-fn margins(report: &Report, text: &mut String) {
+fn margins(report: &StressReport, text: &mut String) {
     let list = &report.margins;
     if list.is_empty() {
         return;
@@ -242,13 +245,13 @@ fn sensitivity(s: &Sensitivity, text: &mut String) {
 }
 
 /// The map in letters: a row for each value of the second control, the largest first.
-fn letters(map: &Map, text: &mut String) {
+fn letters(map: &StabilityMap, text: &mut String) {
     let [x, y] = map.labels.each_ref().map(|l| printable(l).into_owned());
     let _ = writeln!(text, "\n\"{y}\" upwards, \"{x}\" to the right:");
     let width = map.values[1].iter().map(|v| v.to_string().chars().count()).max().unwrap_or(0);
     let kinds = kinds(map);
     for (row, value) in map.cells.iter().zip(&map.values[1]).rev() {
-        let letter = |cell: &Cell| match index(&kinds, *cell) {
+        let letter = |cell: &MapCell| match index(&kinds, *cell) {
             Some(0) => ".".into(),
             Some(k) => k.to_string(),
             None => "?".into(),
@@ -271,9 +274,9 @@ fn letters(map: &Map, text: &mut String) {
 }
 
 /// What goes wrong anywhere in a map, the worst first.
-fn kinds(map: &Map) -> Vec<FaultKind> {
-    let broken = |c: &Cell| match c {
-        Cell::Broken(kind) => Some(*kind),
+fn kinds(map: &StabilityMap) -> Vec<FaultKind> {
+    let broken = |c: &MapCell| match c {
+        MapCell::Broken(kind) => Some(*kind),
         _ => None,
     };
     let mut list: Vec<FaultKind> = map.cells.iter().flatten().filter_map(broken).collect();
@@ -283,15 +286,15 @@ fn kinds(map: &Map) -> Vec<FaultKind> {
 }
 
 /// The place of a cell's kind behind what is fine.
-fn index(kinds: &[FaultKind], cell: Cell) -> Option<usize> {
+fn index(kinds: &[FaultKind], cell: MapCell) -> Option<usize> {
     match cell {
-        Cell::Fine => Some(0),
-        Cell::Broken(kind) => kinds.iter().position(|k| *k == kind).map(|k| k + 1),
-        Cell::Unknown => None,
+        MapCell::Fine => Some(0),
+        MapCell::Broken(kind) => kinds.iter().position(|k| *k == kind).map(|k| k + 1),
+        MapCell::Unknown => None,
     }
 }
 
-fn chart(map: &Map, title: &str) -> String {
+fn chart(map: &StabilityMap, title: &str) -> String {
     let kinds = kinds(map);
     let names = std::iter::once("fine").chain(kinds.iter().map(|k| k.description()));
     let values = |k: usize| map.values[k].iter().map(ToString::to_string).collect();
@@ -309,7 +312,7 @@ fn chart(map: &Map, title: &str) -> String {
 }
 
 /// Everything that was not tried, or not to its end.
-fn left_out(report: &Report) -> Vec<String> {
+fn left_out(report: &StressReport) -> Vec<String> {
     let mut list = Vec::new();
     for t in &report.tried {
         if t.left_out > 0 {
@@ -331,8 +334,8 @@ fn left_out(report: &Report) -> Vec<String> {
     list
 }
 
-fn value(report: &Report, programs: &Programs) -> Value {
-    let tried = |t: &crate::stress::Tried| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
+fn value(report: &StressReport, programs: &Programs) -> Value {
+    let tried = |t: &crate::stress::RunCount| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
     let found: Vec<Value> = report.found.iter().map(|f| found_value(f, programs)).collect();
     crate::report::report(
         "stability",
@@ -354,7 +357,7 @@ fn value(report: &Report, programs: &Programs) -> Value {
     )
 }
 
-fn made_value(made: &Made, programs: &Programs) -> Value {
+fn made_value(made: &StressRun, programs: &Programs) -> Value {
     json!({
         "kind": key(made.handling.kind.description()), "setting": handling_value(&made.handling, programs),
         "covered": made.covered, "cut": made.cut,
@@ -406,11 +409,11 @@ fn sensitivity_value(s: &Sensitivity) -> Value {
     json!({"length": s.length, "apart": s.apart, "parting": parting, "exponent": exponent, "horizons": horizons})
 }
 
-fn map_value(map: &Map) -> Value {
-    let cell = |c: &Cell| match c {
-        Cell::Fine => "fine".to_string(),
-        Cell::Broken(kind) => key(kind.description()),
-        Cell::Unknown => "unknown".to_string(),
+fn map_value(map: &StabilityMap) -> Value {
+    let cell = |c: &MapCell| match c {
+        MapCell::Fine => "fine".to_string(),
+        MapCell::Broken(kind) => key(kind.description()),
+        MapCell::Unknown => "unknown".to_string(),
     };
     let rows: Vec<Vec<String>> = map.cells.iter().map(|row| row.iter().map(cell).collect()).collect();
     let values: Vec<Vec<Value>> =

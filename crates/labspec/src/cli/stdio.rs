@@ -1,6 +1,6 @@
 //! Standard output and standard error: a device that is full is an error, a reader that has gone away is not.
 
-use super::Failure;
+use super::common::Failure;
 use crate::report::printable_json;
 use std::io::{self, BufWriter, IsTerminal, Write};
 
@@ -44,6 +44,16 @@ pub(super) fn complain(text: &str) {
     let _ = io::stderr().lock().write_all(text.as_bytes());
 }
 
+/// Replaces the line of progress on a terminal.
+pub(super) fn show_progress(text: &str) {
+    complain(&format!("\r\x1b[K{text}"));
+}
+
+/// Clears the line of progress.
+pub(super) fn clear_progress() {
+    show_progress("");
+}
+
 /// One line on a terminal that says what long work is at, and is gone when it ends.
 pub(super) struct Progress {
     shown: bool,
@@ -58,7 +68,7 @@ impl Progress {
     /// Says what is being done now.
     pub(super) fn tell(&self, text: &str) {
         if self.shown {
-            complain(&format!("\r\x1b[K{text}"));
+            show_progress(text);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What a command is pointed at: a lab in a file, or a model.
 
-use super::{Failure, ModelOptions};
+use super::common::{Failure, ModelOptions};
 use crate::bind::Programs;
 use crate::bind::scene::{Compiled, Models, compile_file};
 use crate::finding::{Finding, InFile, Severity};
@@ -51,14 +51,14 @@ pub(super) fn root(options: &ModelOptions, models: &Path, named: &[PathBuf]) -> 
 }
 
 /// A lab, ready to run.
-pub(super) struct Target {
+pub(super) struct LabTarget {
     pub(super) lab: Lab,
     pub(super) model: Arc<Model>,
     pub(super) programs: Programs,
 }
 
 /// Opens `LAB.json`, `LESSON.md#2`, `LESSON.md#quiz-id.1` or `MODEL.xml` (a lab without anything else).
-pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Failure> {
+pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<LabTarget, Failure> {
     let (path, address) = split(argument)?;
     if path.extension().is_some_and(|e| e == "xml") {
         return bare_model(&path, options);
@@ -77,7 +77,7 @@ pub(super) fn open(argument: &str, options: &ModelOptions) -> Result<Target, Fai
     // Only what stops this lab matters here: `check` reports everything.
     findings.retain(|f| f.severity == Severity::Error && (f.path != *lesson.file.path() || within(&lab, f)));
     match (model, programs) {
-        (Some(model), Some(programs)) if findings.is_empty() => Ok(Target { lab, model, programs }),
+        (Some(model), Some(programs)) if findings.is_empty() => Ok(LabTarget { lab, model, programs }),
         _ => {
             let mut files: Vec<&SourceFile> = vec![&lesson.file];
             files.extend(models.files());
@@ -119,29 +119,29 @@ fn split(argument: &str) -> Result<(PathBuf, Option<LabAddress>), Failure> {
 }
 
 fn choose<'l>(lesson: &'l Lesson, address: Option<&LabAddress>, argument: &str) -> Result<&'l Lab, Failure> {
-    let known: Vec<String> =
+    let addresses: Vec<String> =
         lesson.addressed().iter().map(|(a, _)| printable(&a.to_string()).into_owned()).collect();
     let argument = printable(argument);
     match address {
-        Some(address) => lesson.lab(address).ok_or_else(|| match known.as_slice() {
+        Some(address) => lesson.lab(address).ok_or_else(|| match addresses.as_slice() {
             [] => format!("{argument}: the file has no readable lab; `labspec check` says why"),
-            _ => format!("this file has no lab {address}; it has {}", known.join(", ")),
+            _ => format!("this file has no lab {address}; it has {}", addresses.join(", ")),
         }),
         None => match lesson.addressed().as_slice() {
             [] => Err(format!("{argument} has no readable lab; `labspec check {argument}` says why")),
             [(_, lab)] => Ok(lab),
-            _ => Err(format!("{argument} has several labs: add one of {} to its name", known.join(", "))),
+            _ => Err(format!("{argument} has several labs: add one of {} to its name", addresses.join(", "))),
         },
     }
 }
 
 /// A model alone, as a lab that shows nothing.
-fn bare_model(path: &Path, options: &ModelOptions) -> Result<Target, Failure> {
+fn bare_model(path: &Path, options: &ModelOptions) -> Result<LabTarget, Failure> {
     let model = Arc::new(load_model(path, options)?);
     let text = Text { value: String::new(), map: SourceMap::point(0) };
     let lab = Lab::of_model(text);
     let programs = Programs::compile(&lab, &model, &mut Vec::new());
-    Ok(Target { lab, model, programs })
+    Ok(LabTarget { lab, model, programs })
 }
 
 /// Compiles a model file. Warnings are for `check`.

@@ -1,13 +1,13 @@
 //! `labspec trace`.
 
-use super::stdio::{Progress, print_json};
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::stdio::{Progress, print, print_json};
 use super::target::model_folder;
-use super::{Failure, ModelOptions, Outcome, interrupted, print};
 use crate::bind::scene::Models;
 use crate::lint::load_lesson_file;
 use crate::report::{printable, printable_lines, printable_path, report};
 use crate::spec::Lesson;
-use crate::trace::{Hit, Origin, Traced, Traces, blocks, laid_out, trace as look};
+use crate::trace::{self, Hit, Origin, Traced, Traces, blocks, laid_out};
 use crate::verify::significant;
 use clap::ValueEnum;
 use serde_json::{Value, json};
@@ -37,7 +37,7 @@ pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
     let lesson = load_lesson_file(&a.lesson, &folder)?;
     let models = Models::new(folder);
     let progress = Progress::new(a.format == Format::Human);
-    let found = look(&lesson, &models, &mut |text| progress.tell(text));
+    let found = trace::trace(&lesson, &models, &mut |text| progress.tell(text));
     drop(progress);
     if interrupted() {
         return Ok(Outcome::Clean);
@@ -60,57 +60,16 @@ fn place(found: &Traces<'_>, hit: &Hit) -> String {
 
 fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
     let mut text = String::new();
-    let mut counts = [0usize; 6];
     for n in &found.numbers {
         let at = lesson.file.position(n.stated.span.start);
         let quote = printable(&n.stated.quote);
-        let _ = write!(text, "{:>4}:{:<4} {quote:<14}", at.line, at.column);
-        let kind = match &n.origin {
-            Origin::From(hit) => {
-                let value = significant(hit.value);
-                let chance =
-                    if hit.chance > 0.0 { format!(", chance {}", share(hit.chance)) } else { String::new() };
-                let _ = writeln!(
-                    text,
-                    " = {} = {value}  ({}{chance})",
-                    printable(&hit.description()),
-                    printable(&place(found, hit))
-                );
-                0
-            }
-            Origin::Unsteady(hit) => {
-                let _ = writeln!(
-                    text,
-                    " is not reproducible: {} = {}  ({}), and other digits if the start moves by 1e-14",
-                    printable(&hit.description()),
-                    significant(hit.value),
-                    printable(&place(found, hit))
-                );
-                4
-            }
-            Origin::Setting(words) => {
-                let _ = writeln!(text, " is set: {}", printable(words));
-                1
-            }
-            Origin::Chance(hit) => {
-                let _ = writeln!(
-                    text,
-                    " may be chance ({}): {}",
-                    share(hit.chance),
-                    printable(&hit.description())
-                );
-                2
-            }
-            Origin::Claimed => {
-                text.push_str(" is claimed\n");
-                5
-            }
-            Origin::Unknown => {
-                text.push_str(" not traced\n");
-                3
-            }
-        };
-        counts[kind] += 1;
+        let _ = writeln!(
+            text,
+            "{:>4}:{:<4} {quote:<14}{}",
+            at.line,
+            at.column,
+            describe_origin(&n.origin, found)
+        );
     }
     for (address, block) in blocks(found) {
         let has = lesson.lab(&address).is_some_and(|lab| lab.verify.is_some());
@@ -121,15 +80,51 @@ fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
             printable_lines(&laid_out(&block))
         );
     }
-    let [from, set, chance, none, unsteady, claimed] = counts;
-    let unsteady = if unsteady > 0 { format!("{unsteady} not reproducible, ") } else { String::new() };
-    let _ = writeln!(
-        text,
-        "\n{}: {} numbers with units; {claimed} claimed, {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{none} not traced",
-        printable_path(&a.lesson),
-        found.numbers.len()
-    );
+    let _ = writeln!(text, "\n{}: {}", printable_path(&a.lesson), summarize(&found.numbers));
     text
+}
+
+/// Where a number comes from, in words.
+fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
+    match origin {
+        Origin::From(hit) => {
+            let value = significant(hit.value);
+            let chance =
+                if hit.chance > 0.0 { format!(", chance {}", share(hit.chance)) } else { String::new() };
+            let description = hit.description();
+            format!(" = {} = {value}  ({}{chance})", printable(&description), printable(&place(found, hit)))
+        }
+        Origin::Unsteady(hit) => format!(
+            " is not reproducible: {} = {}  ({}), and other digits if the start moves by 1e-14",
+            printable(&hit.description()),
+            significant(hit.value),
+            printable(&place(found, hit))
+        ),
+        Origin::Setting(words) => format!(" is set: {}", printable(words)),
+        Origin::Chance(hit) => {
+            format!(" may be chance ({}): {}", share(hit.chance), printable(&hit.description()))
+        }
+        Origin::Claimed => " is claimed".to_string(),
+        Origin::Unknown => " not traced".to_string(),
+    }
+}
+
+/// How many numbers have each kind of origin.
+fn summarize(numbers: &[Traced]) -> String {
+    let count = |is: fn(&Origin) -> bool| numbers.iter().filter(|n| is(&n.origin)).count();
+    let claimed = count(|o| matches!(o, Origin::Claimed));
+    let from = count(|o| matches!(o, Origin::From(_)));
+    let set = count(|o| matches!(o, Origin::Setting(_)));
+    let chance = count(|o| matches!(o, Origin::Chance(_)));
+    let unknown = count(|o| matches!(o, Origin::Unknown));
+    let unsteady = match count(|o| matches!(o, Origin::Unsteady(_))) {
+        0 => String::new(),
+        n => format!("{n} not reproducible, "),
+    };
+    format!(
+        "{} numbers with units; {claimed} claimed, {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{unknown} not traced",
+        numbers.len()
+    )
 }
 
 fn share(x: f64) -> String {

@@ -1,9 +1,9 @@
 //! Waiting for files to change, by looking at their sizes and times.
 
 use super::collect::collect;
+use super::common::{Failure, Outcome, interrupted};
 use super::policy;
 use super::stdio::complain;
-use super::{Failure, Outcome, interrupted};
 use crate::lint;
 use crate::report::printable_lines;
 use std::collections::{BTreeMap, BTreeSet};

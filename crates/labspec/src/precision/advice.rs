@@ -1,11 +1,16 @@
 //! What the numbers come to: which settings nobody should take, as another is both closer and cheaper, and which one to take.
 
-use super::{Report, Row, milliseconds};
+use super::case::AGAIN;
+use super::case::LeftOut;
+use super::judge::Compared;
+use super::numbers::milliseconds;
+use super::report::{Advice, Kind, Report, Row};
+use super::run_record::Fate;
 use crate::run::two_digits;
 
 /// Whether a row came to its end and is compared.
 fn counts(row: &Row) -> bool {
-    row.fate == super::Fate::Good && row.score.is_finite()
+    row.fate == Fate::Good && row.score.is_finite()
 }
 
 /// The error that can be counted on, in times of what nobody sees: the largest of this step and all shorter ones of the same
@@ -38,107 +43,90 @@ pub(super) fn front(rows: &[Row]) -> Vec<usize> {
     order
 }
 
-/// A sentence about what to take, with the row that it is about.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Advice {
-    /// What it says.
-    pub kind: Kind,
-    /// The row.
-    pub row: usize,
-    /// The sentence.
-    pub text: String,
-}
-
-/// What an advice says of its row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// What the lab's own setting is off by.
-    Own,
-    /// It is closer than the lab's own for the same work.
-    Closer,
-    /// It is the cheapest that shows every number rightly.
-    Right,
-    /// It is the closest; none shows every number rightly, or nobody knows.
-    Closest,
-}
-
 /// Less is no difference.
 const NO_LONGER: f64 = 1.05;
 
-/// What the lab's own setting costs in error, what is closer for the same work, and the cheapest that shows every digit rightly.
-/// Only what a page can use is advised.
+/// The error of the lab's own setting, a closer one for the same work, and the cheapest that shows every digit correctly. Only
+/// settings that a page can use are advised.
 pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let rows = &report.rows;
+    let usable: Vec<usize> =
+        (0..rows.len()).filter(|&i| rows[i].setting.integrator.shared && counts(&rows[i])).collect();
+    let own = rows.iter().position(|r| r.own);
     let mut list = Vec::new();
-    let usable = |i: &usize| rows[*i].setting.integrator.shared && counts(&rows[*i]);
-    let mine = rows.iter().position(|r| r.own);
-    if let Some(own) = mine {
+    if let Some(own) = own {
         list.push(Advice { kind: Kind::Own, row: own, text: about_own(report, own) });
-        let closest = (0..rows.len())
-            .filter(usable)
-            .filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own].cost.work)
-            .min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)));
-        if let Some(i) = closest
-            && rows[own].score > 2.0 * reliable(rows, i)
-            && counts(&rows[own])
-        {
-            let times = rows[own].score / reliable(rows, i).max(f64::MIN_POSITIVE);
-            let how = if reliable(rows, i) == 0.0 || times > 1e12 {
-                "exact except for rounding".to_string()
-            } else {
-                format!("{} times closer", two_digits(times))
-            };
-            let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own]));
-            list.push(Advice { kind: Kind::Closer, row: i, text });
-        }
+        list.extend(closer_for_same_work(rows, &usable, own));
     }
-    let good = (0..rows.len()).filter(usable).filter(|&i| reliable(rows, i) <= 1.0);
-    let cheapest = good.min_by(|&a, &b| rows[a].cost.work.total_cmp(&rows[b].cost.work));
-    let every = every(report);
-    if let Some(i) = cheapest {
-        let text = match mine {
-            Some(own) if i == own => {
-                format!("It is also the cheapest tested setting that shows {every} correctly.")
-            }
-            own => {
-                let time =
-                    own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
-                format!(
-                    "The cheapest tested setting that shows {every} correctly is {}{time}.",
-                    name(&rows[i])
-                )
-            }
-        };
-        list.push(Advice { kind: Kind::Right, row: i, text });
-    } else if let Some(i) =
-        (0..rows.len()).filter(usable).min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))
-    {
-        // What is wrong whatever the reference's own error.
-        let wrong = |row: &Row| {
-            report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0)
-        };
-        let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
-            let [most, least] = e.seen;
-            t.is_compared() && most > 1.0 && least <= 1.0
-        });
-        let text = match doubtful {
-            Some((target, _)) if !(0..rows.len()).filter(usable).all(|i| wrong(&rows[i])) => format!(
-                "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
-                target.label,
-                with_unit(target.doubt, target),
-                with_unit(target.unseen, target),
-                name(&rows[i])
-            ),
-            _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
-        };
-        list.push(Advice { kind: Kind::Closest, row: i, text });
-    }
+    let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);
+    let cheapest = correct.min_by(|&a, &b| rows[a].cost.work.total_cmp(&rows[b].cost.work));
+    list.extend(match cheapest {
+        Some(i) => Some(cheapest_correct(report, own, i)),
+        None => closest(report, &usable),
+    });
     list
+}
+
+/// The closest setting that takes no more work than the lab's own, if it is much closer.
+fn closer_for_same_work(rows: &[Row], usable: &[usize], own: usize) -> Option<Advice> {
+    let affordable = usable.iter().copied().filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own].cost.work);
+    let i = affordable.min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)))?;
+    if !(rows[own].score > 2.0 * reliable(rows, i) && counts(&rows[own])) {
+        return None;
+    }
+    let times = rows[own].score / reliable(rows, i).max(f64::MIN_POSITIVE);
+    let how = if reliable(rows, i) == 0.0 || times > 1e12 {
+        "exact except for rounding".to_string()
+    } else {
+        format!("{} times closer", two_digits(times))
+    };
+    let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own]));
+    Some(Advice { kind: Kind::Closer, row: i, text })
+}
+
+/// The cheapest setting that shows every number correctly.
+fn cheapest_correct(report: &Report, own: Option<usize>, i: usize) -> Advice {
+    let (rows, every) = (&report.rows, every(report));
+    let text = match own {
+        Some(own) if i == own => {
+            format!("It is also the cheapest tested setting that shows {every} correctly.")
+        }
+        own => {
+            let time =
+                own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
+            format!("The cheapest tested setting that shows {every} correctly is {}{time}.", name(&rows[i]))
+        }
+    };
+    Advice { kind: Kind::Right, row: i, text }
+}
+
+/// The closest setting, where none shows every number correctly or that is unknown.
+fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
+    let (rows, every) = (&report.rows, every(report));
+    let i = usable.iter().copied().min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))?;
+    // Wrong whatever the error of the reference.
+    let wrong =
+        |row: &Row| report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0);
+    let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
+        let [most, least] = e.seen;
+        t.is_compared() && most > 1.0 && least <= 1.0
+    });
+    let text = match doubtful {
+        Some((target, _)) if !usable.iter().all(|&i| wrong(&rows[i])) => format!(
+            "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
+            target.label,
+            with_unit(target.doubt, target),
+            with_unit(target.unseen, target),
+            name(&rows[i])
+        ),
+        _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
+    };
+    Some(Advice { kind: Kind::Closest, row: i, text })
 }
 
 /// What "every number" means in this comparison.
 fn every(report: &Report) -> String {
-    let again = |o: &&super::LeftOut| o.reason != super::case::AGAIN;
+    let again = |o: &&LeftOut| o.reason != AGAIN;
     let compared = report.targets.iter().filter(|t| t.is_compared());
     let until = compared.filter_map(|t| t.until).reduce(f64::min);
     let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
@@ -168,21 +156,21 @@ fn beside(row: &Row, own: &Row) -> String {
 fn about_own(report: &Report, own: usize) -> String {
     let row = &report.rows[own];
     let name = name(row);
-    if !matches!(row.fate, super::Fate::Good | super::Fate::Warned) {
+    if !matches!(row.fate, Fate::Good | Fate::Warned) {
         let why = row.reported.first().map_or(String::new(), |t| format!(": {t}"));
         return format!(
             "With the settings of the lab, {name}, the run is not usable ({}{why}).",
             row.fate.word()
         );
     }
-    let known = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
-    if known.clone().next().is_none() {
+    let compared = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
+    if compared.clone().next().is_none() {
         return format!("With the settings of the lab, {name}, nothing could be compared.");
     }
-    if let Some((target, _)) = known.clone().find(|(_, e)| e.largest.is_nan()) {
+    if let Some((target, _)) = compared.clone().find(|(_, e)| e.largest.is_nan()) {
         return format!("With the settings of the lab, {name}, \"{}\" is not always a number.", target.label);
     }
-    let above = known.filter(|(_, e)| !e.below);
+    let above = compared.filter(|(_, e)| !e.below);
     let Some((target, e)) = above.max_by(|(_, a), (_, b)| a.seen[0].total_cmp(&b.seen[0])) else {
         return format!(
             "With the settings of the lab, {name}, {} is as exact as the reference.",
@@ -206,7 +194,7 @@ fn about_own(report: &Report, own: usize) -> String {
 }
 
 /// A number with the unit of what is compared.
-fn with_unit(x: f64, target: &super::Compared) -> String {
+fn with_unit(x: f64, target: &Compared) -> String {
     match &target.unit {
         Some(unit) => format!("{} {unit}", two_digits(x)),
         None => two_digits(x),

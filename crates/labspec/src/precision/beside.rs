@@ -1,8 +1,9 @@
 //! Another program's runs of the same lab, as it recorded them: its errors and times stand beside ours, and never enter them.
 
-use super::case::{PrecisionCase, Run};
+use super::agreement::Reference;
+use super::case::PrecisionCase;
 use super::judge::{self, Compared, Errors};
-use super::reference::Reference;
+use super::run_record::Run;
 use crate::run::RunError;
 use serde_json::Value;
 

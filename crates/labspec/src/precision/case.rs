@@ -1,48 +1,49 @@
-//! A lab that is compared with itself: what it shows, and one run of it under a setting.
+//! A lab whose settings are compared: the numbers that it displays, and a run of it under a setting.
 
-use super::cost::integrator_work;
+use super::event_finder::EventFinder;
+use super::integrator_work::integrator_work;
 use super::jumps;
-use super::moments::{Finder, Moment, Sought};
+use super::run_record::{EnergySampler, Rhythm, Run, RunRequest};
 use super::setting::Setting;
 use crate::bind::{
     Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
 };
 use crate::finding::Finding;
-use crate::run::{self, Budget, End, Play, RunError, Session};
+use crate::run::{self, Budget, Play, RunError, Session};
 use crate::spec::{Lab, Plot};
 use labspec_bind::units::written;
 use labspec_core::reflect::{FieldId, option};
-use labspec_core::{self as core, AccessSet, Data, Full, Model, Warning, state};
+use labspec_core::{AccessSet, Model};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{Compiler, Type, Value};
 use std::ops::ControlFlow;
 
 /// A number that the lab shows.
-pub(super) struct Target<'a> {
+pub(super) struct ComparedNumber<'a> {
     pub(super) label: String,
     /// Its unit, where it is known.
     pub(super) unit: Option<String>,
     pub(super) bound: &'a Bound,
     /// Its closed form.
     pub(super) exact: Option<Bound>,
-    pub(super) shown: Shown,
+    pub(super) shown: DisplayPrecision,
 }
 
 /// How exactly a number is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shown {
+pub(super) enum DisplayPrecision {
     /// With so many decimals.
     Decimals(u32),
     /// As a curve: the ends of its axis, where they are fixed, and its height in pixels.
     Curve { ends: [Option<f64>; 2], height: f64 },
 }
 
-impl Shown {
+impl DisplayPrecision {
     /// The largest error that nobody sees, for values of some range: half a unit of the last digit, half a pixel.
     pub(super) fn unseen(self, range: f64) -> f64 {
         match self {
-            Shown::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
-            Shown::Curve { ends, height } => {
+            DisplayPrecision::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
+            DisplayPrecision::Curve { ends, height } => {
                 let tall = match ends {
                     [Some(low), Some(high)] if high > low => high - low,
                     _ => range,
@@ -70,7 +71,7 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) lab: &'a Lab,
     pub(super) model: &'a Model,
     pub(super) programs: &'a Programs,
-    pub(super) targets: Vec<Target<'a>>,
+    pub(super) targets: Vec<ComparedNumber<'a>>,
     pub(super) left_out: Vec<LeftOut>,
     pub(super) set: &'a [(String, Value)],
     /// Buttons and the times of their presses, s.
@@ -81,99 +82,8 @@ pub(super) struct PrecisionCase<'a> {
     pub(super) count: usize,
 }
 
-/// The samples of a run: after every step, or after so many as the truth is known at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Rhythm {
-    /// Steps from one sample to the next.
-    pub(super) steps: usize,
-    /// Samples of the truth from one to the next.
-    pub(super) stride: usize,
-    /// Their number, the start not counted.
-    pub(super) count: usize,
-}
-
 /// Samples in which energy and momentum are looked at.
 const LOOKS: usize = 100;
-
-/// What is asked of a run.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Ask<'s> {
-    /// Every coordinate of the start is moved by this.
-    pub(super) perturbation: f64,
-    /// All that is shown is of the state at hand, as in the truth; else what a page shows after a step is partly of the state before
-    /// it: forces, energies, contacts. A fresh run is not watched for growth of energy, as every look begins that watch anew.
-    pub(super) fresh: bool,
-    /// Steps are cut where controls jump.
-    pub(super) cut: bool,
-    /// The moments that are looked for.
-    pub(super) sought: Option<&'s Sought>,
-    /// The run is made for its moments alone: it is of no more use after this time, s, or when all are found.
-    pub(super) stop: Option<f64>,
-}
-
-impl Ask<'_> {
-    /// As a reference is run.
-    pub(super) const FRESH: Ask<'static> =
-        Ask { perturbation: 0.0, fresh: true, cut: false, sought: None, stop: None };
-}
-
-/// What a run showed.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Run {
-    /// Values of each target at the run's samples, and of its closed form (NaN without one).
-    pub(super) values: Vec<Vec<f64>>,
-    pub(super) exact: Vec<Vec<f64>>,
-    /// When bodies first touch, when each target first passes through zero, when each first turns back; empty where nobody asked.
-    pub(super) moments: Vec<Moment>,
-    /// When the last of them was sure to be one, s.
-    pub(super) settled: f64,
-    /// Whether bodies touch at the start.
-    pub(super) touching: bool,
-    /// Whether a force could jump: dry friction, a limit or a contact pushed.
-    pub(super) jumps: bool,
-    /// Energy, J, and momentum (three of motion, three of turning), where they were looked at.
-    pub(super) energy: Vec<f64>,
-    pub(super) momentum: Vec<[f64; 6]>,
-    /// The largest kinetic energy among them, J.
-    pub(super) kinetic: f64,
-    /// How deep bodies were in each other at most, m.
-    pub(super) penetration: f64,
-    /// What became of it.
-    pub(super) fate: Fate,
-    /// Everything that was told about it.
-    pub(super) reported: Vec<String>,
-    /// Work, in the engine's own units, per simulated second.
-    pub(super) work: f64,
-}
-
-/// What became of a run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Fate {
-    /// It came to its end.
-    #[default]
-    Good,
-    /// A number was not finite, or too large, and the engine reset the scene.
-    Diverged,
-    /// It gained energy that nothing gave.
-    Grows,
-    /// The engine warned of something else: full buffers, bodies without inertia, a control that is no number.
-    Warned,
-    /// It threw, or took more work than a run may.
-    Stopped,
-}
-
-impl Fate {
-    /// In one word.
-    pub fn word(self) -> &'static str {
-        match self {
-            Fate::Good => "good",
-            Fate::Diverged => "diverged",
-            Fate::Grows => "gains energy",
-            Fate::Warned => "warned",
-            Fate::Stopped => "stopped",
-        }
-    }
-}
 
 /// The unit that a label states, or else that of what is measured; a plain number has none.
 fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
@@ -209,20 +119,21 @@ impl<'a> PrecisionCase<'a> {
         };
         let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
         let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
-        let curve = |plot: &Plot| Shown::Curve {
+        let curve = |plot: &Plot| DisplayPrecision::Curve {
             ends: [&plot.ymin, &plot.ymax].map(|end| end.as_ref().map(|x| x.value)),
             height: plot.height(),
         };
         let curves = |plot: &'a Plot| plot.traces.iter().map(move |t| (&t.label.value, curve(plot)));
         let traces = lab.plots.iter().flat_map(curves);
-        let readouts = lab.readouts.iter().map(|r| (&r.label.value, Shown::Decimals(r.digits())));
+        let readouts = lab.readouts.iter().map(|r| (&r.label.value, DisplayPrecision::Decimals(r.digits())));
         let measured = dimensions(lab, model, programs).probes;
         let probes = programs.probes.iter().zip(measured.into_iter().chain(std::iter::repeat(None)));
         for ((label, shown), (probe, measured)) in traces.chain(readouts).zip(probes) {
             let Some(bound) = &probe.bound else { continue };
             let unit = unit_of(label, measured.map(|m| m.value));
-            let closed =
-                exact.iter().find(|e| e.trace.value == *label && matches!(shown, Shown::Curve { .. }));
+            let closed = exact
+                .iter()
+                .find(|e| e.trace.value == *label && matches!(shown, DisplayPrecision::Curve { .. }));
             let closed = closed.and_then(|e| {
                 let mut globals = programs.globals.clone();
                 let compiled = Compiler::new(&names, &mut globals).expression(&e.form.value);
@@ -237,7 +148,7 @@ impl<'a> PrecisionCase<'a> {
     fn take(
         &mut self,
         (label, unit): (&str, Option<String>),
-        shown: Shown,
+        shown: DisplayPrecision,
         bound: &'a Bound,
         exact: Option<Bound>,
     ) {
@@ -253,7 +164,7 @@ impl<'a> PrecisionCase<'a> {
             if let Some(e) = &exact {
                 include(e.program.effects(), &mut self.demand);
             }
-            self.targets.push(Target { label: label.to_string(), unit, bound, exact, shown });
+            self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, shown });
             return;
         };
         self.left_out.push(LeftOut { label: label.to_string(), reason });
@@ -315,147 +226,76 @@ impl<'a> PrecisionCase<'a> {
     }
 
     /// A run under a setting.
-    pub(super) fn run(&self, setting: &Setting, ask: Ask<'_>) -> Result<Run, RunError> {
+    pub(super) fn run(&self, setting: &Setting, request: RunRequest<'_>) -> Result<Run, RunError> {
         let mut session = self.start(Some(setting))?;
-        if ask.perturbation != 0.0 {
-            session.perturb(
-                run::StepVariant { perturbation: ask.perturbation, ..run::StepVariant::NOMINAL },
-                true,
-            );
+        if request.perturbation != 0.0 {
+            let perturbation = request.perturbation;
+            session.perturb(run::StepVariant { perturbation, ..run::StepVariant::NOMINAL }, true);
         }
         let rhythm = self.rhythm(setting.timestep);
         let steps = rhythm.count * rhythm.steps;
-        let n = self.targets.len();
-        let mut seen = Run {
-            values: vec![Vec::with_capacity(rhythm.count + 1); n],
-            exact: vec![Vec::with_capacity(rhythm.count + 1); n],
-            ..Run::default()
-        };
-        let mut look = Look::new(&session.world.model);
-        let mut finder = ask.sought.map(|s| Finder::new(s, &session.world.model, setting));
+        let mut record = Run::with_capacity(self.targets.len(), rhythm.count + 1);
+        let mut energy = EnergySampler::new(&session.world.model);
+        let mut finder = request.sought.map(|s| EventFinder::new(s, &session.world.model, setting));
         let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
         let every = rhythm.count.div_ceil(LOOKS).max(1);
         let before = session.spent();
         let mut sampling = 0;
-        let mut now = vec![0.0; n];
+        let mut now = vec![0.0; self.targets.len()];
         let sample = |session: &mut Session<'_>, made: usize| {
             let began = session.spent();
             let sampled = made.is_multiple_of(rhythm.steps);
-            if ask.fresh && made > 0 {
+            if request.fresh && made > 0 {
                 session.refresh();
             }
-            for (i, target) in self.targets.iter().enumerate() {
-                now[i] = self.value(session, i);
-                if sampled {
-                    seen.values[i].push(now[i]);
-                    let exact = target.exact.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
-                    seen.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
-                }
-            }
-            seen.observe(session);
+            self.sample_targets(session, &mut now, sampled.then_some(&mut record));
+            record.observe(session);
             if let Some(finder) = &mut finder {
                 finder.see(session, &now, &evaluate);
             }
             if sampled && (made / rhythm.steps).is_multiple_of(every) {
-                look.take(session, &mut seen);
+                energy.sample(session, &mut record);
             }
             sampling += session.spent() - began;
             let time = session.world.data.time();
-            let found = finder.as_ref().is_some_and(Finder::is_complete);
-            match ask.stop.is_some_and(|stop| found || time > stop) {
+            let found = finder.as_ref().is_some_and(EventFinder::is_complete);
+            match request.stop.is_some_and(|stop| found || time > stop) {
                 true => ControlFlow::Break(()),
                 false => ControlFlow::Continue(()),
             }
         };
-        let played = Play { steps, every: 1, presses: &self.presses, watched: !ask.fresh };
-        let made = match ask.cut {
+        let played = Play { steps, every: 1, presses: &self.presses, watched: !request.fresh };
+        let made = match request.cut {
             true => jumps::play(&mut session, &played, setting.timestep, sample),
             false => run::play(&mut session, &played, sample),
         };
         let simulated = made as f64 * setting.timestep;
         let counted = (session.spent() - before - sampling) as f64;
         let of_steps = made as f64 * integrator_work(&session, setting.integrator);
-        seen.work = (counted + of_steps) / simulated.max(setting.timestep);
+        record.work = (counted + of_steps) / simulated.max(setting.timestep);
         if let Some(finder) = finder {
-            (seen.touching, seen.settled) = (finder.touches_at_start(), finder.settled());
-            seen.moments = finder.finish();
+            record.take_moments(finder);
         }
-        // Where a run ended before its time, nothing is known.
-        seen.values
-            .iter_mut()
-            .chain(&mut seen.exact)
-            .for_each(|list| list.resize(rhythm.count + 1, f64::NAN));
-        seen.judge(&session);
-        Ok(seen)
+        record.fill_up(rhythm.count + 1);
+        record.set_fate(&session);
+        Ok(record)
+    }
+
+    /// The values of all targets now; at a sample they are recorded, with those of the closed forms.
+    fn sample_targets(&self, session: &mut Session<'_>, now: &mut [f64], mut record: Option<&mut Run>) {
+        for (i, target) in self.targets.iter().enumerate() {
+            now[i] = self.value(session, i);
+            if let Some(record) = &mut record {
+                record.values[i].push(now[i]);
+                let exact = target.exact.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
+                record.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
+            }
+        }
     }
 
     fn value(&self, session: &mut Session<'_>, target: usize) -> f64 {
         let bound = self.targets.get(target).map(|t| t.bound);
         let value = bound.and_then(|b| session.evaluate(&b.program, &b.text));
         value.map_or(f64::NAN, |v| v.to_number())
-    }
-}
-
-impl Run {
-    /// Looks at contacts and constraints after a step.
-    fn observe(&mut self, session: &Session<'_>) {
-        let d = session.world.data.fields();
-        self.jumps |= d.nefc > d.ne;
-        let deepest = d.contact.iter().map(|c| -c.dist).fold(f64::NAN, f64::max);
-        if deepest > 0.0 {
-            self.penetration = self.penetration.max(deepest);
-        }
-    }
-
-    /// What became of the run that ends here.
-    fn judge(&mut self, session: &Session<'_>) {
-        let bad = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc, Warning::BadCtrl];
-        self.reported = run::breakdowns_of(session).into_iter().map(|b| b.what).collect();
-        self.fate = match session.ended() {
-            _ if bad.iter().any(|&w| session.warnings[w as usize].number > 0) => Fate::Diverged,
-            _ if session.growth().is_some() => Fate::Grows,
-            Some(End::Budget { time }) => {
-                self.reported.push(format!("the work budget ran out, so the run ends at {time} s"));
-                Fate::Stopped
-            }
-            Some(_) => Fate::Stopped,
-            None if !self.reported.is_empty() => Fate::Warned,
-            None => Fate::Good,
-        };
-        if let Some(trouble) = session.troubles.first() {
-            self.reported.push(trouble.message.clone());
-        }
-    }
-}
-
-/// Energy and momentum, seen with data of its own so that looking leaves the run alone.
-struct Look {
-    own: Data<Full>,
-}
-
-impl Look {
-    fn new(m: &Model) -> Look {
-        Look { own: Data::new(m) }
-    }
-
-    fn take(&mut self, session: &Session<'_>, seen: &mut Run) {
-        let m = &session.world.model;
-        // Of one model: nothing can be refused.
-        let _ = state::copy(m, &session.world.data, &mut self.own, state::INTEGRATION);
-        let energy = core::mechanical_energy(m, &mut self.own).ok().flatten();
-        seen.energy.push(energy.map_or(f64::NAN, |e| e.kinetic + e.potential()));
-        seen.kinetic = seen.kinetic.max(energy.map_or(0.0, |e| e.kinetic));
-        let d = &mut self.own;
-        let moving = core::forward(m, d).and_then(|()| core::subtree_vel(m, d));
-        let mut momentum = [f64::NAN; 6];
-        let of = |list: &[f64], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
-        if moving.is_ok() {
-            let mass = of(&m.body_subtreemass, 0);
-            for k in 0..3 {
-                momentum[k] = mass * of(&d.subtree_linvel, k);
-                momentum[3 + k] = of(&d.subtree_angmom, k);
-            }
-        }
-        seen.momentum.push(momentum);
     }
 }

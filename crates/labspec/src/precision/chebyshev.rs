@@ -1,7 +1,7 @@
 //! Turning points, from the values of a number at Chebyshev's points of two steps.
 
-use super::bench::Bench;
-use super::moments::{Evaluate, Moment};
+use super::event_time::EventTime;
+use super::step_replay::{Evaluate, StepReplay};
 use std::f64::consts::PI;
 
 /// Degree of the polynomial.
@@ -13,12 +13,12 @@ const HALVINGS: usize = 60;
 /// The turning point of a target around the second last state, upwards or downwards: of a method of high order by its steps made
 /// again, of others by the parabola through three states.
 pub(super) fn turning_point(
-    bench: &mut Bench<'_>,
+    bench: &mut StepReplay<'_>,
     target: usize,
     way: f64,
     dense: bool,
     evaluate: &Evaluate<'_>,
-) -> Option<Moment> {
+) -> Option<EventTime> {
     let count = bench.past.count();
     if count < 3 {
         return None;
@@ -36,7 +36,7 @@ pub(super) fn turning_point(
         let curvature = (fall - rise) / (0.5 * (h + next));
         let x = 0.5 * h - rise / curvature;
         let at = start + if x.is_finite() { x.clamp(0.0, h + next) } else { h };
-        Some(Moment { at, doubt: h + next, slope: f64::INFINITY, top })
+        Some(EventTime { at, doubt: h + next, slope: f64::INFINITY, top })
     };
     if !dense {
         return parabola();
@@ -56,7 +56,7 @@ pub(super) fn turning_point(
     let Some((x, doubt)) = turn(&values) else { return parabola() };
     let other = turn(&every_second).map_or(2.0, |(y, _)| (x - y).abs());
     let doubt = half * (doubt + other).min(2.0);
-    Some(Moment { at: start + half * (1.0 + x), doubt, slope: f64::INFINITY, top })
+    Some(EventTime { at: start + half * (1.0 + x), doubt, slope: f64::INFINITY, top })
 }
 
 /// Where a number is largest inside [-1, 1], by its values at Chebyshev's points from 1 down to -1; with how far rounding may have

@@ -1,8 +1,9 @@
 //! What happens in the reference, how far other runs are from it, and how long nearby starts stay together.
 
-use super::case::{Ask, PrecisionCase, Run};
+use super::agreement::{KnownEvent, Reference, method};
+use super::case::PrecisionCase;
 use super::judge::Compared;
-use super::reference::{Known, Reference, method};
+use super::run_record::{Run, RunRequest};
 use super::setting::Setting;
 use crate::run::RunError;
 use labspec_core::integrator;
@@ -36,7 +37,7 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
     let n = case.targets.len();
     let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let contact = if truth.run.touching { "first new contact" } else { "first contact" };
-    let event = |(i, known): (usize, &Known)| {
+    let event = |(i, known): (usize, &KnownEvent)| {
         let target = i.checked_sub(1).and_then(|k| targets.get(k % n.max(1)));
         let name = match target {
             None => contact.to_string(),
@@ -72,8 +73,10 @@ pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
 /// How long two starts that nobody could tell apart show the same.
 pub(super) fn nearby(case: &PrecisionCase<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
     let setting = Setting { integrator: method(integrator::RKMK8), timestep: own / 2.0, solver: None };
-    let (one, other) =
-        (case.run(&setting, Ask::FRESH)?, case.run(&setting, Ask { perturbation: NUDGE, ..Ask::FRESH })?);
+    let (one, other) = (
+        case.run(&setting, RunRequest::FRESH)?,
+        case.run(&setting, RunRequest { perturbation: NUDGE, ..RunRequest::FRESH })?,
+    );
     let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
         let far = LEFT * target.range;
         // Not to be told apart is less than the part, and no number is far from every other.

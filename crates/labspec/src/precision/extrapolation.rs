@@ -2,9 +2,12 @@
 //! step, and a table of runs with halved steps is extrapolated to a step of nothing (Aitken and Neville; Hairer, Nørsett and Wanner
 //! 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls jump are cut at the jump.
 
-use super::case::{Ask, PrecisionCase, Run};
-use super::moments::{Moment, Sought};
-use super::reference::{Reference, agree, known, run, so_far, too_long, worst_part};
+use super::agreement::{Reference, agree, known, run, so_far, too_long, worst_part};
+use super::case::PrecisionCase;
+use super::event_finder::EventThresholds;
+use super::event_time::EventTime;
+use super::numbers::milliseconds;
+use super::run_record::{Run, RunRequest};
 use crate::run::RunError;
 use labspec_core::integrator;
 
@@ -15,23 +18,23 @@ const AGREE: f64 = 1e-11;
 
 /// An entry of the table.
 #[derive(Clone)]
-struct Entry {
+struct TableEntry {
     values: Vec<Vec<f64>>,
     moments: Vec<f64>,
 }
 
-impl Entry {
-    fn of(run: &Run) -> Entry {
-        Entry { values: run.values.clone(), moments: run.moments.iter().map(|m| m.at).collect() }
+impl TableEntry {
+    fn from_run(run: &Run) -> TableEntry {
+        TableEntry { values: run.values.clone(), moments: run.moments.iter().map(|m| m.at).collect() }
     }
 
     /// What this one and one of twice the step come to, where the lowest power of the error is the `power`th.
-    fn toward(&self, coarse: &Entry, power: i32) -> Entry {
+    fn toward(&self, coarse: &TableEntry, power: i32) -> TableEntry {
         let weight = 1.0 / (2f64.powi(power) - 1.0);
         let list = |(fine, coarse): (&Vec<f64>, &Vec<f64>)| {
             fine.iter().zip(coarse).map(|(f, c)| f + (f - c) * weight).collect()
         };
-        Entry {
+        TableEntry {
             values: self.values.iter().zip(&coarse.values).map(list).collect(),
             moments: list((&self.moments, &coarse.moments)),
         }
@@ -39,15 +42,15 @@ impl Entry {
 }
 
 /// The best entry so far, with that of twice its step in the same column.
-struct Best {
-    entry: Entry,
-    coarse: Entry,
+struct BestEntry {
+    entry: TableEntry,
+    coarse: TableEntry,
     uncertain: Vec<Vec<f64>>,
     run: Run,
     step: f64,
 }
 
-impl Best {
+impl BestEntry {
     fn worst(&self) -> f64 {
         worst_part(&self.entry.values, &self.uncertain)
     }
@@ -56,12 +59,12 @@ impl Best {
 /// The reference of a lab with a controller.
 pub(super) fn extrapolated(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
     let first = (own / 2.0).min(case.interval);
-    let ask = Ask { cut: true, ..Ask::FRESH };
+    let ask = RunRequest { cut: true, ..RunRequest::FRESH };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
-    let sought = Sought::of(&look.values);
-    let ask = Ask { sought: Some(&sought), ..ask };
-    let mut before: Vec<Entry> = Vec::new();
-    let mut best: Option<Best> = None;
+    let sought = EventThresholds::for_values(&look.values);
+    let ask = RunRequest { sought: Some(&sought), ..ask };
+    let mut before: Vec<TableEntry> = Vec::new();
+    let mut best: Option<BestEntry> = None;
     let mut step = first;
     for _ in 0..LEVELS {
         if too_long(case, step) {
@@ -72,7 +75,7 @@ pub(super) fn extrapolated(case: &PrecisionCase<'_>, own: f64) -> Result<Option<
         for (entry, coarse) in row.iter().zip(&before) {
             let uncertain = so_far(entry.values.iter().zip(&coarse.values));
             let (entry, coarse) = (entry.clone(), coarse.clone());
-            let one = Best { entry, coarse, uncertain, run: now.clone(), step };
+            let one = BestEntry { entry, coarse, uncertain, run: now.clone(), step };
             if best.as_ref().is_none_or(|b| one.worst() < b.worst()) {
                 best = Some(one);
             }
@@ -88,8 +91,8 @@ pub(super) fn extrapolated(case: &PrecisionCase<'_>, own: f64) -> Result<Option<
 }
 
 /// The next row of the table, below that of twice the step.
-fn next_row(run: &Run, before: &[Entry]) -> Vec<Entry> {
-    let mut row = vec![Entry::of(run)];
+fn next_row(run: &Run, before: &[TableEntry]) -> Vec<TableEntry> {
+    let mut row = vec![TableEntry::from_run(run)];
     for (coarse, power) in before.iter().zip(1..) {
         let Some(last) = row.last() else { break };
         let next = last.toward(coarse, power);
@@ -99,9 +102,14 @@ fn next_row(run: &Run, before: &[Entry]) -> Vec<Entry> {
 }
 
 /// Holds the steps between controls against another family's.
-fn finish(case: &PrecisionCase<'_>, best: Best, sought: Sought, first: f64) -> Result<Reference, RunError> {
-    let Best { entry, coarse, mut uncertain, run: mut seen, step } = best;
-    let ask = Ask { cut: true, ..Ask::FRESH };
+fn finish(
+    case: &PrecisionCase<'_>,
+    best: BestEntry,
+    sought: EventThresholds,
+    first: f64,
+) -> Result<Reference, RunError> {
+    let BestEntry { entry, coarse, mut uncertain, run: mut seen, step } = best;
+    let ask = RunRequest { cut: true, ..RunRequest::FRESH };
     let other = if too_long(case, step) { None } else { run(case, integrator::GAUSS, step, ask)? };
     if let Some(other) = &other {
         let more = so_far(seen.values.iter().zip(&other.values));
@@ -110,9 +118,12 @@ fn finish(case: &PrecisionCase<'_>, best: Best, sought: Sought, first: f64) -> R
         }
     }
     let depth_doubt = other.as_ref().map_or(f64::NAN, |o| (o.penetration - seen.penetration).abs());
-    let at = |moments: &[f64], doubts: bool| -> Vec<Moment> {
-        let one =
-            |(m, at): (&Moment, &f64)| Moment { at: *at, doubt: if doubts { m.doubt } else { 0.0 }, ..*m };
+    let at = |moments: &[f64], doubts: bool| -> Vec<EventTime> {
+        let one = |(m, at): (&EventTime, &f64)| EventTime {
+            at: *at,
+            doubt: if doubts { m.doubt } else { 0.0 },
+            ..*m
+        };
         seen.moments.iter().zip(moments).map(one).collect()
     };
     let (fine, rough) = (at(&entry.moments, true), at(&coarse.moments, false));
@@ -120,8 +131,8 @@ fn finish(case: &PrecisionCase<'_>, best: Best, sought: Sought, first: f64) -> R
     let how = format!(
         "rkmk8{} with the controller at steps from {} to {} ms, extrapolated to none",
         if other.is_some() { " (and gauss)" } else { "" },
-        super::milliseconds(first),
-        super::milliseconds(step)
+        milliseconds(first),
+        milliseconds(step)
     );
     let jumps = seen.jumps;
     seen.values.clone_from(&entry.values);

@@ -1,7 +1,9 @@
 //! Errors of a run against the reference.
 
-use super::case::{Fate, PrecisionCase, Run, Shown};
-use super::reference::{Reference, range};
+use super::agreement::Reference;
+use super::case::{ComparedNumber, DisplayPrecision, PrecisionCase};
+use super::numbers::range;
+use super::run_record::{Fate, Run};
 use crate::run::printed;
 
 /// How far a run is from the truth, in the unit of the trace.
@@ -118,7 +120,7 @@ const CONSTANT: f64 = 1e-6;
 
 /// What the targets of a case are held against; `own` is the run as the lab has it.
 pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
-    let one = |(i, target): (usize, &super::case::Target<'_>)| {
+    let one = |(i, target): (usize, &ComparedNumber<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
         let uncertain = &reference.uncertain[i];
@@ -131,17 +133,17 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Ru
         }
         let unseen = target.shown.unseen(range_of);
         let enough = (KNOWN * range_of).max(UNSEEN * unseen).max(ROUNDING);
-        let known = uncertain.partition_point(|u| *u <= enough);
+        let certain = uncertain.partition_point(|u| *u <= enough);
         let blank = values.first().is_none_or(|x| !x.is_finite());
         let samples = match (blank, closed) {
             (true, _) => 0,
             (false, true) => values.len(),
-            (false, false) => known,
+            (false, false) => certain,
         };
         let cut = samples < values.len() && !blank;
         let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
         let most = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
-        let digits = if let Shown::Decimals(digits) = target.shown { Some(digits) } else { None };
+        let digits = if let DisplayPrecision::Decimals(digits) = target.shown { Some(digits) } else { None };
         Compared {
             label: target.label.clone(),
             unit: target.unit.clone(),

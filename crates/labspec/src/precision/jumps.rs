@@ -22,7 +22,7 @@ struct Start {
 }
 
 impl Start {
-    fn of(session: &Session<'_>) -> Start {
+    fn save(session: &Session<'_>) -> Start {
         Start { state: numbers(session, state::INTEGRATION), context: session.context.clone() }
     }
 
@@ -117,7 +117,7 @@ pub(super) fn play(
     let mut usual = 0.0;
     for made in 1..=play.steps {
         session.press_due(&mut pending);
-        let start = Start::of(session);
+        let start = Start::save(session);
         session.step();
         if session.ended().is_some() {
             return made - 1;
@@ -127,7 +127,7 @@ pub(super) fn play(
         let next = peek(session);
         let change = apart(&held, &next);
         if change > SUDDEN * usual + 1e-9 * apart(&next, &vec![0.0; next.len()]) {
-            let end = Start::of(session);
+            let end = Start::save(session);
             match before_the_jump(session, &start, h, &held, &next) {
                 Some(x) => {
                     advance(session, &start, x);

@@ -1,8 +1,9 @@
 //! The timesteps of a comparison, and the samples at which their runs meet the truth.
 
 use super::case::PrecisionCase;
-use super::setting::{INTEGRATORS, Integrator};
-use super::{Options, Setting, Solver};
+use super::integrator::{INTEGRATORS, Integrator};
+use super::report::Options;
+use super::setting::{Setting, Solver};
 use crate::run::{self, RunError};
 use crate::spec::Lab;
 

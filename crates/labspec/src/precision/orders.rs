@@ -1,7 +1,8 @@
 //! Orders that errors show: how many times an error halves when the timestep halves.
 
 use super::judge::Compared;
-use super::{Fate, Row};
+use super::report::Row;
+use super::run_record::Fate;
 
 /// An order is one where the error is below this part of the range, so that its first term leads,
 const SMALL: f64 = 0.1;

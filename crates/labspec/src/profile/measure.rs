@@ -6,8 +6,9 @@
 //! measured as well, and taken off. A stage of a few nanoseconds is known to a few nanoseconds. What a stage would cost that does
 //! not run is the difference of two runs, and nothing where the clock shows no difference.
 
-use super::parts::Seen;
-use super::reader::Reader;
+use super::parts::ConstraintCounts;
+use super::reader::ExtraReader;
+use super::start::plan_at_start;
 use crate::bind::Programs;
 use crate::interrupt;
 use crate::run::{RunError, Session, count_steps};
@@ -27,7 +28,7 @@ const LOOK_EVERY: f64 = 5e4;
 
 /// What a stage costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Cost {
+pub struct StageCost {
     /// Nanoseconds of a step.
     pub ns: f64,
     /// The part of a step.
@@ -39,7 +40,7 @@ pub struct Cost {
 
 /// What a step costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Step {
+pub struct StepCost {
     /// Steps of the run that was measured.
     pub steps: usize,
     /// A step with the lab's controller, in the middle of the repeats, ns; a quarter of them is quicker, a quarter slower.
@@ -49,20 +50,20 @@ pub struct Step {
     /// The same where every stage runs.
     pub full: f64,
     /// What all stages leave: the integrator, and the look for numbers that are none.
-    pub integrator: Cost,
+    pub integrator: StageCost,
     /// The lab's controller, where it has one.
-    pub controller: Option<Cost>,
+    pub controller: Option<StageCost>,
     /// All work of a step, as the engine counts it.
     pub work: f64,
     /// What was seen.
-    pub seen: Seen,
+    pub seen: ConstraintCounts,
 }
 
 /// All that was measured, stages in the order of the plan.
 pub(super) struct Measured {
-    pub(super) step: Step,
-    pub(super) seen: Seen,
-    pub(super) stages: Vec<Option<Cost>>,
+    pub(super) step: StepCost,
+    pub(super) seen: ConstraintCounts,
+    pub(super) stages: Vec<Option<StageCost>>,
     pub(super) forced: Vec<Option<f64>>,
     pub(super) readers: Vec<f64>,
 }
@@ -173,8 +174,8 @@ impl<'a> MeasuredLab<'a> {
                 let net = |lap: core::StageTime| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
                 let stages = plan.decisions().iter().map(|d| net(laps.of(d.stage)));
                 // The clock was looked at for the controller, too.
-                let own = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
-                let between = (net(laps.between) - own).max(0.0);
+                let clock = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
+                let between = (net(laps.between) - clock).max(0.0);
                 for (times, time) in times.iter_mut().zip(stages.chain([between, programs])) {
                     times.add(i, time);
                 }
@@ -191,9 +192,9 @@ pub(super) fn measure(
     lab: &Lab,
     model: &Model,
     programs: &Programs,
-    readers: &[Reader],
+    readers: &[ExtraReader],
 ) -> Result<Option<Measured>, RunError> {
-    let (plan, _) = super::started(lab, model, programs);
+    let (plan, _) = plan_at_start(lab, model, programs);
     let mut case = MeasuredLab { lab, model, programs, steps: 0, runs: 1, chunk: 16 };
     let (mut step, works) = look_at(&mut case, &plan)?;
     if case.steps == 0 {
@@ -205,37 +206,22 @@ pub(super) fn measure(
     case.runs = (LONG_ENOUGH / whole.max(1.0)).ceil().clamp(1.0, 100.0) as usize;
     case.chunk = (LOOK_EVERY * case.steps as f64 / whole.max(1.0)).clamp(1.0, 1000.0) as usize;
 
-    let full = Plan::new(model, &AccessSet { reads: FieldSet::ALL, ..programs.demand });
-    let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
-    let left_out = stages.iter().filter(|s| !plan.keeps(**s));
-    let mut variants = vec![plan.clone(), full];
-    variants.extend(left_out.map(|s| Plan::with(model, &programs.demand, *s)));
-    variants.extend(readers.iter().map(|r| Plan::new(model, &r.demand)));
-    let mut times = vec![Times::default(); variants.len()];
-    let mut laps = vec![Times::default(); stages.len() + 2];
-    for _ in 0..REPEATS {
-        for (variant, times) in variants.iter().zip(&mut times) {
-            case.time(variant, times);
-        }
-        case.laps(&plan, &mut laps);
-        if interrupt::requested() {
-            break;
-        }
-    }
-
+    let variants = variants(&case, &plan, readers);
+    let (times, laps) = measure_in_turn(&case, &plan, &variants);
     let per_step = |sum: f64| sum / case.steps as f64;
     let sums: Vec<[f64; 3]> = times.iter().map(|t| t.sums().map(per_step)).collect();
     let of = |i: usize| sums.get(i).copied().unwrap_or_default();
     let [low, ns, high] = of(0);
-    // What runs more is not quicker: a difference below zero is the clock's.
+    // A variant that runs more is not faster: a difference below zero is noise of the clock.
     let more = |i: usize| (of(i)[1] - ns).max(0.0);
-    // What is measured one by one is a little slower than in a row: its parts of the whole are what is told.
+    // A stage that is measured alone is a little slower than in a row: its share of all laps is what counts.
     let laps: Vec<f64> = laps.iter().map(|t| per_step(t.sums()[1])).collect();
     let all: f64 = laps.iter().sum();
     let cost = |i: usize, work: f64| {
         let share = laps.get(i).copied().unwrap_or(0.0) / all.max(f64::MIN_POSITIVE);
-        Cost { ns: share * ns, share, work }
+        StageCost { ns: share * ns, share, work }
     };
+    let stages: Vec<_> = plan.decisions().iter().map(|d| d.stage).collect();
     (step.ns, step.quarters, step.full) = (ns, [low, high], of(1)[1]);
     step.integrator = cost(stages.len(), 0.0);
     step.controller = programs.controller.as_ref().map(|_| cost(stages.len() + 1, 0.0));
@@ -253,8 +239,35 @@ pub(super) fn measure(
     Ok(Some(Measured { seen: step.seen, step, stages: costs, forced, readers }))
 }
 
+/// The plans that are measured: the lab's own, one that reads everything, one with each stage that is left out, one with each reader.
+fn variants(case: &MeasuredLab<'_>, plan: &Plan, readers: &[ExtraReader]) -> Vec<Plan> {
+    let demand = case.programs.demand;
+    let full = Plan::new(case.model, &AccessSet { reads: FieldSet::ALL, ..demand });
+    let left_out = plan.decisions().iter().map(|d| d.stage).filter(|s| !plan.keeps(*s));
+    let mut variants = vec![plan.clone(), full];
+    variants.extend(left_out.map(|s| Plan::with(case.model, &demand, s)));
+    variants.extend(readers.iter().map(|r| Plan::new(case.model, &r.demand)));
+    variants
+}
+
+/// Measures all variants in turn, again and again: the times of each variant, and those of each stage of the plan.
+fn measure_in_turn(case: &MeasuredLab<'_>, plan: &Plan, variants: &[Plan]) -> (Vec<Times>, Vec<Times>) {
+    let mut times = vec![Times::default(); variants.len()];
+    let mut laps = vec![Times::default(); plan.decisions().len() + 2];
+    for _ in 0..REPEATS {
+        for (variant, times) in variants.iter().zip(&mut times) {
+            case.time(variant, times);
+        }
+        case.laps(plan, &mut laps);
+        if interrupt::requested() {
+            break;
+        }
+    }
+    (times, laps)
+}
+
 /// Runs the lab once, to see how many steps are measured and what happens in them. The work of each stage comes with it.
-fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(Step, Vec<f64>), RunError> {
+fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec<f64>), RunError> {
     let mut session = case.start(plan);
     let most = count_steps(case.lab, None, None, session.world.model.opt.timestep)?;
     core::clock(&mut session.world.data, || 0);
@@ -279,11 +292,11 @@ fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(Step, Vec<f64>), 
     let [in_reach, contacts, rows, iterations] = seen.map(|[sum, most]| [sum / steps, most]);
     let laps = core::laps(&mut session.world.data);
     let works = plan.decisions().iter().map(|d| laps.of(d.stage).work as f64 / steps);
-    let step = Step {
+    let step = StepCost {
         steps: case.steps,
         work: (core::cost(&session.world.data) - before) as f64 / steps,
-        seen: Seen { in_reach, contacts, rows, iterations },
-        ..Step::default()
+        seen: ConstraintCounts { in_reach, contacts, rows, iterations },
+        ..StepCost::default()
     };
     Ok((step, works.collect()))
 }

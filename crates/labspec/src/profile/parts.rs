@@ -6,7 +6,7 @@ use labspec_core::{self as core, AccessSet, Model, PairFilterReason, Plan, geom,
 
 /// A piece of code of which a lab uses one or none.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Code {
+pub struct EngineOption {
     /// Its name.
     pub name: &'static str,
     /// Whether it is used.
@@ -21,7 +21,7 @@ const WHEN_WRITTEN: &str = "a program that changes it triggers a new plan";
 /// A way of computing trees, and how many take it: for where their bodies are, for their inertia and forces, and for their
 /// accelerations.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct TreeAlgorithmUse {
     /// Its name.
     pub name: &'static str,
     /// Trees.
@@ -30,7 +30,7 @@ pub struct Way {
 
 /// A sensor.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Sensor {
+pub struct SensorRow {
     /// Its name; its number where it has none.
     pub name: String,
     /// Whether its values are computed.
@@ -41,7 +41,7 @@ pub struct Sensor {
 
 /// What was seen in the steps that were run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Seen {
+pub struct ConstraintCounts {
     /// Pairs within reach of each other, in the mean and at most.
     pub in_reach: [f64; 2],
     /// Contacts, likewise,
@@ -54,7 +54,7 @@ pub struct Seen {
 
 /// The pairs of geoms.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pairs {
+pub struct PairSummary {
     /// All there are.
     pub all: usize,
     /// Those that can ever touch. With contacts switched off there are none.
@@ -64,21 +64,21 @@ pub struct Pairs {
     /// How those that can touch are tested: the shapes, how many, and whether by the general search.
     pub tests: Vec<([&'static str; 2], usize, bool)>,
     /// What was seen of them.
-    pub seen: Option<Seen>,
+    pub seen: Option<ConstraintCounts>,
 }
 
-pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<Seen>) -> Pairs {
+pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<ConstraintCounts>) -> PairSummary {
     let census = plan.pairs(model);
     let all = census.iter().map(|(_, n)| n).sum();
     if !plan.keeps(Stage::Collision) && census.iter().any(|(fate, _)| *fate == PairFilterReason::CanTouch) {
         let left_out = vec![("contacts are switched off", all)];
-        return Pairs { all, can_touch: 0, left_out, tests: Vec::new(), seen };
+        return PairSummary { all, can_touch: 0, left_out, tests: Vec::new(), seen };
     }
     let can_touch =
         census.iter().find(|(fate, _)| *fate == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
     let others = census.iter().filter(|(fate, _)| *fate != PairFilterReason::CanTouch);
     let tests = plan.tests(model).into_iter().map(|(types, n, searched)| (types.map(shape), n, searched));
-    Pairs {
+    PairSummary {
         all,
         can_touch,
         left_out: others.map(|(fate, n)| (fate.reason(), *n)).collect(),
@@ -101,7 +101,7 @@ fn shape(kind: i32) -> &'static str {
 }
 
 /// The sensors in their order.
-pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<Sensor> {
+pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<SensorRow> {
     let sensor = |sensor: core::SensorId| {
         let read = |i| plan.demand().reads.contains_element(data::sensordata, i);
         let keep = plan.evaluates(model, sensor);
@@ -112,19 +112,19 @@ pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<Sensor> {
         };
         let name = model.name_of(core::Obj::Sensor, sensor.index());
         let name = name.map_or_else(|| format!("sensor {}", sensor.index()), String::from);
-        Sensor { name, keep, reason }
+        SensorRow { name, keep, reason }
     };
     model.sensors().map(sensor).collect()
 }
 
 /// The methods of the solver.
-pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
+pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
     const METHODS: [(&str, i32); 3] = [("newton", solver::NEWTON), ("cg", solver::CG), ("pgs", solver::PGS)];
     let runs = plan.keeps(Stage::Solve);
     let nothing = plan.decisions().iter().find(|d| d.stage == Stage::Solve).map_or("", |d| d.reason.as_str());
     let named = METHODS.iter().find(|(_, id)| *id == model.opt.solver).map_or("newton", |(name, _)| name);
     let written = plan.demand().writes.contains(option::solver);
-    let methods = METHODS.iter().map(|&(name, _)| Code {
+    let methods = METHODS.iter().map(|&(name, _)| EngineOption {
         name,
         keep: runs && name == named,
         reason: match () {
@@ -135,7 +135,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
         },
     });
     let slips = plan.demand().writes.contains(option::noslip_iterations);
-    let noslip = Code {
+    let noslip = EngineOption {
         name: "noslip",
         keep: runs && model.opt.noslip_iterations > 0,
         reason: match () {
@@ -149,27 +149,27 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<Code> {
 }
 
 /// The integrators.
-pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<Code> {
-    let own = crate::precision::Integrator::of(model);
+pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption> {
+    let integrator = crate::precision::Integrator::of(model);
     let written = demand.writes.contains(option::integrator);
-    let code = |i: crate::precision::Integrator| Code {
+    let code = |i: crate::precision::Integrator| EngineOption {
         name: i.name,
-        keep: i == own,
+        keep: i == integrator,
         reason: match () {
-            () if i == own => "the options name it".into(),
-            () if written => format!("the options name {}; {WHEN_WRITTEN}", own.name),
-            () => format!("the options name {}", own.name),
+            () if i == integrator => "the options name it".into(),
+            () if written => format!("the options name {}; {WHEN_WRITTEN}", integrator.name),
+            () => format!("the options name {}", integrator.name),
         },
     };
     INTEGRATORS.into_iter().map(code).collect()
 }
 
 /// The ways, in their order.
-pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<Way> {
+pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.ways(model);
     let count = |way: core::TreeAlgorithm| {
         let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();
-        Way { name: way.name(), trees: [of(0), of(1), of(2)] }
+        TreeAlgorithmUse { name: way.name(), trees: [of(0), of(1), of(2)] }
     };
     core::TreeAlgorithm::all().map(count).collect()
 }

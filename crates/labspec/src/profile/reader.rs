@@ -8,7 +8,7 @@ use labspec_expr::Compiler;
 
 /// Something that would be read besides what the lab reads.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reader {
+pub struct ExtraReader {
     /// As it was asked for.
     pub text: String,
     /// What programs read and write with it.
@@ -23,7 +23,11 @@ pub struct Reader {
 ///
 /// # Errors
 /// A text that names no field and no sensor and is no expression.
-pub(super) fn readers(model: &Model, programs: &Programs, texts: &[String]) -> Result<Vec<Reader>, RunError> {
+pub(super) fn readers(
+    model: &Model,
+    programs: &Programs,
+    texts: &[String],
+) -> Result<Vec<ExtraReader>, RunError> {
     let mut all = programs.demand;
     let mut readers = Vec::new();
     for text in texts {
@@ -38,10 +42,10 @@ pub(super) fn readers(model: &Model, programs: &Programs, texts: &[String]) -> R
     Ok(readers)
 }
 
-fn reader(model: &Model, programs: &Programs, text: &str, demand: AccessSet) -> Reader {
+fn reader(model: &Model, programs: &Programs, text: &str, demand: AccessSet) -> ExtraReader {
     let (before, after) = (Plan::new(model, &programs.demand), Plan::new(model, &demand));
     let joins = after.decisions().iter().map(|d| d.stage).filter(|s| after.keeps(*s) && !before.keeps(*s));
-    Reader { text: text.to_string(), demand, joins: joins.collect(), cost: None }
+    ExtraReader { text: text.to_string(), demand, joins: joins.collect(), cost: None }
 }
 
 /// Adds what a field, a sensor by its name, or an expression reads.

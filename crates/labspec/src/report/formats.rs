@@ -136,11 +136,11 @@ pub fn sarif(findings: &[Finding], files: &[&SourceFile]) -> Value {
     let level = |severity: Severity| severity.as_str();
     let rule = |code: &&str| {
         let mut rule = json!({"id": code, "helpUri": page(code)});
-        if let Some(known) = rules::find(code) {
-            rule["shortDescription"] = json!({"text": known.summary});
-            rule["defaultConfiguration"] = json!({"level": level(known.severity)});
-            if !known.why.is_empty() {
-                rule["fullDescription"] = json!({"text": known.why});
+        if let Some(found) = rules::find(code) {
+            rule["shortDescription"] = json!({"text": found.summary});
+            rule["defaultConfiguration"] = json!({"level": level(found.severity)});
+            if !found.why.is_empty() {
+                rule["fullDescription"] = json!({"text": found.why});
             }
         }
         rule

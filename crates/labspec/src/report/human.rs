@@ -55,17 +55,17 @@ fn one(finding: &Finding, files: &[&SourceFile], renderer: &Renderer) -> String 
 /// Whether this is the line that announces a snippet without a path: the place stands above it already, because
 /// a snippet that is cut out of a long line does not know its own column.
 fn is_nameless(line: &str) -> bool {
-    let mut shown = String::new();
+    let mut visible = String::new();
     let mut in_escape = false;
     for c in line.chars() {
         match c {
             '\u{1b}' => in_escape = true,
             'm' if in_escape => in_escape = false,
             _ if in_escape => {}
-            _ => shown.push(c),
+            _ => visible.push(c),
         }
     }
-    shown.trim() == ":::"
+    visible.trim() == ":::"
 }
 
 /// The place of a span, and a window of its line.
@@ -108,9 +108,9 @@ fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<
         begin.push('…');
     }
     begin.extend(left.iter().rev());
-    let shown: String = inside.chars().take(CONTEXT).collect();
+    let excerpt: String = inside.chars().take(CONTEXT).collect();
     let mut end = String::new();
-    if shown.len() == inside.len() {
+    if excerpt.len() == inside.len() {
         end.extend(after.chars().take(CONTEXT));
         if end.len() < after.len() {
             end.push('…');
@@ -118,7 +118,7 @@ fn window(line: &str, span: &Range<usize>, line_start: usize) -> (String, Range<
     } else {
         end.push('…');
     }
-    written([&begin, &shown, &end])
+    written([&begin, &excerpt, &end])
 }
 
 /// The three parts of a line, safe to print, and where the middle one stands.

@@ -22,7 +22,7 @@ enum Type {
 
 impl Type {
     /// The type of a cell; `None` when there is nothing in it.
-    fn of(cell: &Cell) -> Option<Type> {
+    fn of_cell(cell: &Cell) -> Option<Type> {
         match cell {
             Cell::Number(_) => Some(Type::Number),
             Cell::Bool(_) => Some(Type::Boolean),
@@ -45,7 +45,7 @@ fn types(table: &Table) -> Vec<Type> {
     let mut types: Vec<Option<Type>> = vec![None; table.columns.len()];
     for row in &table.rows {
         for (known, cell) in types.iter_mut().zip(row) {
-            *known = match (*known, Type::of(cell)) {
+            *known = match (*known, Type::of_cell(cell)) {
                 (Some(a), Some(b)) if a != b => Some(Type::Text),
                 (a, b) => a.or(b),
             };
@@ -123,9 +123,9 @@ impl Table {
         out.write_all(b"},\"errors\":[")?;
         separated(&self.errors, out, |error, out| write_text(error, out))?;
         out.write_all(b"],\"breakdown\":")?;
-        let told =
+        let breakdown_value =
             |b: &Breakdown| json!({"code": b.rule.code, "what": b.what, "why": b.why, "help": b.help()});
-        let list: Vec<serde_json::Value> = self.breakdowns.iter().map(told).collect();
+        let list: Vec<serde_json::Value> = self.breakdowns.iter().map(breakdown_value).collect();
         out.write_all(printable_json(&json!(list.first()).to_string()).as_bytes())?;
         out.write_all(b",\"breakdowns\":")?;
         out.write_all(printable_json(&json!(list).to_string()).as_bytes())?;

@@ -5,7 +5,7 @@ use super::relation::{Relation, says};
 use crate::run::StepVariant;
 use crate::source::Text;
 use crate::spec::Question;
-use crate::trace::{Block, Candidate, Trial, Tried, split_words};
+use crate::trace::{Candidate, ProposedVerify, TracedLab, Trial, split_words};
 use crate::verify::{Stage, Stated, plain};
 use std::collections::BTreeSet;
 
@@ -16,8 +16,8 @@ const MOST_WORDS: usize = 4;
 const UNNAMED: f64 = 0.3;
 
 /// What was chosen: two numbers, and what each option says of them.
-pub(super) struct Choice<'t, 'l> {
-    pub(super) tried: &'t Tried<'l>,
+pub(super) struct MeasureChoice<'t, 'l> {
+    pub(super) tried: &'t TracedLab<'l>,
     trials: Vec<Trial>,
     /// The run and the measure of each number.
     numbers: [(usize, String); 2],
@@ -31,9 +31,13 @@ pub(super) struct Choice<'t, 'l> {
     cost: f64,
 }
 
-impl Choice<'_, '_> {
+impl MeasureChoice<'_, '_> {
     /// A condition for each option; measures go to the block, and their values to the list.
-    pub(super) fn conditions(&self, block: &mut Block, values: &mut Vec<(String, f64)>) -> Vec<String> {
+    pub(super) fn conditions(
+        &self,
+        block: &mut ProposedVerify,
+        values: &mut Vec<(String, f64)>,
+    ) -> Vec<String> {
         let [a, b] =
             self.numbers.each_ref().map(|(run, text)| block.measured(*run, self.trials.get(*run), text));
         let run = b.split('.').next().unwrap_or("run").to_string();
@@ -58,67 +62,32 @@ impl Choice<'_, '_> {
 pub(super) fn choose<'t, 'l>(
     question: &Question,
     options: &[Text],
-    labs: &[&'t Tried<'l>],
+    labs: &[&'t TracedLab<'l>],
     numbers: &[Stated],
     stage: &Stage<'_>,
-) -> Result<Choice<'t, 'l>, String> {
+) -> Result<MeasureChoice<'t, 'l>, String> {
     let asked = plain(&question.q.value).to_lowercase();
     let options: Vec<String> = options.iter().map(|o| plain(&o.value)).collect();
     let spoken: BTreeSet<String> =
         split_words(&asked).chain(options.iter().flat_map(|o| split_words(o))).collect();
     let relations: Vec<Option<Relation>> = options.iter().map(|o| Relation::read(o)).collect();
-    let mut best: Option<Choice<'t, 'l>> = None;
-    let mut keep = |choice: Choice<'t, 'l>| {
-        if best.as_ref().is_none_or(|known| choice.cost < known.cost) {
-            best = Some(choice);
-        }
-    };
     let order = ["first", "earlier", "sooner", "before"].iter().any(|w| says(&asked, w));
+    let comparable = relations.iter().flatten().count();
+    let mut choices: Vec<MeasureChoice<'t, 'l>> = Vec::new();
     for tried in labs {
         if order {
-            for choice in orders(tried, &options) {
-                keep(choice);
-            }
+            choices.extend(orders(tried, &options));
         }
-        if relations.iter().flatten().count() < 2 {
-            continue;
-        }
-        let runs = pairs::runs(question, &asked, tried.lab, numbers);
-        let values: Vec<Vec<f64>> =
-            runs.trials.iter().map(|t| tried.values_of(t, stage, StepVariant::NOMINAL)).collect();
-        let broke = |run: usize| values.get(run).is_none_or(|v| v.iter().all(|x| x.is_nan()));
-        for &(before, after) in &runs.pairs {
-            let unnamed = if before == 0 || after == 0 { UNNAMED } else { 0.0 };
-            for (c, candidate) in tried.candidates.iter().enumerate() {
-                let at = |run: usize| values.get(run).and_then(|v| v.get(c)).copied().unwrap_or(f64::NAN);
-                let (a, b) = (at(before), at(after));
-                let broken = broke(after);
-                if broke(before)
-                    || !(a.is_finite() && a != 0.0)
-                    || !(b.is_finite() || broken)
-                    || dull(candidate)
-                {
-                    continue;
-                }
-                let Some(option) = only(relations.iter().map(|r| r.is_some_and(|r| r.holds(a, b, broken))))
-                else {
-                    continue;
-                };
-                keep(Choice {
-                    tried,
-                    trials: runs.trials.clone(),
-                    numbers: [(before, candidate.text.clone()), (after, candidate.text.clone())],
-                    found: [a, b],
-                    relations: relations.clone(),
-                    broke: broken,
-                    option,
-                    values: named(&runs.trials, [before, after], [&candidate.text; 2], [a, b]),
-                    cost: candidate.cost + unnamed - worth(candidate, &spoken),
-                });
-            }
+        if comparable >= 2 {
+            let runs = pairs::runs(question, &asked, tried.lab, numbers);
+            choices.extend(comparisons(tried, &runs, &relations, &spoken, stage));
         }
     }
-    best.ok_or_else(|| match relations.iter().flatten().count() {
+    // The first of those that cost least.
+    let cheaper = |best: MeasureChoice<'t, 'l>, other: MeasureChoice<'t, 'l>| {
+        if other.cost < best.cost { other } else { best }
+    };
+    choices.into_iter().reduce(cheaper).ok_or_else(|| match comparable {
         0 | 1 => {
             "the words of its options state nothing that can be compared: write the conditions by hand".into()
         }
@@ -126,6 +95,46 @@ pub(super) fn choose<'t, 'l>(
             "no measure of the lab distinguishes the options in the runs that the question names".to_string()
         }
     })
+}
+
+/// The measures of a lab that make exactly one option true in a pair of runs.
+fn comparisons<'t, 'l>(
+    tried: &'t TracedLab<'l>,
+    runs: &pairs::Runs,
+    relations: &[Option<Relation>],
+    spoken: &BTreeSet<String>,
+    stage: &Stage<'_>,
+) -> Vec<MeasureChoice<'t, 'l>> {
+    let values: Vec<Vec<f64>> =
+        runs.trials.iter().map(|t| tried.values_of(t, stage, StepVariant::NOMINAL)).collect();
+    let broke = |run: usize| values.get(run).is_none_or(|v| v.iter().all(|x| x.is_nan()));
+    let mut choices = Vec::new();
+    for &(before, after) in &runs.pairs {
+        let unnamed = if before == 0 || after == 0 { UNNAMED } else { 0.0 };
+        for (c, candidate) in tried.candidates.iter().enumerate() {
+            let at = |run: usize| values.get(run).and_then(|v| v.get(c)).copied().unwrap_or(f64::NAN);
+            let (a, b) = (at(before), at(after));
+            let broken = broke(after);
+            let has_values = a.is_finite() && a != 0.0 && (b.is_finite() || broken);
+            if broke(before) || !has_values || dull(candidate) {
+                continue;
+            }
+            let holding = relations.iter().map(|r| r.is_some_and(|r| r.holds(a, b, broken)));
+            let Some(option) = only(holding) else { continue };
+            choices.push(MeasureChoice {
+                tried,
+                trials: runs.trials.clone(),
+                numbers: [(before, candidate.text.clone()), (after, candidate.text.clone())],
+                found: [a, b],
+                relations: relations.to_vec(),
+                broke: broken,
+                option,
+                values: named(&runs.trials, [before, after], [&candidate.text; 2], [a, b]),
+                cost: candidate.cost + unnamed - worth(candidate, spoken),
+            });
+        }
+    }
+    choices
 }
 
 /// What says the same in every run: times at which it ends, constants.
@@ -153,7 +162,7 @@ fn named(trials: &[Trial], runs: [usize; 2], measures: [&String; 2], values: [f6
 }
 
 /// What happens first: contacts of two geoms with a third, and options that name one of the two, or both.
-fn orders<'t, 'l>(tried: &'t Tried<'l>, options: &[String]) -> Vec<Choice<'t, 'l>> {
+fn orders<'t, 'l>(tried: &'t TracedLab<'l>, options: &[String]) -> Vec<MeasureChoice<'t, 'l>> {
     let meets: Vec<(usize, Vec<&str>)> = tried
         .candidates
         .iter()
@@ -165,17 +174,17 @@ fn orders<'t, 'l>(tried: &'t Tried<'l>, options: &[String]) -> Vec<Choice<'t, 'l
     let Some(values) = tried.values.first() else { return all };
     for (k, (i, a)) in meets.iter().enumerate() {
         for (j, b) in meets.iter().skip(k + 1) {
-            let alone = |own: &[&str], other: &[&str]| -> BTreeSet<String> {
+            let alone = |names: &[&str], other: &[&str]| -> BTreeSet<String> {
                 let of = |names: &[&str]| -> BTreeSet<String> {
                     names.iter().flat_map(|n| split_words(n)).collect()
                 };
-                of(own).difference(&of(other)).cloned().collect()
+                of(names).difference(&of(other)).cloned().collect()
             };
             let [first, second] = [alone(a, b), alone(b, a)];
             let relation = |option: &String| {
                 let spoken: BTreeSet<String> = split_words(option).collect();
                 let text = option.to_lowercase();
-                let speaks = [&first, &second].map(|own| !own.is_disjoint(&spoken));
+                let speaks = [&first, &second].map(|words| !words.is_disjoint(&spoken));
                 let both = ["both", "same", "together"].iter().any(|w| says(&text, w));
                 match speaks {
                     [true, false] => Some(Relation::More(None)),
@@ -195,7 +204,7 @@ fn orders<'t, 'l>(tried: &'t Tried<'l>, options: &[String]) -> Vec<Choice<'t, 'l
                 continue;
             };
             let values = named(&tried.trials, [0, 0], [&texts[0], &texts[1]], found);
-            all.push(Choice {
+            all.push(MeasureChoice {
                 tried,
                 trials: tried.trials.clone(),
                 numbers: texts.map(|text| (0, text)),

@@ -18,9 +18,9 @@ use crate::bind::scene::Models;
 use crate::check::{self, CheckLevel};
 use crate::lint::reload_lesson;
 use crate::spec::{LabAddress, Lesson, Question, QuestionKind};
-use crate::trace::{self, Block, Origin, Traces, Tried, trace};
+use crate::trace::{self, Origin, ProposedVerify, TracedLab, Traces, trace};
 use crate::verify::{Stage, Verdict};
-use choose::Choice;
+use choose::MeasureChoice;
 use serde_json::{Map, Value, json};
 use std::ops::Range;
 
@@ -131,11 +131,11 @@ fn propose(lesson: &Lesson, question: &Question, found: &Traces<'_>, stage: &Sta
 }
 
 /// The labs that a question is about: its own, or those of the lesson.
-fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t Tried<'l>> {
-    let own: Vec<&Tried<'_>> =
+fn labs<'t, 'l>(question: &Question, found: &'t Traces<'l>) -> Vec<&'t TracedLab<'l>> {
+    let of_question: Vec<&TracedLab<'_>> =
         found.labs.iter().filter(|t| t.owner.as_ref().is_some_and(|o| *o == question.span)).collect();
-    if !own.is_empty() || question.sim().is_some() {
-        return own;
+    if !of_question.is_empty() || question.sim().is_some() {
+        return of_question;
     }
     found.labs.iter().filter(|t| matches!(t.address, LabAddress::Lab(_))).collect()
 }
@@ -145,9 +145,9 @@ fn proposed(
     lesson: &Lesson,
     question: &Question,
     found: &Traces<'_>,
-    choice: Choice<'_, '_>,
+    choice: MeasureChoice<'_, '_>,
 ) -> ScaffoldOutcome {
-    let mut block = Block::default();
+    let mut block = ProposedVerify::default();
     let mut values = Vec::new();
     let conditions = choice.conditions(&mut block, &mut values);
     // Numbers of the question that come from the same lab.
@@ -164,8 +164,8 @@ fn proposed(
         }
     }
     let mut verify = Map::new();
-    let own = question.sim().is_some() && lesson.lab(&choice.tried.address).is_some();
-    if !own {
+    let is_own_lab = question.sim().is_some() && lesson.lab(&choice.tried.address).is_some();
+    if !is_own_lab {
         verify.insert("lab".into(), json!(choice.tried.address.to_string()));
     }
     block.put(&mut verify);
@@ -200,7 +200,7 @@ fn numeric(question: &Question, found: &Traces<'_>) -> ScaffoldOutcome {
             None => format!("{}{}", hit.factor, hit.measure),
             Some((lab, trial)) => {
                 let Some(tried) = found.labs.get(lab) else { continue };
-                let mut block = Block::default();
+                let mut block = ProposedVerify::default();
                 let measured = block.measured(trial, tried.trials.get(trial), &hit.measure);
                 verify.insert("lab".into(), json!(tried.address.to_string()));
                 block.put(&mut verify);

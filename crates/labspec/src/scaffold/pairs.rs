@@ -33,9 +33,10 @@ pub(super) struct Runs {
 
 /// The runs of a lab that a question speaks of. The first is the lab as it stands.
 pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
-    let own: Vec<Stated> =
+    let of_question: Vec<Stated> =
         numbers.iter().filter(|n| question.span.contains(&n.span.start) && !n.answer).cloned().collect();
-    let said: Vec<Stated> = own.iter().filter(|n| n.span.end <= question.q.span().end).cloned().collect();
+    let said: Vec<Stated> =
+        of_question.iter().filter(|n| n.span.end <= question.q.span().end).cloned().collect();
     // What the question itself names; what only its options and explanation name says what comes of it.
     let mut all = trials(lab, &said);
     let base = all.first().cloned();

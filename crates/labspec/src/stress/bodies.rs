@@ -1,7 +1,7 @@
-//! What of a scene can meet: which geoms, how thick they are, and what they are called.
+//! Geoms, bodies and joints of a model: which geoms can collide, how thick they are, and their names in messages.
 
 use labspec_core::math::{Vec3, mat_t_mul_vec, quat_to_mat, rows, sub};
-use labspec_core::{Model, can_collide, geom};
+use labspec_core::{Model, can_collide, geom, joint};
 
 /// The thinnest extent of a geom, m; without end for planes and height fields.
 pub(super) fn thickness(m: &Model, g: usize) -> f64 {
@@ -65,6 +65,30 @@ pub(super) fn geom_name(m: &Model, g: usize) -> String {
     match m.names.geom.get(g) {
         Some(name) if !name.is_empty() => format!("\"{name}\""),
         _ => body_name(m, body_of(m, g)),
+    }
+}
+
+/// The joint of a degree of freedom, in words.
+pub(super) fn joint_of_dof(m: &Model, dof: usize) -> String {
+    joint_name(m, &m.jnt_dofadr, joint::nv, dof)
+}
+
+/// The joint of a coordinate.
+pub(super) fn joint_of_place(m: &Model, i: usize) -> String {
+    joint_name(m, &m.jnt_qposadr, joint::nq, i)
+}
+
+/// The joint that holds the index `i`, where `start` and `width` are the first index and the number of each joint.
+fn joint_name(m: &Model, start: &[i32], width: fn(i32) -> usize, i: usize) -> String {
+    let holds = |j: &usize| {
+        let first = start.get(*j).map_or(0, |&a| a as usize);
+        (first..first + width(m.jnt_type.get(*j).copied().unwrap_or(joint::HINGE))).contains(&i)
+    };
+    let Some(j) = (0..m.njnt).find(holds) else { return format!("degree of freedom {i}") };
+    let body = || body_name(m, m.jnt_bodyid.get(j).map_or(0, |&b| b as usize));
+    match m.names.joint.get(j) {
+        Some(name) if !name.is_empty() => format!("joint \"{name}\""),
+        _ => format!("the joint of {}", body()),
     }
 }
 

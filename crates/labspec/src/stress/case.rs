@@ -1,16 +1,14 @@
 //! One run of a lab under the hands of a student, and what goes wrong in it.
 
-use super::bodies::geom_name;
-use super::fault::{Evidence, Fault, FaultKind};
+use super::fault::{Fault, FaultKind};
 use super::interaction::{Action, Interaction, Kind, TOUCH};
+use super::run_faults::{DIVERGED, noticed_fault, reported_faults, warned};
 use super::watch::RunMonitor;
 use crate::bind::{Bound, Programs};
-use crate::monitors::stability;
-use crate::monitors::watch::Noticed;
 use crate::run::{self, Budget, End, Play, Session};
 use crate::spec::Lab;
 use labspec_core::reflect::{FieldId, data};
-use labspec_core::{AccessSet, Model, Warning, WarningStat, joint};
+use labspec_core::{AccessSet, Model};
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
@@ -32,7 +30,7 @@ pub(crate) struct StressCase<'a> {
 
 /// What a run came to.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Outcome {
+pub(crate) struct RunOutcome {
     pub(crate) faults: Vec<Fault>,
     /// How much of the run was made, s.
     pub(super) covered: f64,
@@ -47,7 +45,7 @@ pub(crate) struct Outcome {
 }
 
 /// A run under the hands of a student: what is still to be done to it, and everything that is looked at meanwhile.
-pub(crate) struct Eyes<'h> {
+pub(crate) struct RunWatcher<'h> {
     /// What is to be done, in order of time.
     pending: VecDeque<&'h Action>,
     watch: RunMonitor,
@@ -55,7 +53,7 @@ pub(crate) struct Eyes<'h> {
     controlled: bool,
 }
 
-impl Eyes<'_> {
+impl RunWatcher<'_> {
     /// Does what is due; whether something was.
     fn act(&mut self, session: &mut Session<'_>) -> bool {
         let now = session.world.data.time();
@@ -92,23 +90,23 @@ impl Eyes<'_> {
 
     /// What went wrong, when the run is over.
     pub(crate) fn faults(self, session: &Session<'_>) -> Vec<Fault> {
-        let mut faults = reported(session);
+        let mut faults = reported_faults(session);
         // What blew up is reported; all else that was seen follows from it.
         let broke = |f: &Fault| matches!(f.kind, FaultKind::Diverges | FaultKind::Grows);
         let when = faults.iter().filter(|f| broke(f)).map(|f| f.time).fold(f64::INFINITY, f64::min);
-        let noticed = noticed(&session.world.model, &session.noticed()).filter(|f| f.time < when);
+        let noticed = noticed_fault(&session.world.model, &session.noticed()).filter(|f| f.time < when);
         faults.extend(noticed);
         let seen = self.watch.faults(&session.world.model).into_iter();
-        let own = seen
+        let seen = seen
             .filter(|f| f.time < when && !(f.kind == FaultKind::Silent && when.is_finite()))
             .filter(|f| f.kind != FaultKind::Drifts || !self.controlled);
-        for mut fault in own {
-            match faults.iter_mut().find(|known| known.covers(&fault)) {
+        for mut fault in seen {
+            match faults.iter_mut().find(|reported| reported.covers(&fault)) {
                 None => faults.push(fault),
                 // The same, with more to say of it.
-                Some(known) if known.kind == fault.kind => {
-                    fault.by_run = known.by_run;
-                    *known = fault;
+                Some(reported) if reported.kind == fault.kind => {
+                    fault.by_run = reported.by_run;
+                    *reported = fault;
                 }
                 Some(_) => {}
             }
@@ -188,8 +186,8 @@ impl<'a> StressCase<'a> {
     }
 
     /// The eyes on a run that has begun.
-    pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> Eyes<'h> {
-        Eyes {
+    pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
+        RunWatcher {
             pending: handling.actions.iter().filter(|a| a.time > 0.0).collect(),
             watch: RunMonitor::new(&session.world.model, self.jumps),
             shows: self.shows,
@@ -198,8 +196,16 @@ impl<'a> StressCase<'a> {
     }
 
     /// The same on a run whose samples evaluate what is shown, and that begins with what `handling` presses.
-    pub(super) fn eyes_of_table<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> Eyes<'h> {
-        Eyes { pending: handling.actions.iter().collect(), shows: false, ..self.eyes(handling, session) }
+    pub(super) fn eyes_of_table<'h>(
+        &self,
+        handling: &'h Interaction,
+        session: &Session<'_>,
+    ) -> RunWatcher<'h> {
+        RunWatcher {
+            pending: handling.actions.iter().collect(),
+            shows: false,
+            ..self.eyes(handling, session)
+        }
     }
 
     /// Makes a run of so many seconds.
@@ -209,7 +215,7 @@ impl<'a> StressCase<'a> {
         change: Option<Change<'_>>,
         length: f64,
         budget: u64,
-    ) -> Outcome {
+    ) -> RunOutcome {
         self.run_to_model(handling, change, length, budget).0
     }
 
@@ -220,7 +226,7 @@ impl<'a> StressCase<'a> {
         change: Option<Change<'_>>,
         length: f64,
         budget: u64,
-    ) -> (Outcome, Model) {
+    ) -> (RunOutcome, Model) {
         let mut session = self.start(handling, budget);
         if let Some(change) = change {
             change(&mut session);
@@ -238,7 +244,7 @@ impl<'a> StressCase<'a> {
         let speeds = eyes.watch.rest.speeds(&session.world.model);
         let touching = eyes.watch.touching();
         let faults = eyes.faults(&session);
-        let outcome = Outcome {
+        let outcome = RunOutcome {
             faults,
             covered: if made == steps { length } else { made as f64 * timestep },
             spent: session.spent(),
@@ -247,185 +253,5 @@ impl<'a> StressCase<'a> {
             cut: matches!(session.ended(), Some(End::Budget { .. } | End::Interrupted)),
         };
         (outcome, session.world.model)
-    }
-}
-
-/// Numbers that are none.
-const DIVERGED: [Warning; 3] = [Warning::BadQpos, Warning::BadQvel, Warning::BadQacc];
-
-fn warned(session: &Session<'_>, warning: Warning) -> Option<WarningStat> {
-    session.warnings.get(warning as usize).copied().filter(|stat| stat.number > 0)
-}
-
-/// What the engine warned of, energy from nothing, and programs that threw.
-fn reported(session: &Session<'_>) -> Vec<Fault> {
-    let m = &session.world.model;
-    let mut list = Vec::new();
-    let growth = session.growth();
-    let first = DIVERGED.into_iter().filter_map(|w| Some((w, warned(session, w)?)));
-    let first = first.min_by(|a, b| a.1.first_time.total_cmp(&b.1.first_time));
-    let step = Evidence { name: "timestep", value: m.opt.timestep, unit: "s" };
-    if let Some(g) = growth.filter(|g| first.is_none_or(|(_, stat)| g.time < stat.first_time)) {
-        let broke =
-            first.map(|(_, stat)| Evidence { name: "no number at", value: stat.first_time, unit: "s" });
-        let mut evidence = vec![
-            Evidence { name: "energy gained", value: g.gain, unit: "J" },
-            Evidence { name: "energy at the start", value: g.held, unit: "J" },
-        ];
-        evidence.extend([step.clone()].into_iter().chain(broke));
-        list.push(Fault {
-            kind: FaultKind::Grows,
-            time: g.time,
-            who: joint_of_dof(m, g.dof),
-            cause: likely(m).unwrap_or_else(|| unknown(m)),
-            evidence,
-            size: g.gain,
-            by_run: true,
-        });
-    } else if let Some((warning, stat)) = first {
-        let who = match warning {
-            Warning::BadQpos => joint_of_place(m, stat.lastinfo),
-            _ => joint_of_dof(m, stat.lastinfo),
-        };
-        let evidence = vec![step, Evidence { name: "larger than", value: 1e10, unit: "" }];
-        let cause = likely(m).unwrap_or_else(|| unknown(m));
-        list.push(Fault {
-            kind: FaultKind::Diverges,
-            time: stat.first_time,
-            who,
-            cause,
-            evidence,
-            size: 1.0,
-            by_run: true,
-        });
-    }
-    for warning in [Warning::Inertia, Warning::BadCtrl, Warning::ContactFull, Warning::ConstraintFull] {
-        let Some(stat) = warned(session, warning) else { continue };
-        let (who, cause) = match warning {
-            Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "the moving part has no positive inertia"),
-            Warning::BadCtrl => (
-                format!("control {}", stat.lastinfo),
-                "a program writes a control that is not a number or exceeds 1e10",
-            ),
-            _ => ("the whole scene".into(), "more bodies touch than the engine keeps contacts"),
-        };
-        // The code that `run` and `check` report (`run/breakdown.rs`).
-        let kind = if warning == Warning::BadCtrl { FaultKind::Diverges } else { FaultKind::Warns };
-        list.push(Fault {
-            kind,
-            time: stat.first_time,
-            who,
-            cause: cause.into(),
-            evidence: vec![Evidence { name: "warnings", value: stat.number as f64, unit: "" }],
-            size: 1.0,
-            by_run: true,
-        });
-    }
-    list.extend(session.troubles.iter().map(|t| Fault {
-        kind: FaultKind::Throws,
-        time: t.time,
-        who: "a program of the lab".into(),
-        cause: t.message.clone(),
-        evidence: Vec::new(),
-        size: 1.0,
-        by_run: true,
-    }));
-    list
-}
-
-/// The first thing that a run noticed besides energy: the others may follow from it.
-fn noticed(m: &Model, noticed: &Noticed) -> Option<Fault> {
-    let fault = |kind, time, who: String, cause: &str, size, evidence| Fault {
-        kind,
-        time,
-        who,
-        cause: cause.into(),
-        evidence,
-        size,
-        by_run: true,
-    };
-    let number = |name, value, unit| Evidence { name, value, unit };
-    let both = |geoms: [usize; 2]| geoms.map(|g| geom_name(m, g));
-    let past = noticed.past.map(|p| {
-        let unit = if m.jnt_type.get(p.joint) == Some(&joint::SLIDE) { "m" } else { "rad" };
-        let cause = match p.step {
-            Some(_) => "one step takes it past its limit before the limit can push",
-            None => "a motor or load is stronger than its limit",
-        };
-        let mut evidence = vec![number("beyond", p.beyond, unit), number("range", p.range, unit)];
-        evidence.extend(p.step.map(|step| number("way in one step", step, unit)));
-        let who = joint_of_dof(m, m.jnt_dofadr.get(p.joint).map_or(0, |&dof| dof as usize));
-        fault(FaultKind::PastLimit, p.time, who, cause, p.beyond / p.range, evidence)
-    });
-    let through = noticed.through.map(|t| {
-        let [mover, wall] = both(t.geoms);
-        let evidence = vec![
-            number("way in one step", t.moved, "m"),
-            number("thickness of what it passes", t.thickness, "m"),
-        ];
-        let cause = "no step finds the two in contact from the right side";
-        let size = t.moved / t.thickness;
-        fault(FaultKind::Tunnels, t.time, format!("{mover} through {wall}"), cause, size, evidence)
-    });
-    let unsolved = noticed.unsolved.map(|u| {
-        let evidence = vec![
-            number("iterations", u.iterations as f64, ""),
-            number("missing part of the forces", u.part, ""),
-        ];
-        let cause = "the solver reaches its iteration limit before its forces converge";
-        fault(FaultKind::Unsolved, u.time, joint_of_dof(m, u.dof), cause, u.part, evidence)
-    });
-    let sunk = noticed.sunk.map(|s| {
-        let [a, b] = both(s.geoms);
-        let evidence = vec![
-            number("depth", s.depth, "m"),
-            number("thickness of the thinner one", s.thickness, "m"),
-            number("force", s.force, "N"),
-        ];
-        let cause = "the contact is too soft for the load";
-        fault(FaultKind::Sinks, s.time, format!("{a} and {b}"), cause, s.depth / s.thickness, evidence)
-    });
-    [past, through, unsolved, sunk].into_iter().flatten().min_by(|a, b| a.time.total_cmp(&b.time))
-}
-
-/// What of the model is too stiff for its timestep, in words.
-pub(super) fn likely(m: &Model) -> Option<String> {
-    let worst = stability::suspects(m).into_iter().next()?;
-    Some(format!(
-        "{} is {} for a step of {} s: the largest step that works is {} s",
-        run::owner(m, &worst),
-        run::how_stiff(&worst),
-        m.opt.timestep,
-        run::two_digits(worst.timestep)
-    ))
-}
-
-fn unknown(m: &Model) -> String {
-    format!(
-        "no single spring, servo or contact is too stiff for a step of {} s; several together may be",
-        m.opt.timestep
-    )
-}
-
-/// The joint of a degree of freedom, in words.
-pub(super) fn joint_of_dof(m: &Model, dof: usize) -> String {
-    named(m, &m.jnt_dofadr, joint::nv, dof)
-}
-
-/// The joint of a coordinate.
-fn joint_of_place(m: &Model, i: usize) -> String {
-    named(m, &m.jnt_qposadr, joint::nq, i)
-}
-
-fn named(m: &Model, start: &[i32], width: fn(i32) -> usize, i: usize) -> String {
-    let holds = |j: &usize| {
-        let first = start.get(*j).map_or(0, |&a| a as usize);
-        (first..first + width(m.jnt_type.get(*j).copied().unwrap_or(joint::HINGE))).contains(&i)
-    };
-    let Some(j) = (0..m.njnt).find(holds) else { return format!("degree of freedom {i}") };
-    let body = || super::bodies::body_name(m, m.jnt_bodyid.get(j).map_or(0, |&b| b as usize));
-    match m.names.joint.get(j) {
-        Some(name) if !name.is_empty() => format!("joint \"{name}\""),
-        _ => format!("the joint of {}", body()),
     }
 }

@@ -1,7 +1,6 @@
 //! What goes wrong in a run, with the numbers that show it.
 
 use super::interaction::Interaction;
-use super::remedy::Remedy;
 use crate::rules::{self, Rule};
 use crate::run::two_digits;
 
@@ -110,12 +109,12 @@ impl Fault {
 
     /// Whether another fault says the same of the same bodies, or less.
     pub(super) fn covers(&self, other: &Fault) -> bool {
-        let [own, others] = [self, other].map(|f| {
+        let [mine, others] = [self, other].map(|f| {
             let mut both: Vec<&str> = f.who.split(" through ").flat_map(|part| part.split(" and ")).collect();
             both.sort_unstable();
             both
         });
-        let same = own == others;
+        let same = mine == others;
         match (self.kind, other.kind) {
             (FaultKind::Tunnels, FaultKind::Tunnels | FaultKind::Penetrates) => same,
             (FaultKind::Sinks, FaultKind::Penetrates) => same,
@@ -131,6 +130,20 @@ impl Fault {
         };
         self.evidence.iter().map(one).collect::<Vec<_>>().join(", ")
     }
+}
+
+/// Something that helps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remedy {
+    /// What to change, in words.
+    pub change: String,
+    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
+    pub work: f64,
+    /// The same as measured by a clock.
+    pub time: f64,
+    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
+    /// model describes, found with much shorter steps. `None` where that is not known.
+    pub error: Option<f64>,
 }
 
 /// The same fault in one or several settings.
@@ -150,7 +163,16 @@ pub struct FaultGroup {
     pub remedies: Vec<Remedy>,
 }
 
-/// Adds what a run showed to what is known: one entry for each kind and each object.
+/// The worst fault that breaks a run, except for those in `except`: drift, warnings and programs that throw do not count.
+pub(super) fn worst_fault<'f>(faults: &'f [Fault], except: &[(FaultKind, String)]) -> Option<&'f Fault> {
+    let counts = |f: &&Fault| {
+        !matches!(f.kind, FaultKind::Drifts | FaultKind::Throws | FaultKind::Warns)
+            && !except.iter().any(|(kind, who)| *kind == f.kind && *who == f.who)
+    };
+    faults.iter().filter(counts).min_by_key(|f| f.kind)
+}
+
+/// Adds a fault to its group: there is one for each kind and each object.
 pub(crate) fn add(list: &mut Vec<FaultGroup>, fault: Fault, handling: &Interaction) {
     let same = |f: &&mut FaultGroup| f.fault.kind == fault.kind && f.fault.who == fault.who;
     match list.iter_mut().find(same) {
@@ -162,12 +184,12 @@ pub(crate) fn add(list: &mut Vec<FaultGroup>, fault: Fault, handling: &Interacti
             expected: false,
             remedies: Vec::new(),
         }),
-        Some(known) => {
-            known.settings += 1;
-            let size = known.worst.as_ref().map_or(known.fault.size, |(_, f)| f.size);
+        Some(group) => {
+            group.settings += 1;
+            let size = group.worst.as_ref().map_or(group.fault.size, |(_, f)| f.size);
             // A little worse is the same.
             if fault.size > 1.05 * size {
-                known.worst = Some((handling.clone(), fault));
+                group.worst = Some((handling.clone(), fault));
             }
         }
     }

@@ -125,6 +125,19 @@ impl Interaction {
     }
 }
 
+/// How long a student looks at a lab that says nothing of it, s.
+const WINDOW: f64 = 10.0;
+
+/// How long a student looks at a lab: until it stops, or as far as its plots show, s.
+pub fn window(lab: &Lab) -> f64 {
+    let longest = lab.plots.iter().map(|p| p.window()).filter(|w| w.is_finite()).fold(0.0, f64::max);
+    match &lab.stop_at {
+        Some(stop) if stop.value > 0.0 => stop.value,
+        _ if longest > 0.0 => longest,
+        _ => WINDOW,
+    }
+}
+
 /// The speed of every joint after a touch, m/s or rad/s.
 pub(super) const TOUCH: f64 = 1e-6;
 /// When the first button is pressed, s.
@@ -147,44 +160,74 @@ fn pairs(levels: &[usize]) -> usize {
     count
 }
 
+/// The controls of a lab that the interactions of a list move.
+struct ListedControls {
+    /// Each slider and select: its number, the values to try, and the value that the base has.
+    changes: Vec<(usize, Vec<Value>, Value)>,
+    buttons: Vec<usize>,
+}
+
+impl ListedControls {
+    fn new(lab: &Lab, base: &Interaction) -> ListedControls {
+        let mut controls = ListedControls { changes: Vec::new(), buttons: Vec::new() };
+        let start = |i: usize, initial: Value| {
+            let set = base.actions.iter().find(|a| a.control == i);
+            set.and_then(|a| a.value.clone()).unwrap_or(initial)
+        };
+        for (i, control) in lab.controls.iter().enumerate() {
+            match &control.kind {
+                ControlKind::Slider { min, max, value, .. } => {
+                    let mut ends = vec![Value::Number(min.value), Value::Number(max.value)];
+                    ends.dedup();
+                    controls.changes.push((i, ends, start(i, Value::Number(value.value))));
+                }
+                ControlKind::Select { options, value, .. } => {
+                    let all = options.iter().map(|o| scalar(&o.value)).collect();
+                    controls.changes.push((i, all, start(i, scalar(value))));
+                }
+                ControlKind::Button { .. } => controls.buttons.push(i),
+            }
+        }
+        controls
+    }
+}
+
+/// A control set before the first step.
+fn set(control: usize, value: &Value) -> Action {
+    Action { time: 0.0, control, value: Some(value.clone()) }
+}
+
+fn press_at(control: usize, time: f64) -> Action {
+    Action { time, control, value: None }
+}
+
 /// Everything that is tried on a base, the simplest first, for a lab that a student looks at for `window` seconds; and how many
 /// pairs of settings meet in no run, because there are too many.
 pub(crate) fn list(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interaction>, usize) {
     let press = PRESS.min(0.5 * window);
-    let set = |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
-    let pressed = |control: usize, time: f64| Action { time, control, value: None };
-    let mut changes: Vec<(usize, Vec<Value>, Value)> = Vec::new();
-    let mut buttons = Vec::new();
-    let given = |i: usize, own: Value| {
-        let set = base.actions.iter().find(|a| a.control == i);
-        set.and_then(|a| a.value.clone()).unwrap_or(own)
-    };
-    for (i, control) in lab.controls.iter().enumerate() {
-        match &control.kind {
-            ControlKind::Slider { min, max, value, .. } => {
-                let mut ends = vec![Value::Number(min.value), Value::Number(max.value)];
-                ends.dedup();
-                changes.push((i, ends, given(i, Value::Number(value.value))));
-            }
-            ControlKind::Select { options, value, .. } => {
-                let all = options.iter().map(|o| scalar(&o.value)).collect();
-                changes.push((i, all, given(i, scalar(value))));
-            }
-            ControlKind::Button { .. } => buttons.push(i),
-        }
-    }
+    let controls = ListedControls::new(lab, base);
+    let ListedControls { changes, buttons } = &controls;
     let mut all = vec![base.clone(), base.and(Kind::Touched, Vec::new())];
-    for (i, values, start) in &changes {
+    for (i, values, start) in changes {
         let moved = values.iter().filter(|v| *v != start);
         all.extend(moved.map(|v| base.and(Kind::End, vec![set(*i, v)])));
     }
-    all.extend(buttons.iter().map(|b| base.and(Kind::Button, vec![pressed(*b, press)])));
+    all.extend(buttons.iter().map(|b| base.and(Kind::Button, vec![press_at(*b, press)])));
     let spread = |k: usize, of: usize| press + (window - press).max(0.0) * k as f64 / of.max(1) as f64;
     if buttons.len() > 1 {
-        let actions = buttons.iter().enumerate().map(|(k, b)| pressed(*b, spread(k, buttons.len())));
+        let actions = buttons.iter().enumerate().map(|(k, b)| press_at(*b, spread(k, buttons.len())));
         all.push(base.and(Kind::InOrder, actions.collect()));
     }
+    let (corners, missing) = corners(&controls, press);
+    all.extend(corners.into_iter().map(|actions| base.and(Kind::Corner, actions)));
+    all.extend(interleaved(changes, buttons, spread).map(|more| base.and(Kind::Interleaved, more)));
+    (all, missing)
+}
 
+/// Combinations of the ends of controls, perhaps with a button: all of them where they are few, else a pairwise design; and how many
+/// pairs of settings meet in none of them.
+fn corners(controls: &ListedControls, press: f64) -> (Vec<Vec<Action>>, usize) {
+    let ListedControls { changes, buttons } = controls;
     // The last factor is which button is pressed, if any.
     let mut levels: Vec<usize> = changes.iter().map(|(_, values, _)| values.len()).collect();
     if !buttons.is_empty() {
@@ -200,16 +243,15 @@ pub(crate) fn list(lab: &Lab, window: f64, base: &Interaction) -> (Vec<Interacti
         _ => pairwise::pairwise(&levels, MOST_ROWS),
     };
     let missing = missing + every.saturating_sub(pairs(&levels));
-    for row in rows {
+    let actions = |row: Vec<usize>| {
         let chosen =
             changes.iter().zip(&row).filter_map(|((i, values, _), k)| Some(set(*i, values.get(*k)?)));
         let mut actions: Vec<Action> = chosen.collect();
         let button = row.get(changes.len()).and_then(|k| buttons.get(k.checked_sub(1)?));
-        actions.extend(button.map(|b| pressed(*b, press)));
-        all.push(base.and(Kind::Corner, actions));
-    }
-    all.extend(interleaved(&changes, &buttons, spread).map(|more| base.and(Kind::Interleaved, more)));
-    (all, missing)
+        actions.extend(button.map(|b| press_at(*b, press)));
+        actions
+    };
+    (rows.into_iter().map(actions).collect(), missing)
 }
 
 /// Every control to its far end and to the other, a button after each.

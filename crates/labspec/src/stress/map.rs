@@ -17,7 +17,7 @@ const WORK: u64 = 40_000_000_000;
 
 /// What became of the run at a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cell {
+pub enum MapCell {
     /// Nothing goes wrong.
     Fine,
     /// The worst that goes wrong.
@@ -28,13 +28,13 @@ pub enum Cell {
 
 /// The stable region over two controls.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Map {
+pub struct StabilityMap {
     /// Their labels: to the right, and upwards.
     pub labels: [String; 2],
     /// Their values.
     pub values: [Vec<Value>; 2],
     /// A row for each value of the second, a cell for each of the first.
-    pub cells: Vec<Vec<Cell>>,
+    pub cells: Vec<Vec<MapCell>>,
 }
 
 /// Runs the lab at every cell. Work is added to `work`.
@@ -47,7 +47,7 @@ pub(super) fn map(
     length: f64,
     tell: &mut dyn FnMut(&str),
     work: &mut u64,
-) -> Result<Map, RunError> {
+) -> Result<StabilityMap, RunError> {
     let [(x, across), (y, up)] = [values(case, &labels[0])?, values(case, &labels[1])?];
     let many = across.len() * up.len();
     let (mut left, mut made) = (WORK, 0);
@@ -60,7 +60,7 @@ pub(super) fn map(
                 |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
             let handling = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);
             if interrupt::requested() {
-                row.push(Cell::Unknown);
+                row.push(MapCell::Unknown);
                 continue;
             }
             let outcome = case.run(&handling, None, length, left / (many - made).max(1) as u64);
@@ -69,14 +69,14 @@ pub(super) fn map(
             *work += outcome.spent;
             let worst = outcome.faults.iter().map(|f| f.kind).min();
             row.push(match worst {
-                Some(kind) => Cell::Broken(kind),
-                None if outcome.cut => Cell::Unknown,
-                None => Cell::Fine,
+                Some(kind) => MapCell::Broken(kind),
+                None if outcome.cut => MapCell::Unknown,
+                None => MapCell::Fine,
             });
         }
         cells.push(row);
     }
-    Ok(Map { labels: labels.clone(), values: [across, up], cells })
+    Ok(StabilityMap { labels: labels.clone(), values: [across, up], cells })
 }
 
 /// A control and the values that a map takes: of a slider evenly over its grid.

@@ -6,10 +6,10 @@
 //! `monitors::stability` derives for one degree of freedom, where there is one.
 
 use super::bodies::{body_name, body_of};
-use super::case::{Outcome, StressCase};
-use super::fault::{Fault, FaultKind};
+use super::case::{RunOutcome, StressCase};
+use super::fault::{FaultKind, worst_fault};
 use super::interaction::{Interaction, Kind};
-use super::search::{self, Limit};
+use super::search::{self, SearchLimit};
 use crate::interrupt;
 use crate::monitors::stability;
 use crate::run::Session;
@@ -84,7 +84,7 @@ type Apply = dyn Fn(&mut Model, f64);
 type Read = dyn Fn(&Model) -> f64;
 
 /// Something that is multiplied.
-struct Raised {
+struct RaisedParameter {
     knob: Knob,
     who: String,
     unit: &'static str,
@@ -107,7 +107,7 @@ pub(super) fn margins(
     let model = case.start(&case.base, RUN).world.model;
     let mut left_out = Vec::new();
     let mut list = vec![timestep(&model, length)];
-    let mut some = |mut all: Vec<Raised>, what: &str| {
+    let mut some = |mut all: Vec<RaisedParameter>, what: &str| {
         if all.len() > MOST {
             left_out.push(format!("margins of {} more {what}", all.len() - MOST));
             all.truncate(MOST);
@@ -139,7 +139,7 @@ pub(super) fn margins(
 /// Why nothing is known.
 fn search(
     case: &StressCase<'_>,
-    raised: &Raised,
+    raised: &RaisedParameter,
     length: f64,
     work: &mut u64,
 ) -> Result<Margin, &'static str> {
@@ -156,7 +156,7 @@ fn search(
                 set = true;
                 return None;
             };
-            if let Some(fault) = worst(&outcome.faults, &[]) {
+            if let Some(fault) = worst_fault(&outcome.faults, &[]) {
                 how = Some((fault.kind, fault.who.clone()));
                 return Some(false);
             }
@@ -177,7 +177,7 @@ fn search(
         (raised.apply)(&mut model, x);
         Some(!stiff(&model, raised.object))
     });
-    let bound = bound.filter(|b| b.broken.is_some()).and_then(|Limit { fine, .. }| fine);
+    let bound = bound.filter(|b| b.broken.is_some()).and_then(|SearchLimit { fine, .. }| fine);
     Ok(Margin {
         knob: raised.knob,
         who: raised.who.clone(),
@@ -199,24 +199,15 @@ fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
         .any(|s| object.is_none_or(|(kind, id)| kind == s.object && id.is_none_or(|id| id == s.id)))
 }
 
-/// What breaks a run, if anything does: creeping and programs that throw are no matter of margins.
-pub(super) fn worst<'f>(faults: &'f [Fault], known: &[(FaultKind, String)]) -> Option<&'f Fault> {
-    let counts = |f: &&Fault| {
-        !matches!(f.kind, FaultKind::Drifts | FaultKind::Throws | FaultKind::Warns)
-            && !known.iter().any(|(kind, who)| *kind == f.kind && *who == f.who)
-    };
-    faults.iter().filter(counts).min_by_key(|f| f.kind)
-}
-
 /// A run with something raised; `None` where a program of the lab sets it and it cannot be set after that.
 fn run(
     case: &StressCase<'_>,
     handling: &Interaction,
-    raised: &Raised,
+    raised: &RaisedParameter,
     x: f64,
     length: f64,
     work: &mut u64,
-) -> Option<Outcome> {
+) -> Option<RunOutcome> {
     let wanted = x * raised.now;
     let same = |m: &Model| ((raised.read)(m) - wanted).abs() <= 1e-9 * wanted.abs();
     let mut model = case.model.clone();
@@ -241,9 +232,9 @@ fn run(
     same(&model).then_some(outcome)
 }
 
-fn timestep(m: &Model, length: f64) -> Raised {
+fn timestep(m: &Model, length: f64) -> RaisedParameter {
     let now = m.opt.timestep;
-    Raised {
+    RaisedParameter {
         knob: Knob::Timestep,
         who: "the lab".into(),
         unit: "s",
@@ -259,7 +250,7 @@ fn timestep(m: &Model, length: f64) -> Raised {
 /// Numbers of a gain or a bias for each actuator.
 const WIDTH: usize = 10;
 
-fn gains(m: &Model) -> Vec<Raised> {
+fn gains(m: &Model) -> Vec<RaisedParameter> {
     let mut list = Vec::new();
     for a in 0..m.nactuator {
         let Some([kp, kv]) = servo_gains(m, a) else { continue };
@@ -277,7 +268,7 @@ fn gains(m: &Model) -> Vec<Raised> {
         apply(&mut twice, 2.0);
         let scaled = servo_gains(&twice, a).map(|g| g[bias - 1]);
         if gain > 0.0 && scaled == Some(2.0 * gain) {
-            list.push(Raised {
+            list.push(RaisedParameter {
                 knob: Knob::Gain,
                 who: named(&m.names.actuator, a, "the servo"),
                 unit: "",
@@ -293,11 +284,11 @@ fn gains(m: &Model) -> Vec<Raised> {
     list
 }
 
-fn stiffnesses(m: &Model) -> Vec<Raised> {
+fn stiffnesses(m: &Model) -> Vec<RaisedParameter> {
     let mut list = Vec::new();
     if !m.opt.disabled(disable::SPRING) {
         for j in (0..m.njnt).filter(|&j| m.jnt_stiffness.get(j).is_some_and(|&k| k > 0.0)) {
-            list.push(Raised {
+            list.push(RaisedParameter {
                 knob: Knob::Stiffness,
                 who: named(&m.names.joint, j, "joint"),
                 unit: "",
@@ -312,7 +303,7 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
             });
         }
         for t in (0..m.ntendon).filter(|&t| m.tendon_stiffness.get(t).is_some_and(|&k| k > 0.0)) {
-            list.push(Raised {
+            list.push(RaisedParameter {
                 knob: Knob::Stiffness,
                 who: named(&m.names.tendon, t, "tendon"),
                 unit: "N/m",
@@ -332,13 +323,13 @@ fn stiffnesses(m: &Model) -> Vec<Raised> {
 
 /// The stiffness of all contacts together: one over the square of the shortest time constant. The engine keeps that above two steps;
 /// here it does not, so that the limit shows.
-fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
+fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<RaisedParameter> {
     let mut geoms: Vec<usize> = touching.iter().flatten().copied().collect();
     geoms.sort_unstable();
     geoms.dedup();
-    let own = geoms.clone();
+    let touching_geoms = geoms.clone();
     let read = move |m: &Model| {
-        let times = own.iter().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
+        let times = touching_geoms.iter().filter_map(|&g| rows::<2>(&m.geom_solref).get(g)).map(|s| s[0]);
         let shortest = times.filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
         1.0 / (shortest * shortest)
     };
@@ -352,7 +343,7 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
         }
     };
     let now = read(m);
-    (now > 0.0).then(|| Raised {
+    (now > 0.0).then(|| RaisedParameter {
         knob: Knob::Stiffness,
         who: "all contacts".into(),
         unit: "1/s²",
@@ -366,8 +357,8 @@ fn contacts(m: &Model, touching: &[[usize; 2]]) -> Option<Raised> {
 }
 
 /// The ratio of masses of bodies that touch, hang on each other or are tied together, with one of them heavier and lighter.
-fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<Raised> {
-    let mut list: Vec<Raised> = Vec::new();
+fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<RaisedParameter> {
+    let mut list: Vec<RaisedParameter> = Vec::new();
     let mut pairs: Vec<[usize; 2]> = touching.iter().map(|gs| gs.map(|g| body_of(m, g))).collect();
     let joined = |b: &usize| m.body_jntnum.get(*b).is_some_and(|&n| n > 0);
     let parent = |b: usize| m.body_parentid.get(b).map_or(0, |&p| p as usize);
@@ -380,7 +371,7 @@ fn ratios(m: &Model, touching: &[[usize; 2]]) -> Vec<Raised> {
     let moves = |b: &usize| m.body_treeid.get(*b).is_some_and(|&t| t >= 0) && mass(*b) > 0.0;
     for [a, b] in pairs.into_iter().filter(|p| p.iter().all(moves)) {
         for [heavy, light] in [[a, b], [b, a]] {
-            list.push(Raised {
+            list.push(RaisedParameter {
                 knob: Knob::MassRatio,
                 who: format!("{} to {}", body_name(m, heavy), body_name(m, light)),
                 unit: "",

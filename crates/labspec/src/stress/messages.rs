@@ -1,10 +1,10 @@
 //! What goes wrong in a run, in the words in which `run`, `check` and `stability` alike report it, and the shorter timesteps that
 //! were tried against it.
 
-use super::case::{Outcome, StressCase};
-use super::fault::{Fault, FaultKind};
+use super::case::{RunOutcome, StressCase};
+use super::drift::genuine;
+use super::fault::{Fault, FaultKind, worst_fault};
 use super::interaction::{Action, Interaction, Kind};
-use super::margins;
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
 use crate::run::{self, Begun, Breakdown, Play, RunError, RunOptions, Session, Shorter, Table};
@@ -96,9 +96,9 @@ pub(crate) fn with_tried_timestep(
 }
 
 /// Whether nothing goes wrong in a run but what creeps, and what was reported is not there.
-fn is_sound(outcome: &Outcome, rule: &Rule) -> bool {
+fn is_sound(outcome: &RunOutcome, rule: &Rule) -> bool {
     let same = |f: &Fault| f.kind.rule().is_some_and(|r| r.code == rule.code);
-    margins::worst(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
+    worst_fault(&outcome.faults, &[]).is_none() && !outcome.faults.iter().any(same)
 }
 
 /// Two digits, never more than the number.
@@ -146,7 +146,7 @@ pub fn watched_run(
     let timestep = begun.session.world.model.opt.timestep;
     let (length, faults) = (made as f64 * timestep, eyes.faults(&begun.session));
     let mut left = WORK;
-    let (faults, _) = super::genuine(&case, &base, faults, length, left);
+    let (faults, _) = genuine(&case, &base, faults, length, left);
     let mut table = run::finish(begun, made)?;
     for breakdown in &mut table.breakdowns {
         *breakdown = with_tried_timestep(&case, &base, length, breakdown.clone(), &mut left);

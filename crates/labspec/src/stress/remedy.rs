@@ -1,7 +1,7 @@
 //! What helps: each candidate is tried by running, and only those are told with which the run comes to its end well.
 
-use super::case::{Change, Outcome, StressCase};
-use super::fault::{FaultGroup, FaultKind};
+use super::case::{Change, RunOutcome, StressCase};
+use super::fault::{FaultGroup, FaultKind, Remedy, worst_fault};
 use super::interaction::{Action, Interaction};
 use super::truth;
 use crate::interrupt;
@@ -11,22 +11,8 @@ use labspec_core::math::rows_mut;
 use labspec_core::{Model, integrator};
 use labspec_expr::Value;
 
-/// Something that helps.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Remedy {
-    /// What to change, in words.
-    pub change: String,
-    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
-    pub work: f64,
-    /// The same as measured by a clock.
-    pub time: f64,
-    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
-    /// model describes, found with much shorter steps. `None` where that is not known.
-    pub error: Option<f64>,
-}
-
 /// A change that helps, with its work, and how a run is made with it.
-struct Helps {
+struct WorkingRemedy {
     change: String,
     /// A shorter timestep: of several one is enough.
     timestep: bool,
@@ -45,22 +31,22 @@ const USELESS: f64 = 0.5;
 const STOPPED: f64 = 0.1;
 
 /// A change of the model, in words.
-type Candidate = (String, Box<dyn Fn(&mut Model)>);
+type ModelChange = (String, Box<dyn Fn(&mut Model)>);
 
 /// The tries for one finding.
-pub(super) struct Tries<'c, 'a> {
+pub(super) struct RemedyTests<'c, 'a> {
     pub(super) case: &'c StressCase<'a>,
     pub(super) length: f64,
     /// How long a student looks, s: errors are those that are seen.
     pub(super) window: f64,
     /// Work of a second of the lab as it stands.
-    pub(super) own: f64,
+    pub(super) work_per_second: f64,
     /// Work that may still be done.
     pub(super) left: u64,
     pub(super) work: u64,
 }
 
-impl Tries<'_, '_> {
+impl RemedyTests<'_, '_> {
     /// What helps against a finding; `None` when nothing more can be tried.
     pub(super) fn remedies(&mut self, found: &FaultGroup) -> Option<Vec<Remedy>> {
         let before = self.run(&found.handling, None)?;
@@ -77,7 +63,7 @@ impl Tries<'_, '_> {
             let apply = move |m: &mut Model| *m.edit().opt.timestep = h;
             if let Some(work) = self.helps(found, &before, &apply)? {
                 let change = format!("a timestep of {} s", two_digits(h));
-                list.push(Helps {
+                list.push(WorkingRemedy {
                     change,
                     timestep: true,
                     work,
@@ -91,7 +77,7 @@ impl Tries<'_, '_> {
         }
         for (change, apply) in candidates(&model, found.fault.kind) {
             if let Some(work) = self.helps(found, &before, &apply)? {
-                list.push(Helps { change, timestep: false, work, handling: handling(), apply });
+                list.push(WorkingRemedy { change, timestep: false, work, handling: handling(), apply });
             }
         }
         list.extend(self.shorter_slider(found, &before)?);
@@ -99,7 +85,7 @@ impl Tries<'_, '_> {
     }
 
     /// Each with its cost: in error against the truth of what the student does, and in time.
-    fn costs(&mut self, found: &FaultGroup, list: Vec<Helps>) -> Vec<Remedy> {
+    fn costs(&mut self, found: &FaultGroup, list: Vec<WorkingRemedy>) -> Vec<Remedy> {
         if list.is_empty() {
             return Vec::new();
         }
@@ -107,7 +93,7 @@ impl Tries<'_, '_> {
         let truth = truth::truth(self.case, &found.handling, self.window, &mut work);
         let mut remedies: Vec<Remedy> = Vec::new();
         let mut enough = false;
-        for Helps { change, timestep, work: cost, handling, apply } in list {
+        for WorkingRemedy { change, timestep, work: cost, handling, apply } in list {
             if timestep && enough {
                 continue;
             }
@@ -117,8 +103,8 @@ impl Tries<'_, '_> {
             let error = if handling == found.handling {
                 truth.as_ref().and_then(|t| truth::error(self.case, t, apply, &mut work))
             } else {
-                let own = truth::truth(self.case, &handling, self.window, &mut work);
-                own.and_then(|t| truth::error(self.case, &t, apply, &mut work))
+                let truth = truth::truth(self.case, &handling, self.window, &mut work);
+                truth.and_then(|t| truth::error(self.case, &t, apply, &mut work))
             };
             if error.is_some_and(|error| error > USELESS) {
                 continue;
@@ -131,7 +117,11 @@ impl Tries<'_, '_> {
         remedies
     }
 
-    fn run(&mut self, handling: &Interaction, change: Option<&dyn Fn(&mut Session<'_>)>) -> Option<Outcome> {
+    fn run(
+        &mut self,
+        handling: &Interaction,
+        change: Option<&dyn Fn(&mut Session<'_>)>,
+    ) -> Option<RunOutcome> {
         if self.left == 0 || interrupt::requested() {
             return None;
         }
@@ -145,20 +135,20 @@ impl Tries<'_, '_> {
     fn helps(
         &mut self,
         found: &FaultGroup,
-        before: &Outcome,
+        before: &RunOutcome,
         apply: &dyn Fn(&mut Model),
     ) -> Option<Option<f64>> {
         let change = |session: &mut Session<'_>| apply(&mut session.world.model);
         let outcome = self.run(&found.handling, Some(&change))?;
-        let cost = outcome.spent as f64 / outcome.covered.max(f64::MIN_POSITIVE) / self.own;
+        let cost = outcome.spent as f64 / outcome.covered.max(f64::MIN_POSITIVE) / self.work_per_second;
         Some((!outcome.cut && is_well(found, before, &outcome)).then_some(cost))
     }
 
     /// A slider that goes less far, where it alone does the harm: the farthest value that does none, by bisection on its grid.
-    fn shorter_slider(&mut self, found: &FaultGroup, before: &Outcome) -> Option<Option<Helps>> {
+    fn shorter_slider(&mut self, found: &FaultGroup, before: &RunOutcome) -> Option<Option<WorkingRemedy>> {
         let base = &self.case.base.actions;
-        let mut own = found.handling.actions.iter().filter(|a| !base.contains(a));
-        let (Some(action), None) = (own.next(), own.next()) else { return Some(None) };
+        let mut added = found.handling.actions.iter().filter(|a| !base.contains(a));
+        let (Some(action), None) = (added.next(), added.next()) else { return Some(None) };
         let Some(control) = self.case.lab.controls.get(action.control) else { return Some(None) };
         let (ControlKind::Slider { min, value, .. }, Some(Value::Number(end))) =
             (&control.kind, &action.value)
@@ -182,7 +172,7 @@ impl Tries<'_, '_> {
         let last = on_grid(min, step, good);
         let moved = if up { last > value.value } else { last < value.value };
         let handling = with(found, action, last);
-        Some(moved.then(|| Helps {
+        Some(moved.then(|| WorkingRemedy {
             change: ends(control, last),
             timestep: false,
             work: 1.0,
@@ -211,20 +201,20 @@ fn ends(control: &Control, last: f64) -> String {
 }
 
 /// Whether a run shows nothing that breaks but what was there before besides the finding.
-fn is_well(found: &FaultGroup, before: &Outcome, after: &Outcome) -> bool {
+fn is_well(found: &FaultGroup, before: &RunOutcome, after: &RunOutcome) -> bool {
     let FaultGroup { fault, .. } = found;
     if fault.kind == FaultKind::Drifts {
         let speed = after.speeds.iter().find(|(who, _)| *who == fault.who).map_or(0.0, |(_, speed)| *speed);
-        return speed <= STOPPED * fault.size && super::margins::worst(&after.faults, &[]).is_none();
+        return speed <= STOPPED * fault.size && worst_fault(&after.faults, &[]).is_none();
     }
     let others = before.faults.iter().filter(|f| (f.kind, &f.who) != (fault.kind, &fault.who));
-    let known: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.who.clone())).collect();
-    super::margins::worst(&after.faults, &known).is_none()
+    let others: Vec<(FaultKind, String)> = others.map(|f| (f.kind, f.who.clone())).collect();
+    worst_fault(&after.faults, &others).is_none()
 }
 
 /// What may help against a fault of this kind.
-fn candidates(model: &Model, kind: FaultKind) -> Vec<Candidate> {
-    let mut list: Vec<Candidate> = Vec::new();
+fn candidates(model: &Model, kind: FaultKind) -> Vec<ModelChange> {
+    let mut list: Vec<ModelChange> = Vec::new();
     let steps = [
         ("`integrator=\"discrete\"`", integrator::DISCRETE),
         ("`integrator=\"implicitfast\"`", integrator::IMPLICITFAST),

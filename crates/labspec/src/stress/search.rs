@@ -7,7 +7,7 @@ const CLOSE: f64 = 0.01;
 
 /// What a search came to, as multiples of what there is now.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Limit {
+pub(super) struct SearchLimit {
     /// The largest that was fine; `None` where even the smallest is broken.
     pub(super) fine: Option<f64>,
     /// The smallest above it that was broken; `None` where nothing was.
@@ -16,7 +16,11 @@ pub(super) struct Limit {
 
 /// Searches from 1 up to `most`, by steps of a factor, as what breaks may be sound again beyond. `fine` says whether a multiple is
 /// fine; `None` when nothing more can be tried, which ends the search without a result.
-pub(super) fn largest(most: f64, factor: f64, mut fine: impl FnMut(f64) -> Option<bool>) -> Option<Limit> {
+pub(super) fn largest(
+    most: f64,
+    factor: f64,
+    mut fine: impl FnMut(f64) -> Option<bool>,
+) -> Option<SearchLimit> {
     let (mut good, mut bad) = (None, None);
     let mut at = 1.0;
     if fine(at)? {
@@ -51,7 +55,7 @@ pub(super) fn largest(most: f64, factor: f64, mut fine: impl FnMut(f64) -> Optio
             bad = Some(middle);
         }
     }
-    Some(Limit { fine: good, broken: bad })
+    Some(SearchLimit { fine: good, broken: bad })
 }
 
 #[cfg(test)]
@@ -77,12 +81,12 @@ mod tests {
     fn what_never_breaks_and_what_always_does_is_told_apart() {
         assert_eq!(
             largest(1e9, 2.0, |_| Some(true)),
-            Some(Limit { fine: Some(2f64.powi(20)), broken: None })
+            Some(SearchLimit { fine: Some(2f64.powi(20)), broken: None })
         );
-        assert_eq!(largest(10.0, 2.0, |_| Some(true)), Some(Limit { fine: Some(10.0), broken: None }));
+        assert_eq!(largest(10.0, 2.0, |_| Some(true)), Some(SearchLimit { fine: Some(10.0), broken: None }));
         assert_eq!(
             largest(1e9, 2.0, |_| Some(false)),
-            Some(Limit { fine: None, broken: Some(0.5f64.powi(20)) })
+            Some(SearchLimit { fine: None, broken: Some(0.5f64.powi(20)) })
         );
         assert_eq!(largest(1e9, 2.0, |x| (x < 4.0).then_some(true)), None);
     }

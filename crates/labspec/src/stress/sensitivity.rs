@@ -206,7 +206,7 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
     if readouts.is_empty() {
         return Vec::new();
     }
-    let mut shown = |nudge: f64| {
+    let mut sample_readouts = |nudge: f64| {
         let mut session = case.start(&case.base, WORK / 4);
         if nudge != 0.0 {
             session.perturb(StepVariant { perturbation: nudge, ..StepVariant::NOMINAL }, true);
@@ -224,8 +224,8 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
         *work += session.spent();
         (rows, every as f64 * h)
     };
-    let (first, between) = shown(0.0);
-    let (second, _) = shown(NUDGE);
+    let (first, between) = sample_readouts(0.0);
+    let (second, _) = sample_readouts(NUDGE);
     let horizon = |(k, (readout, _)): (usize, &(&crate::spec::Readout, &crate::bind::Bound))| {
         let lost = |(a, b): (&Vec<f64>, &Vec<f64>)| (a[k] - b[k]).abs() > 0.5 * unit(a[k], readout.digits());
         let at = first.iter().zip(&second).position(lost);

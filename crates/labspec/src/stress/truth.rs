@@ -27,7 +27,7 @@ const LONG_ENOUGH: Duration = Duration::from_millis(3);
 const CHUNK: usize = 32;
 
 /// Numbers that a lab shows, at each sample.
-type Rows = Vec<Vec<f64>>;
+type SampledRows = Vec<Vec<f64>>;
 
 /// The motion that a model describes, under the hands of a student.
 pub(super) struct Truth<'h> {
@@ -35,7 +35,7 @@ pub(super) struct Truth<'h> {
     /// The timestep of the lab, s, and how many of it are between samples.
     timestep: f64,
     every: usize,
-    rows: Rows,
+    rows: SampledRows,
     /// The largest value of each number less its smallest.
     ranges: Vec<f64>,
 }
@@ -58,7 +58,7 @@ pub(super) fn truth<'h>(
     };
     let mut parts = FIRST;
     let mut coarse = fine(parts, work);
-    let mut best: Option<(Rows, usize)> = None;
+    let mut best: Option<(SampledRows, usize)> = None;
     for _ in 0..TRIES {
         if interrupt::requested() {
             return None;
@@ -67,19 +67,19 @@ pub(super) fn truth<'h>(
         let now = fine(parts, work);
         let ranges = ranges(&now);
         let apart = |(a, b): (&Vec<f64>, &Vec<f64>)| largest(a, b, &ranges).is_none_or(|x| x > AGREE);
-        let known = coarse.iter().zip(&now).position(apart).unwrap_or(coarse.len().min(now.len()));
-        let whole = known == now.len();
-        if best.as_ref().is_none_or(|(_, before)| known > *before) {
-            best = Some((now.clone(), known));
+        let agreeing = coarse.iter().zip(&now).position(apart).unwrap_or(coarse.len().min(now.len()));
+        let whole = agreeing == now.len();
+        if best.as_ref().is_none_or(|(_, before)| agreeing > *before) {
+            best = Some((now.clone(), agreeing));
         }
         if whole {
             break;
         }
         coarse = now;
     }
-    let (mut rows, known) = best?;
-    rows.truncate(known);
-    (known > 1).then(|| Truth { handling, timestep, every, ranges: ranges(&rows), rows })
+    let (mut rows, agreeing) = best?;
+    rows.truncate(agreeing);
+    (agreeing > 1).then(|| Truth { handling, timestep, every, ranges: ranges(&rows), rows })
 }
 
 /// The largest error of any number that the lab shows with a change, as a part of its range; `None` where a number is none.
@@ -106,7 +106,7 @@ fn rows(
     length: f64,
     between: f64,
     work: &mut u64,
-) -> Rows {
+) -> SampledRows {
     let mut session = case.start(handling, WORK);
     if let Some(change) = change {
         change(&mut session);
@@ -120,7 +120,7 @@ fn rows(
         .filter(|a| a.time > 0.0 && a.value.is_none())
         .map(|a| (a.control, a.time))
         .collect();
-    let mut list: Rows = Vec::new();
+    let mut list: SampledRows = Vec::new();
     let played = Play { steps, every, presses: &presses, watched: false };
     run::play(&mut session, &played, |session, made| {
         let late = (session.world.data.time() - made as f64 * timestep).abs() > 0.5 * timestep;
@@ -144,7 +144,7 @@ fn shown(case: &StressCase<'_>, session: &mut Session<'_>) -> Vec<f64> {
 }
 
 /// The largest value of each number less its smallest.
-fn ranges(rows: &Rows) -> Vec<f64> {
+fn ranges(rows: &SampledRows) -> Vec<f64> {
     let width = rows.first().map_or(0, Vec::len);
     let of = |k: usize| {
         let column = || rows.iter().filter_map(|row| row.get(k)).copied();
@@ -164,8 +164,8 @@ fn largest(a: &[f64], b: &[f64], ranges: &[f64]) -> Option<f64> {
 pub(super) fn time(case: &StressCase<'_>, handling: &Interaction, change: Change<'_>, length: f64) -> f64 {
     let mut ratios = Vec::new();
     while ratios.len() < REPEATS && !interrupt::requested() {
-        let own = seconds(case, &case.base, &|_| {}, length);
-        ratios.push(seconds(case, handling, change, length) / own);
+        let base = seconds(case, &case.base, &|_| {}, length);
+        ratios.push(seconds(case, handling, change, length) / base);
     }
     ratios.sort_by(f64::total_cmp);
     ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)

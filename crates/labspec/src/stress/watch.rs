@@ -2,10 +2,11 @@
 //! switch on and off, and motion that leaves every bound. Nothing of the run is touched.
 
 use super::bodies::{self, body_of, body_thickness, geom_name, halves, seen_from, thickness};
+use super::causes::stiffness_cause;
+use super::creep::CreepMonitor;
 use super::fault::{Evidence, Fault, FaultKind};
-use super::ground::{self, Over};
-use super::rest::Rest;
-use super::wild::Wild;
+use super::height_field::{self, HeightFieldPair};
+use super::runaway::RunawayMonitor;
 use labspec_core::math::{Vec3, rows, sub};
 use labspec_core::{Fields, Model, geom};
 
@@ -26,11 +27,11 @@ const NEARLY: f64 = 0.02;
 
 /// What a run has shown so far.
 pub(super) struct RunMonitor {
-    pairs: Vec<Pair>,
-    grounds: Vec<Over>,
+    pairs: Vec<PassingPair>,
+    grounds: Vec<HeightFieldPair>,
     touching: Vec<TouchingPair>,
-    pub(super) wild: Wild,
-    pub(super) rest: Rest,
+    pub(super) wild: RunawayMonitor,
+    pub(super) rest: CreepMonitor,
     faults: Vec<Fault>,
     steps: usize,
     last: f64,
@@ -39,7 +40,7 @@ pub(super) struct RunMonitor {
 }
 
 /// A geom and another one that it may not pass.
-struct Pair {
+struct PassingPair {
     geoms: [usize; 2],
     before: Option<Vec3>,
     done: bool,
@@ -71,11 +72,11 @@ impl RunMonitor {
     pub(super) fn new(m: &Model, jumps: bool) -> RunMonitor {
         let pairs = if jumps { Vec::new() } else { bodies::pairs(m, MOST_PAIRS).0 };
         RunMonitor {
-            pairs: pairs.into_iter().map(|geoms| Pair { geoms, before: None, done: false }).collect(),
-            grounds: if jumps { Vec::new() } else { ground::over(m, MOST_PAIRS) },
+            pairs: pairs.into_iter().map(|geoms| PassingPair { geoms, before: None, done: false }).collect(),
+            grounds: if jumps { Vec::new() } else { height_field::over(m, MOST_PAIRS) },
             touching: Vec::new(),
-            wild: Wild::default(),
-            rest: Rest::default(),
+            wild: RunawayMonitor::default(),
+            rest: CreepMonitor::default(),
             faults: Vec::new(),
             steps: 0,
             last: f64::NEG_INFINITY,
@@ -274,8 +275,8 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
     let moves = |g: usize| m.body_treeid.get(body_of(m, g)).is_some_and(|&t| t >= 0);
     let [g, p] = if moves(g) || !moves(p) { [g, p] } else { [p, g] };
     let way = labspec_core::math::norm(sub(to, from));
-    let [thick, own] = [thickness(m, p), thickness(m, g)];
-    let cause = if way > thick + own {
+    let [thick, own_thickness] = [thickness(m, p), thickness(m, g)];
+    let cause = if way > thick + own_thickness {
         format!(
             "in one step of {} s it moves farther than both are thick, so no step finds a contact",
             crate::run::two_digits(h)
@@ -293,7 +294,7 @@ fn tunnelling(m: &Model, d: &Fields, [g, p]: [usize; 2], from: Vec3, to: Vec3) -
         evidence: vec![
             Evidence { name: "way in one step", value: way, unit: "m" },
             Evidence { name: "thickness of what it passes", value: thick, unit: "m" },
-            Evidence { name: "own thickness", value: own, unit: "m" },
+            Evidence { name: "own thickness", value: own_thickness, unit: "m" },
         ],
         size: way / thick,
         by_run: false,
@@ -332,7 +333,7 @@ fn penetration(m: &Model, t: &TouchingPair) -> Fault {
 
 fn chatter(m: &Model, d: &Fields, t: &TouchingPair) -> Fault {
     let [g, p] = t.geoms;
-    let cause = super::case::likely(m).unwrap_or_else(|| {
+    let cause = stiffness_cause(m).unwrap_or_else(|| {
         format!("the contact is too hard, or has too little damping, for a step of {} s", m.opt.timestep)
     });
     Fault {

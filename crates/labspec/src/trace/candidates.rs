@@ -1,8 +1,8 @@
 //! What could be measured in a lab: what it shows, at the start, at the end, at named times and at contacts; how fast its bodies
 //! move; constants of its model. The simplest come first.
 
-use super::split_words;
-use super::trials::{second, si};
+use super::units::{LONGEST_TIMESTEP, second, si};
+use super::words::split_words;
 use crate::bind::{ModelNames, Programs, Scope, dimensions, of_label};
 use crate::check;
 use crate::run::{self, Play, Session};
@@ -45,7 +45,7 @@ const STEPS: usize = 20_000;
 const MEETING: &str = "contact touch touches touchdown impact lands landing hits first";
 
 /// What is shown, or follows from it: an expression, what it measures, its words.
-struct Shown {
+struct DisplayedNumber {
     text: String,
     dimension: Dimension,
     words: String,
@@ -63,9 +63,9 @@ pub(super) fn candidates(
     let mut all = Vec::new();
     constants(model, &mut all);
     let pairs = touching(lab, model, programs);
-    let mut shown = shown(lab, model, programs);
-    shown.extend(motions(model));
-    shown.extend(forces(model));
+    let mut displayed = displayed_numbers(lab, model, programs);
+    displayed.extend(motions(model));
+    displayed.extend(forces(model));
     let times = times(numbers);
     for (a, b) in &pairs {
         let met = format!("contact('{a}', '{b}')");
@@ -77,8 +77,8 @@ pub(super) fn candidates(
     if lab.stop_at.is_some() {
         add(&mut all, "final(data.time)".into(), second(), 2.0, "time stops pauses end");
     }
-    for x in shown.iter().filter(|x| x.text != "data.time") {
-        let Shown { text, dimension, words, more } = x;
+    for x in displayed.iter().filter(|x| x.text != "data.time") {
+        let DisplayedNumber { text, dimension, words, more } = x;
         let mut of = |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, words);
         of(format!("final({text})"), 2.0);
         of(format!("max({text})"), 2.2);
@@ -104,12 +104,12 @@ pub(super) fn candidates(
             }
         }
     }
-    depths(model, &shown, &mut all);
+    depths(model, &displayed, &mut all);
     let names = ModelNames::new(model, Scope::Measure).with(&programs.functions);
     let mut globals = programs.globals.clone();
-    let mut known = BTreeSet::new();
+    let mut texts = BTreeSet::new();
     all.retain(|c| {
-        known.insert(c.text.clone())
+        texts.insert(c.text.clone())
             && Compiler::new(&names, &mut globals).expression(&c.text).program.is_some()
     });
     all
@@ -121,17 +121,17 @@ fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, 
 }
 
 /// Traces and readouts, each text once.
-fn shown(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Shown> {
+fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<DisplayedNumber> {
     let found = dimensions(lab, model, programs);
-    let mut all: Vec<Shown> = Vec::new();
+    let mut all: Vec<DisplayedNumber> = Vec::new();
     for ((labels, probe), measured) in check::labels_of(lab).zip(&programs.probes).zip(&found.probes) {
         let Some(bound) = &probe.bound else { continue };
         let label = labels.iter().find_map(|l| of_label(l.as_str()));
-        let known = measured.as_ref().and_then(|m| match m.value {
+        let dimension = measured.as_ref().and_then(|m| match m.value {
             Measure::Known(d) if d.factor.is_finite() && d.factor != 0.0 => Some(d),
             _ => None,
         });
-        let Some(dimension) = label.map(|(_, d)| d).or(known) else { continue };
+        let Some(dimension) = label.map(|(_, d)| d).or(dimension) else { continue };
         let text = bound.text.value.trim().to_string();
         let reads = bound.program.effects().reads.iter();
         let owners = reads.filter_map(|r| element_owner(model, r.field, r.first, r.count?));
@@ -139,21 +139,21 @@ fn shown(lab: &Lab, model: &Model, programs: &Programs) -> Vec<Shown> {
         let words: Vec<&str> = labels.iter().map(|l| l.as_str()).chain(names).collect();
         match all.iter_mut().find(|s| s.text == text) {
             Some(same) => same.words = format!("{} {}", same.words, words.join(" ")),
-            None => all.push(Shown { text, dimension, words: words.join(" "), more: 0.0 }),
+            None => all.push(DisplayedNumber { text, dimension, words: words.join(" "), more: 0.0 }),
         }
     }
     all
 }
 
 /// Coordinates and speeds of the joints that have names.
-fn motions(m: &Model) -> Vec<Shown> {
+fn motions(m: &Model) -> Vec<DisplayedNumber> {
     let [metre, radian] = ["m", "rad"].map(|u| labspec_bind::units::parse(u).unwrap_or(Dimension::NUMBER));
     let per = |d: Dimension| second().power(-1.0).and_then(|s| d.product(s)).unwrap_or(d);
     let mut all = Vec::new();
     let named = m.names.joint.iter().zip(&m.jnt_type).filter(|(name, _)| simple(name));
     for (name, kind) in named.take(JOINTS) {
         let mut one = |what: &str, i: usize, dimension| {
-            all.push(Shown {
+            all.push(DisplayedNumber {
                 text: format!("data.joint('{name}').{what}[{i}]"),
                 dimension,
                 words: name.clone(),
@@ -180,7 +180,7 @@ fn motions(m: &Model) -> Vec<Shown> {
 }
 
 /// Forces that a lab has and need not show: of actuators, of weight and limits on joints, of contacts on geoms.
-fn forces(m: &Model) -> Vec<Shown> {
+fn forces(m: &Model) -> Vec<DisplayedNumber> {
     let [newton, torque] = ["N", "N m"].map(|u| labspec_bind::units::parse(u).unwrap_or(Dimension::NUMBER));
     let mut all = Vec::new();
     let joints =
@@ -197,7 +197,12 @@ fn forces(m: &Model) -> Vec<Shown> {
             ("actuator", "motor servo"),
         ] {
             let words = format!("{name} force torque {said}");
-            all.push(Shown { text: format!("data.qfrc_{what}[{dof}]"), dimension, words, more: 1.2 });
+            all.push(DisplayedNumber {
+                text: format!("data.qfrc_{what}[{dof}]"),
+                dimension,
+                words,
+                more: 1.2,
+            });
         }
     }
     let actuators = m.names.actuator.iter().enumerate().filter(|(_, name)| simple(name));
@@ -205,7 +210,7 @@ fn forces(m: &Model) -> Vec<Shown> {
         let Some(rotates) = rotates(m, a) else { continue };
         let dimension = if rotates { torque } else { newton };
         let words = format!("{name} force torque servo motor limit");
-        all.push(Shown { text: format!("data.actuator_force[{a}]"), dimension, words, more: 1.2 });
+        all.push(DisplayedNumber { text: format!("data.actuator_force[{a}]"), dimension, words, more: 1.2 });
     }
     all
 }
@@ -280,7 +285,7 @@ fn constants(m: &Model, all: &mut Vec<Candidate>) {
 }
 
 /// How deep something lies in the ground at its coordinate 0: a size less a height.
-fn depths(m: &Model, shown: &[Shown], all: &mut Vec<Candidate>) {
+fn depths(m: &Model, shown: &[DisplayedNumber], all: &mut Vec<Candidate>) {
     let Some(metre) = labspec_bind::units::parse("m") else { return };
     let geoms =
         m.names.geom.iter().zip(&m.geom_type).filter(|(name, kind)| simple(name) && **kind == geom::SPHERE);
@@ -309,7 +314,7 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
     for s in numbers {
         let t = si(s);
         let is_time = s.dimension == second().times(s.dimension.factor);
-        if is_time && t > super::trials::LONGEST && t <= 20.0 && !all.contains(&t) && all.len() < TIMES {
+        if is_time && t > LONGEST_TIMESTEP && t <= 20.0 && !all.contains(&t) && all.len() < TIMES {
             all.push(t);
         }
     }

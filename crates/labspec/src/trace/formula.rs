@@ -1,6 +1,6 @@
 //! Formulas that stand before a number: `t = \sqrt{2d/g} = 0.4401 s`, worked out with the numbers that the text gives to d and g.
 
-use super::trials::si;
+use super::units::si;
 use crate::verify::Stated;
 
 /// A symbol that the text gives a number to.
@@ -103,11 +103,10 @@ fn tokens(text: &str) -> Vec<Token> {
         };
         match c {
             '0'..='9' => {
-                // Of `\tfrac12` each digit is one.
-                let alone = matches!(all.last(), Some(Token::Command(c)) if c.ends_with("frac"));
-                let alone = alone
-                    || matches!(all.as_slice(), [.., Token::Command(c), Token::Number(..)] if c.ends_with("frac"));
-                let length = if alone { 1 } else { run(i, &|c| c.is_ascii_digit() || c == '.') };
+                let length = match is_digit_of_fraction(&all) {
+                    true => 1,
+                    false => run(i, &|c| c.is_ascii_digit() || c == '.'),
+                };
                 let word: String = chars.iter().skip(i).take(length).collect();
                 let word = word.trim_end_matches('.').to_string();
                 all.push(word.parse().map_or(Token::Sign('?'), |x| Token::Number(x, word)));
@@ -117,16 +116,7 @@ fn tokens(text: &str) -> Vec<Token> {
             '\\' => {
                 let length = run(i + 1, &|c| c.is_ascii_alphabetic());
                 let word: String = chars.iter().skip(i + 1).take(length).collect();
-                match word.as_str() {
-                    // Spaces, and marks of size.
-                    "" => i += 1,
-                    "left" | "right" | "displaystyle" | "mathrm" | "text" | "ast" | "dot" => {}
-                    "times" | "cdot" => all.push(Token::Sign('*')),
-                    "frac" | "tfrac" | "dfrac" | "sqrt" | "sin" | "cos" | "tan" | "exp" | "ln" => {
-                        all.push(Token::Command(word));
-                    }
-                    _ => symbol(&chars, &mut i, word, length + 1, &mut all),
-                }
+                command(&chars, &mut i, word, length, &mut all);
                 i += length + 1;
                 continue;
             }
@@ -157,6 +147,28 @@ fn tokens(text: &str) -> Vec<Token> {
     }
     let from = all.len().saturating_sub(TOKENS);
     all.split_off(from)
+}
+
+/// Whether the next digit is a number by itself: of `\tfrac12` each digit is one.
+fn is_digit_of_fraction(before: &[Token]) -> bool {
+    match before {
+        [.., Token::Command(c)] | [.., Token::Command(c), Token::Number(..)] => c.ends_with("frac"),
+        _ => false,
+    }
+}
+
+/// The token of a command of TeX with a name of this length.
+fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut Vec<Token>) {
+    match name.as_str() {
+        // Spaces, and marks of size.
+        "" => *i += 1,
+        "left" | "right" | "displaystyle" | "mathrm" | "text" | "ast" | "dot" => {}
+        "times" | "cdot" => all.push(Token::Sign('*')),
+        "frac" | "tfrac" | "dfrac" | "sqrt" | "sin" | "cos" | "tan" | "exp" | "ln" => {
+            all.push(Token::Command(name));
+        }
+        _ => symbol(chars, i, name, length + 1, all),
+    }
 }
 
 /// A symbol with what stands below it and its star: `t^\ast`, `z_{k+1}`.
@@ -310,9 +322,9 @@ impl Parser<'_> {
     /// What a symbol is: what the text last said before the number, else what it says behind it.
     fn bound(&self, name: &str) -> Option<Worked> {
         let here = self.s.span.start;
-        let known = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
+        let bound = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
         let found =
-            known().filter(|b| b.at < here).max_by_key(|b| b.at).or_else(|| known().min_by_key(|b| b.at));
+            bound().filter(|b| b.at < here).max_by_key(|b| b.at).or_else(|| bound().min_by_key(|b| b.at));
         let constant = match name {
             "pi" | "π" => Some(("Math.PI".to_string(), std::f64::consts::PI)),
             "e" => Some(("Math.E".to_string(), std::f64::consts::E)),

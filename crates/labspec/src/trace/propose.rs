@@ -1,7 +1,9 @@
 //! What was found, as an author takes it over: a `verify` object for each lab.
 
+use super::lesson::Traces;
+use super::rank::{Hit, Origin};
 use super::trials::Trial;
-use super::{Hit, Origin, Traces, split_words};
+use super::words::split_words;
 use crate::json::Scalar;
 use crate::spec::LabAddress;
 use serde_json::{Map, Value, json};
@@ -16,7 +18,7 @@ pub fn blocks(found: &Traces<'_>) -> Vec<(LabAddress, Value)> {
         _ => None,
     });
     for (l, tried) in found.labs.iter().enumerate() {
-        let mut block = Block::default();
+        let mut block = ProposedVerify::default();
         let mut says = Vec::new();
         for n in &found.numbers {
             let Origin::From(hit) = &n.origin else { continue };
@@ -95,13 +97,13 @@ pub fn laid_out(verify: &Value) -> String {
 
 /// A `verify` object that grows.
 #[derive(Default)]
-pub(crate) struct Block {
+pub(crate) struct ProposedVerify {
     /// By the place of the trial: a name, and how it is run.
     runs: BTreeMap<usize, (String, Value)>,
     measures: Vec<(String, String)>,
 }
 
-impl Block {
+impl ProposedVerify {
     /// The name of a measure in a run.
     pub(crate) fn measured(&mut self, place: usize, trial: Option<&Trial>, text: &str) -> String {
         let taken: Vec<&str> = self.runs.values().map(|(name, _)| name.as_str()).collect();
@@ -115,8 +117,8 @@ impl Block {
                 name
             }
         };
-        let known = self.measures.iter().find(|(_, known)| known == text).map(|(name, _)| name.clone());
-        let measure = known.unwrap_or_else(|| {
+        let measure = self.measures.iter().find(|(_, measure)| measure == text).map(|(name, _)| name.clone());
+        let measure = measure.unwrap_or_else(|| {
             let taken: Vec<&str> = self.measures.iter().map(|(name, _)| name.as_str()).collect();
             let name = free(name_of(text, "value"), &taken);
             self.measures.push((name.clone(), text.to_string()));

@@ -1,8 +1,11 @@
 //! Which of all that was measured a number is: the simplest that has its digits, if chance does not explain it.
 
+use super::candidates::Candidate;
 use super::formula::{self, Binding};
-use super::trials::{Trial, si};
-use super::{Tried, split_words};
+use super::lab::TracedLab;
+use super::trials::Trial;
+use super::units::si;
+use super::words::split_words;
 use crate::verify::Stated;
 use std::collections::BTreeSet;
 
@@ -82,11 +85,18 @@ const EXACT: f64 = 0.5;
 /// Two constants of different kinds that are so close are two readings.
 const APART: f64 = 1.2;
 
+/// Something that has the digits of a number, and how far-fetched it is.
+struct Match {
+    cost: f64,
+    /// It is a constant of the model.
+    constant: bool,
+    hit: Hit,
+}
+
 /// Where a number comes from.
-pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[Tried<'_>], bindings: &[Binding]) -> Origin {
-    let around = Around::of(s, numbers);
-    let truth = si(s);
-    if truth == 0.0 || s.bound {
+pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[TracedLab<'_>], bindings: &[Binding]) -> Origin {
+    let around = NumberContext::new(s, numbers);
+    if si(s) == 0.0 || s.bound {
         return Origin::Unknown;
     }
     let window = 2.0 * s.read.half_unit / s.read.value.abs() / (DECADES * std::f64::consts::LN_10);
@@ -94,75 +104,77 @@ pub(super) fn origin(s: &Stated, numbers: &[Stated], labs: &[Tried<'_>], binding
     if let Some(hit) = worked(s, bindings, window).filter(|hit| hit.chance < CHANCE) {
         return Origin::From(hit);
     }
+    let (tried, mut matches) = compare_values(s, &around, labs);
+    matches.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let ambiguous = is_ambiguous(&matches);
+    let Some(Match { cost, mut hit, .. }) = matches.into_iter().next() else {
+        return around.setting(s, labs).map_or(Origin::Unknown, Origin::Setting);
+    };
+    // A constant is a round number, and so is what a text rounds to: that they are equal says more.
+    let exact = close(hit.value, s.read.value);
+    let cost = if exact { cost + EXACT } else { cost };
+    let mut simpler: Vec<f64> = tried.iter().filter(|(c, _)| *c <= cost).map(|(_, x)| *x).collect();
+    simpler.sort_by(f64::total_cmp);
+    simpler.dedup_by(|a, b| close(*a, *b));
+    let window = if exact { window / 2.0 } else { window };
+    hit.chance = 1.0 - (1.0 - window).powf(simpler.len() as f64);
+    if hit.chance < CHANCE && !ambiguous {
+        return Origin::From(hit);
+    }
+    around.setting(s, labs).map_or(Origin::Chance(hit), Origin::Setting)
+}
+
+/// Compares a number with every value of its dimension: the cost and the size of each value, and those with its digits.
+fn compare_values(
+    s: &Stated,
+    around: &NumberContext<'_>,
+    labs: &[TracedLab<'_>],
+) -> (Vec<(f64, f64)>, Vec<Match>) {
     let mut tried: Vec<(f64, f64)> = Vec::new();
-    let mut hits: Vec<(f64, bool, Hit)> = Vec::new();
-    let nearest = distances(s, labs);
-    for (l, tried_lab) in labs.iter().enumerate() {
-        let far = nearest.get(l).copied().unwrap_or(0.0);
-        for (t, (trial, values)) in tried_lab.trials.iter().zip(&tried_lab.values).enumerate() {
-            let run = around.cost(trial, &tried_lab.trials);
-            let own = trial.named.is_some_and(|(x, _)| close(x, truth));
-            for (c, &value) in tried_lab.candidates.iter().zip(values) {
+    let mut matches: Vec<Match> = Vec::new();
+    let distances = distances(s, labs);
+    for (l, lab) in labs.iter().enumerate() {
+        let far = distances.get(l).copied().unwrap_or(0.0);
+        for (t, (trial, values)) in lab.trials.iter().zip(&lab.values).enumerate() {
+            let run = around.cost(trial, &lab.trials);
+            let sets_it = trial.named.is_some_and(|(x, _)| close(x, si(s)));
+            for (c, &value) in lab.candidates.iter().zip(values) {
                 if !c.dimension.agrees(&s.dimension) || !value.is_finite() || value == 0.0 {
                     continue;
                 }
-                // What the text itself has set says nothing of it.
-                if (own || t > 0) && c.constant || c.time.is_some_and(|x| close(x, truth)) && own {
+                // A value that the text itself sets is no result of the run.
+                if (sets_it || t > 0) && c.constant || c.time.is_some_and(|x| close(x, si(s))) && sets_it {
                     continue;
                 }
-                let alike = c.words.intersection(&around.words).count().min(MOST_WORDS);
-                let named = c.time.map_or(0.0, |x| around.time(x));
-                let known = match c.constant && alike == 0 {
-                    true if c.words.is_disjoint(&around.wide) => UNNAMED,
-                    true => NAMED_NEAR,
-                    false => 0.0,
-                };
-                let wide = c.words.intersection(&around.wide).count().saturating_sub(alike).min(MOST_WORDS);
-                let cost = c.cost + run + far + named + known - WORD * alike as f64 - WIDE * wide as f64;
+                let cost = around.cost_of_candidate(c, run, far);
                 let ratio = s.dimension.factor / c.dimension.factor;
-                let shown = value * ratio;
-                tried.push((cost, shown.abs()));
+                let in_unit = value * ratio;
+                tried.push((cost, in_unit.abs()));
                 for (sign, more) in [("", 0.0), ("-", OTHER_SIDE)] {
-                    let shown = if sign.is_empty() { shown } else { -shown };
-                    if s.read.is(shown) {
-                        let factor = factor(sign, ratio);
-                        let hit = Hit {
-                            place: Some((l, t)),
-                            measure: c.text.clone(),
-                            factor,
-                            value: shown,
-                            chance: 1.0,
-                        };
-                        let exact = if close(shown, s.read.value) { EXACT } else { 0.0 };
-                        hits.push((cost + more - exact, c.constant, hit));
+                    let value = if sign.is_empty() { in_unit } else { -in_unit };
+                    if !s.read.is(value) {
+                        continue;
                     }
+                    let (place, measure, factor) = (Some((l, t)), c.text.clone(), factor(sign, ratio));
+                    let exact = if close(value, s.read.value) { EXACT } else { 0.0 };
+                    matches.push(Match {
+                        cost: cost + more - exact,
+                        constant: c.constant,
+                        hit: Hit { place, measure, factor, value, chance: 1.0 },
+                    });
                 }
             }
         }
     }
-    hits.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let two = match hits.as_slice() {
-        [(cost, true, hit), others @ ..] => {
-            let kind = |hit: &Hit| hit.measure.rsplit('.').next().unwrap_or("").to_string();
-            others.iter().any(|(c, constant, h)| *constant && c - cost < APART && kind(h) != kind(hit))
-        }
-        _ => false,
-    };
-    if let Some((cost, _, mut hit)) = hits.into_iter().next() {
-        // A constant is a round number, and so is what a text rounds to: that they are equal says more.
-        let exact = close(hit.value, s.read.value);
-        let cost = if exact { cost + EXACT } else { cost };
-        let mut before: Vec<f64> = tried.iter().filter(|(c, _)| *c <= cost).map(|(_, x)| *x).collect();
-        before.sort_by(f64::total_cmp);
-        before.dedup_by(|a, b| close(*a, *b));
-        let window = if exact { window / 2.0 } else { window };
-        hit.chance = 1.0 - (1.0 - window).powf(before.len() as f64);
-        if hit.chance < CHANCE && !two {
-            return Origin::From(hit);
-        }
-        return around.setting(s, labs).map_or(Origin::Chance(hit), Origin::Setting);
-    }
-    around.setting(s, labs).map_or(Origin::Unknown, Origin::Setting)
+    (tried, matches)
+}
+
+/// Whether the best match is a constant, and a constant of another kind is about as good.
+fn is_ambiguous(matches: &[Match]) -> bool {
+    let [best, others @ ..] = matches else { return false };
+    let kind = |m: &Match| m.hit.measure.rsplit('.').next().unwrap_or("").to_string();
+    let rivals = |m: &Match| m.constant && m.cost - best.cost < APART && kind(m) != kind(best);
+    best.constant && others.iter().any(rivals)
 }
 
 /// Digits of a number that is known again.
@@ -171,10 +183,11 @@ const KNOWN: f64 = 3.0;
 /// A number that stands again is what it was, and a time at which something was measured is set.
 pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
     let open = |o: &Origin| matches!(o, Origin::Unknown | Origin::Chance(_));
-    let known: Vec<(usize, Origin)> = origins.iter().cloned().enumerate().filter(|(_, o)| !open(o)).collect();
+    let traced: Vec<(usize, Origin)> =
+        origins.iter().cloned().enumerate().filter(|(_, o)| !open(o)).collect();
     for (s, origin) in numbers.iter().zip(origins.iter_mut()).filter(|(s, o)| open(o) && !s.bound) {
         let digits = (s.read.value / (2.0 * s.read.half_unit)).abs().log10();
-        let again = known.iter().find(|(i, o)| {
+        let again = traced.iter().find(|(i, o)| {
             matches!(o, Origin::From(_)) && numbers.get(*i).is_some_and(|n| n.quote == s.quote)
         });
         // What explains it there explains it here best, too: fewer digits are enough.
@@ -187,7 +200,7 @@ pub(super) fn share(numbers: &[Stated], origins: &mut [Origin]) {
         let read_then = |o: &Origin| matches!(o, Origin::From(hit) if hit.measure.contains(&marked));
         if let Some((_, from)) = again {
             *origin = from.clone();
-        } else if s.unit.ends_with('s') && known.iter().any(|(_, o)| read_then(o)) {
+        } else if s.unit.ends_with('s') && traced.iter().any(|(_, o)| read_then(o)) {
             *origin = Origin::Setting("the time at which other numbers are read".into());
         }
     }
@@ -228,8 +241,8 @@ fn factor(sign: &str, ratio: f64) -> String {
 }
 
 /// How far away each lab is: by the labs of other models between, and whether it belongs to another question.
-fn distances(s: &Stated, labs: &[Tried<'_>]) -> Vec<f64> {
-    let away = |tried: &Tried<'_>| {
+fn distances(s: &Stated, labs: &[TracedLab<'_>]) -> Vec<f64> {
+    let away = |tried: &TracedLab<'_>| {
         let span = &tried.lab.span;
         span.start.saturating_sub(s.span.start).max(s.span.start.saturating_sub(span.end))
     };
@@ -240,7 +253,7 @@ fn distances(s: &Stated, labs: &[Tried<'_>]) -> Vec<f64> {
     for i in order {
         let (Some(tried), Some(place)) = (labs.get(i), all.get_mut(i)) else { continue };
         let name = tried.lab.model.as_ref().map(|m| m.as_str());
-        let rank = match models.iter().position(|known| name.is_some() && *known == name) {
+        let rank = match models.iter().position(|model| name.is_some() && *model == name) {
             Some(rank) => rank,
             None => {
                 models.push(name);
@@ -254,7 +267,7 @@ fn distances(s: &Stated, labs: &[Tried<'_>]) -> Vec<f64> {
 }
 
 /// What stands around a number.
-struct Around<'n> {
+struct NumberContext<'n> {
     words: BTreeSet<String>,
     /// Those of the whole paragraph.
     wide: BTreeSet<String>,
@@ -264,15 +277,15 @@ struct Around<'n> {
     near: Vec<&'n Stated>,
 }
 
-impl<'n> Around<'n> {
-    fn of(s: &Stated, numbers: &'n [Stated]) -> Around<'n> {
+impl<'n> NumberContext<'n> {
+    fn new(s: &Stated, numbers: &'n [Stated]) -> NumberContext<'n> {
         let other = |n: &&Stated| n.span != s.span;
         let beside = numbers.iter().filter(other).filter(|n| n.context == s.context).collect();
         let paragraph = numbers.iter().filter(other).filter(|n| n.paragraph == s.paragraph).collect();
         let text = format!("{} {}", s.context, s.column).to_lowercase();
         let wide = split_words(&s.paragraph).collect();
         let near = numbers.iter().filter(|n| n.span.start.abs_diff(s.span.start) < NEAR).collect();
-        Around { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
+        NumberContext { words: split_words(&text).collect(), wide, text, beside, paragraph, near }
     }
 
     /// How far-fetched a time is here.
@@ -289,6 +302,19 @@ impl<'n> Around<'n> {
     fn cost(&self, trial: &Trial, all: &[Trial]) -> f64 {
         let restored = if trial.restored.is_some() { RESTORED } else { 0.0 };
         restored + self.cost_of_setting(trial, all)
+    }
+
+    /// How far-fetched a measure is here, in a run and a lab that cost so much themselves.
+    fn cost_of_candidate(&self, c: &Candidate, run: f64, far: f64) -> f64 {
+        let shared = c.words.intersection(&self.words).count().min(MOST_WORDS);
+        let named = c.time.map_or(0.0, |x| self.time(x));
+        let unnamed = match c.constant && shared == 0 {
+            true if c.words.is_disjoint(&self.wide) => UNNAMED,
+            true => NAMED_NEAR,
+            false => 0.0,
+        };
+        let wide = c.words.intersection(&self.wide).count().saturating_sub(shared).min(MOST_WORDS);
+        c.cost + run + far + named + unnamed - WORD * shared as f64 - WIDE * wide as f64
     }
 
     fn cost_of_setting(&self, trial: &Trial, all: &[Trial]) -> f64 {
@@ -314,7 +340,7 @@ impl<'n> Around<'n> {
     }
 
     /// What the number is a setting of.
-    fn setting(&self, s: &Stated, labs: &[Tried<'_>]) -> Option<String> {
+    fn setting(&self, s: &Stated, labs: &[TracedLab<'_>]) -> Option<String> {
         let of =
             |trial: &Trial| trial.named.is_some_and(|(x, unit)| unit.agrees(&s.dimension) && close(x, si(s)));
         labs.iter().flat_map(|l| &l.trials).find(|t| of(t)).map(|t| t.words.clone())

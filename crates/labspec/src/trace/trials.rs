@@ -1,17 +1,15 @@
 //! The runs that a text speaks of: the lab as it stands, a control at a value that is named, a button, a timestep.
 
-use super::candidates::Candidate;
-use super::text;
-use crate::bind::{Programs, given_by, scalar};
+use super::units::{LONGEST_TIMESTEP, round, second, si};
+use super::words::text;
+use crate::bind::{given_by, scalar};
 use crate::json::{Number, Scalar};
-use crate::run::{StepVariant, settings};
+use crate::run::settings;
 use crate::spec::format::RUN_LENGTH;
-use crate::spec::{Control, ControlKind, Lab, Run, Verify};
-use crate::verify::{self, BoundLab, BoundVerify, Stage, Stated};
-use labspec_core::Model;
+use crate::spec::{Control, ControlKind, Lab, Run};
+use crate::verify::Stated;
 use labspec_expr::Value;
 use labspec_expr::dimension::{Dimension, Measure};
-use std::sync::Arc;
 
 /// A run.
 #[derive(Clone, Debug)]
@@ -39,8 +37,6 @@ pub(crate) struct Trial {
 /// Most values of one control, and most runs of one lab.
 const VALUES: usize = 8;
 pub(super) const MOST: usize = 40;
-/// The longest timestep that anybody means, s.
-pub(super) const LONGEST: f64 = 0.05;
 /// The length of a run is that of the longest plot, up to this, s.
 const LENGTH: f64 = 10.0;
 
@@ -61,19 +57,24 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
     };
     let mut all = vec![base.clone()];
     for control in &lab.controls {
-        of_control(control, numbers, &base, &mut all);
+        add_control_trials(control, numbers, &base, &mut all);
     }
     let sets_timestep =
         lab.controls.iter().filter_map(Control::action).any(|a| {
             [&a.set, &a.apply].into_iter().flatten().any(|text| text.value.contains("opt.timestep"))
         });
     if !sets_timestep {
-        let mut known = Vec::new();
+        let mut timesteps = Vec::new();
         for s in numbers.iter().filter(|s| s.context.contains("step") || s.context.contains("$h$")) {
             let value = si(s);
             let is_time = s.dimension == second().times(s.dimension.factor);
-            if is_time && value > 0.0 && value <= LONGEST && !known.contains(&value) && known.len() < VALUES {
-                known.push(value);
+            if is_time
+                && value > 0.0
+                && value <= LONGEST_TIMESTEP
+                && !timesteps.contains(&value)
+                && timesteps.len() < VALUES
+            {
+                timesteps.push(value);
                 let words = format!("with a timestep of {value} s");
                 let named = Some((value, second()));
                 all.push(Trial { words, timestep: Some(value), named, ..base.clone() });
@@ -84,7 +85,8 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
     all
 }
 
-fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec<Trial>) {
+/// The runs in which a control has a value that the text names.
+fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec<Trial>) {
     let label = control.label.as_str();
     match &control.kind {
         ControlKind::Slider { value: start, .. } => {
@@ -126,21 +128,6 @@ fn of_control(control: &Control, numbers: &[Stated], base: &Trial, all: &mut Vec
     }
 }
 
-/// A number in SI units.
-pub(crate) fn si(s: &Stated) -> f64 {
-    round(s.read.value / s.dimension.factor)
-}
-
-/// A second.
-pub(super) fn second() -> Dimension {
-    labspec_bind::units::parse("s").unwrap_or(Dimension::NUMBER)
-}
-
-/// Without what the last bits of a conversion are.
-fn round(x: f64) -> f64 {
-    format!("{x:.12e}").parse().unwrap_or(x)
-}
-
 impl Trial {
     /// Whether both give a value to the same thing.
     pub(super) fn sets_what(&self, other: &Trial) -> bool {
@@ -174,24 +161,4 @@ impl Trial {
             breaks: false,
         }
     }
-}
-
-/// Makes a run, and measures. What breaks has no values.
-pub(super) fn values(
-    trial: &Trial,
-    lab: &Lab,
-    model: &Arc<Model>,
-    programs: &Programs,
-    candidates: &[Candidate],
-    stage: &Stage<'_>,
-    numerics: StepVariant,
-) -> Vec<f64> {
-    let none = || vec![f64::NAN; candidates.len()];
-    let name = |i: usize| text(&format!("m{i}"));
-    let measure = candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect();
-    let verify = Verify::measuring(0..0, vec![trial.run("run")], measure);
-    let scene = BoundLab::new(lab, model, programs);
-    let bound = BoundVerify::new(&verify, None, &[vec![scene]], stage, &mut Vec::new());
-    let found = bound.and_then(|bound| verify::measure_only_run(&bound, numerics));
-    found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)
 }

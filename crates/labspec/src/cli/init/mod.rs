@@ -1,6 +1,9 @@
 //! `labspec init`: a folder for lessons, with one that is true.
 
-use super::{Failure, Outcome, OutputKind, print, write_file};
+use super::common::{Failure, Outcome};
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use crate::report::printable_path;
 use std::path::{Path, PathBuf};
 
@@ -30,16 +33,16 @@ pub(super) fn init(a: &Arguments) -> Result<Outcome, Failure> {
             printable_path(path)
         ));
     }
-    let mut told = String::new();
+    let mut message = String::new();
     for (path, text) in places {
         let folder = path.parent().unwrap_or(Path::new("."));
         std::fs::create_dir_all(folder)
             .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
         write_file(&path, OutputKind::New, text)?;
-        told.push_str(&format!("wrote {}\n", printable_path(&path)));
+        message.push_str(&format!("wrote {}\n", printable_path(&path)));
     }
     let lessons = a.folder.join("lessons");
-    told.push_str(&format!("\nnow run: labspec check {}\n", printable_path(&lessons)));
-    print(&told)?;
+    message.push_str(&format!("\nnow run: labspec check {}\n", printable_path(&lessons)));
+    print(&message)?;
     Ok(Outcome::Clean)
 }

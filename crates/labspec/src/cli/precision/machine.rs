@@ -1,6 +1,6 @@
 //! A comparison for programs: CSV and JSON.
 
-use crate::precision::{BesideRow, Compared, Cost, Errors, Fate, Report, Row};
+use crate::precision::{BesideRow, Compared, Errors, Fate, Report, Row, RunCost};
 use crate::report::{key, set_number, set_numbers};
 use serde_json::{Value, json};
 use std::io;
@@ -14,7 +14,7 @@ pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
     for row in &report.rows {
         let solver = row.setting.solver.map_or(String::new(), |s| s.name());
         let start = format!("{},{solver},{},{}", row.setting.integrator.name, row.setting.timestep, row.own);
-        let Cost { median, low, high, work } = row.cost;
+        let RunCost { median, low, high, work } = row.cost;
         let end = format!("{},{median},{low},{high},{work}", key(row.fate.word()));
         if row.errors.is_empty() {
             writeln!(out, "{start},,,,,,,,,{end}")?;

@@ -4,10 +4,13 @@ mod chart;
 mod machine;
 mod table;
 
-use super::lab_args::Handled;
+use super::common::{Failure, Outcome, interrupted};
+use super::lab_args::LabArguments;
+use super::output::write_file;
 use super::output::{wanted, write_png, write_with};
+use super::output_kind::OutputKind;
+use super::stdio::print;
 use super::stdio::{Progress, print_json, stream};
-use super::{Failure, Outcome, OutputKind, interrupted, print, write_file};
 use crate::precision::{
     Axis, Fate, INTEGRATORS, Integrator, Options, Recording, Report, compare, milliseconds,
 };
@@ -25,7 +28,7 @@ use table::{others, setting, table};
 #[derive(clap::Args, Debug)]
 pub(super) struct Arguments {
     #[command(flatten)]
-    handled: Handled,
+    handled: LabArguments,
     /// Length in seconds [default: the lab's stopAt, or 2]
     #[arg(long, value_name = "S")]
     until: Option<f64>,
@@ -138,10 +141,11 @@ fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
     if names.iter().any(|n| n == "all") {
         return Ok(INTEGRATORS.to_vec());
     }
-    let known = || INTEGRATORS.map(|i| i.name).join(", ");
+    let names_of_all = || INTEGRATORS.map(|i| i.name).join(", ");
     let one = |name: &String| {
-        Integrator::named(name)
-            .ok_or_else(|| format!("--integrator {name}: unknown name; use one of {}, or all", known()))
+        Integrator::named(name).ok_or_else(|| {
+            format!("--integrator {name}: unknown name; use one of {}, or all", names_of_all())
+        })
     };
     names.iter().map(one).collect()
 }
@@ -210,10 +214,10 @@ fn compared_at(report: &Report) -> String {
 /// What became of each run.
 fn fates(report: &Report, text: &mut String) {
     for row in &report.rows {
-        let told = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
+        let reason = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
         let _ = writeln!(
             text,
-            "  {} at {} ms {}{told}",
+            "  {} at {} ms {}{reason}",
             setting(row),
             milliseconds(row.setting.timestep),
             row.fate.word()

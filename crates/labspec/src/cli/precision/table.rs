@@ -8,8 +8,8 @@ use std::fmt::Write;
 
 pub(super) fn setting(row: &Row) -> String {
     let solver = row.setting.solver.map_or(String::new(), |s| format!(" {}", s.name()));
-    let own = if row.own { " *" } else { "" };
-    format!("{}{solver}{own}", row.setting.integrator.name)
+    let mark = if row.own { " *" } else { "" };
+    format!("{}{solver}{mark}", row.setting.integrator.name)
 }
 
 /// A column of the table: what it is, and a cell for each row.
@@ -157,12 +157,12 @@ fn about(target: &Compared) -> String {
 /// Another program's runs: the same columns of errors, its own times.
 pub(super) fn others(report: &Report, beside: &Beside, text: &mut String) {
     let _ = writeln!(text, "\nBeside: {}, largest errors against the same truth", printable(&beside.engine));
-    let shown = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(ABREAST);
+    let columns = || report.targets.iter().enumerate().filter(|(_, t)| !t.blank).take(ABREAST);
     for row in &beside.rows {
         let cell = |(i, target): (usize, &Compared)| {
             format!(" {:>10}", row.errors.get(i).map_or("–".into(), |e| error(e, target)))
         };
-        let cells: String = shown().map(cell).collect();
+        let cells: String = columns().map(cell).collect();
         let h = format!("{} ms", milliseconds(row.timestep));
         let _ = writeln!(text, "  {:<12} {h:>10} {:>29.0}{cells}", printable(&row.integrator), row.cost);
     }

@@ -12,7 +12,7 @@ pub(super) struct Coverage {
 }
 
 impl Coverage {
-    pub(super) fn of(c: &Checked) -> Coverage {
+    pub(super) fn measure(c: &Checked) -> Coverage {
         let counted = verify::counted(&c.lesson);
         Coverage { claimed: counted.claimed.len(), unclaimed: counted.left }
     }

@@ -1,12 +1,13 @@
 //! What a claim rests on: its runs, its measures, the numbers it quotes, its closed forms.
 
-use super::lesson::Context;
+use super::context::LessonContext;
 use super::plots::plots;
 use super::settings;
-use super::text::{code, many, plain, text};
+use super::text::{code, plain, text};
 use super::verdict::verdict;
 use crate::check::Claim;
 use crate::ledger::{Evidence, State, Subject};
+use crate::printable::counted;
 use crate::spec::Verify;
 use crate::verify::{Measured, Quote, QuoteState, significant};
 use std::fmt::Write;
@@ -15,7 +16,7 @@ use std::fmt::Write;
 const PLACES: usize = 8;
 
 /// The pictures of a claim, and its tables, folded up where there is nothing to doubt.
-pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let mut out = String::new();
     let spec = spec.map(|verify| context.lesson.whole(verify));
     if let Some(drawn) = spec.and_then(|verify| context.curves.iter().find(|d| d.span == verify.span)) {
@@ -28,12 +29,13 @@ pub(super) fn evidence(claim: &Claim, spec: Option<&Verify>, context: &Context<'
         (judgement.quotes.len(), "quoted number"),
         (judgement.exact.len(), "closed form"),
     ];
-    let told: Vec<String> = counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| many(*n, one)).collect();
-    if told.is_empty() {
+    let nonzero: Vec<String> =
+        counts.iter().filter(|(n, _)| *n > 0).map(|(n, one)| counted(*n, one)).collect();
+    if nonzero.is_empty() {
         return out;
     }
     let open = if claim.is_doubtful() { " open=\"open\"" } else { "" };
-    let _ = writeln!(out, "<details{open}><summary>{}</summary>", told.join(", "));
+    let _ = writeln!(out, "<details{open}><summary>{}</summary>", nonzero.join(", "));
     for table in
         [quotes(claim, context), forms(claim, spec, context), measures(claim), runs(claim, spec, context)]
     {
@@ -69,14 +71,15 @@ fn number(x: f64) -> String {
     format!("<span class=\"number\">{}</span>", plain(&significant(x)))
 }
 
-fn quotes(claim: &Claim, context: &Context<'_>) -> String {
+fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
     let row = |q: &Quote| {
-        let own = match q.state {
+        let state_of_quote = match q.state {
             QuoteState::Right => State::True(q.evidence),
             QuoteState::Wrong => State::False,
             QuoteState::Unclear => State::Unchecked,
         };
-        let (state, word) = context.state(Subject::Quote, &q.span, &q.text).unwrap_or((own, q.verdict()));
+        let (state, word) =
+            context.state(Subject::Quote, &q.span, &q.text).unwrap_or((state_of_quote, q.verdict()));
         let mut lines: Vec<usize> =
             context.shown.places(&q.text).iter().map(|at| context.line(at.start)).collect();
         // A cell of a table stands where it is claimed.
@@ -97,7 +100,7 @@ fn quotes(claim: &Claim, context: &Context<'_>) -> String {
     table("Quoted numbers", &["text", "computed", "verdict", "line", "why"], &rows)
 }
 
-fn forms(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+fn forms(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let row = |form: &crate::verify::ClosedForm| {
         let word = match form.state {
             State::True(_) => "verified",
@@ -124,7 +127,7 @@ fn measures(claim: &Claim) -> String {
     table("Measures", &["measure", "value", "at half the timestep, where it differs"], &rows)
 }
 
-fn runs(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
+fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let judgement = &claim.judgement;
     let begun = context.runs(&claim.name).filter(|begun| begun.len() == judgement.runs.len()).unwrap_or(&[]);
     let numerics: Vec<String> =
@@ -132,22 +135,22 @@ fn runs(claim: &Claim, spec: Option<&Verify>, context: &Context<'_>) -> String {
     // What all of them have is said once.
     let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
     let row = |(i, r): (usize, &crate::verify::RunReport)| {
-        let own = match (&judgement.unmade, &r.broke, r.expected) {
+        let outcome = match (&judgement.unmade, &r.broke, r.expected) {
             (Some(_), ..) => (State::Unchecked, "not made"),
             (None, Some(_), true) => (State::True(Evidence::Simulated), "breaks"),
             (None, Some(_), false) => (State::False, "broken"),
             (None, None, true) => (State::False, "does not break"),
             (None, None, false) => (State::True(Evidence::Simulated), "made"),
         };
-        let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(own);
+        let (state, word) = context.state(Subject::Run, &r.span, &r.name).unwrap_or(outcome);
         let how = judgement.unmade.as_deref().or(r.broke.as_deref()).unwrap_or("");
         let made = spec.and_then(|v| v.runs.iter().find(|run| run.name.span() == r.span));
-        let own = numerics.get(i).filter(|_| same.is_none()).cloned().unwrap_or_default();
+        let settings_of_run = numerics.get(i).filter(|_| same.is_none()).cloned().unwrap_or_default();
         vec![
             code(&r.name),
             verdict(state, word),
             settings::done(made, &r.name),
-            own,
+            settings_of_run,
             text(&context.names.shorten(how)),
         ]
     };

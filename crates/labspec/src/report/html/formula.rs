@@ -73,13 +73,13 @@ pub(super) fn of_html(html: &str) -> String {
 
 /// A text with its formulas.
 fn text(text: &str) -> String {
-    let shown: Vec<&str> = cut(text).split_whitespace().collect();
-    let shown = shown.join(" ");
-    if shown.is_empty() {
+    let visible: Vec<&str> = cut(text).split_whitespace().collect();
+    let visible = visible.join(" ");
+    if visible.is_empty() {
         return rest(text);
     }
     let mut out = String::from("<bdi>");
-    let mut left = shown.as_str();
+    let mut left = visible.as_str();
     while let Some((before, tex, after)) = formula(left) {
         out.push_str(&escape(before));
         out.push_str(&read(tex, 0).unwrap_or_else(|| format!("<code>{}</code>", escape(tex.trim()))));
@@ -141,34 +141,7 @@ fn read(tex: &str, deep: usize) -> Option<String> {
                 letters.push(place);
                 left = after;
             }
-            '\\' => {
-                let length = left.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
-                let name = left.get(1..1 + length)?;
-                let after = left.get(1 + length..)?;
-                if let Some((_, letter)) = LETTERS.iter().find(|(known, _)| *known == name) {
-                    letters.push(*letter);
-                    let next = after.trim_start_matches(' ');
-                    left = if next.starts_with(char::is_alphanumeric) && letter.is_alphabetic() {
-                        next
-                    } else {
-                        after
-                    };
-                } else if FUNCTIONS.contains(&name) {
-                    let apart =
-                        after.trim_start_matches(' ').starts_with(|c: char| c.is_alphanumeric() || c == '\\');
-                    letters.push_str(name);
-                    letters.push_str(if apart { " " } else { "" });
-                    left = after.trim_start_matches(' ');
-                } else {
-                    // What stands behind one sign belongs to it: `\,`, `\%`.
-                    let sign = after.chars().next().filter(|_| length == 0).map_or(0, char::len_utf8);
-                    letters.push_str(left.get(..1 + length + sign)?);
-                    // A space behind a relation is shown; behind other names it ends the name.
-                    let apart = RELATIONS.contains(&name) && after.starts_with(' ');
-                    letters.push_str(if apart { "{}" } else { "" });
-                    left = after.get(sign..)?;
-                }
-            }
+            '\\' => left = read_command(left, &mut letters)?,
             // Columns of a matrix, and remarks.
             '&' | '%' => return None,
             c => {
@@ -190,6 +163,33 @@ fn read(tex: &str, deep: usize) -> Option<String> {
         out.extend(script.map(String::as_str));
     }
     Some(out)
+}
+
+/// Reads a command at the beginning of a text into letters, and returns the rest.
+fn read_command<'t>(tex: &'t str, letters: &mut String) -> Option<&'t str> {
+    let length = tex.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
+    let name = tex.get(1..1 + length)?;
+    let after = tex.get(1 + length..)?;
+    if let Some((_, letter)) = LETTERS.iter().find(|(command, _)| *command == name) {
+        letters.push(*letter);
+        let next = after.trim_start_matches(' ');
+        let joins = next.starts_with(char::is_alphanumeric) && letter.is_alphabetic();
+        return Some(if joins { next } else { after });
+    }
+    if FUNCTIONS.contains(&name) {
+        let next = after.trim_start_matches(' ');
+        let apart = next.starts_with(|c: char| c.is_alphanumeric() || c == '\\');
+        letters.push_str(name);
+        letters.push_str(if apart { " " } else { "" });
+        return Some(next);
+    }
+    // The character after a single sign belongs to it: `\,`, `\%`.
+    let sign = after.chars().next().filter(|_| length == 0).map_or(0, char::len_utf8);
+    letters.push_str(tex.get(..1 + length + sign)?);
+    // A space after a relation is displayed; after other names it ends the name.
+    let apart = RELATIONS.contains(&name) && after.starts_with(' ');
+    letters.push_str(if apart { "{}" } else { "" });
+    after.get(sign..)
 }
 
 /// What stands raised or lowered: a group, a command or a letter; and what stands behind it.

@@ -1,59 +1,24 @@
 //! One lesson of the page: what was checked, what was found, its questions, its labs.
 
+use super::context::LessonContext;
 use super::coverage::Coverage;
 use super::evidence::evidence;
-use super::question::{self, Asked};
-use super::text::{Names, code, many, plain, text};
+use super::material::Material;
+use super::question::{self, QuestionPage};
+use super::text::{Names, code, plain, text};
 use super::verdict::{severity, verdict};
-use crate::check::{Allowed, Basis, Checked, Claim, Drawn, RunSettings};
+use crate::check::{Allowed, Checked, Claim};
 use crate::finding::Finding;
 use crate::ledger::{Entry, Ledger, State, Subject};
+use crate::printable::counted;
 use crate::source::SourceFile;
-use crate::spec::{Lesson, Quiz, Verify};
+use crate::spec::{Quiz, Verify};
 use crate::verify::ShownText;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::ops::Range;
 
 /// Most unclaimed numbers that are listed.
 const LISTED: usize = 200;
-
-/// Everything that the pieces of a lesson look things up in.
-pub(super) struct Context<'a> {
-    pub(super) lesson: &'a Lesson,
-    pub(super) names: &'a Names,
-    pub(super) curves: &'a [Drawn],
-    pub(super) shown: ShownText,
-    basis: Option<&'a Basis>,
-    entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,
-}
-
-impl<'a> Context<'a> {
-    pub(super) fn line(&self, at: usize) -> usize {
-        self.lesson.file.position(at).line
-    }
-
-    /// The runs of a claim, with the settings of each as it begins.
-    pub(super) fn runs(&self, claim: &str) -> Option<&'a [(String, Option<RunSettings>)]> {
-        let known = self.basis?.claims.iter().find(|known| known.name == claim)?;
-        Some(&known.runs)
-    }
-
-    fn entry(&self, subject: Subject, span: &Range<usize>, what: &str) -> Option<&'a Entry> {
-        let all = self.entries.get(&(subject, span.start, span.end))?;
-        all.iter().find(|e| e.what == what).or(all.first()).copied()
-    }
-
-    /// What the ledger says of a claim: its state, and that in a word.
-    pub(super) fn state(
-        &self,
-        subject: Subject,
-        span: &Range<usize>,
-        what: &str,
-    ) -> Option<(State, &'a str)> {
-        self.entry(subject, span, what).map(|e| (e.state, e.word))
-    }
-}
 
 /// A lesson, ready to be written.
 pub(super) struct LessonPage<'a> {
@@ -65,28 +30,28 @@ pub(super) struct LessonPage<'a> {
     pub(super) findings: Vec<&'a Finding>,
     pub(super) allowed: Vec<&'a Allowed>,
     pub(super) coverage: Coverage,
-    pub(super) questions: Vec<Asked<'a>>,
+    pub(super) questions: Vec<QuestionPage<'a>>,
     checked: &'a Checked,
-    context: Context<'a>,
+    context: LessonContext<'a>,
 }
 
 impl<'a> LessonPage<'a> {
     pub(super) fn new(
         number: usize,
         checked: &'a Checked,
-        page: &super::Material<'a>,
+        page: &Material<'a>,
         names: &'a Names,
     ) -> LessonPage<'a> {
         let lesson = &checked.lesson;
         let path = lesson.file.path();
-        let mut own = Ledger::default();
+        let mut ledger = Ledger::default();
         let mut entries: BTreeMap<_, Vec<&Entry>> = BTreeMap::new();
         for e in page.ledger.entries().iter().filter(|e| e.path == *path) {
-            own.add(e.clone());
+            ledger.add(e.clone());
             entries.entry((e.subject, e.span.start, e.span.end)).or_default().push(e);
         }
         let curves = page.curves.get(number - 1).map_or(&[][..], Vec::as_slice);
-        let context = Context {
+        let context = LessonContext {
             lesson,
             names,
             curves,
@@ -98,10 +63,10 @@ impl<'a> LessonPage<'a> {
         let questions = asked(checked, &context, &anchor);
         LessonPage {
             name: names.short(path),
-            summary: own.summary(),
+            summary: ledger.summary(),
             findings: page.findings.iter().filter(|f| f.path == *path).collect(),
             allowed: page.allowed.iter().filter(|a| a.finding.path == *path).collect(),
-            coverage: Coverage::of(checked),
+            coverage: Coverage::measure(checked),
             anchor,
             questions,
             checked,
@@ -111,7 +76,7 @@ impl<'a> LessonPage<'a> {
 }
 
 /// Every question of a lesson, with its claim.
-fn asked<'a>(checked: &'a Checked, context: &Context<'a>, anchor: &str) -> Vec<Asked<'a>> {
+fn asked<'a>(checked: &'a Checked, context: &LessonContext<'a>, anchor: &str) -> Vec<QuestionPage<'a>> {
     let claims: BTreeMap<(usize, usize), &Claim> =
         checked.claims.iter().map(|c| ((c.span.start, c.span.end), c)).collect();
     let mut all = Vec::new();
@@ -120,7 +85,7 @@ fn asked<'a>(checked: &'a Checked, context: &Context<'a>, anchor: &str) -> Vec<A
         for (n, question) in Quiz::numbered(quiz) {
             let span = question.verify.as_ref().map_or(&question.span, |v| &v.span);
             let entry = context.entry(Subject::Answer, span, "");
-            all.push(Asked {
+            all.push(QuestionPage {
                 anchor: format!("{anchor}-question-{}", all.len() + 1),
                 name: format!("quiz {id}, question {n}"),
                 question,
@@ -147,7 +112,7 @@ pub(super) fn write(part: &LessonPage<'_>) -> String {
         let _ = writeln!(
             out,
             "<details><summary>{} suppressed by the lesson</summary>\n<ul>",
-            many(allowed.len(), "finding")
+            counted(allowed.len(), "finding")
         );
         for a in allowed {
             let Finding { code: rule, message, span, .. } = &a.finding;
@@ -191,9 +156,9 @@ pub(super) fn found(findings: &[&Finding], sources: &[&SourceFile], names: &Name
             code(f.code),
             text(&names.shorten(&f.message))
         );
-        for (word, said) in [("why", &f.why), ("help", &f.help)] {
-            if let Some(said) = said.as_ref().filter(|said| !said.is_empty()) {
-                let _ = write!(out, "<p class=\"soft\">{word}: {}</p>", text(&names.shorten(said)));
+        for (word, sentence) in [("why", &f.why), ("help", &f.help)] {
+            if let Some(sentence) = sentence.as_ref().filter(|s| !s.is_empty()) {
+                let _ = write!(out, "<p class=\"soft\">{word}: {}</p>", text(&names.shorten(sentence)));
             }
         }
         out.push_str("</li>\n");
@@ -235,11 +200,11 @@ fn labs(part: &LessonPage<'_>) -> String {
         write(&format!("lab {address}"), lab.title(), entry, line, lab.verify.as_ref());
     }
     // Labs that stand inside `verify` objects, and claim something themselves.
-    let told = |claim: &Claim| {
+    let is_written = |claim: &Claim| {
         let asked = questions.iter().any(|q| q.claim.is_some_and(|c| c.span == claim.span));
         asked || addressed.iter().any(|(_, lab)| lab.verify.as_ref().is_some_and(|v| v.span == claim.span))
     };
-    for claim in checked.claims.iter().filter(|claim| !told(claim)) {
+    for claim in checked.claims.iter().filter(|claim| !is_written(claim)) {
         let verify = context.lesson.verifies().find(|v| v.span == claim.span);
         write(&claim.name, "", None, context.line(claim.span.start), verify);
     }
@@ -254,7 +219,7 @@ fn unclaimed(part: &LessonPage<'_>) -> String {
     }
     let mut out = format!(
         "<details class=\"numbers\"><summary>{} that nothing claims</summary>\n<ul>\n",
-        many(all.len(), "number with a unit").replace("number with a units", "numbers with units")
+        counted(all.len(), "number with a unit").replace("number with a units", "numbers with units")
     );
     for s in all.iter().take(LISTED) {
         let line = part.context.line(s.span.start);

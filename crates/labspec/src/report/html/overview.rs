@@ -1,18 +1,19 @@
 //! The top of the page: what it all comes to, and how much of what the course says is claimed.
 
 use super::lesson::LessonPage;
-use super::question::Asked;
-use super::text::{many, plain, text};
+use super::question::QuestionPage;
+use super::text::{plain, text};
 use super::verdict::{bar, verdict};
 use crate::finding::Finding;
 use crate::ledger::State;
+use crate::printable::counted;
 use crate::report::Summary;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// The whole course in one view.
 pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
-    let mut out = format!("<header>\n<h1>{}, checked</h1>\n", many(parts.len(), "lesson"));
+    let mut out = format!("<header>\n<h1>{}, checked</h1>\n", counted(parts.len(), "lesson"));
     let _ = writeln!(out, "<p class=\"summary\">{}</p>\n</header>", plain(summary));
     out.push_str("<section id=\"coverage\">\n<h2>How much is claimed</h2>\n");
     out.push_str(&whole(parts));
@@ -23,11 +24,11 @@ pub(super) fn write(parts: &[LessonPage<'_>], summary: &str) -> String {
 }
 
 /// Questions that have a keyed answer.
-fn keyed<'p, 'a>(part: &'p LessonPage<'a>) -> impl Iterator<Item = &'p Asked<'a>> {
+fn keyed<'p, 'a>(part: &'p LessonPage<'a>) -> impl Iterator<Item = &'p QuestionPage<'a>> {
     part.questions.iter().filter(|q| q.word != "open")
 }
 
-fn is_claimed(asked: &&Asked<'_>) -> bool {
+fn is_claimed(asked: &&QuestionPage<'_>) -> bool {
     asked.state != State::NotClaimed
 }
 
@@ -88,7 +89,7 @@ fn called(state: State, word: &str) -> &str {
 
 /// Every question under its verdict, and those with options that nothing decides.
 fn verdicts(parts: &[LessonPage<'_>]) -> String {
-    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &Asked<'_>)>> = BTreeMap::new();
+    let mut by_word: BTreeMap<(State, &str), Vec<(&LessonPage<'_>, &QuestionPage<'_>)>> = BTreeMap::new();
     let mut undecided = Vec::new();
     let mut options = 0;
     for part in parts {
@@ -108,18 +109,18 @@ fn verdicts(parts: &[LessonPage<'_>]) -> String {
     let good = |state: &State| matches!(state, State::True(_));
     let (last, first): (Vec<_>, Vec<_>) = by_word.iter().partition(|((state, _), _)| good(state));
     for ((state, word), all) in first.into_iter().chain(last) {
-        let title = verdict(*state, &format!("{} {}", many(all.len(), "question"), called(*state, word)));
+        let title = verdict(*state, &format!("{} {}", counted(all.len(), "question"), called(*state, word)));
         out.push_str(&list(&title, all, !good(state)));
     }
     if !undecided.is_empty() {
-        let title = verdict(State::NotClaimed, &format!("{} undecided", many(options, "option")));
+        let title = verdict(State::NotClaimed, &format!("{} undecided", counted(options, "option")));
         out.push_str(&list(&title, &undecided, false));
     }
     out.push_str("</section>\n");
     out
 }
 
-fn list(title: &str, all: &[(&LessonPage<'_>, &Asked<'_>)], open: bool) -> String {
+fn list(title: &str, all: &[(&LessonPage<'_>, &QuestionPage<'_>)], open: bool) -> String {
     let open = if open { " open=\"open\"" } else { "" };
     let mut out = format!("<details{open}><summary>{title}</summary>\n<ul>\n");
     for (part, q) in all {

@@ -1,7 +1,7 @@
 //! What the labs show in the runs of a claim, drawn.
 
-use super::text::many;
 use crate::check::Drawn;
+use crate::printable::counted;
 use crate::printable::printable;
 use crate::spec::Plot;
 use crate::verify::Curves;
@@ -38,7 +38,7 @@ pub(super) fn plots(drawn: &Drawn) -> String {
     }
     let left = all.len().saturating_sub(PICTURES);
     let more = if left > 0 {
-        format!("<p class=\"soft\">{} not drawn</p>", many(left, "more plot"))
+        format!("<p class=\"soft\">{} not drawn</p>", counted(left, "more plot"))
     } else {
         String::new()
     };

@@ -1,8 +1,8 @@
 //! A question: what is asked, what is keyed, and how each option fared.
 
+use super::context::LessonContext;
 use super::evidence::evidence;
 use super::formula;
-use super::lesson::Context;
 use super::text::{code, plain, text};
 use super::verdict::{condition, verdict};
 use crate::check::Claim;
@@ -12,7 +12,7 @@ use crate::verify::{self, Answer, Weight, significant};
 use std::fmt::Write;
 
 /// A question of a lesson, with what became of it.
-pub(super) struct Asked<'a> {
+pub(super) struct QuestionPage<'a> {
     /// Where links to it lead.
     pub(super) anchor: String,
     /// `quiz fall, question 2`.
@@ -26,7 +26,7 @@ pub(super) struct Asked<'a> {
     pub(super) remark: &'a str,
 }
 
-impl Asked<'_> {
+impl QuestionPage<'_> {
     /// Options of it that the evidence does not decide.
     pub(super) fn undecided(&self) -> usize {
         self.answer().map_or(0, |a| a.weights.iter().filter(|w| w.holds.is_none()).count())
@@ -42,8 +42,8 @@ impl Asked<'_> {
 }
 
 /// The question as a piece of the page.
-pub(super) fn write(asked: &Asked<'_>, context: &Context<'_>) -> String {
-    let Asked { anchor, name, question, claim, state, word, remark } = asked;
+pub(super) fn write(asked: &QuestionPage<'_>, context: &LessonContext<'_>) -> String {
+    let QuestionPage { anchor, name, question, claim, state, word, remark } = asked;
     let spec = question.verify.as_ref();
     let line = context.line(question.span.start);
     let mut out = format!(

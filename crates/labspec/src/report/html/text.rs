@@ -8,8 +8,8 @@ const LONG: usize = 2000;
 
 /// A text in one line, to stand between tags. Its direction of writing ends with it.
 pub(super) fn text(text: &str) -> String {
-    let shown = plain(text);
-    if shown.is_empty() { shown } else { format!("<bdi>{shown}</bdi>") }
+    let visible = plain(text);
+    if visible.is_empty() { visible } else { format!("<bdi>{visible}</bdi>") }
 }
 
 /// The same where no tag may stand: in attributes and in the title.
@@ -55,11 +55,6 @@ pub(super) fn escape(text: &str) -> String {
     out
 }
 
-/// `1 run`, `3 runs`.
-pub(super) fn many(n: usize, one: &str) -> String {
-    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
-}
-
 /// Paths without the folder that all of them share, so that a page says nothing of the machine.
 pub(super) struct Names {
     folder: String,
@@ -67,7 +62,7 @@ pub(super) struct Names {
 
 impl Names {
     /// For these files.
-    pub(super) fn of<'p>(mut paths: impl Iterator<Item = &'p str>) -> Names {
+    pub(super) fn shorten_paths<'p>(mut paths: impl Iterator<Item = &'p str>) -> Names {
         let folder_of = |path: &str| path.rfind(['/', '\\']).map_or(0, |at| at + 1);
         let Some(first) = paths.next() else { return Names { folder: String::new() } };
         let mut folder = first.get(..folder_of(first)).unwrap_or("");
@@ -119,12 +114,12 @@ mod tests {
 
     #[test]
     fn paths_lose_what_they_share() {
-        let names = Names::of(["/home/me/course/a.md", "/home/me/course/b/c.md"].into_iter());
+        let names = Names::shorten_paths(["/home/me/course/a.md", "/home/me/course/b/c.md"].into_iter());
         assert_eq!(names.short("/home/me/course/b/c.md"), "b/c.md");
         assert_eq!(names.short("/home/me/models/x.xml"), "x.xml");
         assert_eq!(names.shorten("no /home/me/course/a.md"), "no a.md");
-        assert_eq!(Names::of(["a.md"].into_iter()).short("a.md"), "a.md");
-        assert_eq!(Names::of(["a/x.md", "b/x.md"].into_iter()).short("b/x.md"), "b/x.md");
-        assert_eq!(Names::of(std::iter::empty()).short("/root/a.md"), "a.md");
+        assert_eq!(Names::shorten_paths(["a.md"].into_iter()).short("a.md"), "a.md");
+        assert_eq!(Names::shorten_paths(["a/x.md", "b/x.md"].into_iter()).short("b/x.md"), "b/x.md");
+        assert_eq!(Names::shorten_paths(std::iter::empty()).short("/root/a.md"), "a.md");
     }
 }

@@ -2,15 +2,13 @@
 //! its steps, measured again and again in turn with all others, so that what else the machine does meets them all.
 
 use super::case::PrecisionCase;
-use super::setting::{Integrator, Setting};
+use super::setting::Setting;
 use crate::interrupt;
-use crate::run::Session;
-use labspec_core::{self as core, integrator};
 use std::time::{Duration, Instant};
 
 /// What a simulated second costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cost {
+pub struct RunCost {
     /// The middle of the repeats, µs of run time; NaN where nothing was measured.
     pub median: f64,
     /// A quarter of the repeats is quicker than this,
@@ -22,30 +20,11 @@ pub struct Cost {
     pub work: f64,
 }
 
-impl Cost {
+impl RunCost {
     /// Work whose time is not measured.
-    pub(super) fn of_work(work: f64) -> Cost {
-        Cost { median: f64::NAN, low: f64::NAN, high: f64::NAN, work }
+    pub(super) fn of_work(work: f64) -> RunCost {
+        RunCost { median: f64::NAN, low: f64::NAN, high: f64::NAN, work }
     }
-}
-
-/// What an integrator adds to a step without being counted by the engine: derivatives and their factors, in parts of a forward pass
-/// without pairs and constraints. Measured on the standard set (`docs/precision.md`): a number for the step, and one for each degree
-/// of freedom.
-const IMPLICIT: [f64; 2] = [4.5, 0.2];
-const IMPLICITFAST: [f64; 2] = [0.5, 0.02];
-const DISCRETE: [f64; 2] = [0.5, 0.016];
-
-/// The work of a step of an integrator beyond its passes, in units of about a nanosecond.
-pub(super) fn integrator_work(session: &Session<'_>, method: Integrator) -> f64 {
-    let [step, each] = match method.id {
-        integrator::IMPLICIT => IMPLICIT,
-        integrator::IMPLICITFAST => IMPLICITFAST,
-        integrator::DISCRETE => DISCRETE,
-        _ => return 0.0,
-    };
-    let world = &session.world;
-    (step + each * world.model.nv as f64) * core::cost_of_pass(&world.data) as f64
 }
 
 /// Repeats of the whole run: so many, fewer where they take longer than this in all, and not another one where they took that long.

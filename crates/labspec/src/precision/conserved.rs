@@ -1,26 +1,26 @@
 //! Energy and momentum that a scene keeps, and how much of them a run loses or gains.
 
-use super::case::Run;
+use super::run_record::Run;
 
 /// A scene keeps energy or momentum where the reference changes it by less than this part of its size.
-const KEPT: f64 = 1e-7;
+const CONSERVED: f64 = 1e-7;
 
 /// What the scene keeps, as the reference shows it, with its size.
-pub(super) struct Kept {
+pub(super) struct Conserved {
     pub(super) energy: Option<f64>,
     pub(super) momentum: [Option<f64>; 2],
 }
 
-impl Kept {
-    pub(super) fn of(run: &Run, part: f64) -> Kept {
+impl Conserved {
+    pub(super) fn measure(run: &Run, part: f64) -> Conserved {
         let moves = run.kinetic > 0.0;
-        let energy = (moves && change(&run.energy, part) <= KEPT * run.kinetic).then_some(run.kinetic);
-        let none = Kept { energy: None, momentum: [None; 2] };
+        let energy = (moves && change(&run.energy, part) <= CONSERVED * run.kinetic).then_some(run.kinetic);
+        let none = Conserved { energy: None, momentum: [None; 2] };
         let momentum = [0, 1].map(|k| {
             let size = run.momentum.iter().map(|p| length(&p[3 * k..3 * k + 3])).fold(0.0, f64::max);
-            (size > 1e-9 && none.change(run, k, part) <= KEPT * size).then_some(size)
+            (size > 1e-9 && none.change(run, k, part) <= CONSERVED * size).then_some(size)
         });
-        Kept { energy, momentum }
+        Conserved { energy, momentum }
     }
 
     /// The largest change of momentum from the start on: of motion (0) or of turning (1).

@@ -1,6 +1,5 @@
 //! The last steps of a run, to be made again with other lengths.
 
-use super::moments::Evaluate;
 use crate::run::Session;
 use labspec_core::{self as core, Model, state};
 
@@ -8,11 +7,11 @@ use labspec_core::{self as core, Model, state};
 const MOTION: i32 = state::FULLPHYSICS | state::WARMSTART;
 const HELD: i32 = state::USER;
 /// States that are kept.
-const KEPT: usize = 4;
+const MOST_STATES: usize = 4;
 
 /// A state at the end of a step, with what was held in that step.
 #[derive(Clone, Debug, Default)]
-struct Kept {
+struct PastState {
     time: f64,
     motion: Vec<f64>,
     held: Vec<f64>,
@@ -20,16 +19,16 @@ struct Kept {
 
 /// The last states of a run, from the newest on.
 #[derive(Clone, Debug)]
-pub(super) struct Past {
-    states: [Kept; KEPT],
+pub(super) struct StepHistory {
+    states: [PastState; MOST_STATES],
     count: usize,
 }
 
-impl Past {
-    pub(super) fn new(m: &Model) -> Past {
+impl StepHistory {
+    pub(super) fn new(m: &Model) -> StepHistory {
         let room = |sig| vec![0.0; state::size(m, sig).unwrap_or(0)];
-        let kept = Kept { time: 0.0, motion: room(MOTION), held: room(HELD) };
-        Past { states: std::array::from_fn(|_| kept.clone()), count: 0 }
+        let empty = PastState { time: 0.0, motion: room(MOTION), held: room(HELD) };
+        StepHistory { states: std::array::from_fn(|_| empty.clone()), count: 0 }
     }
 
     /// Keeps the state at a time.
@@ -41,7 +40,7 @@ impl Past {
         // Of the model that it was made for: nothing can be refused.
         let _ = state::get(m, d, &mut now.motion, MOTION);
         let _ = state::get(m, d, &mut now.held, HELD);
-        self.count = (self.count + 1).min(KEPT);
+        self.count = (self.count + 1).min(MOST_STATES);
     }
 
     /// States that are known.
@@ -60,17 +59,20 @@ impl Past {
     }
 }
 
+/// Evaluates a target in a session.
+pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
+
 /// A copy of a run in which its last steps are made again.
-pub(super) struct Bench<'b> {
+pub(super) struct StepReplay<'b> {
     pub(super) session: Session<'b>,
-    pub(super) past: &'b Past,
+    pub(super) past: &'b StepHistory,
     /// The largest value that was seen.
     pub(super) size: f64,
 }
 
-impl<'b> Bench<'b> {
-    pub(super) fn new(session: &Session<'b>, past: &'b Past) -> Bench<'b> {
-        Bench { session: session.clone(), past, size: 0.0 }
+impl<'b> StepReplay<'b> {
+    pub(super) fn new(session: &Session<'b>, past: &'b StepHistory) -> StepReplay<'b> {
+        StepReplay { session: session.clone(), past, size: 0.0 }
     }
 
     /// Goes to a time after a state, with a step of that length; everything is computed there.

@@ -6,8 +6,10 @@
 //! from where it was sensible to the end of the run, every eighth of the time is faster than all before. What is bounded, as a
 //! limit cycle however fast, does not run away.
 
+use super::bodies::joint_of_dof;
+use super::causes::stiffness_cause;
 use super::fault::{Evidence, Fault, FaultKind};
-use super::memory::Memory;
+use super::history::RunHistory;
 use labspec_core::math::norm;
 use labspec_core::{Fields, Model, joint};
 
@@ -23,10 +25,10 @@ const MOST: usize = 256;
 
 /// The memory of a run.
 #[derive(Debug)]
-pub(super) struct Wild {
+pub(super) struct RunawayMonitor {
     start: f64,
     /// Times, and the largest speeds up to then: of slides and of turns.
-    memory: Memory<(f64, [f64; 2])>,
+    memory: RunHistory<(f64, [f64; 2])>,
     largest: [f64; 2],
     /// The largest speeds at the start.
     first: Option<[f64; 2]>,
@@ -36,16 +38,16 @@ pub(super) struct Wild {
     sure: Option<(f64, usize, f64, f64)>,
 }
 
-impl Default for Wild {
-    fn default() -> Wild {
-        let memory = Memory::new(EVERY, MOST);
-        Wild { start: 0.0, memory, largest: [0.0; 2], first: None, found: None, sure: None }
+impl Default for RunawayMonitor {
+    fn default() -> RunawayMonitor {
+        let memory = RunHistory::new(EVERY, MOST);
+        RunawayMonitor { start: 0.0, memory, largest: [0.0; 2], first: None, found: None, sure: None }
     }
 }
 
-impl Wild {
+impl RunawayMonitor {
     pub(super) fn restart(&mut self, m: &Model, time: f64) {
-        *self = Wild { start: time, sure: self.ran_away(m), ..Wild::default() };
+        *self = RunawayMonitor { start: time, sure: self.ran_away(m), ..RunawayMonitor::default() };
     }
 
     /// What never stopped growing.
@@ -100,8 +102,8 @@ impl Wild {
         Some(Fault {
             kind: FaultKind::Silent,
             time,
-            who: super::case::joint_of_dof(m, dof),
-            cause: super::case::likely(m)
+            who: joint_of_dof(m, dof),
+            cause: stiffness_cause(m)
                 .unwrap_or_else(|| "it grows exponentially, and the engine gives no warning".into()),
             evidence: vec![
                 Evidence { name: "speed", value: speed, unit },

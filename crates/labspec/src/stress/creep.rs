@@ -1,10 +1,9 @@
 //! What rests and creeps all the same: bodies that touch others with friction and move on at the same small speed, although nothing
 //! pushes them along, and joints that move on although their friction loss is more than what pulls at them.
 
-use super::bodies::{body_name, body_of, halves};
-use super::case::joint_of_dof;
+use super::bodies::{body_name, body_of, halves, joint_of_dof};
 use super::fault::{Evidence, Fault, FaultKind};
-use super::memory::Memory;
+use super::history::RunHistory;
 use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, disable, joint};
 
@@ -28,7 +27,7 @@ const FRICTION_OF_DOF: i32 = 1;
 
 /// What is remembered of a moment.
 #[derive(Debug)]
-struct Moment {
+struct CreepSample {
     time: f64,
     /// Places of bodies, m, and which of them touch others.
     places: Vec<Vec3>,
@@ -39,19 +38,19 @@ struct Moment {
 
 /// The memory of a run.
 #[derive(Debug)]
-pub(super) struct Rest {
-    memory: Memory<Moment>,
+pub(super) struct CreepMonitor {
+    memory: RunHistory<CreepSample>,
 }
 
-impl Default for Rest {
-    fn default() -> Rest {
-        Rest { memory: Memory::new(EVERY, MOST) }
+impl Default for CreepMonitor {
+    fn default() -> CreepMonitor {
+        CreepMonitor { memory: RunHistory::new(EVERY, MOST) }
     }
 }
 
-impl Rest {
+impl CreepMonitor {
     pub(super) fn restart(&mut self) {
-        *self = Rest::default();
+        *self = CreepMonitor::default();
     }
 
     pub(super) fn observe(&mut self, m: &Model, d: &Fields) {
@@ -68,12 +67,12 @@ impl Rest {
                 let q = d.qpos.get(qpos).copied().unwrap_or(0.0);
                 (q, held(d, dof))
             });
-            Moment { time: d.time, places: rows::<3>(&d.xpos).to_vec(), rubs, joints: joints.collect() }
+            CreepSample { time: d.time, places: rows::<3>(&d.xpos).to_vec(), rubs, joints: joints.collect() }
         });
     }
 
     /// The second half of what is remembered.
-    fn half(&self) -> &[Moment] {
+    fn half(&self) -> &[CreepSample] {
         let past = self.memory.past();
         past.get(past.len() / 2..).unwrap_or_default()
     }
@@ -105,7 +104,7 @@ impl Rest {
 }
 
 /// Bodies that creep.
-fn bodies(m: &Model, half: &[Moment]) -> Vec<Fault> {
+fn bodies(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
     let time = last.time - first.time;
     let mut list = Vec::new();
@@ -133,11 +132,11 @@ fn bodies(m: &Model, half: &[Moment]) -> Vec<Fault> {
 }
 
 /// Joints that move on while their friction is less than it may be.
-fn joints(m: &Model, half: &[Moment]) -> Vec<Fault> {
+fn joints(m: &Model, half: &[CreepSample]) -> Vec<Fault> {
     let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
     let mut list = Vec::new();
     for (i, (j, _, dof)) in with_friction(m).enumerate() {
-        let at = |moment: &Moment| moment.joints.get(i).copied().unwrap_or((0.0, false));
+        let at = |moment: &CreepSample| moment.joints.get(i).copied().unwrap_or((0.0, false));
         let way = (at(last).0 - at(first).0).abs();
         let path: f64 =
             half.windows(2).map(|two| two.iter().map(|x| at(x).0).fold(0.0, |a, b| b - a).abs()).sum();
@@ -192,7 +191,7 @@ fn creep(who: String, since: f64, way: f64, time: f64, unit: &'static str) -> Fa
 
 /// The largest extent of a body, m.
 fn sizes(m: &Model, b: usize) -> f64 {
-    let own = (0..m.ngeom).filter(|&g| body_of(m, g) == b);
-    let largest = own.map(|g| 2.0 * halves(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
+    let geoms = (0..m.ngeom).filter(|&g| body_of(m, g) == b);
+    let largest = geoms.map(|g| 2.0 * halves(m, g).into_iter().fold(0.0, f64::max)).fold(0.0, f64::max);
     if largest > 0.0 { largest } else { m.stat.extent }
 }

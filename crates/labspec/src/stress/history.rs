@@ -2,17 +2,17 @@
 
 /// Every so many looks an entry; every second one is forgotten when there are too many.
 #[derive(Debug)]
-pub(super) struct Memory<T> {
+pub(super) struct RunHistory<T> {
     looks: usize,
     every: usize,
     most: usize,
     past: Vec<T>,
 }
 
-impl<T> Memory<T> {
+impl<T> RunHistory<T> {
     /// A memory that begins with an entry after each `every` looks, and never has more than `most`.
-    pub(super) fn new(every: usize, most: usize) -> Memory<T> {
-        Memory { looks: 0, every, most, past: Vec::new() }
+    pub(super) fn new(every: usize, most: usize) -> RunHistory<T> {
+        RunHistory { looks: 0, every, most, past: Vec::new() }
     }
 
     /// Looks once: `now` is asked for an entry when it is time.
@@ -43,7 +43,7 @@ mod tests {
 
     #[test]
     fn what_is_remembered_is_spread_evenly() {
-        let mut memory = Memory::new(4, 16);
+        let mut memory = RunHistory::new(4, 16);
         for k in 0..1000 {
             memory.observe(|| k);
         }

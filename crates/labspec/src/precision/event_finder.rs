@@ -5,10 +5,11 @@
 //! point is where the derivative of the interpolating polynomial at Chebyshev's points vanishes (Trefethen 2013, *Approximation
 //! Theory and Approximation Practice*, chapters 3 and 21).
 
-use super::bench::{Bench, Past};
 use super::chebyshev::turning_point;
-use super::reference::range;
+use super::event_time::EventTime;
+use super::numbers::range;
 use super::setting::Setting;
+use super::step_replay::{Evaluate, StepHistory, StepReplay};
 use crate::run::Session;
 use labspec_core::Model;
 
@@ -27,39 +28,21 @@ const HALVINGS: usize = 80;
 
 /// What is looked for: of each target, what it must pass by and turn by.
 #[derive(Clone, Debug)]
-pub(super) struct Sought {
+pub(super) struct EventThresholds {
     least: Vec<[f64; 2]>,
 }
 
-impl Sought {
+impl EventThresholds {
     /// For numbers with such values. What does not change has no events.
-    pub(super) fn of(values: &[Vec<f64>]) -> Sought {
+    pub(super) fn for_values(values: &[Vec<f64>]) -> EventThresholds {
         let least = |values: &Vec<f64>| {
             let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
             let range = range(values);
             let range = if range > CONSTANT * size { range } else { f64::INFINITY };
             [PASSES * range, TURNS * range]
         };
-        Sought { least: values.iter().map(least).collect() }
+        EventThresholds { least: values.iter().map(least).collect() }
     }
-}
-
-/// When something happens in a run.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Moment {
-    /// The time, s; NaN where it does not happen.
-    pub(super) at: f64,
-    /// How far the search may be off, s.
-    pub(super) doubt: f64,
-    /// How fast the number passes, in its unit per s; infinite where another number does not move the time.
-    pub(super) slope: f64,
-    /// Whether a turning point is a maximum.
-    pub(super) top: bool,
-}
-
-impl Moment {
-    pub(super) const NONE: Moment =
-        Moment { at: f64::NAN, doubt: f64::NAN, slope: f64::INFINITY, top: false };
 }
 
 /// Follows a number to its first passage through zero.
@@ -67,7 +50,7 @@ impl Moment {
 struct Passage {
     side: f64,
     last: f64,
-    candidate: Moment,
+    candidate: EventTime,
     done: bool,
 }
 
@@ -79,17 +62,17 @@ struct Turn {
     /// Up, down, or not known yet.
     way: f64,
     last: f64,
-    candidate: Moment,
+    candidate: EventTime,
     looks: usize,
     done: bool,
 }
 
 /// Looks for the moments of a run.
-pub(super) struct Finder<'s> {
-    sought: &'s Sought,
+pub(super) struct EventFinder<'s> {
+    sought: &'s EventThresholds,
     /// The method is of high order, so that its steps can be made again with any length.
     dense: bool,
-    past: Past,
+    past: StepHistory,
     /// The length of a step, the time at the start, s, and the number of steps since: the engine's own time is a sum of that many
     /// steps, each rounded.
     step: f64,
@@ -97,26 +80,23 @@ pub(super) struct Finder<'s> {
     made: usize,
     /// Pairs of geoms that touch at the start.
     touching: Vec<[usize; 2]>,
-    contact: Option<Moment>,
+    contact: Option<EventTime>,
     passages: Vec<Passage>,
     turns: Vec<Turn>,
     /// When the last of them was sure to be one, s.
     settled: f64,
 }
 
-/// Evaluates a target in a session.
-pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
-
-impl<'s> Finder<'s> {
-    pub(super) fn new(sought: &'s Sought, m: &Model, setting: &Setting) -> Finder<'s> {
-        let none = Moment::NONE;
+impl<'s> EventFinder<'s> {
+    pub(super) fn new(sought: &'s EventThresholds, m: &Model, setting: &Setting) -> EventFinder<'s> {
+        let none = EventTime::NONE;
         let passage = Passage { side: 0.0, last: f64::NAN, candidate: none, done: false };
         let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
         let turn = Turn { low, high, way: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
-        Finder {
+        EventFinder {
             sought,
             dense: setting.integrator.is_high(),
-            past: Past::new(m),
+            past: StepHistory::new(m),
             step: setting.timestep,
             start: 0.0,
             made: 0,
@@ -177,9 +157,9 @@ impl<'s> Finder<'s> {
     }
 
     /// The first contact, then all passages, then all turning points.
-    pub(super) fn finish(self) -> Vec<Moment> {
-        let found = |done: bool, candidate: Moment| if done { candidate } else { Moment::NONE };
-        let contact = std::iter::once(self.contact.unwrap_or(Moment::NONE));
+    pub(super) fn finish(self) -> Vec<EventTime> {
+        let found = |done: bool, candidate: EventTime| if done { candidate } else { EventTime::NONE };
+        let contact = std::iter::once(self.contact.unwrap_or(EventTime::NONE));
         let passages = self.passages.iter().map(|p| found(p.done, p.candidate));
         let turns = self.turns.iter().map(|t| found(t.done, t.candidate));
         contact.chain(passages).chain(turns).collect()
@@ -200,11 +180,11 @@ impl<'s> Finder<'s> {
         }
         let crossed = p.side != 0.0 && now * p.side <= 0.0 && last * p.side > 0.0;
         if p.side != 0.0 && now * p.side > 0.0 {
-            p.candidate = Moment::NONE;
+            p.candidate = EventTime::NONE;
         }
         if crossed {
             let side = p.side;
-            let mut bench = Bench::new(session, &self.past);
+            let mut bench = StepReplay::new(session, &self.past);
             let found = passage(&mut bench, i, side, evaluate);
             let Some(p) = self.passages.get_mut(i) else { return };
             p.candidate = found.unwrap_or_else(|| between(&self.past, last, now));
@@ -241,26 +221,26 @@ impl<'s> Finder<'s> {
         if begins {
             t.looks += 1;
             let dense = self.dense && looks < MOST_TURNS;
-            let mut bench = Bench::new(session, &self.past);
+            let mut bench = StepReplay::new(session, &self.past);
             let found = turning_point(&mut bench, i, way, dense, evaluate);
             let Some(t) = self.turns.get_mut(i) else { return };
-            t.candidate = found.unwrap_or(Moment::NONE);
+            t.candidate = found.unwrap_or(EventTime::NONE);
         }
         let Some(t) = self.turns.get_mut(i) else { return };
         t.done = back > *least;
     }
 
     /// When bodies that did not touch at the start touch: the shortest step that ends with a contact.
-    fn first_contact(&self, session: &Session<'_>) -> Moment {
-        let mut bench = Bench::new(session, &self.past);
+    fn first_contact(&self, session: &Session<'_>) -> EventTime {
+        let mut bench = StepReplay::new(session, &self.past);
         // What a page shows of contacts is of the step before.
         let oldest = self.past.count().min(3) - 1;
-        let touches = |bench: &mut Bench<'_>, from: usize, x: f64| {
+        let touches = |bench: &mut StepReplay<'_>, from: usize, x: f64| {
             bench.place(from, x);
             depth(&bench.session, &self.touching)
         };
         let from = (1..=oldest).rev().find(|&j| touches(&mut bench, j - 1, 0.0) > 0.0);
-        let Some(from) = from else { return Moment::NONE };
+        let Some(from) = from else { return EventTime::NONE };
         let h = self.past.step(from);
         let (mut low, mut high) = (0.0, h);
         let start = self.past.time(from);
@@ -284,7 +264,7 @@ impl<'s> Finder<'s> {
             bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
         let rounding = 8.0 * f64::EPSILON * size / speed.max(f64::MIN_POSITIVE);
         let doubt = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
-        Moment { at: start + high, doubt, slope: f64::INFINITY, top: false }
+        EventTime { at: start + high, doubt, slope: f64::INFINITY, top: false }
     }
 }
 
@@ -300,16 +280,16 @@ fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
 }
 
 /// A passage between the last two samples, as a straight line has it.
-fn between(past: &Past, last: f64, now: f64) -> Moment {
+fn between(past: &StepHistory, last: f64, now: f64) -> EventTime {
     let h = past.step(1);
     let part = (last / (last - now)).clamp(0.0, 1.0);
-    Moment { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
+    EventTime { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
 }
 
 /// When a target leaves its side of zero, in the last step or in that before.
-fn passage(bench: &mut Bench<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) -> Option<Moment> {
+fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) -> Option<EventTime> {
     let oldest = bench.past.count().min(3) - 1;
-    let leaves = |bench: &mut Bench<'_>, j: usize| {
+    let leaves = |bench: &mut StepReplay<'_>, j: usize| {
         bench.value(j, 0.0, i, evaluate) * side > 0.0 && bench.value(j - 1, 0.0, i, evaluate) * side <= 0.0
     };
     let from = (1..=oldest).rev().find(|&j| leaves(bench, j))?;
@@ -352,5 +332,5 @@ fn passage(bench: &mut Bench<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) 
     let size = bench.size.max(missed);
     let rounding = (8.0 * f64::EPSILON * size + missed) / slope.max(f64::MIN_POSITIVE);
     let doubt = (high - low) + rounding.min(2.0 * h);
-    Some(Moment { at: start + 0.5 * (low + high), doubt, slope, top: false })
+    Some(EventTime { at: start + 0.5 * (low + high), doubt, slope, top: false })
 }

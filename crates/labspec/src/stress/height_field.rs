@@ -6,7 +6,7 @@ use labspec_core::math::{Vec3, norm, rows, sub};
 use labspec_core::{Fields, Model, geom};
 
 /// A geom over a height field.
-pub(super) struct Over {
+pub(super) struct HeightFieldPair {
     geoms: [usize; 2],
     /// Where it was seen last, in the axes of the field, while it was above the surface.
     above: Option<Vec3>,
@@ -14,15 +14,15 @@ pub(super) struct Over {
 }
 
 /// Geoms that may meet a height field, at most `most` pairs.
-pub(super) fn over(m: &Model, most: usize) -> Vec<Over> {
+pub(super) fn over(m: &Model, most: usize) -> Vec<HeightFieldPair> {
     let moves = |g: &usize| m.body_treeid.get(body_of(m, *g)).is_some_and(|&t| t >= 0);
     let fields: Vec<usize> = (0..m.ngeom).filter(|&p| m.geom_type.get(p) == Some(&geom::HFIELD)).collect();
     let of = |&p: &usize| (0..m.ngeom).filter(moves).filter(move |&g| may_meet(m, g, p)).map(move |g| [g, p]);
     let pairs = fields.iter().flat_map(of).filter(|[g, _]| thickness(m, *g).is_finite());
-    pairs.take(most).map(|geoms| Over { geoms, above: None, done: false }).collect()
+    pairs.take(most).map(|geoms| HeightFieldPair { geoms, above: None, done: false }).collect()
 }
 
-impl Over {
+impl HeightFieldPair {
     /// Something from outside moved bodies to where they are now.
     pub(super) fn disturb(&mut self, m: &Model, d: &Fields) {
         let [g, p] = self.geoms;
@@ -74,8 +74,8 @@ fn surface(m: &Model, p: usize, place: Vec3) -> Option<f64> {
 }
 
 fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Fault {
-    let own = thickness(m, g);
-    let cause = if way > own {
+    let thick = thickness(m, g);
+    let cause = if way > thick {
         "since it was last above the surface it moved farther than it is thick, so no step found a contact"
     } else {
         "the contact is too weak to hold it, so it is pressed below the surface"
@@ -88,9 +88,9 @@ fn fell(m: &Model, d: &Fields, [g, p]: [usize; 2], way: f64, depth: f64) -> Faul
         evidence: vec![
             Evidence { name: "depth below the surface", value: depth, unit: "m" },
             Evidence { name: "way since it was above it", value: way, unit: "m" },
-            Evidence { name: "own thickness", value: own, unit: "m" },
+            Evidence { name: "own thickness", value: thick, unit: "m" },
         ],
-        size: depth / own,
+        size: depth / thick,
         by_run: false,
     }
 }

@@ -1,0 +1,47 @@
+//! Everything that the pieces of a lesson's page look up: the file, names, plots, and the ledger.
+
+use super::text::Names;
+use crate::check::{Basis, Drawn, RunSettings};
+use crate::ledger::{Entry, State, Subject};
+use crate::spec::Lesson;
+use crate::verify::ShownText;
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Everything that the pieces of a lesson look things up in.
+pub(super) struct LessonContext<'a> {
+    pub(super) lesson: &'a Lesson,
+    pub(super) names: &'a Names,
+    pub(super) curves: &'a [Drawn],
+    pub(super) shown: ShownText,
+    pub(super) basis: Option<&'a Basis>,
+    pub(super) entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,
+}
+
+impl<'a> LessonContext<'a> {
+    pub(super) fn line(&self, at: usize) -> usize {
+        self.lesson.file.position(at).line
+    }
+
+    /// The runs of a claim, with the settings of each as it begins.
+    pub(super) fn runs(&self, claim: &str) -> Option<&'a [(String, Option<RunSettings>)]> {
+        let basis = self.basis?.claims.iter().find(|basis| basis.name == claim)?;
+        Some(&basis.runs)
+    }
+
+    /// The entry of the ledger about a claim.
+    pub(super) fn entry(&self, subject: Subject, span: &Range<usize>, what: &str) -> Option<&'a Entry> {
+        let all = self.entries.get(&(subject, span.start, span.end))?;
+        all.iter().find(|e| e.what == what).or(all.first()).copied()
+    }
+
+    /// What the ledger says of a claim: its state, and that in a word.
+    pub(super) fn state(
+        &self,
+        subject: Subject,
+        span: &Range<usize>,
+        what: &str,
+    ) -> Option<(State, &'a str)> {
+        self.entry(subject, span, what).map(|e| (e.state, e.word))
+    }
+}
