@@ -1,4 +1,4 @@
-//! Which findings are told, and how bad they are: what is said on the command line, and in the nearest `labspec.toml`.
+//! Which findings are reported, and how severe they are: according to the command line and the nearest `labspec.toml`.
 
 use super::common::Failure;
 use crate::finding::{Finding, Severity};
@@ -16,7 +16,7 @@ pub(super) const FILE: &str = "labspec.toml";
 /// Its bytes, at most.
 const MOST: u64 = 1 << 20;
 
-/// What is said of findings on the command line.
+/// The options of the command line for findings.
 #[derive(clap::Args, Debug, Clone, Default)]
 pub(super) struct PolicyOptions {
     /// Report only these findings: codes of rules, layers (source, json, structure, model, program, run, claim), errors,
@@ -107,7 +107,7 @@ pub(super) struct Policy {
 }
 
 impl Policy {
-    /// Takes out what is not to be told; what remains is as bad as it is said to be.
+    /// Takes the ignored findings out and returns them; the others get the severity of the policy.
     pub(super) fn apply(&self, findings: &mut Vec<Finding>) -> Vec<Finding> {
         let mut ignored = Vec::new();
         findings.retain(|f| {
@@ -131,7 +131,7 @@ struct PolicyFile {
     ignore: Vec<String>,
     deny: Vec<String>,
     widgets: Vec<String>,
-    /// More for some paths: what is left out there, and what is told as an error.
+    /// For some paths: rules that are ignored there, and rules that are errors there.
     paths: Vec<(Globs, Vec<String>, Vec<String>)>,
 }
 

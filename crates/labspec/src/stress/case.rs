@@ -1,4 +1,4 @@
-//! One run of a lab under the hands of a student, and what goes wrong in it.
+//! One run of a lab under an interaction, and the faults in it.
 
 use super::fault::{Fault, FaultKind};
 use super::interaction::{Action, Interaction, Kind, TOUCH};
@@ -44,7 +44,7 @@ pub(crate) struct RunOutcome {
     pub(crate) cut: bool,
 }
 
-/// A run under the hands of a student: what is still to be done to it, and everything that is looked at meanwhile.
+/// A run under an interaction: the actions that are still due, and the monitors of the run.
 pub(crate) struct RunWatcher<'h> {
     /// What is to be done, in order of time.
     pending: VecDeque<&'h Action>,
@@ -185,7 +185,7 @@ impl<'a> StressCase<'a> {
         if count.is_finite() && timestep > 0.0 { count.clamp(0.0, most) as usize } else { 0 }
     }
 
-    /// The eyes on a run that has begun.
+    /// The watcher of a run that has begun.
     pub(crate) fn eyes<'h>(&self, handling: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
         RunWatcher {
             pending: handling.actions.iter().filter(|a| a.time > 0.0).collect(),

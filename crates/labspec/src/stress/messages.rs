@@ -111,7 +111,7 @@ fn rounded_down(x: f64) -> f64 {
     format!("{:.3e}", digits * unit).parse().unwrap_or(x)
 }
 
-/// [`run::run`] under the eyes that `check` and `stability` have on their runs, with advice that was tried.
+/// [`run::run`] with the monitors of `check` and `stability`, and with timesteps that were tried.
 ///
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.

@@ -1,4 +1,4 @@
-//! What helps: each candidate is tried by running, and only those are told with which the run comes to its end well.
+//! Remedies: each change of the model is tried by running, and only those are reported with which the run has no fault.
 
 use super::case::{Change, RunOutcome, StressCase};
 use super::fault::{FaultGroup, FaultKind, Remedy, worst_fault};

@@ -29,7 +29,7 @@ const CHUNK: usize = 32;
 /// Numbers that a lab shows, at each sample.
 type SampledRows = Vec<Vec<f64>>;
 
-/// The motion that a model describes, under the hands of a student.
+/// The motion that a model describes, under an interaction.
 pub(super) struct Truth<'h> {
     handling: &'h Interaction,
     /// The timestep of the lab, s, and how many of it are between samples.

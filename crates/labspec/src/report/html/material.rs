@@ -14,7 +14,7 @@ pub struct Material<'a> {
     pub curves: &'a [Vec<Drawn>],
     /// What the check of each of them rests on.
     pub bases: &'a [Basis],
-    /// Everything that is told, of lessons and of models.
+    /// All reported findings, of lessons and of models.
     pub findings: &'a [Finding],
     /// What the lessons allow.
     pub allowed: &'a [Allowed],
