@@ -85,9 +85,10 @@ fn other_warnings(session: &Session<'_>, m: &Model) -> Vec<Fault> {
         let Some(stat) = warned(session, warning) else { continue };
         let (who, cause) = match warning {
             Warning::Inertia => (joint_of_dof(m, stat.lastinfo), "the moving part has no positive inertia"),
-            Warning::BadCtrl => {
-                (format!("control {}", stat.lastinfo), "a program writes a control that is not a number or exceeds 1e10")
-            }
+            Warning::BadCtrl => (
+                format!("control {}", stat.lastinfo),
+                "a program writes a control that is not a number or exceeds 1e10",
+            ),
             _ => ("the whole scene".into(), "more bodies touch than the engine keeps contacts"),
         };
         // The code that `run` and `check` report (`run/breakdown.rs`).
