@@ -144,7 +144,7 @@ fn check_lesson(
     named: bool,
     models: &Models,
 ) -> FileOutcome {
-    let lesson = match load_lesson(request, path, models) {
+    let lesson = match read_lesson(request, path, models) {
         Ok(lesson) => lesson,
         Err(why) => return FileOutcome::Refused(why),
     };
@@ -186,7 +186,7 @@ fn check_lesson(
 }
 
 /// The lesson of a file, or of standard input where that stands for the file.
-fn load_lesson(request: &CheckRequest<'_>, path: &Path, models: &Models) -> Result<Lesson, String> {
+fn read_lesson(request: &CheckRequest<'_>, path: &Path, models: &Models) -> Result<Lesson, String> {
     match request.stdin.filter(|(name, _)| name == path) {
         Some((name, text)) => {
             let file = SourceFile::new(name.display().to_string(), text.as_str());
