@@ -272,6 +272,6 @@ fn shared_models_with_constraints() {
     let kept = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         kept == text,
-        "tests/golden/constrained.md is stale: LABSPEC_BLESS=1 cargo test -p labspec constrained"
+        "tests/golden/constrained.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli constrained"
     );
 }

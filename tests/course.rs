@@ -14,8 +14,8 @@ use labspec::finding::Severity;
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
 use labspec::spec::QuestionKind;
-use labspec::trace::{Origin, trace};
 use labspec::verify::{QuoteState, Verdict};
+use labspec_proposals::trace::{Origin, trace};
 use std::time::Instant;
 
 /// A lesson of the course.

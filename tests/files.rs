@@ -458,14 +458,15 @@ fn no_command_replaces_a_file_of_another_kind() {
     }
 }
 
-/// Every file of the program by its name, without tests.
+/// Every file of the program and its libraries by its name, without tests.
 fn sources() -> Vec<(String, String)> {
-    let source = crate::support::workspace().join("crates/labspec/src");
-    let (mut open, mut all) = (vec![source.clone()], Vec::new());
+    let crates = crate::support::workspace().join("crates");
+    let folders = ["cli", "labspec", "lsp", "numerics", "proposals"];
+    let (mut open, mut all) = (folders.map(|name| crates.join(name).join("src")).to_vec(), Vec::new());
     while let Some(folder) = open.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
-            let name = path.strip_prefix(&source).unwrap().display().to_string();
+            let name = path.strip_prefix(&crates).unwrap().display().to_string();
             if path.is_dir() {
                 open.push(path);
             } else if !name.ends_with("tests.rs") && name.ends_with(".rs") {
@@ -498,9 +499,12 @@ fn files_lessons_and_threads_have_one_place_each() {
         "remove_dir",
         "fs::copy(",
     ];
-    assert_eq!(with(&writes), ["cli/cache.rs", "cli/output.rs"]);
-    assert_eq!(with(&[" load_lesson(", "(load_lesson("]), ["lint/load.rs", "player/load.rs"]);
-    assert_eq!(with(&["thread::spawn", "Builder::new().s"]), ["threads.rs"]);
+    assert_eq!(with(&writes), ["cli/src/cache.rs", "cli/src/output.rs"]);
+    assert_eq!(
+        with(&[" load_lesson(", "(load_lesson("]),
+        ["labspec/src/lint/load.rs", "labspec/src/player/load.rs"]
+    );
+    assert_eq!(with(&["thread::spawn", "Builder::new().s"]), ["labspec/src/threads.rs"]);
 }
 
 /// A link to a lesson is followed below the root, and named where it leads out.

@@ -8,11 +8,12 @@ use crate::support::workspace;
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
-use labspec::precision::{Fate, INTEGRATORS, Kind, Options, Report, Row, Setting, compare};
 use labspec::run::{self, Cell, RunOptions, Table};
+use labspec::run::{INTEGRATORS, Integrator};
 use labspec::source::SourceFile;
 use labspec::spec::Lab;
 use labspec_core::{Model, integrator};
+use labspec_numerics::precision::{Fate, Kind, Options, Report, Row, Setting, compare};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -82,7 +83,7 @@ fn orders_are_those_of_theory() {
     let labs = standard();
     for (name, orders) in expected {
         let path = labs.iter().find(|p| p.file_name().unwrap().to_str().unwrap().starts_with(name)).unwrap();
-        let ids = |i: &labspec::precision::Integrator| orders.iter().any(|(id, _)| *id == i.id);
+        let ids = |i: &Integrator| orders.iter().any(|(id, _)| *id == i.id);
         let integrators = INTEGRATORS.into_iter().filter(ids).collect();
         let report =
             open(path, ModelFolder::unknown()).compare(&Options { integrators, ..Options::default() });

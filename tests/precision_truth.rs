@@ -7,12 +7,13 @@ use crate::support::{for_each, read_json, workspace};
 use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
-use labspec::precision::{Fate, Integrator, Kind, Options, Report, Row, compare};
+use labspec::run::Integrator;
 use labspec::run::{self, Cell, RunOptions, shown};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
 use labspec::stress;
 use labspec_core::{Model, integrator};
+use labspec_numerics::precision::{Fate, Kind, Options, Report, Row, compare};
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -308,7 +309,7 @@ fn controllers_of_time_have_a_reference_as_good_as_others() {
 
 #[test]
 fn no_cost_of_a_plan_is_negative() {
-    use labspec::profile::{Options as PlanOptions, plan};
+    use labspec_numerics::profile::{Options as PlanOptions, plan};
     let lesson = load_lesson(SourceFile::read(&kinds()).unwrap(), &ModelFolder::unknown());
     let mut measured = 0;
     for (_, lab) in lesson.addressed().into_iter().take(8) {

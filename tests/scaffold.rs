@@ -6,10 +6,10 @@ use crate::needs::needs;
 use crate::support::workspace;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
-use labspec::scaffold::{Scaffold, ScaffoldOutcome, scaffold, written};
 use labspec::source::SourceFile;
 use labspec::spec::Lesson;
 use labspec::verify::Verdict;
+use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold, written};
 use serde_json::Value;
 
 fn look(name: &str, text: &str, models: &Models) -> (Lesson, Vec<Scaffold>) {

@@ -459,6 +459,6 @@ fn stiff_and_extreme_scenes() {
     );
     assert!(
         subjects(&kept) == subjects(&text),
-        "docs/measured/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec --test all stiff"
+        "docs/measured/stability.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli --test all stiff"
     );
 }

@@ -53,7 +53,7 @@ impl Standing {
             } else if std::fs::read_to_string(&path).unwrap_or_default() != text {
                 let _ = writeln!(
                     wrong,
-                    "tests/golden/{table}.md is stale: LABSPEC_BLESS=1 cargo test -p labspec {table}"
+                    "tests/golden/{table}.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli {table}"
                 );
             }
         }

@@ -9,8 +9,8 @@ use labspec::check::{self, CheckLevel};
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::source::SourceFile;
 use labspec::spec::{LabAddress, Lesson};
-use labspec::trace::{Origin, blocks, laid_out, trace};
 use labspec::verify::QuoteState;
+use labspec_proposals::trace::{Origin, blocks, laid_out, trace};
 
 /// A lesson and its models.
 struct Case {

@@ -5,7 +5,7 @@
 //! `text` behind it is what then stands on the terminal; any other block is written into the file that the line names last, or,
 //! where the line begins with "Add", behind what the file holds. A picture of the page is the file of that name.
 //!
-//! `LABSPEC_BLESS=1 cargo test -p labspec --test all tutorial` writes into the page and its pictures what is shown now.
+//! `LABSPEC_BLESS=1 cargo test -p labspec-cli --test all tutorial` writes into the page and its pictures what is shown now.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -70,7 +70,7 @@ impl Terminal {
 }
 
 /// The one block that is not typed: it builds the program, and the test was given one.
-const BUILD: &str = "cargo install --path crates/labspec --locked\nlabspec --version\n";
+const BUILD: &str = "cargo install --path crates/cli --locked\nlabspec --version\n";
 
 #[test]
 fn the_tutorial_is_followed_word_for_word() {

@@ -267,6 +267,6 @@ fn what_the_library_warns_of_is_found_and_margins_are_its() {
     assert_eq!(
         subjects(&std::fs::read_to_string(&path).unwrap_or_default()),
         subjects(&page),
-        "docs/measured/stability-labs.md is stale: LABSPEC_BLESS=1 cargo test -p labspec --test all what_the_library"
+        "docs/measured/stability-labs.md is stale: LABSPEC_BLESS=1 cargo test -p labspec-cli --test all what_the_library"
     );
 }

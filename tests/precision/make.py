@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/precision.md and its pictures: the standard set, labspec compared with MuJoCo.
 
-    cargo build --release -p labspec
+    cargo build --release -p labspec-cli
     tests/precision/make.py target/release/labspec mj/bin/python      # a Python with mujoco==3.14.0 and numpy
 
 Takes a minute. Run times depend on the machine; both programs run interleaved. Errors are the same everywhere except for rounding.
@@ -155,7 +155,7 @@ INTRODUCTION = """# Error against run time
 This page compares the error and the run time of integrators and timesteps, for labspec and for MuJoCo 3.14.0, in eleven scenes.
 `labspec precision LAB` makes the same comparison for any lab. This page is written by
 
-    cargo build --release -p labspec
+    cargo build --release -p labspec-cli
     tests/precision/make.py target/release/labspec PYTHON      # a Python with mujoco==3.14.0 and numpy
 
 Errors are maximum errors over the run. Times are microseconds per simulated second: medians of repeats of the whole run, with both

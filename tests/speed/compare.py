@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Cost of a step compared with MuJoCo: time, measured in the same run, and instructions, which are repeatable.
 
-    cargo build --release -p labspec
+    cargo build --release -p labspec-cli
     tests/speed/compare.py BENCH_MUJOCO [--out docs/measured/speed.md] [NAME=MODEL.xml[,warm[,steps[,off]]] ...]
 
 BENCH_MUJOCO is the program made from `bench_mujoco.c` of the oracle. Without models, those of SCENES are measured, which
@@ -229,7 +229,7 @@ PAGE = """# Speed
 
 This page compares the cost of one step with MuJoCo 3.14.0, measured on {processor} by
 
-    cargo build --release -p labspec
+    cargo build --release -p labspec-cli
     tests/speed/compare.py BENCH_MUJOCO --out docs/measured/speed.md
 
 {table}

@@ -14,7 +14,7 @@ pub(crate) fn release(folder: Option<PathBuf>) -> Result<PathBuf, String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let built = Command::new(&cargo)
-        .args(["build", "--release", "--quiet", "--locked", "--package", "labspec"])
+        .args(["build", "--release", "--quiet", "--locked", "--package", "labspec-cli"])
         // Names and lines are for those who measure it.
         .env("CARGO_PROFILE_RELEASE_STRIP", "symbols")
         .current_dir(&root)

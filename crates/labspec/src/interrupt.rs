@@ -15,9 +15,9 @@ thread_local! {
 }
 
 /// Whether the person at the terminal wants an end, or somebody that of what this thread does. Never true in a program that calls
-/// neither [`listen`] nor [`until`].
+/// neither [`flag`] nor [`until`].
 #[inline]
-pub(crate) fn requested() -> bool {
+pub fn requested() -> bool {
     REQUESTED.get().is_some_and(|flag| flag.load(Ordering::Relaxed))
         || (OWN.load(Ordering::Relaxed) && here())
 }
@@ -28,8 +28,7 @@ fn here() -> bool {
 }
 
 /// Does something on this thread that ends early when the flag is set.
-#[cfg(feature = "lsp")]
-pub(crate) fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
+pub fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     OWN.store(true, Ordering::Relaxed);
     let before = HERE.with(|here| here.replace(Some(flag)));
     let done = work();
@@ -37,16 +36,7 @@ pub(crate) fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     done
 }
 
-/// From now on Ctrl-C sets the flag; a second one ends the program at once, with exit code 130.
-#[cfg(feature = "cli")]
-pub(crate) fn listen() {
-    #[cfg(any(unix, windows))]
-    {
-        use signal_hook::{consts::SIGINT, flag};
-        let requested = REQUESTED.get_or_init(Arc::default);
-        // The handlers run in this order. Where they cannot be set, Ctrl-C ends the program as it always does.
-        if flag::register_conditional_shutdown(SIGINT, 130, requested.clone()).is_ok() {
-            let _ = flag::register(SIGINT, requested.clone());
-        }
-    }
+/// The flag that ends long work on all threads: the program sets it at Ctrl-C.
+pub fn flag() -> Arc<AtomicBool> {
+    REQUESTED.get_or_init(Arc::default).clone()
 }

@@ -18,37 +18,28 @@
 pub mod bind;
 pub mod check;
 pub mod checker;
-#[cfg(feature = "cli")]
-pub mod cli;
 pub mod error;
 pub mod finding;
 pub mod format;
-mod interrupt;
+pub mod interrupt;
 pub mod json;
 pub mod ledger;
 pub mod lint;
-#[cfg(feature = "lsp")]
-pub mod lsp;
 pub mod markdown;
 pub mod models;
 pub mod monitors;
 mod pairwise;
 pub mod player;
-pub mod precision;
 mod printable;
-pub mod profile;
 pub mod reference;
 pub mod repair;
 pub mod report;
 pub mod rules;
 pub mod run;
-pub mod scaffold;
 pub mod source;
 pub mod spec;
 pub mod stress;
-#[cfg(feature = "cli")]
-mod threads;
-pub mod trace;
+pub mod threads;
 pub mod verify;
 
 pub use checker::{Checker, Report};

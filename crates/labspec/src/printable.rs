@@ -18,7 +18,7 @@ pub fn printable_lines(text: &str) -> Cow<'_, str> {
 }
 
 /// The same for a line of a lesson, which may hold tabs.
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 pub(super) fn printable_line(text: &str) -> Cow<'_, str> {
     written_out(text, |c| c != '\t' && is_hidden(c), |c, out| out.extend(c.escape_default()))
 }
@@ -43,8 +43,7 @@ pub fn printable_json(json: &str) -> Cow<'_, str> {
 }
 
 /// `1 lab`, `2 labs`.
-#[cfg(feature = "cli")]
-pub(crate) fn counted(n: usize, one: &str) -> String {
+pub fn counted(n: usize, one: &str) -> String {
     if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
 }
 

@@ -1,7 +1,7 @@
 //! The reference pages under `docs/reference` and the JSON Schemas under `docs/schema`: written from the tables, never by
 //! hand.
 //!
-//! `cargo run -p labspec -- reference docs/reference` writes both; a test fails when they are stale.
+//! `cargo run -p labspec-cli -- reference docs/reference` writes both; a test fails when they are stale.
 
 use crate::bind::{functions, named_field as by_name};
 use crate::rules;
@@ -29,12 +29,12 @@ pub fn schemas() -> Vec<(&'static str, String)> {
 }
 
 /// A schema as text.
-pub(crate) fn schema(root: format::Root) -> String {
+pub fn schema(root: format::Root) -> String {
     format!("{:#}\n", format::schema(root))
 }
 
 const GENERATED: &str =
-    "<!-- Written from the tables: cargo run -p labspec -- reference docs/reference -->\n";
+    "<!-- Written from the tables: cargo run -p labspec-cli -- reference docs/reference -->\n";
 
 fn fields() -> String {
     let mut text = format!(
@@ -287,7 +287,7 @@ mod tests {
         for (path, text) in pages.chain(schemas) {
             let written = std::fs::read_to_string(&path).unwrap_or_default();
             let name = path.display();
-            assert!(written == text, "{name} is stale: cargo run -p labspec -- reference docs/reference");
+            assert!(written == text, "{name} is stale: cargo run -p labspec-cli -- reference docs/reference");
         }
     }
 }

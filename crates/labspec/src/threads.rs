@@ -8,12 +8,12 @@ use std::thread::Builder;
 const STACK: usize = 8 << 20;
 
 /// A thread to be, with that stack.
-pub(crate) fn checking() -> Builder {
+pub fn checking() -> Builder {
     Builder::new().stack_size(STACK)
 }
 
 /// Does all the work of a program on a thread with that stack; where the system gives none, on this one.
-pub(crate) fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
+pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     std::thread::scope(|scope| match checking().spawn_scoped(scope, &work) {
         Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
         Err(_) => work(),
@@ -24,7 +24,7 @@ pub(crate) fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
 ///
 /// # Errors
 /// What the panic said that ended it.
-pub(crate) fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+pub fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     // What was half done is dropped; caches keep whole entries alone.
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);

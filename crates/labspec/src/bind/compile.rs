@@ -147,7 +147,7 @@ impl Work<'_> {
 }
 
 /// The value that a control gives.
-pub(crate) fn scalar(value: &Scalar) -> Value {
+pub fn scalar(value: &Scalar) -> Value {
     match value {
         Scalar::Number(n) => Value::Number(n.value),
         Scalar::Text(t) => Value::String(t.value.as_str().into()),

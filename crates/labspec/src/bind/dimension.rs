@@ -74,7 +74,7 @@ fn settle<'l>(
 }
 
 /// What a slider gives, by its unit.
-pub(crate) fn given_by(control: &Control) -> Measure {
+pub fn given_by(control: &Control) -> Measure {
     let unit = match &control.kind {
         ControlKind::Slider { unit: Some(unit), .. } => labels::unit(unit.as_str()),
         _ => labels::of_label(control.label.as_str()).map(|(_, d)| d),

@@ -13,7 +13,7 @@ pub(crate) fn unit(text: &str) -> Option<Dimension> {
 }
 
 /// The unit at the end of a label, in brackets: of `speed (mm/s)` and `E [J]`, with what it means. In `ball(s)` there is none.
-pub(crate) fn of_label(label: &str) -> Option<(&str, Dimension)> {
+pub fn of_label(label: &str) -> Option<(&str, Dimension)> {
     let label = label.trim_end();
     let (open, close) = if label.ends_with(']') { ('[', ']') } else { ('(', ')') };
     let inner = label.strip_suffix(close)?;

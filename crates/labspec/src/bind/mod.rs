@@ -10,11 +10,13 @@ pub mod parts;
 mod programs;
 pub mod scene;
 
-pub(crate) use compile::scalar;
+pub use compile::scalar;
 pub use compile::to_finding;
+pub(crate) use dimension::given;
+pub use dimension::given_by;
 pub use dimension::{Dimensions, dimension_of, dimensions};
-pub(crate) use dimension::{given, given_by};
-pub(crate) use labels::{behind_heading, contradicts, of_heading, of_label, unit};
+pub use labels::of_label;
+pub(crate) use labels::{behind_heading, contradicts, of_heading, unit};
 pub(crate) use labspec_bind::named_field;
 pub use labspec_bind::{Functions, ModelNames, NUMBERS, Scope, Shown, World, functions};
 pub(crate) use programs::writes_kind;

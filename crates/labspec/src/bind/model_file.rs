@@ -13,19 +13,20 @@ use std::sync::Arc;
 
 /// What came of a model file: the model, what is wrong with it or doubtful, and the files that this is about.
 #[derive(Debug)]
-pub(crate) struct Compiled {
+pub struct Compiled {
     /// `None` when there are errors.
-    pub(crate) model: Option<Model>,
-    pub(crate) findings: Vec<Finding>,
+    pub model: Option<Model>,
+    /// What is wrong with it.
+    pub findings: Vec<Finding>,
     /// Empty when there are no findings.
-    pub(crate) files: Vec<SourceFile>,
+    pub files: Vec<SourceFile>,
     /// The other files that it was made of.
-    pub(crate) parts: Vec<ModelFile>,
+    pub parts: Vec<ModelFile>,
 }
 
 /// Compiles the model of a file. What it names (included text, models to attach, meshes) is looked for from the folder of
 /// `path`, and opened when it lies below `root`.
-pub(crate) fn compile_file(
+pub fn compile_file(
     file: &SourceFile,
     path: &Path,
     root: &Path,

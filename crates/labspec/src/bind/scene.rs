@@ -16,7 +16,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-pub(crate) use super::model_file::{Compiled, compile_file};
+pub use super::model_file::Compiled;
+pub use super::model_file::compile_file;
 pub use super::model_file::{check_model_file, from_mjcf};
 
 /// Models by name, compiled once, and the files they came from. Threads may share them: whoever asks first compiles, the
@@ -169,7 +170,7 @@ impl Models {
     }
 
     /// The model with this name; `None` when there is none or it has mistakes, which are then findings of the models.
-    pub(crate) fn load(&self, name: &str) -> Option<Arc<Model>> {
+    pub fn load(&self, name: &str) -> Option<Arc<Model>> {
         self.loaded(name, |loaded| loaded.model.clone())?
     }
 

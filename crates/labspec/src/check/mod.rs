@@ -32,7 +32,7 @@ pub use judge::{CrossCheck, Recording, Request, file_name, hear};
 pub use lab_runs::Tried;
 pub use reproduce::{Basis, ClaimBasis, LabBasis, RunSettings, basis};
 pub use snapshot::{Divergence, Renewal, RenewedLab, SnapshotResult, renew};
-pub(crate) use units::labels as labels_of;
+pub use units::labels as labels_of;
 
 use crate::bind::Programs;
 use crate::bind::scene::Models;
@@ -120,13 +120,21 @@ impl<'l> PreparedLab<'l> {
 /// What a check found beyond the structure of a lesson, not yet tied to its file.
 #[derive(Debug, Default)]
 pub struct LabOutcome {
-    pub(crate) findings: Vec<Finding>,
-    pub(crate) labs: Vec<RanLab>,
-    pub(crate) claims: Vec<Claim>,
+    /// What is wrong.
+    pub findings: Vec<Finding>,
+    /// The labs that ran.
+    pub labs: Vec<RanLab>,
+    /// What is claimed, and what became of it.
+    pub claims: Vec<Claim>,
     pub(crate) snapshots: Vec<SnapshotResult>,
 }
 
 impl LabOutcome {
+    /// These findings, and nothing else.
+    pub fn from_findings(findings: Vec<Finding>) -> LabOutcome {
+        LabOutcome { findings, ..LabOutcome::default() }
+    }
+
     /// One finding, and nothing else.
     pub fn from_finding(finding: Finding) -> LabOutcome {
         LabOutcome { findings: vec![finding], ..LabOutcome::default() }
@@ -241,7 +249,7 @@ fn prepare<'l>(
 }
 
 /// Loads the model of a lab and binds its programs; with the number of errors in its code.
-pub(crate) fn bind(
+pub fn bind(
     lab: &Lab,
     models: &Models,
     findings: &mut Vec<Finding>,

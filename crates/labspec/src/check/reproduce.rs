@@ -6,7 +6,7 @@ use super::claims::{self, Owner};
 use super::resolved_labs::start_runs;
 use crate::bind::parts::Hash;
 use crate::bind::scene::Models;
-use crate::precision::Integrator;
+use crate::run::Integrator;
 use crate::run::{Budget, Session};
 use crate::spec::Lesson;
 use crate::verify::Stage;

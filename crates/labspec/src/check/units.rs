@@ -37,7 +37,7 @@ pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, finding
 }
 
 /// The labels of every trace, with that of its plot, then those of the readouts.
-pub(crate) fn labels(lab: &Lab) -> impl Iterator<Item = Vec<&Text>> {
+pub fn labels(lab: &Lab) -> impl Iterator<Item = Vec<&Text>> {
     let traces = lab.plots.iter().flat_map(|plot| {
         plot.traces
             .iter()

@@ -25,7 +25,8 @@ pub use node::{Json, Member, Node};
 pub use parse::{Parsed, parse};
 pub use problem::{Mistake, Problem};
 pub use read::{Number, Scalar};
-pub(crate) use strings::{encode, fix_in, fix_in_code};
+pub use strings::encode;
+pub(crate) use strings::{fix_in, fix_in_code};
 
 /// Deepest nesting of arrays and objects. Labs need about 8.
 pub const MAX_DEPTH: usize = 64;

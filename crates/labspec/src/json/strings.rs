@@ -146,7 +146,7 @@ fn hex(digits: &str) -> Option<u32> {
 }
 
 /// A text as it stands inside of a JSON string: with its escapes, without quotes around it.
-pub(crate) fn encode(text: &str) -> String {
+pub fn encode(text: &str) -> String {
     let quoted = serde_json::Value::from(text).to_string();
     quoted.get(1..quoted.len().saturating_sub(1)).unwrap_or("").to_string()
 }

@@ -91,8 +91,7 @@ fn folder_of(path: &Path, sources: &Sources) -> PathBuf {
 }
 
 /// Whether a lesson links to a file.
-#[cfg(feature = "lsp")]
-pub(crate) fn links_to(lesson: &Lesson, file: &Path) -> bool {
+pub fn links_to(lesson: &Lesson, file: &Path) -> bool {
     let Some((path, sources)) = &lesson.place else { return false };
     let folder = folder_of(path, sources);
     named(lesson, &folder)

@@ -15,14 +15,14 @@ mod markup;
 pub(crate) mod model;
 mod models;
 
-#[cfg(feature = "lsp")]
-pub(crate) use links::links_to;
+pub use links::links_to;
 pub use load::{
     MAX_FINDINGS, SNAPSHOT, load_lesson, load_lesson_at, load_lesson_file, not_utf8, reload_lesson,
     snapshot_path, withhold_fixes,
 };
 pub use models::ModelFolder;
-pub(crate) use models::{lesson_folder, root_of};
+pub use models::lesson_folder;
+pub use models::root_of;
 
 use crate::finding::Finding;
 use crate::markdown::BlockKind;

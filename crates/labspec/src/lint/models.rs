@@ -81,8 +81,7 @@ impl ModelFolder {
     }
 
     /// The same with models of the folder that are not saved yet.
-    #[cfg(feature = "lsp")]
-    pub(crate) fn with_unsaved(mut self, files: Vec<String>) -> ModelFolder {
+    pub fn with_unsaved(mut self, files: Vec<String>) -> ModelFolder {
         if let Some(names) = &mut self.names {
             names.extend(files.iter().filter_map(|file| file.strip_suffix(".xml")).map(String::from));
             names.sort();
@@ -99,7 +98,7 @@ impl ModelFolder {
     }
 
     /// The folder `models` beside a lesson or above it.
-    pub(crate) fn find_near(lesson: &Path) -> Option<PathBuf> {
+    pub fn find_near(lesson: &Path) -> Option<PathBuf> {
         let place = located(lesson);
         let mut folders = place.ancestors().skip(1).map(|folder| folder.join("models"));
         folders.find(|f| f.is_dir())
@@ -140,7 +139,7 @@ impl ModelFolder {
 }
 
 /// The folder that a file lies in.
-pub(crate) fn lesson_folder(file: &Path) -> PathBuf {
+pub fn lesson_folder(file: &Path) -> PathBuf {
     located(file).parent().unwrap_or(Path::new("")).to_path_buf()
 }
 
@@ -160,7 +159,7 @@ pub(crate) const ROOT_FILE: &str = "labspec.toml";
 /// The root for models of a folder: the nearest folder around them that holds `labspec.toml`; else the nearest that is a
 /// repository (`.git`) or into which packages are unpacked (`*.dist-info`); else the widest of the folders that the user
 /// named, where the models lie in it; else the models' own folder.
-pub(crate) fn root_of(models: &Path, named: &[PathBuf]) -> PathBuf {
+pub fn root_of(models: &Path, named: &[PathBuf]) -> PathBuf {
     let real = models.canonicalize().unwrap_or_else(|_| models.to_path_buf());
     let marked = real.ancestors().find(|folder| folder.join(ROOT_FILE).is_file());
     let project = || real.ancestors().find(|folder| folder.join(".git").exists() || holds_packages(folder));

@@ -1,24 +1,24 @@
 //! Findings for people and for programs.
 
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 mod formats;
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 pub mod html;
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 mod human;
 mod machine;
 mod table;
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 mod uri;
 
-pub use crate::printable::{printable, printable_json, printable_lines, printable_path};
-#[cfg(feature = "cli")]
+pub use crate::printable::{counted, printable, printable_json, printable_lines, printable_path};
+#[cfg(feature = "report")]
 pub use formats::{concise, github, gitlab, jsonl, junit, page, sarif, statistics};
-#[cfg(feature = "cli")]
+#[cfg(feature = "report")]
 pub use human::human;
 pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
-#[cfg(feature = "cli")]
-pub(crate) use table::number_in_table;
+#[cfg(feature = "report")]
+pub use table::number_in_table;
 
 use crate::finding::{Finding, Severity};
 use crate::source::SourceFile;

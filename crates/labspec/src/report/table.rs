@@ -55,7 +55,7 @@ fn types(table: &Table) -> Vec<Type> {
 }
 
 /// A number in words: those of JavaScript, and `-0`, which it writes as `0`.
-pub(crate) fn number_in_table(x: f64) -> String {
+pub fn number_in_table(x: f64) -> String {
     if x == 0.0 && x.is_sign_negative() { "-0".into() } else { Value::Number(x).to_string() }
 }
 

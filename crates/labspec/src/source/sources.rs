@@ -35,7 +35,7 @@ pub struct Overlay {
 
 /// What is asked of the disk about a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Asked {
+pub enum Asked {
     /// The file or folder itself, links resolved.
     Real,
     /// The folder of models of a lesson.
@@ -65,8 +65,7 @@ impl Overlay {
     }
 
     /// The open texts of a folder, by their names.
-    #[cfg(feature = "lsp")]
-    pub(crate) fn names_in(&self, folder: &Path) -> Vec<String> {
+    pub fn names_in(&self, folder: &Path) -> Vec<String> {
         let open = locked(&self.open);
         let inside = open.keys().filter(|path| path.parent() == Some(folder));
         inside.filter_map(|path| Some(path.file_name()?.to_str()?.to_string())).collect()
@@ -138,7 +137,7 @@ impl Sources {
     ///
     /// # Errors
     /// A sentence that says why it cannot be read.
-    pub(crate) fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
+    pub fn text(&self, path: &Path, most: u64, what: &str) -> Result<String, String> {
         match self {
             Sources::Given(texts) if texts.is_empty() => Err("only this lesson was given".into()),
             Sources::Given(texts) => match texts.get(&plain(path)) {
@@ -167,7 +166,7 @@ impl Sources {
     }
 
     /// The file or folder of this path, links resolved; `None` where there is none.
-    pub(crate) fn real(&self, path: &Path) -> Option<PathBuf> {
+    pub fn real(&self, path: &Path) -> Option<PathBuf> {
         match self {
             Sources::Given(texts) => texts.contains_key(&plain(path)).then(|| plain(path)),
             Sources::Disk => path.canonicalize().ok(),
@@ -186,7 +185,7 @@ impl Sources {
     }
 
     /// What `find` finds about a path, which is kept where somebody types.
-    pub(crate) fn place(
+    pub fn place(
         &self,
         asked: Asked,
         path: &Path,

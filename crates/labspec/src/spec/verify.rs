@@ -11,7 +11,7 @@ const OF_A_LAB: [&str; 8] = ["data", "model", "mj", "lib", "sim", "ctx", "contac
 
 impl Verify {
     /// One that only measures.
-    pub(crate) fn measuring(span: Range<usize>, runs: Vec<Run>, measure: Vec<(Text, Text)>) -> Verify {
+    pub fn measuring(span: Range<usize>, runs: Vec<Run>, measure: Vec<(Text, Text)>) -> Verify {
         Verify {
             span,
             lab: None,

@@ -1,7 +1,7 @@
 //! Numbers and texts in messages.
 
 /// A number with six significant digits, without trailing zeros.
-pub(crate) fn significant(x: f64) -> String {
+pub fn significant(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return x.to_string();
     }

@@ -39,7 +39,7 @@ mod format;
 mod found;
 mod grounded;
 mod imagined;
-pub(crate) mod judge;
+pub mod judge;
 mod judgement;
 mod layout;
 mod measure;
@@ -72,11 +72,13 @@ pub use check_verify::check_verify;
 pub(crate) use check_verify::{check_nominal, lint_verify};
 pub use curves::Curves;
 pub use exact::ClosedForm;
-pub(crate) use format::significant;
+pub use format::significant;
 pub use judgement::{Judgement, Measured, RunReport, unmade};
-pub(crate) use numerics::{HALVED, NUDGED, NUDGED_BACK};
+pub(crate) use numerics::HALVED;
+pub use numerics::NUDGED;
+pub use numerics::NUDGED_BACK;
 pub use options::UNDECIDED;
-pub(crate) use outcomes::measure_only_run;
+pub use outcomes::measure_only_run;
 pub use quote::{
     Counted, Form, OtherValue, QuoteOutcome, QuoteState, Quoted, ShownText, Stated, Style, Unread, answered,
     claimed, counted, folded, plain, quoted, stated,

@@ -17,9 +17,9 @@ pub(super) const TIGHT: StepVariant = StepVariant { tight: true, ..StepVariant::
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
 pub(super) const NUDGE: f64 = 1e-14;
 
-pub(crate) const NUDGED: StepVariant = StepVariant { perturbation: NUDGE, ..StepVariant::NOMINAL };
+pub const NUDGED: StepVariant = StepVariant { perturbation: NUDGE, ..StepVariant::NOMINAL };
 
-pub(crate) const NUDGED_BACK: StepVariant = StepVariant { perturbation: -NUDGE, ..StepVariant::NOMINAL };
+pub const NUDGED_BACK: StepVariant = StepVariant { perturbation: -NUDGE, ..StepVariant::NOMINAL };
 
 /// Other numerics that every answer is put to.
 pub(super) const CHANGES: usize = 4;

@@ -51,7 +51,7 @@ impl BoundVerify<'_> {
 }
 
 /// Every measure of an object with one run; `None` where the run cannot be made, or breaks.
-pub(crate) fn measure_only_run(bound: &BoundVerify<'_>, numerics: StepVariant) -> Option<Vec<f64>> {
+pub fn measure_only_run(bound: &BoundVerify<'_>, numerics: StepVariant) -> Option<Vec<f64>> {
     let outcome = bound.outcome(numerics, &mut Vec::new())?;
     let run = outcome.runs.into_iter().next().filter(|run| run.broke.is_none())?;
     Some(run.measures.into_iter().map(|(_, x)| x).collect())

@@ -1,7 +1,7 @@
 //! The runs of a snapshot: the lab as it stands, each slider at its ends, each select at its other options, after each button.
 
 use super::super::PreparedLab;
-use crate::precision::Integrator;
+use crate::run::Integrator;
 use crate::run::{self, Budget, Cell, Play, RunError, Session, StepVariant};
 use crate::spec::{ControlKind, Lab, LabAddress, Lesson};
 use crate::stress::window;

@@ -21,7 +21,7 @@ impl Left {
     }
 
     /// Both together.
-    pub(crate) fn and(self, other: Left) -> Left {
+    pub fn and(self, other: Left) -> Left {
         Left {
             searches: self.searches + other.searches,
             ranges: self.ranges + other.ranges,

@@ -10,7 +10,7 @@ mod left;
 mod numbers;
 mod task;
 
-pub(crate) use left::Left;
+pub use left::Left;
 pub(crate) use task::tasks;
 
 use super::bound::BoundVerify;
@@ -130,7 +130,7 @@ pub(crate) fn judge(
 }
 
 /// Enough digits to see that two numbers are not the same.
-pub(crate) fn shown_as(x: f64) -> String {
+pub fn shown_as(x: f64) -> String {
     let short = significant(x);
     if x.is_finite() && short.parse::<f64>().is_ok_and(|y| y != x) {
         format!("{x:.9e}").parse::<f64>().map_or(short, |y| y.to_string())

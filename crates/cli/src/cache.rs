@@ -1,0 +1,398 @@
+//! Results of earlier checks: kept by the content of a lesson, of its models and of this program.
+//!
+//! Each lesson has one file, which holds its last result. The result counts only if the same program found it, in the same
+//! bytes, to the same depth; otherwise the lesson is checked as if nothing had been kept. Where nothing can be written
+//! nothing is kept.
+
+use super::digest;
+use super::output::clear_abandoned;
+use labspec::bind::parts::ModelFile;
+use labspec::bind::scene::Models;
+use labspec::check::{self, CheckLevel, LabOutcome, stored};
+use labspec::source::Text;
+use labspec::spec::{Lab, Lesson, ModelSource};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// Where results are kept.
+#[derive(Debug)]
+pub(super) struct Cache {
+    /// A folder of files.
+    folder: Option<PathBuf>,
+    /// This process, while it waits for changes.
+    memory: Option<Mutex<BTreeMap<String, String>>>,
+    /// What this program is.
+    program: String,
+}
+
+impl Cache {
+    /// The user's cache, unless `off`; with `memory`, results are kept in this process, too.
+    pub(super) fn open(off: bool, memory: bool) -> Cache {
+        let folder = if off { None } else { folder() };
+        if let Some(folder) = &folder {
+            clear_abandoned(folder, is_unfinished);
+        }
+        let program = folder.as_deref().map(program);
+        // A program that cannot be known again keeps nothing on a disk.
+        let has_digest = program.as_ref().is_some_and(Option::is_some);
+        Cache {
+            folder: folder.filter(|_| has_digest),
+            memory: memory.then(Mutex::default),
+            program: program.flatten().unwrap_or_default(),
+        }
+    }
+
+    fn is_off(&self) -> bool {
+        self.folder.is_none() && self.memory.is_none()
+    }
+
+    /// What is found in a lesson: kept, or found now and kept from now on, unless `spoilt` says that it was cut short.
+    pub(super) fn examine(
+        &self,
+        path: &Path,
+        lesson: &Lesson,
+        models: &Models,
+        depth: CheckLevel,
+        cancelled: impl Fn() -> bool,
+    ) -> LabOutcome {
+        if self.is_off() {
+            return check::examine(lesson, models, depth);
+        }
+        let (slot, key) = (slot(path, depth), self.key(lesson, models, depth));
+        if let Some(found) = self.load(&slot).and_then(|text| recall(&text, &key, lesson, models)) {
+            return found;
+        }
+        let found = check::examine(lesson, models, depth);
+        if !cancelled()
+            && let Some(text) = entry(&key, lesson, models, &found)
+        {
+            self.save(&slot, text);
+        }
+        found
+    }
+
+    /// Everything that a result depends on, but for the models.
+    fn key(&self, lesson: &Lesson, models: &Models, depth: CheckLevel) -> String {
+        let flags =
+            [depth.programs, depth.labs, depth.claims, models.folder().names().is_some()].map(u8::from);
+        let file = &lesson.file;
+        let (stored, snapshot) = match &lesson.snapshot {
+            None => (0, ""),
+            Some(Ok(snapshot)) => (1, snapshot.text()),
+            Some(Err(why)) => (2, why.as_str()),
+        };
+        let texts = [file.path().as_bytes(), file.text().as_bytes(), snapshot.as_bytes()];
+        let [path, text, snapshot] = texts;
+        let inputs = [self.program.as_bytes(), &flags, path, text, &[stored], snapshot];
+        let others = lesson.others.iter().flat_map(|other| {
+            let why = other.lab.as_ref().err().map_or("", String::as_str);
+            [other.path.as_bytes(), other.text.as_bytes(), why.as_bytes()]
+        });
+        digest::hex_of(&inputs.into_iter().chain(others).collect::<Vec<_>>())
+    }
+
+    fn load(&self, slot: &str) -> Option<String> {
+        if let Some(memory) = &self.memory
+            && let Some(text) = memory.lock().unwrap_or_else(PoisonError::into_inner).get(slot)
+        {
+            return Some(text.clone());
+        }
+        std::fs::read_to_string(self.folder.as_ref()?.join(slot)).ok()
+    }
+
+    fn save(&self, slot: &str, text: String) {
+        if let Some(folder) = &self.folder {
+            write(folder, slot, &text);
+        }
+        if let Some(memory) = &self.memory {
+            memory.lock().unwrap_or_else(PoisonError::into_inner).insert(slot.to_string(), text);
+        }
+    }
+}
+
+/// Where results are kept on this machine. A `LABSPEC_CACHE` that is empty, or `off`, says: nowhere.
+fn folder() -> Option<PathBuf> {
+    let set = |name: &str| std::env::var_os(name).map(PathBuf::from);
+    let full = |path: &PathBuf| path.is_absolute();
+    if let Some(folder) = set("LABSPEC_CACHE") {
+        return Some(folder).filter(|folder| !folder.as_os_str().is_empty() && folder.as_os_str() != "off");
+    }
+    let caches = if cfg!(windows) {
+        set("LOCALAPPDATA").filter(full)
+    } else {
+        set("XDG_CACHE_HOME").filter(full).or_else(|| Some(set("HOME").filter(full)?.join(".cache")))
+    };
+    Some(caches?.join("labspec"))
+}
+
+/// The name of a lesson's file in the cache.
+fn slot(path: &Path, depth: CheckLevel) -> String {
+    let real = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    let flags = [depth.programs, depth.labs, depth.claims].map(u8::from);
+    digest::hex_of(&[real.as_os_str().as_encoded_bytes(), &flags])
+}
+
+/// The names of the models of a lesson's labs, once each.
+fn named_models(lesson: &Lesson) -> BTreeSet<&str> {
+    let named = |lab: &'_ Lab| matches!(lab.scene(), Some(ModelSource::Model(_)));
+    let others = lesson.others.iter().filter_map(|other| other.lab.as_ref().ok());
+    let labs = lesson.all_labs().into_iter().chain(others).filter(|lab| named(lab));
+    labs.filter_map(|lab| lab.model.as_ref().map(Text::as_str)).collect()
+}
+
+/// A result as a text: its digest in the first line, then what it depends on and what it is.
+fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Option<String> {
+    let part = |p: &ModelFile| json!([p.path, p.limit, p.hash]);
+    let used: Vec<Value> = named_models(lesson)
+        .into_iter()
+        .map(|name| match models.parts(name) {
+            Some((parts, talks)) => json!([name, talks, parts.iter().map(part).collect::<Vec<_>>()]),
+            // The folder has no such model.
+            None => json!([name, false, null]),
+        })
+        .collect();
+    let body = json!([key, used, stored::write(found)?]).to_string();
+    Some(format!("{}\n{body}", digest::hex(body.as_bytes())))
+}
+
+/// The result in a text, if it is whole and about these models. Models that have something to say are compiled, so that
+/// they say it.
+fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<LabOutcome> {
+    let (mark, body) = text.split_once('\n')?;
+    if digest::hex(body.as_bytes()) != mark {
+        return None;
+    }
+    let value: Value = serde_json::from_str(body).ok()?;
+    let [kept, used, found]: &[Value; 3] = value.as_array()?.as_slice().try_into().ok()?;
+    if kept.as_str()? != key {
+        return None;
+    }
+    let mut names = BTreeSet::new();
+    let mut talking = Vec::new();
+    for one in used.as_array()? {
+        let [name, talks, parts]: &[Value; 3] = one.as_array()?.as_slice().try_into().ok()?;
+        let name = name.as_str()?;
+        let same = match parts {
+            Value::Null => models.folder().path(name).is_none(),
+            parts => models.is_made_of(name, &read_parts(parts)?),
+        };
+        if !same {
+            return None;
+        }
+        if talks.as_bool()? {
+            talking.push(name);
+        }
+        names.insert(name);
+    }
+    if names != named_models(lesson) {
+        return None;
+    }
+    let found = stored::read(found)?;
+    for name in talking {
+        models.load(name);
+    }
+    Some(found)
+}
+
+fn read_parts(parts: &Value) -> Option<Vec<ModelFile>> {
+    let part = |value: &Value| {
+        let [path, limit, mark]: &[Value; 3] = value.as_array()?.as_slice().try_into().ok()?;
+        let limit = usize::try_from(limit.as_u64()?).ok()?;
+        Some(ModelFile { path: path.as_str()?.to_string(), limit, hash: mark.as_str()?.to_string() })
+    };
+    parts.as_array()?.iter().map(part).collect()
+}
+
+/// The version and the digest of this program's file. Reading all of it takes longer than many a check, so its digest is
+/// kept, too, under what the system says of the file.
+fn program(folder: &Path) -> Option<String> {
+    let path = std::env::current_exe().ok()?;
+    let slot = format!("program-{}", digest::hex_of(&[identity(&path)?.as_bytes()]));
+    let cached = std::fs::read_to_string(folder.join(&slot)).ok();
+    let whole = |text: &String| {
+        let (mark, digest) = text.split_once('\n')?;
+        (digest::hex(digest.as_bytes()) == mark).then(|| digest.to_string())
+    };
+    let digest = match cached.as_ref().and_then(whole) {
+        Some(digest) => digest,
+        None => {
+            let digest = digest::hex(&std::fs::read(&path).ok()?);
+            write(folder, &slot, &format!("{}\n{digest}", digest::hex(digest.as_bytes())));
+            digest
+        }
+    };
+    Some(format!("results 1 of labspec {} {digest}", env!("CARGO_PKG_VERSION")))
+}
+
+/// What the system says of a file, by which it is told from every other.
+fn identity(path: &Path) -> Option<String> {
+    let meta = std::fs::metadata(path).ok()?;
+    let mut text = format!("{} {} {:?}", path.display(), meta.len(), meta.modified().ok()?);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        text.push_str(&format!(" {} {} {} {}", meta.dev(), meta.ino(), meta.ctime(), meta.ctime_nsec()));
+    }
+    Some(text)
+}
+
+/// Whether a file of the cache was being written: `12-0.new`.
+fn is_unfinished(name: &str) -> bool {
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let inside = name.strip_suffix(".new").and_then(|rest| rest.split_once('-'));
+    inside.is_some_and(|(a, b)| number(a) && number(b))
+}
+
+/// Writes a file of the cache, whole or not at all.
+fn write(folder: &Path, slot: &str, text: &str) {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let new = folder.join(format!("{}-{}.new", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed)));
+    let done = std::fs::create_dir_all(folder)
+        .and_then(|()| std::fs::write(&new, text))
+        .and_then(|()| std::fs::rename(&new, folder.join(slot)));
+    if done.is_err() {
+        let _ = std::fs::remove_file(&new);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use labspec::lint::ModelFolder;
+    use labspec::lint::load_lesson;
+    use labspec::source::SourceFile;
+    use std::cell::Cell;
+
+    const DEEP: CheckLevel = CheckLevel::FULL;
+    const LESSON: &str = r#"{"model": "drop", "title": "Drop", "stopAt": 0.1,
+        "controls": [{"label": "v", "set": "data.qvel[2]", "min": 0, "max": 1, "value": 0}],
+        "readouts": [{"label": "z", "expr": "data.qpos[2]"}, {"label": "n", "expr": "data.qops"}],
+        "verify": {"runs": {"r": {"until": 0.1}}, "measure": {"z": "final(data.qpos[2])", "none": "before(data.time > 9, 1)"},
+            "says": [["1.0 m", "z"]]}}"#;
+
+    /// A folder with a model that includes another file.
+    fn course() -> tempfile::TempDir {
+        let top = tempfile::tempdir().unwrap();
+        std::fs::create_dir(top.path().join("models")).unwrap();
+        let model = "<mujoco><include file='ball.xml'/></mujoco>";
+        std::fs::write(top.path().join("models/drop.xml"), model).unwrap();
+        write_ball(top.path(), "<geom size='0.05'/>");
+        top
+    }
+
+    fn write_ball(top: &Path, inside: &str) {
+        let ball =
+            format!("<mujoco><worldbody><body pos='0 0 1'><freejoint/>{inside}</body></worldbody></mujoco>");
+        std::fs::write(top.join("models/ball.xml"), ball).unwrap();
+    }
+
+    fn models(top: &Path) -> Models {
+        Models::marked(ModelFolder::open(&top.join("models")).unwrap(), digest::hex_of)
+    }
+
+    fn lesson(models: &Models, text: &str) -> Lesson {
+        load_lesson(SourceFile::new("drop.json", text), models.folder())
+    }
+
+    #[test]
+    fn what_was_written_is_read_back() {
+        let top = course();
+        let models = models(top.path());
+        let lesson = lesson(&models, LESSON);
+        let found = check::examine(&lesson, &models, DEEP);
+        assert!(
+            !found.findings.is_empty() && found.labs[0].runs == 5 && found.claims.len() == 1,
+            "{found:?}"
+        );
+        let text = entry("key", &lesson, &models, &found).unwrap();
+        let again = recall(&text, "key", &lesson, &models).unwrap();
+        assert_eq!(format!("{found:?}"), format!("{again:?}"));
+        assert!(recall(&text, "other", &lesson, &models).is_none());
+    }
+
+    /// A byte that is another one, or an end that is missing: there is no result.
+    #[test]
+    fn a_damaged_result_is_none() {
+        let top = course();
+        let models = models(top.path());
+        let lesson = lesson(&models, LESSON);
+        let found = check::examine(&lesson, &models, DEEP);
+        let text = entry("key", &lesson, &models, &found).unwrap();
+        for i in 0..text.len() {
+            for bit in [0x01, 0x20, 0x80] {
+                let mut bytes = text.clone().into_bytes();
+                bytes[i] ^= bit;
+                let Ok(damaged) = String::from_utf8(bytes) else { continue };
+                assert!(recall(&damaged, "key", &lesson, &models).is_none(), "byte {i}");
+            }
+            assert!(recall(&text[..i], "key", &lesson, &models).is_none(), "{i} bytes");
+        }
+        // A whole entry of another make is no result either, and no panic.
+        for body in
+            ["", "[]", "[1,2,3]", "[\"key\",[],[[],[],[]]]", "[\"key\",[[\"drop\",false,[]]],[[],[],[]]]"]
+        {
+            let foreign = format!("{}\n{body}", digest::hex(body.as_bytes()));
+            assert!(recall(&foreign, "key", &lesson, &models).is_none(), "{body}");
+        }
+    }
+
+    /// Checked anew whenever something that it depends on is another, and only then.
+    #[test]
+    fn a_result_is_about_the_same_bytes() {
+        let top = course();
+        let cache = Cache { folder: Some(top.path().join("cache")), memory: None, program: "one".into() };
+        let fresh = |cache: &Cache, text: &str, depth: CheckLevel| {
+            let models = models(top.path());
+            let asked = Cell::new(false);
+            let spoilt = || {
+                asked.set(true);
+                false
+            };
+            let lesson = lesson(&models, text);
+            cache.examine(&top.path().join("drop.json"), &lesson, &models, depth, spoilt);
+            asked.get()
+        };
+        let newer = LESSON.replace("Drop", "Fall");
+        assert!(fresh(&cache, LESSON, DEEP));
+        assert!(!fresh(&cache, LESSON, DEEP));
+        assert!(fresh(&cache, &newer, DEEP), "the lesson");
+        assert!(!fresh(&cache, &newer, DEEP));
+        assert!(fresh(&cache, &newer, CheckLevel::CLAIMS), "the depth");
+        write_ball(top.path(), "<geom size='0.06'/>");
+        assert!(fresh(&cache, &newer, DEEP), "a file that the model includes");
+        assert!(!fresh(&cache, &newer, DEEP));
+        std::fs::write(top.path().join("models/drop.xml"), "<mujoco> <include file='ball.xml'/></mujoco>")
+            .unwrap();
+        assert!(fresh(&cache, &newer, DEEP), "the model");
+        std::fs::remove_file(top.path().join("models/drop.xml")).unwrap();
+        assert!(fresh(&cache, &newer, DEEP), "the model is gone");
+        assert!(!fresh(&cache, &newer, DEEP));
+        let other = Cache { program: "two".into(), ..cache };
+        assert!(fresh(&other, &newer, DEEP), "the program");
+        // Damaged on the disk: checked anew, and written anew.
+        for file in std::fs::read_dir(top.path().join("cache")).unwrap() {
+            std::fs::write(file.unwrap().path(), [0xff, 0, 0x80]).unwrap();
+        }
+        assert!(fresh(&other, &newer, DEEP), "damage");
+        assert!(!fresh(&other, &newer, DEEP));
+    }
+
+    /// What a model has to say is said, too, when the result of its lab was kept.
+    #[test]
+    fn a_model_that_talks_is_heard_again() {
+        let top = course();
+        write_ball(top.path(), "text <geom size='0.05'/>");
+        let mut first = models(top.path());
+        let read = lesson(&first, LESSON);
+        let found = check::examine(&read, &first, DEEP);
+        let text = entry("key", &read, &first, &found).unwrap();
+        let mut second = models(top.path());
+        assert!(recall(&text, "key", &read, &second).is_some());
+        let said = first.take_findings();
+        assert!(!said.is_empty());
+        assert_eq!(said, second.take_findings());
+    }
+}

@@ -1,0 +1,217 @@
+//! The output of a check: what is printed in each format, the files that are written, and the outcome of the command.
+
+use super::baseline::Baseline;
+use super::common::{Color, Failure, Outcome, interrupted};
+use super::course::CourseResults;
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::overview::{format_allowed, format_overview, format_summary};
+use super::stdio::{print, print_json};
+use super::{judge, machine, reproduction, since};
+use clap::ValueEnum;
+use labspec::ledger::{self, Entry, State, Subject};
+use labspec::report::html::Material;
+use labspec::report::{self, printable_path};
+use labspec::source::SourceFile;
+use serde_json::Value;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    /// For people
+    Human,
+    /// A line for each finding
+    Concise,
+    /// For programs
+    Json,
+    /// A JSON object in each line
+    Jsonl,
+    /// Commands of GitHub's workflows
+    Github,
+    /// GitLab's report of code quality
+    Gitlab,
+    /// SARIF 2.1.0, for code scanning
+    Sarif,
+    /// JUnit: a test case for each claim
+    Junit,
+}
+
+/// A record of an earlier check: its file and its content.
+pub(super) type PreviousRecord<'a> = (&'a Path, Value);
+
+/// The file of the earlier record, and what changed since.
+type Changes<'a> = (&'a Path, Vec<since::LessonChange>);
+
+/// What is printed and written.
+pub(super) struct OutputOptions<'a> {
+    pub(super) paths: &'a [PathBuf],
+    pub(super) format: Format,
+    pub(super) color: Color,
+    /// The command is `verify`: the evidence of every claim is printed.
+    pub(super) with_evidence: bool,
+    pub(super) statistics: bool,
+    pub(super) show_allowed: bool,
+    /// The baseline to write.
+    pub(super) new_baseline: Option<&'a Path>,
+    /// The request to the reference simulator to write.
+    pub(super) judge_request: Option<&'a Path>,
+    /// The recording of the reference simulator that was compared with.
+    pub(super) recording: Option<&'a Path>,
+    /// The record of this check to write.
+    pub(super) record: Option<&'a Path>,
+    /// The page to write.
+    pub(super) html: Option<&'a Path>,
+    /// The record of an earlier check that is compared with.
+    pub(super) previous: Option<&'a PreviousRecord<'a>>,
+}
+
+/// Writes the files, prints the results, and returns the outcome of the command.
+///
+/// # Errors
+/// Something cannot be written, or no lesson claims anything that could be verified.
+pub(super) fn report_results(
+    options: &OutputOptions<'_>,
+    results: &CourseResults,
+) -> Result<Outcome, Failure> {
+    let outcome = overall_outcome(options, results);
+    let mut sources: Vec<&SourceFile> = results.checked.iter().map(|c| &c.lesson.file).collect();
+    sources.extend(&results.sources);
+    write_files(options, results, &sources)?;
+    let changes =
+        options.previous.map(|(file, old)| (*file, since::changes(old, &reproduction::now(file, results))));
+    match options.format {
+        _ if options.statistics => print(&report::statistics(&results.findings))?,
+        Format::Human => print(&human_text(options, outcome, results, &sources, changes.as_ref()))?,
+        Format::Json => {
+            print_json(&json_value(options, outcome, results, &sources, changes.as_ref()), true)?;
+        }
+        Format::Concise => print(&report::concise(&results.findings, &sources))?,
+        Format::Jsonl => print(&report::jsonl(&results.findings, &sources))?,
+        Format::Github => print(&report::github(&results.findings, &sources))?,
+        Format::Gitlab => print_json(&report::gitlab(&results.findings, &sources), true)?,
+        Format::Sarif => print_json(&report::sarif(&results.findings, &sources), true)?,
+        Format::Junit => print(&report::junit(&results.ledger, &results.findings, &sources))?,
+    }
+    command_outcome(options, outcome, results)
+}
+
+/// The outcome of the ledger; of `verify` nothing, where nothing is claimed.
+fn overall_outcome(options: &OutputOptions<'_>, results: &CourseResults) -> ledger::Outcome {
+    let is_claimed = |e: &Entry| {
+        let claims = [Subject::Answer, Subject::Quote, Subject::ClosedForm, Subject::Run];
+        claims.contains(&e.subject) && e.state != State::NotClaimed
+    };
+    match results.ledger.outcome() {
+        ledger::Outcome::Clean
+            if options.with_evidence && !results.ledger.entries().iter().any(is_claimed) =>
+        {
+            ledger::Outcome::Nothing
+        }
+        outcome => outcome,
+    }
+}
+
+/// Writes the files that were requested. After Ctrl-C only the baseline is written.
+fn write_files(
+    options: &OutputOptions<'_>,
+    results: &CourseResults,
+    sources: &[&SourceFile],
+) -> Result<(), Failure> {
+    if let Some(file) = options.new_baseline {
+        Baseline::new(file).write(file, &results.findings, sources)?;
+    }
+    if let Some(file) = options.record.filter(|_| !interrupted()) {
+        reproduction::write(file, &reproduction::now(file, results))?;
+    }
+    if let Some(file) = options.judge_request.filter(|_| !interrupted()) {
+        judge::write_request(file, results)?;
+    }
+    if let Some(file) = options.html.filter(|_| !interrupted()) {
+        let material = Material {
+            lessons: &results.checked,
+            curves: &results.curves,
+            bases: &results.bases,
+            findings: &results.findings,
+            allowed: &results.suppressed.allowed,
+            ledger: &results.ledger,
+            sources,
+            summary: &format_summary(results),
+        };
+        write_file(file, OutputKind::Page, &report::html::page(&material))?;
+    }
+    Ok(())
+}
+
+/// The text for people. The findings of lessons are printed already.
+fn human_text(
+    options: &OutputOptions<'_>,
+    outcome: ledger::Outcome,
+    results: &CourseResults,
+    sources: &[&SourceFile],
+    changes: Option<&Changes<'_>>,
+) -> String {
+    let mut text = report::human(&results.course_findings, sources, options.color.on());
+    if options.show_allowed {
+        text.push_str(&format_allowed(results, sources));
+    }
+    text.push_str(&format_overview(results, options.with_evidence));
+    if let Some((file, changes)) = changes {
+        text.push_str(&since::summary(&file.display().to_string(), changes));
+    }
+    if let (Some(file), Some(engine)) = (options.recording, &results.reference_engine) {
+        text.push_str(&judge::summary(file, engine, results));
+    }
+    if outcome == results.ledger.outcome() {
+        let _ = writeln!(text, "{}", format_summary(results));
+    }
+    text
+}
+
+/// The report for programs.
+fn json_value(
+    options: &OutputOptions<'_>,
+    outcome: ledger::Outcome,
+    results: &CourseResults,
+    sources: &[&SourceFile],
+    changes: Option<&Changes<'_>>,
+) -> Value {
+    let name = if options.with_evidence { "verify" } else { "check" };
+    let mut value = machine::value(name, outcome, results, sources);
+    value["since"] = changes.map_or(Value::Null, |(_, changes)| since::machine(changes));
+    let engine = results.reference_engine.as_ref();
+    value["judge"] = engine.map_or(Value::Null, |engine| judge::machine(engine, results));
+    value
+}
+
+/// The outcome of the command.
+///
+/// # Errors
+/// Nothing could be checked or verified.
+fn command_outcome(
+    options: &OutputOptions<'_>,
+    outcome: ledger::Outcome,
+    results: &CourseResults,
+) -> Result<Outcome, Failure> {
+    if options.new_baseline.is_some() {
+        // The current findings are the baseline now: the next check reports new ones.
+        return Ok(Outcome::Clean);
+    }
+    let names = || options.paths.iter().map(|p| printable_path(p)).collect::<Vec<_>>().join(", ");
+    match outcome {
+        ledger::Outcome::Findings => Ok(Outcome::Findings),
+        ledger::Outcome::Nothing if results.ledger.outcome() == ledger::Outcome::Clean => {
+            Err(format!("{} has nothing to verify: no question and no lab has a `verify` object", names()))
+        }
+        ledger::Outcome::Nothing => {
+            Err(format!("{} has nothing to check: no lab, no question and no model", names()))
+        }
+        ledger::Outcome::Partial => Ok(Outcome::Partial),
+        ledger::Outcome::Clean | ledger::Outcome::Known
+            if results.reference_engine.is_some() && judge::is_partial(results) =>
+        {
+            Ok(Outcome::Partial)
+        }
+        ledger::Outcome::Clean | ledger::Outcome::Known => Ok(Outcome::Clean),
+    }
+}

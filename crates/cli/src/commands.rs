@@ -1,0 +1,189 @@
+//! The commands of the program: their arguments, and how one is executed.
+
+use super::common::{Failure, Outcome, interrupted};
+#[cfg(feature = "lsp")]
+use super::lsp;
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::{self, complain};
+use super::{
+    bench, check, completions, explain, fmt, init, plan, precision, record, run, scaffold, schema, snapshot,
+    stability, trace,
+};
+use clap::{CommandFactory, Parser, Subcommand};
+use labspec::interrupt;
+use labspec::report::{printable_lines, printable_path};
+use labspec::threads;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Checks that physics lessons tell the truth.
+#[derive(Parser, Debug)]
+#[command(name = "labspec", version, about, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Create a folder for lessons: settings, a first lesson with its model, a workflow
+    Init(init::Arguments),
+    /// Lint and run all labs and verify all quizzes of lessons, JSON files, or folders of them
+    Check(check::CheckArguments),
+    /// Verify the claims of quizzes and labs only, with every measure
+    Verify(check::Arguments),
+    /// Store the output of labs in snapshots for review; `check` compares the labs with them
+    Snapshot(snapshot::Arguments),
+    /// Format the code in lessons; with --modernize, replace bare indexes by names
+    Fmt(fmt::Arguments),
+    /// Run one lab without a page: LAB.json, LESSON.md#2, LESSON.md#quiz-id.1
+    Run(run::Arguments),
+    /// Compare error and run time of integrators and timesteps, for one lab
+    Precision(precision::Arguments),
+    /// Find what breaks in one lab when a student moves its controls in every way
+    Stability(stability::Arguments),
+    /// Show which stages of the engine a lab or model needs, why, and what each costs
+    Plan(plan::Arguments),
+    /// Find the origin of the numbers in a lesson: runs and measures with the same digits
+    Trace(trace::Arguments),
+    /// Propose a first, tested `verify` object for every question and lab that has none
+    Scaffold(scaffold::Arguments),
+    /// Explain the code of a finding, with an example; without a code, list all codes
+    Explain(explain::Arguments),
+    /// Print the JSON Schema of labs and quizzes, for editors: lab, quiz, or lesson for a JSON file of both
+    Schema(schema::Arguments),
+    /// Serve an editor: findings, completion, values and names while typing (Language Server Protocol)
+    #[cfg(feature = "lsp")]
+    Lsp(lsp::Arguments),
+    /// For engineers: compute the numbers of this engine for the states of a MuJoCo recording
+    Record(record::Arguments),
+    /// For engineers: measure the time of a step
+    Bench(bench::Arguments),
+    /// Print a completion script for a shell
+    Completions(completions::Arguments),
+    /// Write the reference pages, and the JSON Schemas into the folder `schema` beside them
+    #[command(hide = true)]
+    Reference {
+        /// The folder
+        folder: PathBuf,
+    },
+}
+
+/// Runs the program with the arguments of the command line.
+pub(crate) fn run_program() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(e) => {
+            return usage(&e);
+        }
+    };
+    if cli.command.prints_what_is_finished() {
+        listen();
+    }
+    // The same stack for all work, whatever the system gives the first thread.
+    match threads::run(|| execute(&cli.command)) {
+        Ok(_) if interrupted() => ExitCode::from(130),
+        Ok(Outcome::Clean) => ExitCode::SUCCESS,
+        Ok(Outcome::Findings) => ExitCode::from(1),
+        Ok(Outcome::Partial) => ExitCode::from(3),
+        Err(message) => {
+            complain(&format!("labspec: {}\n", printable_lines(&message)));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// From now on Ctrl-C sets the flag that ends long work; a second one ends the program at once, with exit code 130.
+fn listen() {
+    #[cfg(any(unix, windows))]
+    {
+        use signal_hook::{consts::SIGINT, flag};
+        let requested = interrupt::flag();
+        // The handlers run in this order. Where they cannot be set, Ctrl-C ends the program as it always does.
+        if flag::register_conditional_shutdown(SIGINT, 130, requested.clone()).is_ok() {
+            let _ = flag::register(SIGINT, requested);
+        }
+    }
+}
+
+fn execute(command: &Command) -> Result<Outcome, Failure> {
+    match command {
+        Command::Init(a) => init::init(a),
+        Command::Completions(a) => completions::completions(a, &mut Cli::command()),
+        Command::Check(a) => check::check_command(a),
+        Command::Verify(a) => check::verify_command(a),
+        Command::Snapshot(a) => snapshot::snapshot(a),
+        Command::Fmt(a) => fmt::fmt(a),
+        Command::Run(a) => run::run(a),
+        Command::Precision(a) => precision::precision(a),
+        Command::Stability(a) => stability::stability(a),
+        Command::Plan(a) => plan::plan(a),
+        Command::Trace(a) => trace::trace(a),
+        Command::Scaffold(a) => scaffold::scaffold(a),
+        Command::Explain(a) => explain::explain(a),
+        Command::Schema(a) => schema::schema(a),
+        #[cfg(feature = "lsp")]
+        Command::Lsp(a) => lsp::lsp(a),
+        Command::Record(a) => record::record(a),
+        Command::Bench(a) => bench::bench(a),
+        Command::Reference { folder } => write_reference(folder),
+    }
+}
+
+impl Command {
+    /// Whether Ctrl-C is asked for between pieces of work. All other commands it ends at once.
+    fn prints_what_is_finished(&self) -> bool {
+        use Command::{
+            Bench, Check, Fmt, Plan, Precision, Record, Run, Scaffold, Snapshot, Stability, Trace, Verify,
+        };
+        matches!(
+            self,
+            Check(_)
+                | Verify(_)
+                | Snapshot(_)
+                | Fmt(_)
+                | Run(_)
+                | Precision(_)
+                | Plan(_)
+                | Stability(_)
+                | Trace(_)
+                | Scaffold(_)
+                | Record(_)
+                | Bench(_)
+        )
+    }
+}
+
+/// Help and version, which are no errors, or what is wrong with the arguments.
+fn usage(e: &clap::Error) -> ExitCode {
+    if e.use_stderr() {
+        // An argument may be the name of a file that someone else chose.
+        complain(&printable_lines(&e.render().to_string()));
+        return ExitCode::from(2);
+    }
+    match stdio::outcome(e.print().and_then(|()| std::io::stdout().flush())) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            complain(&format!("labspec: {message}\n"));
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Writes the reference pages and schemas.
+fn write_reference(folder: &std::path::Path) -> Result<Outcome, Failure> {
+    let schemas = folder.parent().unwrap_or(folder).join("schema");
+    for folder in [folder, &schemas] {
+        std::fs::create_dir_all(folder)
+            .map_err(|e| format!("cannot make {}: {e}", printable_path(folder)))?;
+    }
+    for (name, text) in labspec::reference::pages() {
+        write_file(&folder.join(name), OutputKind::Reference, &text)?;
+    }
+    for (name, text) in labspec::reference::schemas() {
+        write_file(&schemas.join(name), OutputKind::Reference, &text)?;
+    }
+    Ok(Outcome::Clean)
+}

@@ -1,0 +1,134 @@
+//! The ledger of a course: the claims of all lessons and models, as far as findings that are not reported leave them.
+
+use super::common::Failure;
+use super::course::CourseResults;
+use super::policy::Policies;
+use labspec::check;
+use labspec::finding::{Finding, Severity};
+use labspec::ledger::{Entry, Evidence, Ledger, State, Subject};
+use labspec::report::Summary;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Everything that only the collection of the files knows and the ledger holds.
+#[derive(Default)]
+pub(super) struct FileOutcomes {
+    /// Lessons whose check ended with a panic.
+    pub(super) cancelled: BTreeSet<Arc<str>>,
+    /// Models that the user named, and whether they load.
+    pub(super) models: Vec<(PathBuf, bool)>,
+    /// Files that were left out, and why.
+    pub(super) left_out: Vec<(PathBuf, String)>,
+}
+
+/// The ledger of everything that was checked.
+///
+/// # Errors
+/// The settings near a lesson cannot be read.
+pub(super) fn build_ledger(
+    results: &CourseResults,
+    files: &FileOutcomes,
+    policies: &mut Policies,
+) -> Result<Ledger, Failure> {
+    let mut ledger = check::ledger(&results.checked, &results.findings);
+    ledger.break_off(|path| files.cancelled.contains(path));
+    let mut of_files = Ledger::default();
+    files.models.iter().for_each(|(path, loads)| of_files.add(model_entry(path, *loads)));
+    files.left_out.iter().for_each(|(path, why)| of_files.add(left_out_entry(path, why.clone())));
+    ledger.append(of_files);
+    accept_page_widgets(&mut ledger, results, policies)?;
+    settle_suppressed(&mut ledger, results);
+    Ok(ledger)
+}
+
+/// Accepts the widgets that the page of a lesson has, according to its settings.
+fn accept_page_widgets(
+    ledger: &mut Ledger,
+    results: &CourseResults,
+    policies: &mut Policies,
+) -> Result<(), Failure> {
+    let mut of_pages: BTreeMap<Arc<str>, Vec<String>> = BTreeMap::new();
+    for c in results.checked.iter().filter(|c| !c.lesson.widgets.is_empty()) {
+        let path = c.lesson.file.path();
+        of_pages.insert(path.clone(), policies.policy_for(Path::new(&**path))?.widgets);
+    }
+    let has =
+        |path: &Arc<str>, name: &str| of_pages.get(path).is_some_and(|all| all.iter().any(|w| w == name));
+    ledger.accept_widgets(has);
+    Ok(())
+}
+
+/// A suppressed finding is no reason to report success: an ignored error leaves its file out of the check, and a claim whose
+/// findings are all in the baseline is baselined.
+fn settle_suppressed(ledger: &mut Ledger, results: &CourseResults) {
+    let problems = |all: &[Finding]| {
+        group_by_path(all.iter().filter(|f| f.severity != Severity::Note).cloned().collect())
+    };
+    let baselined = problems(&results.suppressed.baselined);
+    let reported = problems(&results.findings);
+    let concerns = |e: &Entry, findings: Option<&Vec<Finding>>| {
+        findings.is_some_and(|all| all.iter().any(|f| is_about(f, e)))
+    };
+    ledger.know(|e| concerns(e, baselined.get(&e.path)) && !concerns(e, reported.get(&e.path)));
+    let ignored = results.suppressed.ignored.iter().filter(|f| f.is_error()).cloned().collect();
+    for (path, all) in group_by_path(ignored) {
+        ledger.add(left_out_entry(Path::new(&*path), format!("{} ignored", Summary::of(&all))));
+    }
+}
+
+/// Whether a finding is about what an entry claims.
+fn is_about(f: &Finding, e: &Entry) -> bool {
+    let whole = e.span.is_empty();
+    let inside = f.span.start <= e.span.end && e.span.start <= f.span.end;
+    let claims = [Subject::Answer, Subject::Option, Subject::Quote, Subject::ClosedForm, Subject::Run];
+    // A false claim has findings of its own; one that was never judged fails with what holds it.
+    let is_claim = claims.contains(&e.subject);
+    match &f.claim {
+        Some(claim) if is_claim => check::is_about(claim, e),
+        Some(_) => whole,
+        None if is_claim => e.state == State::Unchecked && inside,
+        None => whole || inside,
+    }
+}
+
+/// Findings by the path of their file.
+pub(super) fn group_by_path(findings: Vec<Finding>) -> BTreeMap<Arc<str>, Vec<Finding>> {
+    let mut by_path: BTreeMap<Arc<str>, Vec<Finding>> = BTreeMap::new();
+    for f in findings {
+        by_path.entry(f.path.clone()).or_default().push(f);
+    }
+    by_path
+}
+
+/// A file that was not checked in full, and why.
+fn left_out_entry(path: &Path, remark: String) -> Entry {
+    let path: Arc<str> = Arc::from(path.display().to_string());
+    Entry {
+        subject: Subject::File,
+        owner: path.to_string(),
+        path,
+        span: 0..0,
+        state: State::LeftOut,
+        word: "left out",
+        what: String::new(),
+        remark,
+    }
+}
+
+/// The claim of a model that was named itself.
+fn model_entry(path: &Path, loads: bool) -> Entry {
+    let (state, word) =
+        if loads { (State::True(Evidence::Computed), "loads") } else { (State::False, "refused") };
+    let path: Arc<str> = Arc::from(path.display().to_string());
+    Entry {
+        subject: Subject::Model,
+        owner: path.to_string(),
+        path,
+        span: 0..0,
+        state,
+        word,
+        what: String::new(),
+        remark: String::new(),
+    }
+}

@@ -1,0 +1,222 @@
+//! The check of one file: what has to be done with it, and the outcome.
+
+use super::cache::Cache;
+use super::collect::ListedFile;
+use super::common::{Failure, interrupted};
+use super::course::{CheckRequest, CrossCheckRequest, SuppressedFindings};
+use super::digest;
+use super::stdio::show_progress;
+use super::target::{model_folder_within, root};
+use labspec::bind::parts::Hash;
+use labspec::bind::scene::{Models, check_model_file};
+use labspec::check::{self, Basis, CheckLevel, Checked, CrossCheck, Drawn, LabOutcome};
+use labspec::finding::Finding;
+use labspec::lint::{self, ModelFolder, load_lesson_at, load_lesson_file};
+use labspec::report::printable_path;
+use labspec::rules;
+use labspec::source::{SourceFile, Sources};
+use labspec::spec::{FileKind, Lesson, kind_of};
+use labspec::threads;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// What has to be done with a file.
+pub(super) enum FileTask {
+    /// Check the lesson, with the models of this number.
+    CheckLesson(usize),
+    /// Check the model; the files that it names are below this folder.
+    CheckModel(PathBuf),
+    /// Nothing, for this reason.
+    Refuse(String),
+}
+
+/// The outcome of a file.
+pub(super) enum FileOutcome {
+    Lesson(Box<LessonOutcome>),
+    /// JSON of other programs.
+    OtherJson,
+    Model {
+        loads: bool,
+        findings: Vec<Finding>,
+        sources: Vec<SourceFile>,
+    },
+    /// It could not be read.
+    Refused(String),
+    /// Ctrl-C was pressed before it was checked.
+    Interrupted,
+}
+
+/// A lesson that was checked.
+pub(super) struct LessonOutcome {
+    pub(super) checked: Checked,
+    pub(super) suppressed: SuppressedFindings,
+    pub(super) basis: Basis,
+    pub(super) curves: Vec<Drawn>,
+    pub(super) cross_check: CrossCheck,
+    /// A panic ended the check.
+    pub(super) cancelled: bool,
+}
+
+/// The task of each file, and the models that the lessons share: each folder of models once.
+///
+/// # Errors
+/// A folder of models cannot be read.
+pub(super) fn plan_tasks(
+    request: &CheckRequest<'_>,
+    files: &[ListedFile],
+    hash: Hash,
+) -> Result<(Vec<FileTask>, Vec<Models>), Failure> {
+    let mut tasks = Vec::new();
+    // Lessons of one folder have one folder of models, which is found and listed once.
+    let mut name_by_lesson_folder: BTreeMap<PathBuf, String> = BTreeMap::new();
+    let mut folders: BTreeMap<String, ModelFolder> = BTreeMap::new();
+    let mut lessons = Vec::new();
+    for (path, _) in files {
+        let task = match kind_of(path) {
+            FileKind::Lesson | FileKind::Json => {
+                let lesson_folder = lint::lesson_folder(path);
+                let name = match name_by_lesson_folder.get(&lesson_folder) {
+                    Some(name) => name.clone(),
+                    None => {
+                        let folder = model_folder_within(request.models, path, request.paths)?;
+                        let name = format!("{folder:?}");
+                        folders.insert(name.clone(), folder);
+                        name_by_lesson_folder.insert(lesson_folder, name.clone());
+                        name
+                    }
+                };
+                lessons.push((tasks.len(), name));
+                FileTask::CheckLesson(0)
+            }
+            FileKind::Model => FileTask::CheckModel(root(request.models, &lint::lesson_folder(path), &[])?),
+            FileKind::Unknown => FileTask::Refuse(format!(
+                "{} is not a lesson: lessons are Markdown (.md, .markdown, .mdx, .qmd, .Rmd) or JSON, models are .xml",
+                printable_path(path)
+            )),
+        };
+        tasks.push(task);
+    }
+    let numbers: BTreeMap<&String, usize> = folders.keys().zip(0..).collect();
+    for (i, name) in &lessons {
+        if let (Some(task), Some(number)) = (tasks.get_mut(*i), numbers.get(name)) {
+            *task = FileTask::CheckLesson(*number);
+        }
+    }
+    Ok((tasks, folders.into_values().map(|folder| Models::marked(folder, hash)).collect()))
+}
+
+/// Checks one file. A panic ends the check of this file alone.
+pub(super) fn check_file(
+    request: &CheckRequest<'_>,
+    cache: &Cache,
+    task: &FileTask,
+    file: &ListedFile,
+    models: &[Models],
+) -> FileOutcome {
+    let check = || {
+        if interrupted() {
+            return FileOutcome::Interrupted;
+        }
+        let (path, named) = file;
+        if request.progress {
+            show_progress(&format!("checking {}", printable_path(path)));
+        }
+        match task {
+            FileTask::Refuse(why) => FileOutcome::Refused(why.clone()),
+            FileTask::CheckModel(root) => {
+                let (model, findings, sources) = check_model_file(path, Some(root));
+                FileOutcome::Model { loads: model.is_some(), findings, sources }
+            }
+            FileTask::CheckLesson(number) => match models.get(*number) {
+                Some(models) => check_lesson(request, cache, path, *named, models),
+                None => FileOutcome::OtherJson,
+            },
+        }
+    };
+    threads::apart(check).unwrap_or_else(|panic| FileOutcome::Refused(panic_message(&panic)))
+}
+
+/// Loads a lesson, runs its labs and checks its claims.
+fn check_lesson(
+    request: &CheckRequest<'_>,
+    cache: &Cache,
+    path: &Path,
+    named: bool,
+    models: &Models,
+) -> FileOutcome {
+    let lesson = match read_lesson(request, path, models) {
+        Ok(lesson) => lesson,
+        Err(why) => return FileOutcome::Refused(why),
+    };
+    if !named && is_other_json(&lesson) {
+        return FileOutcome::OtherJson;
+    }
+    let examined = threads::apart(|| cache.examine(path, &lesson, models, request.level, interrupted));
+    let mut outcome = match examined {
+        Ok(outcome) => outcome,
+        Err(panic) => return FileOutcome::Lesson(Box::new(cancelled_lesson(lesson, &panic))),
+    };
+    // Runs may have been cut short: an incomplete check is no check.
+    if interrupted() {
+        return FileOutcome::Interrupted;
+    }
+    let basis = match request.with_bases {
+        true => check::basis(&lesson, models, digest::hex_of),
+        false => Basis::default(),
+    };
+    let CrossCheckRequest { collect_runs, recording } = request.cross_check;
+    let cross_check = match collect_runs || recording.is_some() {
+        true => check::hear(&lesson, models, digest::hex_of, recording, &mut outcome.findings),
+        false => CrossCheck::default(),
+    };
+    if interrupted() {
+        return FileOutcome::Interrupted;
+    }
+    let curves = if request.with_curves { check::curves(&lesson, models) } else { Vec::new() };
+    let checked = check::join(lesson, outcome, request.level);
+    let suppressed = SuppressedFindings::default();
+    FileOutcome::Lesson(Box::new(LessonOutcome {
+        checked,
+        suppressed,
+        basis,
+        curves,
+        cross_check,
+        cancelled: false,
+    }))
+}
+
+/// The lesson of a file, or of standard input where that stands for the file.
+fn read_lesson(request: &CheckRequest<'_>, path: &Path, models: &Models) -> Result<Lesson, String> {
+    match request.stdin.filter(|(name, _)| name == path) {
+        Some((name, text)) => {
+            let file = SourceFile::new(name.display().to_string(), text.as_str());
+            Ok(load_lesson_at(file, name, &Sources::Disk, models.folder()))
+        }
+        None => load_lesson_file(path, models.folder()),
+    }
+}
+
+/// A lesson whose check ended with a panic: the panic is its only finding besides those of its structure.
+fn cancelled_lesson(lesson: Lesson, panic: &str) -> LessonOutcome {
+    let finding = Finding::error(rules::UNREADABLE_FILE, 0..0, panic_message(panic))
+        .why("no lab of this lesson was run to its end, and no claim was checked")
+        .help("report it with this lesson; the other lessons were checked");
+    LessonOutcome {
+        checked: check::join(lesson, LabOutcome::from_finding(finding), CheckLevel::STATIC),
+        suppressed: SuppressedFindings::default(),
+        basis: Basis::default(),
+        curves: Vec::new(),
+        cross_check: CrossCheck::default(),
+        cancelled: true,
+    }
+}
+
+/// The message where a panic ended the check of a file.
+fn panic_message(panic: &str) -> String {
+    format!("labspec failed while checking this file: {panic}")
+}
+
+/// Other JSON lies in folders of lessons; a file that was named is always ours.
+pub(super) fn is_other_json(lesson: &Lesson) -> bool {
+    lesson.findings.iter().any(|f| f.code == "unknown-spec")
+}

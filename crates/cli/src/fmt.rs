@@ -1,0 +1,86 @@
+//! `labspec fmt`.
+
+use super::collect::{Collected, collect};
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::file_check::is_other_json;
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print;
+use super::target::model_folder;
+use labspec::bind::scene::Models;
+use labspec::format;
+use labspec::lint::{load_lesson_at, reload_lesson};
+use labspec::report::printable_path;
+use labspec::source::{SourceFile, Sources};
+use std::path::{Path, PathBuf};
+
+/// Arguments of `fmt`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// Lessons (.md), labs and quizzes (.json), or folders of them
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Also replace bare indexes by names: data.qpos[9] as data.joint('light').qpos[2]
+    #[arg(long)]
+    modernize: bool,
+    /// Change nothing; list the files that would change
+    #[arg(long)]
+    check: bool,
+}
+
+pub(super) fn fmt(a: &Arguments) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::Clean;
+    let mut failures: Vec<String> = Vec::new();
+    let collected = collect(&a.paths);
+    collected.complain();
+    let Collected { files, problems, .. } = collected;
+    failures.extend(problems.into_iter().map(|(_, why)| why));
+    for (path, named) in files {
+        if interrupted() {
+            break;
+        }
+        match one(a, &path, named) {
+            Ok(None) => {}
+            Ok(Some(text)) => {
+                if a.check {
+                    outcome = Outcome::Findings;
+                }
+                print(&format!("{}: {text}\n", printable_path(&path)))?;
+            }
+            // One file that cannot be read or written says nothing about the others.
+            Err(failure) => failures.push(failure),
+        }
+    }
+    if failures.is_empty() { Ok(outcome) } else { Err(failures.join("\nlabspec: ")) }
+}
+
+/// Lays out one file; what to say about it, when there is anything to say.
+fn one(a: &Arguments, path: &Path, named: bool) -> Result<Option<String>, Failure> {
+    let file = SourceFile::read(path)?;
+    let folder = model_folder(&a.models, path)?;
+    let lesson = load_lesson_at(file, path, &Sources::Disk, &folder);
+    if !named && is_other_json(&lesson) {
+        return Ok(None);
+    }
+    let mut models = Models::new(folder.clone());
+    let done = format::format(&lesson, a.modernize.then_some(&mut models));
+    if done.changed == 0 {
+        return Ok(None);
+    }
+    // The file as it would be is read once more before anything is replaced.
+    let again = reload_lesson(&lesson, &done.text, &folder);
+    if !format::says_the_same(&lesson, &again) {
+        return Err(format!(
+            "{} is unchanged: formatting would change its meaning; please report this lesson",
+            printable_path(path)
+        ));
+    }
+    let of = format!("{} of {} texts", done.changed, done.total);
+    if a.check {
+        return Ok(Some(format!("{of} would change")));
+    }
+    write_file(path, OutputKind::Lesson(lesson.file.text()), &done.text)?;
+    Ok(Some(format!("{of} changed")))
+}

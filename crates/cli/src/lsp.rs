@@ -1,0 +1,64 @@
+//! `labspec lsp`.
+
+use super::common::{Failure, ModelOptions, Outcome};
+use super::policy::{Policies, Policy, PolicyOptions};
+use super::stdio::complain;
+use super::target::model_folder;
+use labspec::finding::Finding;
+use labspec::lint::ModelFolder;
+use labspec_lsp::{Course, serve};
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `lsp`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    models: ModelOptions,
+    #[command(flatten)]
+    policy: PolicyOptions,
+    /// Use standard input and output (the only transport; many editors pass this option)
+    #[arg(long)]
+    stdio: bool,
+}
+
+pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
+    Policies::new(&a.policy)?;
+    // What cannot be read is said once, on standard error: editors keep it in their log.
+    let said = RefCell::new(BTreeSet::new());
+    let say = |why: Failure| {
+        if said.borrow_mut().insert(why.clone()) {
+            complain(&format!("labspec: {why}\n"));
+        }
+    };
+    let models = |path: &Path| {
+        model_folder(&a.models, path).unwrap_or_else(|why| {
+            say(why);
+            ModelFolder::unknown()
+        })
+    };
+    // Settings may change while the editor is open: they are read anew where files may have changed.
+    let policies: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
+    let mut policy = |path: &Path, findings: &mut Vec<Finding>| {
+        if let Some(policy) = policies.borrow().get(path) {
+            return drop(policy.apply(findings));
+        }
+        match Policies::new(&a.policy).and_then(|mut all| all.policy_for(path)) {
+            Ok(policy) => {
+                drop(policy.apply(findings));
+                policies.borrow_mut().insert(path.to_path_buf(), policy);
+            }
+            Err(why) => say(why),
+        }
+    };
+    let refresh = || policies.borrow_mut().clear();
+    let course = Course { models: &models, policy: &mut policy, refresh: &refresh };
+    let input = BufReader::new(std::io::stdin());
+    match serve(course, input, &mut std::io::stdout().lock()) {
+        Ok(true) => Ok(Outcome::Clean),
+        Ok(false) => Ok(Outcome::Findings),
+        Err(e) => Err(format!("cannot talk to the editor: {e}")),
+    }
+}

@@ -1,0 +1,49 @@
+//! The `labspec` program: one file per command, each a thin layer over the libraries. Exit code 0: clean; 1: findings; 2: could not
+//! run or print; 3: not everything asked for was checked; 130: stopped by Ctrl-C.
+
+mod baseline;
+mod bench;
+mod cache;
+mod check;
+mod check_output;
+mod collect;
+mod commands;
+mod common;
+mod completions;
+mod course;
+mod course_ledger;
+mod digest;
+mod explain;
+mod file_check;
+mod fix;
+mod fmt;
+mod init;
+mod judge;
+mod lab_args;
+#[cfg(feature = "lsp")]
+mod lsp;
+mod machine;
+mod output;
+mod output_kind;
+mod overview;
+mod parallel;
+mod plan;
+mod policy;
+mod precision;
+mod record;
+mod reproduction;
+mod run;
+mod scaffold;
+mod scheduler;
+mod schema;
+mod since;
+mod snapshot;
+mod stability;
+mod stdio;
+mod target;
+mod trace;
+mod watch;
+
+fn main() -> std::process::ExitCode {
+    commands::run_program()
+}

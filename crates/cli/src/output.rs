@@ -1,0 +1,312 @@
+//! Files that are written: beside the old one and renamed, so that a full disk or a crash loses nothing; and never
+//! over a file that was read, nor two outputs into one file.
+
+use super::common::Failure;
+use super::output_kind::OutputKind;
+use labspec::report::printable_path;
+use std::collections::BTreeSet;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Writes a file whole or not at all. What is there is replaced when it is of the same kind, and never otherwise.
+pub(super) fn write_file(path: &Path, kind: OutputKind<'_>, text: &str) -> Result<(), Failure> {
+    write_with(path, kind, |out| out.write_all(text.as_bytes()))
+}
+
+/// Removes a file of this kind.
+pub(super) fn remove_file(path: &Path, kind: OutputKind<'_>) -> Result<(), Failure> {
+    let cannot = |e: io::Error| format!("cannot remove {}: {e}", printable_path(path));
+    let old = fs::symlink_metadata(path).map_err(cannot)?;
+    if let Some(why) = kind.refuses(path, &old) {
+        return Err(cannot(io::Error::new(io::ErrorKind::InvalidInput, why)));
+    }
+    fs::remove_file(path).map_err(cannot)
+}
+
+/// A picture in pixels, twice as many across as its size says.
+pub(super) fn write_png(path: &Path, svg: &str) -> Result<(), Failure> {
+    let bytes = pixels(svg).map_err(|e| format!("cannot draw {}: {e}", printable_path(path)))?;
+    write_with(path, OutputKind::Picture, |out| out.write_all(&bytes))
+}
+
+#[cfg(feature = "png")]
+fn pixels(svg: &str) -> Result<Vec<u8>, String> {
+    labspec_plot::png(svg, 2.0)
+}
+
+#[cfg(not(feature = "png"))]
+fn pixels(_: &str) -> Result<Vec<u8>, String> {
+    Err("this program was built without the feature `png`; --svg draws the same picture".into())
+}
+
+/// The same, piece by piece.
+pub(super) fn write_with(
+    path: &Path,
+    kind: OutputKind<'_>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Failure> {
+    replace(path, kind, write)
+        .map_err(|e| format!("cannot write {}: {e}; the old file is unchanged", printable_path(path)))
+}
+
+fn replace(
+    path: &Path,
+    kind: OutputKind<'_>,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let place = place(path)?;
+    let old = writable(&place)?;
+    if let Some(why) = old.as_ref().and_then(|old| kind.refuses(&place, old)) {
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
+    }
+    if let Some(folder) = place.parent() {
+        clear_abandoned(folder, is_temporary);
+    }
+    let (mut temporary, file) = Temporary::beside(&place)?;
+    if let Some(old) = &old {
+        keep_owner(&temporary.path, old);
+        fs::set_permissions(&temporary.path, old.permissions())?;
+    }
+    let mut out = BufWriter::with_capacity(1 << 16, file);
+    let done = write(&mut out).and_then(|()| out.flush());
+    // Dropping the buffer would write once more to a disk that has just failed.
+    let (file, _) = out.into_parts();
+    done?;
+    file.sync_all()?;
+    drop(file);
+    fs::rename(&temporary.path, &place)?;
+    temporary.renamed = true;
+    // The name itself lies in the folder; not every system can sync one.
+    if let Some(folder) = place.parent() {
+        let _ = File::open(folder).and_then(|f| f.sync_all());
+    }
+    Ok(())
+}
+
+/// How long a temporary file that grows no more may lie there, in seconds: another run may still be writing it.
+const ABANDONED: u64 = 600;
+
+/// Whether a file has the name of a [`Temporary`]: `.labspec-12-0.tmp`.
+fn is_temporary(name: &str) -> bool {
+    let number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    let inside = name.strip_prefix(".labspec-").and_then(|rest| rest.strip_suffix(".tmp"));
+    inside.and_then(|rest| rest.split_once('-')).is_some_and(|(a, b)| number(a) && number(b))
+}
+
+/// Removes what runs that were killed have left in a folder: temporary files, by their names, whose process is gone, or, where that is
+/// not known, that nobody has written for ten minutes. Each folder is looked through once.
+pub(super) fn clear_abandoned(folder: &Path, is_temporary: fn(&str) -> bool) {
+    static SEEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    if !SEEN.lock().is_ok_and(|mut seen| seen.insert(folder.to_path_buf())) {
+        return;
+    }
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let Some(name) = name.to_str().filter(|name| is_temporary(name)) else { continue };
+        let process = name.trim_start_matches(".labspec-").split('-').next().and_then(|n| n.parse().ok());
+        let Ok(meta) = entry.metadata() else { continue };
+        let age = meta.modified().ok().and_then(|at| at.elapsed().ok()).map_or(0, |age| age.as_secs());
+        let gone = process.is_some_and(is_gone);
+        if meta.is_file() && process != Some(std::process::id()) && (gone || age >= ABANDONED) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
+}
+
+/// Whether no process of this number runs on this machine, where the system tells.
+fn is_gone(process: u32) -> bool {
+    Path::new("/proc/self").exists() && !Path::new(&format!("/proc/{process}")).exists()
+}
+
+/// A file that is removed again unless it got its name.
+struct Temporary {
+    path: PathBuf,
+    renamed: bool,
+}
+
+impl Temporary {
+    fn beside(place: &Path) -> io::Result<(Temporary, File)> {
+        static COUNT: AtomicUsize = AtomicUsize::new(0);
+        let mut last = None;
+        for _ in 0..100 {
+            let n = COUNT.fetch_add(1, Ordering::Relaxed);
+            let path = place.with_file_name(format!(".labspec-{}-{n}.tmp", std::process::id()));
+            match OpenOptions::new().write(true).create_new(true).open(&path) {
+                Ok(file) => return Ok((Temporary { path, renamed: false }, file)),
+                Err(e) if e.kind() == io::ErrorKind::AlreadyExists => last = Some(e),
+                Err(e) => return Err(e),
+            }
+        }
+        Err(last.unwrap_or_else(|| io::ErrorKind::AlreadyExists.into()))
+    }
+}
+
+impl Drop for Temporary {
+    fn drop(&mut self) {
+        if !self.renamed {
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// What an administrator writes stays its owner's, where that is allowed.
+fn keep_owner(path: &Path, old: &fs::Metadata) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        if fs::metadata(path).is_ok_and(|new| (new.uid(), new.gid()) != (old.uid(), old.gid())) {
+            let _ = std::os::unix::fs::chown(path, Some(old.uid()), Some(old.gid()));
+        }
+    }
+    #[cfg(not(unix))]
+    let _ = (path, old);
+}
+
+/// Where a path leads: links are followed, so that they stay links, also one to a file that does not exist yet.
+fn place(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..40 {
+        match fs::symlink_metadata(&path) {
+            Ok(meta) if meta.is_symlink() => {
+                let to = fs::read_link(&path)?;
+                path = path.parent().unwrap_or(Path::new("")).join(to);
+            }
+            _ => {
+                let name = path.file_name().ok_or_else(|| {
+                    io::Error::new(io::ErrorKind::InvalidInput, "it is not the name of a file")
+                })?;
+                let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+                return Ok(folder.canonicalize()?.join(name));
+            }
+        }
+    }
+    Err(io::Error::new(io::ErrorKind::InvalidInput, "its links form a circle"))
+}
+
+/// What is there now, if it is a file that may be written. A pipe or a device is never opened: it may block.
+fn writable(place: &Path) -> io::Result<Option<fs::Metadata>> {
+    let meta = match fs::metadata(place) {
+        Ok(meta) => meta,
+        Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(e),
+    };
+    if !meta.is_file() {
+        let what = if meta.is_dir() { "it is a folder" } else { "it is a device or a pipe, not a file" };
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, what));
+    }
+    // Renaming would replace a file that is read-only.
+    OpenOptions::new().write(true).open(place)?;
+    Ok(Some(meta))
+}
+
+/// A file, known by its place and, where it exists, by what the system knows it by.
+#[derive(Debug, PartialEq, Eq)]
+struct Identity {
+    place: PathBuf,
+    number: Option<(u64, u64)>,
+}
+
+impl Identity {
+    fn read(path: &Path) -> io::Result<Identity> {
+        let place = place(path)?;
+        let number = fs::metadata(&place).ok().and_then(|m| number(&m));
+        Ok(Identity { place, number })
+    }
+
+    fn is(&self, other: &Identity) -> bool {
+        self.place == other.place || (self.number.is_some() && self.number == other.number)
+    }
+}
+
+fn number(meta: &fs::Metadata) -> Option<(u64, u64)> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        Some((meta.dev(), meta.ino()))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = meta;
+        None
+    }
+}
+
+/// An output that was asked for: what it is, and the file.
+pub(super) struct PlannedOutput {
+    pub(super) kind: OutputKind<'static>,
+    pub(super) path: PathBuf,
+}
+
+/// Those of the outputs that were asked for.
+pub(super) fn wanted(outputs: &[(OutputKind<'static>, &Option<PathBuf>)]) -> Vec<PlannedOutput> {
+    let asked = outputs
+        .iter()
+        .filter_map(|(kind, path)| Some(PlannedOutput { kind: *kind, path: path.as_ref()?.clone() }));
+    asked.collect()
+}
+
+/// Looks at all outputs of a command before it begins.
+///
+/// # Errors
+/// One would overwrite a file that is read or another output, or cannot be written.
+pub(super) fn look_ahead(read: &[PathBuf], outputs: &[PlannedOutput]) -> Result<(), Failure> {
+    let inputs: Vec<Identity> = read.iter().filter_map(|p| Identity::read(p).ok()).collect();
+    let mut taken: Vec<(Identity, String)> = Vec::new();
+    // Where standard output itself goes to a file.
+    #[cfg(unix)]
+    if let Some(meta) = fs::metadata("/dev/stdout").ok().filter(fs::Metadata::is_file) {
+        taken.push((Identity { place: PathBuf::new(), number: number(&meta) }, "the output".into()));
+    }
+    for PlannedOutput { kind, path } in outputs {
+        let named = format!("{} {}", kind.option(), printable_path(path));
+        let cannot = |e: io::Error| format!("cannot write {named}: {e}");
+        let identity = Identity::read(path).map_err(cannot)?;
+        let old = writable(&identity.place).map_err(cannot)?;
+        let is_read = old.is_some() && kind.is_input(&identity.place);
+        if is_read || inputs.iter().any(|input| input.is(&identity)) {
+            return Err(format!(
+                "{named} would overwrite a lesson or a model, so nothing was written; name another file"
+            ));
+        }
+        if old.as_ref().is_some_and(|old| kind.refuses(&identity.place, old).is_some()) {
+            return Err(format!(
+                "{named} would overwrite a file that labspec did not write with this option, so nothing was written; name another file, or remove that one first"
+            ));
+        }
+        if let Some((_, other)) = taken.iter().find(|(t, _)| t.is(&identity)) {
+            return Err(format!(
+                "{named} and {other} are the same file, so nothing was written; name different ones"
+            ));
+        }
+        taken.push((identity, named));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run that was killed between writing and renaming leaves its file; the next one that writes there removes it.
+    #[test]
+    fn what_a_killed_run_has_left_is_cleared() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        // No process has the number of the first; the second is this one's, and still being written; the others are no temporary files.
+        let own = format!(".labspec-{}-77.tmp", std::process::id());
+        let kept =
+            [own.as_str(), ".labspec-notes.tmp", ".labspec-1-x.tmp", "labspec-4294967295-0.tmp", "a.tmp"];
+        for name in kept.into_iter().chain([".labspec-4294967295-0.tmp"]) {
+            fs::write(at(name), "half").unwrap();
+        }
+        write_file(&at("out.csv"), OutputKind::Table, "whole").unwrap();
+        assert_eq!(fs::read_to_string(at("out.csv")).unwrap(), "whole");
+        assert!(!at(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
+        for name in kept {
+            assert!(at(name).exists(), "{name}");
+        }
+    }
+}

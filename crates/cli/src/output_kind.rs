@@ -1,0 +1,304 @@
+//! What a file is that the program writes, and by what an old one is recognized: a writer replaces files of its own kind and no others.
+
+use labspec::report::number_in_table;
+use std::fs::{self, File};
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+/// What is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum OutputKind<'t> {
+    /// Findings that are known.
+    Baseline,
+    /// What every verdict rests on.
+    Record,
+    /// What a second judge is to run.
+    JudgeRequest,
+    /// A page with the evidence.
+    Page,
+    /// A run, as JSON.
+    Run,
+    /// A run, as a table.
+    Table,
+    /// Settings and their errors, as a table.
+    Settings,
+    /// A plot, as SVG.
+    Plot,
+    /// A plot, in pixels.
+    Picture,
+    /// What the labs of a lesson show.
+    Snapshot,
+    /// A page of the reference, or a schema.
+    Reference,
+    /// A file that is not there yet.
+    New,
+    /// A lesson with a change. This is its text as it was read: whatever else stands in the file by now stays.
+    Lesson(&'t str),
+}
+
+/// Files that labspec reads: an output never replaces one of these, whoever wrote it.
+const READ: [&str; 14] = [
+    "md", "markdown", "mdx", "qmd", "rmd", "xml", "mjcf", "urdf", "stl", "obj", "msh", "png", "toml", "snap",
+];
+/// Bytes of an output in JSON that is read whole to be recognized, at most.
+const MOST: u64 = 64 << 20;
+/// Bytes by which others are recognized.
+const HEAD: u64 = 4 << 10;
+/// The first columns of a table of settings.
+const SETTINGS: [&str; 4] = ["integrator", "solver", "timestep", "own"];
+
+impl OutputKind<'_> {
+    /// Which option asks for it.
+    pub(super) fn option(self) -> &'static str {
+        match self {
+            OutputKind::Baseline => "--update-baseline",
+            OutputKind::Record => "--record",
+            OutputKind::JudgeRequest => "--judge-request",
+            OutputKind::Page => "--html",
+            OutputKind::Run => "--json",
+            OutputKind::Table | OutputKind::Settings => "--csv",
+            OutputKind::Plot => "--svg",
+            OutputKind::Picture => "--png",
+            OutputKind::Snapshot => "snapshot",
+            OutputKind::Reference => "reference",
+            OutputKind::New => "init",
+            OutputKind::Lesson(_) => "the change",
+        }
+    }
+
+    /// Whether a file has the name of something that labspec reads, and was not drawn here.
+    pub(super) fn is_input(self, place: &Path) -> bool {
+        let ending = place.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+        match self {
+            OutputKind::Snapshot | OutputKind::Reference | OutputKind::New | OutputKind::Lesson(_) => false,
+            _ => ending.is_some_and(|e| READ.contains(&e.as_str())) && !drawn_here(place),
+        }
+    }
+
+    /// Why this may not replace the file that lies there; `None` where it may.
+    pub(super) fn refuses(self, place: &Path, old: &fs::Metadata) -> Option<&'static str> {
+        match self {
+            OutputKind::New => Some("a file already exists there"),
+            OutputKind::Lesson(text) => {
+                let same =
+                    old.len() == text.len() as u64 && fs::read(place).is_ok_and(|now| now == text.as_bytes());
+                (!same).then_some("the file has changed since it was read, or is not UTF-8")
+            }
+            _ if self.is_input(place) => Some("it is a lesson, a model or a part of one"),
+            _ => {
+                let is_own = old.len() == 0 || self.wrote(place, old.len());
+                (!is_own).then_some("it is a file of another kind")
+            }
+        }
+    }
+
+    /// Whether a file looks as this writes it.
+    fn wrote(self, place: &Path, size: u64) -> bool {
+        let head = head(place);
+        let text = head.trim_start_matches('\u{feff}').trim_start();
+        let value = || {
+            let whole = if size <= MOST { fs::read_to_string(place).ok() } else { None };
+            whole.and_then(|text| serde_json::from_str::<serde_json::Value>(&text).ok())
+        };
+        let says = |key: &str, word: &str| value().is_some_and(|value| value[key] == word);
+        match self {
+            OutputKind::Baseline => says("report", "baseline"),
+            OutputKind::Record => says("report", "reproduction"),
+            OutputKind::JudgeRequest => says("request", "judge"),
+            OutputKind::Run => {
+                let start: String = text.chars().take(80).collect();
+                start.starts_with("{\"schemaVersion\":")
+                    && start.contains(",\"report\":\"run\",\"version\":\"labspec ")
+            }
+            OutputKind::Page => {
+                text.starts_with("<!DOCTYPE html>") && tail(place, size).contains("<footer><p><bdi>labspec ")
+            }
+            OutputKind::Table | OutputKind::Settings => is_table(place),
+            OutputKind::Plot => {
+                text.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"")
+                    && fs::read_to_string(place).is_ok_and(|text| text.contains("'DejaVu Sans'"))
+            }
+            OutputKind::Picture => drawn_here(place),
+            OutputKind::Snapshot => {
+                let said = |line: &str| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot");
+                text.lines().take(8).any(said)
+            }
+            OutputKind::Reference => {
+                text.starts_with("<!-- Written from the tables: ")
+                    || text.starts_with("{\n  \"$schema\": ")
+                        && value().is_some_and(|v| !v["$defs"].is_null())
+            }
+            OutputKind::New | OutputKind::Lesson(_) => false,
+        }
+    }
+}
+
+/// The first bytes of a file, as text.
+fn head(place: &Path) -> String {
+    let mut bytes = Vec::new();
+    let read = File::open(place).and_then(|file| file.take(HEAD).read_to_end(&mut bytes));
+    read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// The last bytes of a file, as text.
+fn tail(place: &Path, size: u64) -> String {
+    let mut bytes = Vec::new();
+    let read = File::open(place).and_then(|mut file| {
+        file.seek(SeekFrom::Start(size.saturating_sub(HEAD)))?;
+        file.take(HEAD).read_to_end(&mut bytes)
+    });
+    read.map_or(String::new(), |_| String::from_utf8_lossy(&bytes).into_owned())
+}
+
+/// Whether a file is a picture that this program drew. Other pictures may be height fields of a model.
+#[cfg(feature = "png")]
+fn drawn_here(place: &Path) -> bool {
+    let mut start = Vec::new();
+    let read = File::open(place).and_then(|file| file.take(512).read_to_end(&mut start));
+    read.is_ok() && labspec_plot::is_png_of_ours(&start)
+}
+
+#[cfg(not(feature = "png"))]
+fn drawn_here(_: &Path) -> bool {
+    false
+}
+
+/// Whether a file is a table of ours, read to its end: columns that are called as ours are, and in every row as many cells, the first
+/// of which is a time or an integrator as we write it. Somebody's own measurements are none.
+fn is_table(place: &Path) -> bool {
+    let Ok(file) = File::open(place) else { return false };
+    let mut rows = Rows { bytes: BufReader::new(file).bytes(), most: MOST_OF_ROW };
+    let Some(Some(columns)) = rows.next_row() else { return false };
+    let timed = columns.first().is_some_and(|name| name == "time")
+        && columns.iter().skip(1).all(|name| is_column(name));
+    let plain = |name: &String| name.strip_suffix(" (s)").unwrap_or(name).to_string();
+    let settings = columns.iter().take(SETTINGS.len()).map(plain).eq(SETTINGS);
+    if !timed && !settings {
+        return false;
+    }
+    loop {
+        match rows.next_row() {
+            None => return true,
+            Some(None) => return false,
+            Some(Some(cells)) => {
+                let first = cells.first().map_or("", String::as_str);
+                let is_ours = if timed { is_time(first) } else { is_name(first) };
+                if cells.len() != columns.len() || !is_ours {
+                    return false;
+                }
+            }
+        }
+    }
+}
+
+/// `readout/height (m)`, `plot/0/height`.
+fn is_column(name: &str) -> bool {
+    let plot = || name.strip_prefix("plot/")?.split_once('/');
+    let is_plot = plot().is_some_and(|(n, _)| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()));
+    name.starts_with("readout/") || is_plot
+}
+
+/// A number as it is written here. Times go back where a run was reset.
+fn is_time(cell: &str) -> bool {
+    cell.parse::<f64>().is_ok_and(|time| number_in_table(time) == cell)
+}
+
+fn is_name(cell: &str) -> bool {
+    !cell.is_empty() && cell.bytes().all(|b| b.is_ascii_alphanumeric())
+}
+
+/// Bytes of a row, at most.
+const MOST_OF_ROW: usize = 64 << 20;
+
+/// The rows of comma-separated values, one after the other.
+struct Rows<I> {
+    bytes: I,
+    most: usize,
+}
+
+impl<I: Iterator<Item = std::io::Result<u8>>> Rows<I> {
+    /// The cells of the next row; `None` at the end, `Some(None)` where these are no such values.
+    fn next_row(&mut self) -> Option<Option<Vec<String>>> {
+        let (mut cells, mut cell) = (Vec::new(), Vec::new());
+        let (mut quoted, mut any, mut size) = (false, false, 0);
+        loop {
+            let byte = match self.bytes.next() {
+                Some(Ok(byte)) => byte,
+                Some(Err(_)) => return Some(None),
+                None if quoted => return Some(None),
+                None if !any => return None,
+                None => b'\n',
+            };
+            any = true;
+            size += 1;
+            if size > self.most {
+                return Some(None);
+            }
+            match byte {
+                // Two quotes inside of quotes close and open them again: for counting cells that is the same.
+                b'"' => quoted = !quoted,
+                b',' | b'\n' if !quoted => {
+                    let Ok(text) = String::from_utf8(std::mem::take(&mut cell)) else { return Some(None) };
+                    cells.push(text);
+                    if byte == b'\n' {
+                        return Some(Some(cells));
+                    }
+                }
+                byte => cell.push(byte),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_of_ours_are_told_from_measurements() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        let is_ours = |text: &str| {
+            fs::write(&path, text).unwrap();
+            is_table(&path)
+        };
+        for ours in [
+            "time\n0\n0.002\n",
+            "time,readout/height (m)\n0,1\n0.002,0.99\n0.002,\n",
+            "time,\"plot/0/light, say\",readout/a\n0,1,\"two\nlines, \"\"quoted\"\"\"\n",
+            "integrator,solver,timestep,own,label\nEuler,,0.002,true,\"a, b\"\n",
+            "integrator,solver,timestep (s),own,label,unit\nEuler,,0.002,true,\"a, b\",\"m\"\n",
+        ] {
+            assert!(is_ours(ours), "{ours}");
+        }
+        for other in [
+            "",
+            "time,height\n0,1\n0.1,0.95\n",
+            "time,height\n0.0,1.0\n",
+            "time\n0.10\n0.20\n",
+            "time,readout/height (m)\n0,1\n0.002\n",
+            "time,readout/height (m)\nnoon,1\n",
+            "time,plot/x/height\n0,1\n",
+            "time,readout/a\n0,\"never closed\n",
+            "integrator,solver,order\nEuler,,1\n",
+            "# A lesson\n\ntime, and what it is\n",
+        ] {
+            assert!(!is_ours(other), "{other}");
+        }
+    }
+
+    #[test]
+    fn a_lesson_replaces_what_was_read_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.md");
+        fs::write(&path, "as read").unwrap();
+        let refused = |kind: OutputKind<'_>| kind.refuses(&path, &fs::metadata(&path).unwrap()).is_some();
+        assert!(!refused(OutputKind::Lesson("as read")));
+        assert!(refused(OutputKind::Lesson("as  read")) && refused(OutputKind::Lesson("AS READ")));
+        assert!(refused(OutputKind::New) && refused(OutputKind::Snapshot) && refused(OutputKind::Reference));
+        // Nothing stands in it, and it is a lesson all the same.
+        fs::write(&path, "").unwrap();
+        assert!(refused(OutputKind::Table) && refused(OutputKind::Page) && refused(OutputKind::New));
+    }
+}

@@ -1,0 +1,310 @@
+//! `labspec plan`.
+
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::stdio::print;
+use super::stdio::print_json;
+use super::target;
+use clap::ValueEnum;
+use labspec::report::{printable, report};
+use labspec::verify::significant;
+use labspec_core::reflect::FieldSet;
+use labspec_numerics::profile::{EngineOption, Options, PlanReport, REPEATS, StageCost, name};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// Arguments of `plan`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// LAB.json, LESSON.md#2, LESSON.md#quiz-id.1, or MODEL.xml
+    lab: String,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Show the cost of one more reader: a field (data.sensordata), a sensor, or an expression
+    #[arg(long, value_name = "NAME")]
+    read: Vec<String>,
+    /// Only make the plan; do not run or measure
+    #[arg(long)]
+    no_run: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    Human,
+    Json,
+}
+
+pub(super) fn plan(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = target::open(&a.lab, &a.models)?;
+    let options = Options { read: a.read.clone(), run: !a.no_run };
+    let report = labspec_numerics::profile::plan(&target.lab, &target.model, &target.programs, &options)
+        .map_err(|e| e.0)?;
+    match a.format {
+        Format::Human => print(&human(&report))?,
+        Format::Json => print_json(&value(&report), true)?,
+    }
+    Ok(Outcome::Clean)
+}
+
+fn names(set: &FieldSet) -> Vec<&'static str> {
+    set.iter().map(|f| f.info().name).collect()
+}
+
+/// Nanoseconds, to what can be known of them.
+fn ns(x: f64) -> String {
+    if x.abs() < 10.0 { format!("{x:.1}") } else { format!("{x:.0}") }
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.0} %", 100.0 * share)
+}
+
+fn human(report: &PlanReport) -> String {
+    let mut text = String::new();
+    let list = |names: Vec<&str>| if names.is_empty() { "nothing".to_string() } else { names.join(", ") };
+    let _ = writeln!(text, "reads   {}", list(names(&report.demand.reads)));
+    let _ = writeln!(text, "writes  {}\n", list(names(&report.demand.writes)));
+    let measured = report.step.is_some();
+    if measured {
+        let _ = writeln!(text, "{:20} {:>6} {:>8}", "", "share", "ns");
+    }
+    let mut row = |verb: &str, name: &str, share: String, ns: String, reason: &str| {
+        let _ = match measured {
+            true => writeln!(text, "{verb:<5}  {name:<14} {share:>5} {ns:>8}  {}", printable(reason)),
+            false => writeln!(text, "{verb:<5}  {name:<14} {}", printable(reason)),
+        };
+    };
+    let costs = |cost: Option<StageCost>| {
+        cost.map_or((String::new(), String::new()), |c| (percent(c.share), ns(c.ns)))
+    };
+    for r in &report.rows {
+        let (share, time) = match r.forced {
+            Some(more) => (String::new(), format!("(+{})", ns(more))),
+            None => costs(r.cost),
+        };
+        row(if r.keep { "keep" } else { "leave" }, &name(r.stage), share, time, &r.reason);
+    }
+    if let Some(step) = &report.step {
+        let (share, time) = costs(Some(step.integrator));
+        row("", "integrator", share, time, "the next state, the test for NaN, and what a run looks after");
+        if let Some(when) = report.controller {
+            let (share, time) = costs(step.controller);
+            row("", "controller", share, time, when);
+        }
+    }
+    let running = report.rows.iter().filter(|r| r.keep).count();
+    let _ = writeln!(text, "\n{running} of {} stages run in every step", report.rows.len());
+    if let Some(step) = &report.step {
+        let [low, high] = step.quarters;
+        let _ = writeln!(
+            text,
+            "a step takes {} ns ({} to {}); with everything read, it takes {} ns",
+            ns(step.ns),
+            ns(low),
+            ns(high),
+            ns(step.full)
+        );
+        let _ = writeln!(
+            text,
+            "measured over {} steps of the run of this lab, {REPEATS} times in turn; in brackets: the cost of a stage that does not run",
+            step.steps
+        );
+    }
+    parts(report, &mut text);
+    readers(report, &mut text);
+    if interrupted() {
+        text.push_str("stopped by Ctrl-C: times cover what was finished\n");
+    }
+    text
+}
+
+/// Pairs of geoms, the solver, the integrator, and ways of computing trees.
+fn parts(report: &PlanReport, text: &mut String) {
+    let pairs = &report.pairs;
+    let _ = writeln!(text, "\npairs of geoms  {} of {} can touch", pairs.can_touch, pairs.all);
+    for (shapes, n, searched) in &pairs.tests {
+        let how = if *searched { "found by the general algorithm" } else { "in closed form" };
+        let _ = writeln!(text, "  keep   {n:>5}  {} and {}, {how}", shapes[0], shapes[1]);
+    }
+    for (reason, n) in &pairs.left_out {
+        let _ = writeln!(text, "  leave  {n:>5}  {reason}");
+    }
+    if let Some(seen) = pairs.seen.filter(|_| pairs.can_touch > 0) {
+        let both = |[mean, most]: [f64; 2]| format!("{} in the mean, {most} at most", significant(mean));
+        let _ = writeln!(text, "  bounds within reach  {}", both(seen.in_reach));
+        let _ = writeln!(text, "  contacts             {}", both(seen.contacts));
+    }
+    sensors(report, text);
+    list("solver", &report.solvers, text);
+    if report.solvers.iter().any(|s| s.keep) {
+        let _ = writeln!(text, "  cone {}", report.cone);
+        if let Some(seen) = pairs.seen {
+            let [rows, most] = seen.rows;
+            let [iterations, hardest] = seen.iterations;
+            let _ = writeln!(
+                text,
+                "  rows {} in the mean, {most} at most; iterations {}, {hardest}",
+                significant(rows),
+                significant(iterations)
+            );
+        }
+    }
+    list("integrator", &report.integrators, text);
+    ways(report, text);
+}
+
+/// The sensors, those alike in one line.
+fn sensors(report: &PlanReport, text: &mut String) {
+    if report.sensors.is_empty() {
+        return;
+    }
+    let computed = report.sensors.iter().filter(|s| s.keep).count();
+    let _ = writeln!(text, "\nsensors  {computed} of {} are computed", report.sensors.len());
+    let mut left: Vec<_> = report.sensors.iter().collect();
+    while let Some(first) = left.first().copied() {
+        let (alike, others): (Vec<_>, Vec<_>) = left.into_iter().partition(|s| s.reason == first.reason);
+        let names: Vec<&str> = alike.iter().map(|s| s.name.as_str()).collect();
+        let verb = if first.keep { "keep " } else { "leave" };
+        let _ = writeln!(text, "  {verb}  {}: {}", printable(&names.join(", ")), first.reason);
+        left = others;
+    }
+}
+
+/// Which ways trees take.
+fn ways(report: &PlanReport, text: &mut String) {
+    let _ = writeln!(text, "\ntree algorithms");
+    for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
+        let [places, forces, factors] = way.trees;
+        let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
+        let of: Vec<String> =
+            of.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
+        let _ = writeln!(text, "  keep   {}: {}", way.name, of.join(", "));
+    }
+    let idle = report.ways.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
+    let idle = idle.collect::<Vec<_>>().join(", ");
+    if !idle.is_empty() {
+        let _ = writeln!(text, "  leave  {idle}: no tree takes them");
+    }
+}
+
+/// Those that are used, then the others by reason.
+fn list(what: &str, codes: &[EngineOption], text: &mut String) {
+    let _ = writeln!(text, "\n{what}");
+    for verb in ["keep ", "leave"] {
+        let mut codes: Vec<&EngineOption> = codes.iter().filter(|c| c.keep == (verb == "keep ")).collect();
+        while let Some(first) = codes.first().copied() {
+            let alike = codes.iter().filter(|c| c.reason == first.reason).map(|c| c.name);
+            let alike = alike.collect::<Vec<_>>().join(", ");
+            let _ = writeln!(text, "  {verb}  {alike}: {}", first.reason);
+            codes.retain(|c| c.reason != first.reason);
+        }
+    }
+}
+
+/// What one more reader would cost.
+fn readers(report: &PlanReport, text: &mut String) {
+    if report.readers.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "\none more reader");
+    for reader in &report.readers {
+        let cost = match (reader.cost, &report.step) {
+            (Some(more), Some(step)) => format!("{:+.0} ns, {:+.0} %", more, 100.0 * more / step.ns),
+            _ => String::new(),
+        };
+        let joins: Vec<String> = reader.joins.iter().map(|s| name(*s)).collect();
+        let joins =
+            if joins.is_empty() { "no stage joins".into() } else { format!("joins {}", joins.join(", ")) };
+        let _ = writeln!(
+            text,
+            "  {}  {cost}{}{joins}",
+            printable(&reader.text),
+            if cost.is_empty() { "" } else { "  " }
+        );
+    }
+}
+
+fn cost(cost: Option<StageCost>) -> [Value; 3] {
+    match cost {
+        Some(c) => [json!(c.share), json!(c.ns), json!(c.work)],
+        None => [Value::Null, Value::Null, Value::Null],
+    }
+}
+
+/// The mean and the largest of a count.
+fn mean_and_most([mean, most]: [f64; 2]) -> Value {
+    json!({"mean": mean, "most": most})
+}
+
+fn codes(codes: &[EngineOption]) -> Vec<Value> {
+    let one = |c: &EngineOption| json!({"name": c.name, "keep": c.keep, "reason": c.reason});
+    codes.iter().map(one).collect()
+}
+
+fn pairs_value(of: &PlanReport) -> Value {
+    let p = &of.pairs;
+    json!({
+        "all": p.all,
+        "canTouch": p.can_touch,
+        "tests": p.tests.iter().map(|(shapes, n, searched)| json!({"shapes": shapes, "pairs": n, "searched": searched})).collect::<Vec<_>>(),
+        "leftOut": p.left_out.iter().map(|(reason, n)| json!({"reason": reason, "pairs": n})).collect::<Vec<_>>(),
+        "inReach": p.seen.map(|s| mean_and_most(s.in_reach)),
+        "contacts": p.seen.map(|s| mean_and_most(s.contacts)),
+    })
+}
+
+fn solver_value(of: &PlanReport) -> Value {
+    let seen = of.pairs.seen;
+    json!({
+        "cone": of.cone,
+        "methods": codes(&of.solvers),
+        "rows": seen.map(|s| mean_and_most(s.rows)),
+        "iterations": seen.map(|s| mean_and_most(s.iterations)),
+    })
+}
+
+fn value(of: &PlanReport) -> Value {
+    let stages: Vec<Value> = of
+        .rows
+        .iter()
+        .map(|r| {
+            let [share, ns, work] = cost(r.cost);
+            json!({"stage": name(r.stage), "keep": r.keep, "reason": r.reason, "share": share, "ns": ns,
+                "work": work, "forcedNs": r.forced})
+        })
+        .collect();
+    let step = of.step.as_ref().map(|s| {
+        let [integrator_share, integrator_ns, _] = cost(Some(s.integrator));
+        let [controller_share, controller_ns, _] = cost(s.controller);
+        json!({
+            "steps": s.steps, "ns": s.ns, "lowNs": s.quarters[0], "highNs": s.quarters[1], "fullNs": s.full,
+            "work": s.work,
+            "integrator": {"share": integrator_share, "ns": integrator_ns},
+            "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns, "reason": of.controller})),
+        })
+    });
+    let ways = of.ways.iter().map(|w| {
+        let [places, forces, accelerations] = w.trees;
+        json!({"name": w.name, "places": places, "forces": forces, "accelerations": accelerations})
+    });
+    let readers = of.readers.iter().map(|r| {
+        let joins: Vec<String> = r.joins.iter().map(|s| name(*s)).collect();
+        let share = r.cost.zip(of.step.as_ref()).map(|(more, step)| more / step.ns);
+        json!({"read": r.text, "joins": joins, "ns": r.cost, "share": share})
+    });
+    let value = json!({
+        "reads": names(&of.demand.reads),
+        "writes": names(&of.demand.writes),
+        "stages": stages,
+        "step": step,
+        "pairs": pairs_value(of),
+        "sensors": of.sensors.iter().map(|s| json!({"name": s.name, "keep": s.keep, "reason": s.reason})).collect::<Vec<_>>(),
+        "solver": solver_value(of),
+        "integrators": codes(&of.integrators),
+        "ways": ways.collect::<Vec<_>>(),
+        "readers": readers.collect::<Vec<_>>(),
+    });
+    report("plan", value)
+}

@@ -1,0 +1,362 @@
+//! Which findings are reported, and how severe they are: according to the command line and the nearest `labspec.toml`.
+
+use super::common::Failure;
+use ignore::gitignore::{Gitignore, GitignoreBuilder};
+use labspec::finding::{Finding, Severity};
+use labspec::report::{printable, printable_path};
+use labspec::rules;
+use labspec::source::read_text;
+use labspec_finding::{Layer, nearest};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The name of the file of settings.
+pub(super) const FILE: &str = "labspec.toml";
+/// Its bytes, at most.
+const MOST: u64 = 1 << 20;
+
+/// The options of the command line for findings.
+#[derive(clap::Args, Debug, Clone, Default)]
+pub(super) struct PolicyOptions {
+    /// Report only these findings: codes of rules, layers (source, json, structure, model, program, run, claim), errors,
+    /// warnings, notes, or all [default: `select` in labspec.toml, else all]
+    #[arg(long, value_name = "RULES", value_delimiter = ',')]
+    select: Vec<String>,
+    /// Skip these findings, in addition to those that labspec.toml ignores
+    #[arg(long, value_name = "RULES", value_delimiter = ',')]
+    ignore: Vec<String>,
+    /// Report these findings as errors: `warnings`, `notes`, codes of rules, or layers
+    #[arg(long, value_name = "RULES", value_delimiter = ',')]
+    deny: Vec<String>,
+    /// Use only the settings of this file [default: the nearest labspec.toml around each lesson]
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+}
+
+impl PolicyOptions {
+    /// The file of settings that was named.
+    pub(super) fn config(&self) -> Option<&Path> {
+        self.config.as_deref()
+    }
+}
+
+/// Some rules.
+#[derive(Clone, Debug, Default)]
+struct RuleSet {
+    codes: Vec<&'static str>,
+    layers: Vec<Layer>,
+    severities: Vec<Severity>,
+    all: bool,
+}
+
+/// Words for findings as bad as this.
+const SEVERITIES: [(&str, Severity); 3] =
+    [("errors", Severity::Error), ("warnings", Severity::Warning), ("notes", Severity::Note)];
+
+impl RuleSet {
+    /// Adds what a word means.
+    fn add(&mut self, word: &str) -> Result<(), String> {
+        let word = word.trim();
+        let words = || {
+            let fixed = SEVERITIES.iter().map(|(word, _)| *word).chain(["all"]);
+            fixed.chain(Layer::ALL.map(Layer::as_str)).chain(rules::all().map(|r| r.code))
+        };
+        if word == "all" {
+            self.all = true;
+        } else if let Some((_, severity)) = SEVERITIES.iter().find(|(keyword, _)| *keyword == word) {
+            self.severities.push(*severity);
+        } else if let Some(layer) = Layer::ALL.into_iter().find(|layer| layer.as_str() == word) {
+            self.layers.push(layer);
+        } else if let Some(rule) = rules::find(word) {
+            self.codes.push(rule.code);
+        } else {
+            let near =
+                nearest(word, words()).map_or(String::new(), |near| format!("; did you mean `{near}`?"));
+            return Err(format!("`{}` is not a rule or a group of rules{near}", printable(word)));
+        }
+        Ok(())
+    }
+
+    fn parse<'w>(words: impl IntoIterator<Item = &'w String>) -> Result<RuleSet, String> {
+        let mut set = RuleSet::default();
+        words.into_iter().try_for_each(|word| set.add(word)).map(|()| set)
+    }
+
+    fn is_empty(&self) -> bool {
+        !self.all && self.codes.is_empty() && self.layers.is_empty() && self.severities.is_empty()
+    }
+
+    fn holds(&self, f: &Finding) -> bool {
+        self.all
+            || self.codes.contains(&f.code)
+            || self.severities.contains(&f.severity)
+            || (!self.layers.is_empty()
+                && rules::find(f.code).is_some_and(|rule| self.layers.contains(&rule.layer)))
+    }
+}
+
+/// What is done with the findings of a file.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Policy {
+    select: RuleSet,
+    ignore: RuleSet,
+    deny: RuleSet,
+    /// Widgets that the page has, besides ours.
+    pub(super) widgets: Vec<String>,
+}
+
+impl Policy {
+    /// Takes the ignored findings out and returns them; the others get the severity of the policy.
+    pub(super) fn apply(&self, findings: &mut Vec<Finding>) -> Vec<Finding> {
+        let mut ignored = Vec::new();
+        findings.retain(|f| {
+            let reported = (self.select.is_empty() || self.select.holds(f)) && !self.ignore.holds(f);
+            if !reported {
+                ignored.push(f.clone());
+            }
+            reported
+        });
+        for f in findings.iter_mut().filter(|f| self.deny.holds(f)) {
+            f.severity = Severity::Error;
+        }
+        ignored
+    }
+}
+
+/// Settings of one file of settings.
+#[derive(Debug, Default)]
+struct PolicyFile {
+    select: Vec<String>,
+    ignore: Vec<String>,
+    deny: Vec<String>,
+    widgets: Vec<String>,
+    /// For some paths: rules that are ignored there, and rules that are errors there.
+    paths: Vec<(Globs, Vec<String>, Vec<String>)>,
+}
+
+/// Patterns of paths, as in `.gitignore`, from the folder of the settings.
+#[derive(Debug)]
+struct Globs(Gitignore);
+
+/// The policies of all files, each file of settings read once.
+#[derive(Default)]
+pub(super) struct Policies {
+    options: PolicyOptions,
+    read: BTreeMap<PathBuf, Option<Arc<PolicyFile>>>,
+    given: Option<Arc<PolicyFile>>,
+}
+
+impl Policies {
+    /// # Errors
+    /// A word that is no rule, or settings that cannot be read.
+    pub(super) fn new(options: &PolicyOptions) -> Result<Policies, Failure> {
+        for (name, words) in
+            [("--select", &options.select), ("--ignore", &options.ignore), ("--deny", &options.deny)]
+        {
+            RuleSet::parse(words).map_err(|e| format!("{name}: {e}"))?;
+        }
+        let given = options.config.as_ref().map(|path| read(path)).transpose()?.map(Arc::new);
+        Ok(Policies { options: options.clone(), read: BTreeMap::new(), given })
+    }
+
+    /// The policy of a file.
+    ///
+    /// # Errors
+    /// The settings near it cannot be read.
+    pub(super) fn policy_for(&mut self, path: &Path) -> Result<Policy, Failure> {
+        let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        let settings = match &self.given {
+            Some(given) => Some(given.clone()),
+            None => self.near(whole.parent())?,
+        };
+        let none = PolicyFile::default();
+        let near = settings.as_deref().unwrap_or(&none);
+        let options = &self.options;
+        let select = if options.select.is_empty() { &near.select } else { &options.select };
+        let here = || near.paths.iter().filter(|(globs, ..)| globs.hold(&whole));
+        let ignore =
+            near.ignore.iter().chain(here().flat_map(|(_, ignore, _)| ignore)).chain(&options.ignore);
+        let deny = near.deny.iter().chain(here().flat_map(|(.., deny)| deny)).chain(&options.deny);
+        let widgets = near.widgets.clone();
+        Ok(Policy {
+            select: RuleSet::parse(select)?,
+            ignore: RuleSet::parse(ignore)?,
+            deny: RuleSet::parse(deny)?,
+            widgets,
+        })
+    }
+
+    /// The settings of a folder: its own, else those of the nearest folder around it.
+    fn near(&mut self, folder: Option<&Path>) -> Result<Option<Arc<PolicyFile>>, Failure> {
+        let Some(folder) = folder else { return Ok(None) };
+        if let Some(cached) = self.read.get(folder) {
+            return Ok(cached.clone());
+        }
+        let file = folder.join(FILE);
+        let found = if file.is_file() { Some(Arc::new(read(&file)?)) } else { self.near(folder.parent())? };
+        self.read.insert(folder.to_path_buf(), found.clone());
+        Ok(found)
+    }
+}
+
+impl Globs {
+    fn new(folder: &Path, patterns: &[String]) -> Result<Globs, String> {
+        let mut all = GitignoreBuilder::new(folder);
+        for pattern in patterns {
+            all.add_line(None, pattern).map_err(|e| format!("`{}`: {e}", printable(pattern)))?;
+        }
+        all.build().map(Globs).map_err(|e| e.to_string())
+    }
+
+    fn hold(&self, path: &Path) -> bool {
+        path.starts_with(self.0.path()) && self.0.matched_path_or_any_parents(path, false).is_ignore()
+    }
+}
+
+/// Keys of settings, and of settings for some paths.
+const KEYS: [&str; 5] = ["select", "ignore", "deny", "widgets", "paths"];
+const OF_PATHS: [&str; 3] = ["match", "ignore", "deny"];
+
+fn read(path: &Path) -> Result<PolicyFile, Failure> {
+    let name = printable_path(path);
+    let cannot = |e: String| format!("{name}: {e}");
+    let text = read_text(path, MOST, "settings")?;
+    let table: toml::Table = toml::from_str(&text).map_err(|e| {
+        let place = e.span().map_or(String::new(), |span| {
+            let line = text.get(..span.start).unwrap_or_default().matches('\n').count() + 1;
+            format!(" (line {line})")
+        });
+        cannot(format!("invalid TOML: {}{place}", e.message()))
+    })?;
+    reject_unknown_keys(&table, &KEYS).map_err(cannot)?;
+    let list = |name: &str| string_list(&table, name, true).map_err(cannot);
+    let (select, ignore, deny) = (list("select")?, list("ignore")?, list("deny")?);
+    let widgets = string_list(&table, "widgets", false).map_err(cannot)?;
+    let folder = path.canonicalize().ok().and_then(|p| p.parent().map(Path::to_path_buf)).unwrap_or_default();
+    let mut paths = Vec::new();
+    for entry in of_paths(&table).map_err(cannot)? {
+        reject_unknown_keys(entry, &OF_PATHS).map_err(cannot)?;
+        let globs = string_list(entry, "match", false)
+            .and_then(|patterns| match patterns.is_empty() {
+                true => Err("[[paths]] needs `match`, a list of patterns such as \"drafts/**\"".to_string()),
+                false => Globs::new(&folder, &patterns),
+            })
+            .map_err(cannot)?;
+        let list = |name: &str| string_list(entry, name, true).map_err(cannot);
+        paths.push((globs, list("ignore")?, list("deny")?));
+    }
+    Ok(PolicyFile { select, ignore, deny, widgets, paths })
+}
+
+/// The tables of `[[paths]]`; none where nothing is said of paths.
+fn of_paths(table: &toml::Table) -> Result<Vec<&toml::Table>, String> {
+    let Some(value) = table.get("paths") else { return Ok(Vec::new()) };
+    let tables = value.as_array().and_then(|list| list.iter().map(toml::Value::as_table).collect());
+    tables.ok_or_else(|| "`paths` must be a list of tables: [[paths]]".to_string())
+}
+
+/// Every key is one of these.
+fn reject_unknown_keys(table: &toml::Table, keys: &[&str]) -> Result<(), String> {
+    let Some(key) = table.keys().find(|key| !keys.contains(&key.as_str())) else { return Ok(()) };
+    let near = match nearest(key, keys.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("use one of {}", keys.join(", ")),
+    };
+    Err(format!("unknown setting `{}`; {near}", printable(key)))
+}
+
+/// A list of texts; of rules, if so.
+fn string_list(table: &toml::Table, name: &str, of_rules: bool) -> Result<Vec<String>, String> {
+    let Some(value) = table.get(name) else { return Ok(Vec::new()) };
+    let list = value.as_array().map(|list| list.iter().map(|v| v.as_str().map(String::from)).collect());
+    let words: Option<Vec<String>> = list.unwrap_or(None);
+    let words = words.ok_or_else(|| format!("`{name}` must be a list of texts"))?;
+    if of_rules {
+        RuleSet::parse(&words).map_err(|e| format!("{name}: {e}"))?;
+    }
+    Ok(words)
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn reported_rules(policy: &Policy) -> Vec<(&'static str, Severity)> {
+        let finding = |code: &str| Finding::new(rules::find(code).unwrap(), 0..0, "");
+        let mut all: Vec<Finding> =
+            ["duplicate-readout", "unknown-key", "energy-grows"].map(finding).to_vec();
+        policy.apply(&mut all);
+        all.iter().map(|f| (f.code, f.severity)).collect()
+    }
+
+    #[test]
+    fn the_nearest_settings_count_and_the_command_line_adds_to_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let write = |name: &str, text: &str| {
+            let path = folder.path().join(name);
+            std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+            std::fs::write(&path, text).unwrap();
+            path
+        };
+        write(
+            "labspec.toml",
+            "ignore = [\"duplicate-readout\"]\n[[paths]]\nmatch = [\"drafts/**\"]\nignore = [\"run\"]\n",
+        );
+        write("inner/labspec.toml", "deny = [\"warnings\"]\n");
+        let lesson = write("a.md", "");
+        let draft = write("drafts/b.md", "");
+        let inner = write("inner/deep/c.md", "");
+        let mut all = Policies::new(&PolicyOptions::default()).unwrap();
+        let key = ("unknown-key", Severity::Error);
+        let grows = rules::find("energy-grows").unwrap().severity;
+        assert_eq!(reported_rules(&all.policy_for(&lesson).unwrap()), [key, ("energy-grows", grows)]);
+        assert_eq!(reported_rules(&all.policy_for(&draft).unwrap()), [key]);
+        let denied = [("duplicate-readout", Severity::Error), key, ("energy-grows", Severity::Error)];
+        assert_eq!(reported_rules(&all.policy_for(&inner).unwrap()), denied);
+        let options = PolicyOptions { ignore: vec!["structure".into()], ..PolicyOptions::default() };
+        let mut all = Policies::new(&options).unwrap();
+        assert_eq!(reported_rules(&all.policy_for(&lesson).unwrap()), [("energy-grows", grows)]);
+    }
+
+    #[test]
+    fn the_schema_knows_every_setting() {
+        let text = include_str!("../../../docs/schema/labspec-toml.json");
+        let schema: serde_json::Value = serde_json::from_str(text).unwrap();
+        let keys = |value: &serde_json::Value| -> Vec<String> {
+            let mut keys: Vec<String> = value["properties"].as_object().unwrap().keys().cloned().collect();
+            keys.sort();
+            keys
+        };
+        let sorted = |keys: &[&str]| {
+            let mut keys: Vec<String> = keys.iter().map(|k| (*k).to_string()).collect();
+            keys.sort();
+            keys
+        };
+        assert_eq!(keys(&schema), sorted(&KEYS));
+        assert_eq!(keys(&schema["properties"]["paths"]["items"]), sorted(&OF_PATHS));
+        let words = schema["$defs"]["rules"]["description"].as_str().unwrap();
+        for word in Layer::ALL.map(Layer::as_str).iter().chain(SEVERITIES.map(|(word, _)| word).iter()) {
+            assert!(words.contains(word), "{word}");
+        }
+    }
+
+    #[test]
+    fn mistakes_in_settings_are_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("labspec.toml");
+        let told = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            read(&path).unwrap_err()
+        };
+        assert!(told("ignor = []").contains("did you mean `ignore`"));
+        assert!(told("ignore = [\"duplicate-readouts\"]").contains("did you mean `duplicate-readout`"));
+        assert!(told("ignore = 3").contains("a list of texts"));
+        assert!(told("\nignore = ").contains("line 2"));
+        assert!(told("[[paths]]\nignore = []").contains("needs `match`"));
+        assert!(told("paths = 1").contains("[[paths]]"));
+        assert!(told("paths = [1]").contains("[[paths]]"));
+        assert!(told("widgets = \"playground\"").contains("a list of texts"));
+    }
+}

@@ -1,0 +1,225 @@
+//! `labspec precision`.
+
+mod chart;
+mod machine;
+mod table;
+
+use super::common::{Failure, Outcome, interrupted};
+use super::lab_args::LabArguments;
+use super::output::write_file;
+use super::output::{wanted, write_png, write_with};
+use super::output_kind::OutputKind;
+use super::stdio::print;
+use super::stdio::{Progress, print_json, stream};
+use chart::chart;
+use clap::ValueEnum;
+use labspec::report::{printable, printable_path};
+use labspec::run::{INTEGRATORS, Integrator};
+use labspec::source::read_text;
+use labspec::verify::significant;
+use labspec_numerics::precision::{Axis, Fate, Options, Recording, Report, compare, milliseconds};
+use machine::{csv, value};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use table::{others, setting, table};
+
+/// Arguments of `precision`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    handled: LabArguments,
+    /// Length in seconds [default: the lab's stopAt, or 2]
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Test only this integrator, or `all`, including those that MuJoCo does not have [default: MuJoCo's five]
+    #[arg(long, value_name = "NAME")]
+    integrator: Vec<String>,
+    /// Vary a setting of the constraint solver as well
+    #[arg(long, value_enum, value_name = "SETTING")]
+    vary: Vec<Vary>,
+    /// Runs of the same lab by another program, for comparison
+    #[arg(long, value_name = "FILE")]
+    beside: Option<PathBuf>,
+    /// Output format
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+    /// Write all errors as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write the chart of the first trace
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write the chart as PNG
+    #[arg(long, value_name = "FILE")]
+    png: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Vary {
+    Iterations,
+    Tolerance,
+    Cone,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    Human,
+    Json,
+    Csv,
+}
+
+pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = a.handled.open()?;
+    a.handled.look_ahead(
+        &target,
+        &wanted(&[(OutputKind::Settings, &a.csv), (OutputKind::Plot, &a.svg), (OutputKind::Picture, &a.png)]),
+    )?;
+    let options = Options {
+        until: a.until,
+        set: a.handled.set(&target.lab)?,
+        press: a.handled.press(&target.lab)?,
+        integrators: integrators(&a.integrator)?,
+        axes: a.vary.iter().map(|v| v.axis()).collect(),
+        beside: a.beside.as_ref().map(|path| recording(path)).transpose()?,
+    };
+    let mut findings = Vec::new();
+    let progress = Progress::new(matches!(a.format, Format::Human));
+    let mut tell = |text: &str| progress.tell(text);
+    let report = compare(&target.lab, &target.model, &target.programs, &options, &mut findings, &mut tell)
+        .map_err(|e| e.0)?;
+    drop(progress);
+    if let Some(f) = findings.first() {
+        return Err(format!(
+            "a closed form has an error: {}; `labspec check` shows where",
+            printable(&f.message)
+        ));
+    }
+    if let Some(file) = &a.svg {
+        write_file(file, OutputKind::Plot, &chart(&report, target.lab.title()))?;
+    }
+    if let Some(file) = &a.png {
+        write_png(file, &chart(&report, target.lab.title()))?;
+    }
+    if let Some(file) = &a.csv {
+        write_with(file, OutputKind::Settings, |out| csv(&report, out))?;
+    }
+    match a.format {
+        Format::Human => print(&human(&report))?,
+        Format::Json => print_json(&value(&report), true)?,
+        Format::Csv => stream(|out| csv(&report, out))?,
+    }
+    Ok(if report.reference.is_none() || lost(&report) { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// Whether the lab as it stands is no good, or the truth is not known to its end.
+fn lost(report: &Report) -> bool {
+    report.rows.iter().any(|r| r.own && r.fate != Fate::Good)
+        || report.targets.iter().any(|t| t.until.is_some())
+}
+
+impl Vary {
+    fn axis(self) -> Axis {
+        match self {
+            Vary::Iterations => Axis::Iterations,
+            Vary::Tolerance => Axis::Tolerance,
+            Vary::Cone => Axis::Cone,
+        }
+    }
+}
+
+/// Bytes of a recording, at most.
+const MOST: u64 = 256 << 20;
+
+fn recording(path: &Path) -> Result<Recording, Failure> {
+    let named = |e: String| format!("cannot use {}: {e}", printable_path(path));
+    let text = read_text(path, MOST, "a recording")?;
+    Recording::read(&text).map_err(named)
+}
+
+fn integrators(names: &[String]) -> Result<Vec<Integrator>, Failure> {
+    if names.iter().any(|n| n == "all") {
+        return Ok(INTEGRATORS.to_vec());
+    }
+    let names_of_all = || INTEGRATORS.map(|i| i.name).join(", ");
+    let one = |name: &String| {
+        Integrator::named(name).ok_or_else(|| {
+            format!("--integrator {name}: unknown name; use one of {}, or all", names_of_all())
+        })
+    };
+    names.iter().map(one).collect()
+}
+
+fn human(report: &Report) -> String {
+    let mut text = String::new();
+    match &report.reference {
+        None => {
+            let why = match report.rows.iter().any(|r| r.fate == Fate::Good) {
+                true => "the methods of high order need more work than a run allows; shorten it with --until",
+                false => "no method completes this lab",
+            };
+            let _ = writeln!(text, "Nothing can be compared: {why}.");
+            fates(report, &mut text);
+        }
+        Some(how) => {
+            let _ = writeln!(
+                text,
+                "Over {} s, {}. Without a closed form, the reference is {how}.",
+                significant(report.length),
+                compared_at(report)
+            );
+            table(report, &mut text);
+        }
+    }
+    if let Some(beside) = &report.beside {
+        others(report, beside, &mut text);
+    }
+    for out in &report.left_out {
+        let _ = writeln!(text, "Not compared: {}, because {}.", printable(&out.label), out.reason);
+    }
+    if let Some(nearby) = &report.nearby {
+        let _ = match nearby.until {
+            Some(t) => writeln!(
+                text,
+                "Two starts that are {:e} apart agree until {} s: no method can predict what comes later.",
+                nearby.apart,
+                significant(t)
+            ),
+            None => writeln!(
+                text,
+                "Two starts that are {:e} apart agree to the end, but the methods do not converge with the step: this is not chaos; forces that jump, as at an impact, are likely.",
+                nearby.apart
+            ),
+        };
+    }
+    for advice in &report.advice {
+        let _ = writeln!(text, "{}", printable(&advice.text));
+    }
+    if interrupted() {
+        text.push_str("stopped by Ctrl-C: the runs above are the finished ones\n");
+    }
+    text
+}
+
+/// When runs are compared.
+fn compared_at(report: &Report) -> String {
+    let apart = report.length / report.samples as f64;
+    let shortest = report.rows.iter().map(|r| r.setting.timestep).fold(f64::INFINITY, f64::min);
+    match shortest < 0.9 * apart {
+        true => format!("after each step, but at most every {} ms", milliseconds(apart)),
+        false => "after each step".to_string(),
+    }
+}
+
+/// What became of each run.
+fn fates(report: &Report, text: &mut String) {
+    for row in &report.rows {
+        let reason = row.reported.first().map_or(String::new(), |t| format!(": {}", printable(t)));
+        let _ = writeln!(
+            text,
+            "  {} at {} ms {}{reason}",
+            setting(row),
+            milliseconds(row.setting.timestep),
+            row.fate.word()
+        );
+    }
+}

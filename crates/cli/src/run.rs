@@ -1,0 +1,201 @@
+//! `labspec run`.
+
+use super::common::{Failure, Outcome};
+use super::lab_args::LabArguments;
+use super::output::write_file;
+use super::output::{PlannedOutput, wanted, write_png, write_with};
+use super::output_kind::OutputKind;
+use super::stdio::print;
+use super::stdio::stream;
+use clap::ValueEnum;
+use labspec::report::{printable, printable_path};
+use labspec::run::{Cell, RunOptions, Table, shown};
+use labspec::spec::{Lab, Plot};
+use labspec::stress;
+use labspec_plot::{Chart, Series, line_chart};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+/// Arguments of `run`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    #[command(flatten)]
+    handled: LabArguments,
+    /// Length in seconds [default: the lab's stopAt, or 2]
+    #[arg(long, value_name = "S")]
+    until: Option<f64>,
+    /// Length in steps
+    #[arg(long, value_name = "N", conflicts_with = "until")]
+    steps: Option<usize>,
+    /// Sample after every K steps
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    every: usize,
+    /// Compute every field in every step, read or not, as MuJoCo does. The results are the same; the run takes longer
+    #[arg(long)]
+    full: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+    /// Write all samples as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Write all samples as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write the plots; further plots go to FILE-2.svg, FILE-3.svg, …; into a folder as plot-1.svg, plot-2.svg, …
+    #[arg(long, value_name = "FILE|DIR/")]
+    svg: Option<PathBuf>,
+    /// Write the plots as PNG
+    #[arg(long, value_name = "FILE|DIR/")]
+    png: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    /// Readouts at the end of the run
+    Human,
+    /// All samples as JSON
+    Json,
+    /// All samples as comma-separated values
+    Csv,
+}
+
+pub(super) fn run(a: &Arguments) -> Result<Outcome, Failure> {
+    let target = a.handled.open()?;
+    let options = RunOptions {
+        until: a.until,
+        steps: a.steps,
+        every: a.every,
+        set: a.handled.set(&target.lab)?,
+        press: a.handled.press(&target.lab)?,
+        full: a.full,
+    };
+    let plots = |file: &Option<PathBuf>, option| {
+        file.as_ref()
+            .map(|file| plot_files(&target.lab, file, option))
+            .transpose()
+            .map(Option::unwrap_or_default)
+    };
+    let (drawn, painted) = (plots(&a.svg, "svg")?, plots(&a.png, "png")?);
+    let mut files = wanted(&[(OutputKind::Table, &a.csv), (OutputKind::Run, &a.json)]);
+    files.extend(drawn.iter().map(|path| PlannedOutput { kind: OutputKind::Plot, path: path.clone() }));
+    files.extend(painted.iter().map(|path| PlannedOutput { kind: OutputKind::Picture, path: path.clone() }));
+    a.handled.look_ahead(&target, &files)?;
+    let table =
+        stress::watched_run(&target.lab, &target.model, &target.programs, &options).map_err(|e| e.0)?;
+    if let Some(file) = &a.csv {
+        write_with(file, OutputKind::Table, |out| table.write_csv(out))?;
+    }
+    if let Some(file) = &a.json {
+        write_with(file, OutputKind::Run, |out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?;
+    }
+    let picture = |(i, plot)| line_chart(&chart(&target.lab, plot, i, &table));
+    let pictures = || target.lab.plots.iter().enumerate().map(picture);
+    for (svg, file) in pictures().zip(&drawn) {
+        write_file(file, OutputKind::Plot, &svg)?;
+    }
+    for (svg, file) in pictures().zip(&painted) {
+        write_png(file, &svg)?;
+    }
+    match a.format {
+        Format::Human => print(&readouts(&target.lab, &table))?,
+        Format::Json => stream(|out| table.write_json(out).and_then(|()| out.write_all(b"\n")))?,
+        Format::Csv => stream(|out| table.write_csv(out))?,
+    }
+    let clean = table.errors.is_empty() && table.warnings.is_empty() && table.breakdowns.is_empty();
+    Ok(if clean { Outcome::Clean } else { Outcome::Findings })
+}
+
+/// The end of the run as the page shows it: readouts, traces of labs without readouts, warnings.
+fn readouts(lab: &Lab, table: &Table) -> String {
+    let mut text = String::new();
+    let Some(last) = table.rows.last() else { return text };
+    let time = last.first().map_or(f64::NAN, Cell::number);
+    let title = if lab.title().is_empty() { "the lab" } else { lab.title() };
+    let samples = match table.rows.len() {
+        1 => "1 sample".to_string(),
+        n => format!("{n} samples"),
+    };
+    let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), shown(time, 3));
+    let digits = |name: &str| {
+        let label = name.strip_prefix("readout/")?;
+        lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
+    };
+    let rows: Vec<(String, String)> = table
+        .columns
+        .iter()
+        .zip(last)
+        .skip(1)
+        .map(|(name, cell)| {
+            let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
+            (printable(label).into_owned(), printable(&cell.shown(digits(name).unwrap_or(4))).into_owned())
+        })
+        .collect();
+    let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);
+    for (label, value) in rows {
+        let _ = writeln!(text, "  {label}{}  {value}", " ".repeat(width - label.chars().count()));
+    }
+    for (name, n) in &table.warnings {
+        let often = if *n == 1 { "once".to_string() } else { format!("{n} times") };
+        let _ = writeln!(text, "warning: {name} ({often})");
+    }
+    for b in &table.breakdowns {
+        let _ = writeln!(text, "  {}\n  {}\n  help: {}", printable(&b.what), b.why, printable(&b.help()));
+    }
+    for error in &table.errors {
+        let _ = writeln!(text, "error: {}", printable(error));
+    }
+    text
+}
+
+/// Most plots that go beside one another into a folder that holds other things.
+const MAX_LOOSE: usize = 50;
+
+/// The files of a lab's plots: FILE, FILE-2.svg, FILE-3.svg, …, or plot-1.svg, plot-2.svg, … in a folder; or with another ending.
+fn plot_files(lab: &Lab, file: &Path, ending: &str) -> Result<Vec<PathBuf>, Failure> {
+    let count = lab.plots.len();
+    if count == 0 {
+        return Err("this lab has no plots to write".into());
+    }
+    let name = printable_path(file);
+    if file.is_dir() || name.ends_with(std::path::is_separator) {
+        std::fs::create_dir_all(file).map_err(|e| format!("cannot make the folder {name}: {e}"))?;
+        return Ok((1..=count).map(|i| file.join(format!("plot-{i}.{ending}"))).collect());
+    }
+    if count > MAX_LOOSE {
+        let folder = printable_path(&file.with_extension(""));
+        return Err(format!("this lab has {count} plots; name a folder for them: --{ending} {folder}/"));
+    }
+    let further = |i: usize| {
+        let mut name = file.file_stem().unwrap_or("plot".as_ref()).to_os_string();
+        name.push(format!("-{i}.{ending}"));
+        file.with_file_name(name)
+    };
+    Ok((1..=count).map(|i| if i == 1 { file.to_path_buf() } else { further(i) }).collect())
+}
+
+/// A plot of the lab with its samples.
+fn chart(lab: &Lab, plot: &Plot, index: usize, table: &Table) -> Chart {
+    let series = plot.traces.iter().filter_map(|trace| {
+        let name = format!("plot/{index}/{}", trace.label.value);
+        let column = table.columns.iter().position(|c| *c == name)?;
+        Some(Series { label: trace.label.value.clone(), dash: trace.dash, points: table.series(column) })
+    });
+    Chart {
+        title: lab.title().to_string(),
+        xlabel: plot.xlabel().to_string(),
+        ylabel: plot.ylabel.as_ref().map_or(String::new(), |t| t.value.clone()),
+        width: 640.0,
+        height: 320.0,
+        xmin: None,
+        xmax: None,
+        ymin: plot.ymin.as_ref().map(|n| n.value),
+        ymax: plot.ymax.as_ref().map(|n| n.value),
+        ref_lines: plot
+            .ref_lines
+            .iter()
+            .map(|l| (l.y.value, l.label.as_ref().map(|t| t.value.clone())))
+            .collect(),
+        series: series.collect(),
+    }
+}

@@ -1,0 +1,163 @@
+//! `labspec scaffold`.
+
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::output::write_file;
+use super::output_kind::OutputKind;
+use super::stdio::print;
+use super::stdio::{Progress, print_json};
+use super::target::model_folder;
+use clap::ValueEnum;
+use labspec::bind::scene::Models;
+use labspec::lint::{load_lesson_file, reload_lesson};
+use labspec::report::{printable, printable_lines, printable_path, report};
+use labspec::spec::Lesson;
+use labspec::verify::{Verdict, significant};
+use labspec_proposals::scaffold::{Scaffold, ScaffoldOutcome, scaffold as look, written};
+use labspec_proposals::trace::laid_out;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Arguments of `scaffold`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// A lesson, or a JSON file of labs or quizzes
+    lesson: PathBuf,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Insert the objects into the lesson; everything else stays unchanged
+    #[arg(long)]
+    write: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Human,
+    Json,
+}
+
+pub(super) fn scaffold(a: &Arguments) -> Result<Outcome, Failure> {
+    let folder = model_folder(&a.models, &a.lesson)?;
+    let lesson = load_lesson_file(&a.lesson, &folder)?;
+    let models = Models::new(folder.clone());
+    let progress = Progress::new(a.format == Format::Human);
+    let all = look(&lesson, &models, &mut |text| progress.tell(text));
+    drop(progress);
+    if interrupted() {
+        return Ok(Outcome::Clean);
+    }
+    let proposals = all.iter().filter(|one| matches!(one.found, ScaffoldOutcome::Proposed { .. })).count();
+    if a.write && proposals > 0 {
+        let text = written(&lesson, &all);
+        // The file as it would be is read once more before anything is replaced.
+        let again = reload_lesson(&lesson, &text, &folder);
+        if again.verifies().count() != lesson.verifies().count() + proposals {
+            return Err(format!(
+                "{} is unchanged: the new objects would change its meaning; fix what `labspec check` finds first",
+                printable_path(&a.lesson)
+            ));
+        }
+        write_file(&a.lesson, OutputKind::Lesson(lesson.file.text()), &text)?;
+    }
+    match a.format {
+        Format::Human => print(&human(a, &lesson, &all))?,
+        Format::Json => print_json(&value(&lesson, &all), true)?,
+    }
+    let done =
+        |one: &Scaffold| matches!(&one.found, ScaffoldOutcome::Proposed { verdict, .. } if sound(verdict));
+    Ok(if all.iter().all(done) { Outcome::Clean } else { Outcome::Findings })
+}
+
+/// Whether a proposal is true as it stands.
+fn sound(verdict: &Option<(Verdict, String)>) -> bool {
+    verdict.as_ref().is_none_or(|(v, _)| matches!(v, Verdict::Verified | Verdict::Computed))
+}
+
+fn human(a: &Arguments, lesson: &Lesson, all: &[Scaffold]) -> String {
+    let mut text = String::new();
+    let mut counts = [0usize; 3];
+    for one in all {
+        let at = lesson.file.position(one.span.start);
+        let _ = writeln!(text, "{}:{} {}", at.line, at.column, printable(&one.name));
+        match &one.found {
+            ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
+                counts[0] += 1;
+                for (name, x) in values {
+                    let _ = writeln!(text, "  {} = {}", printable(name), significant(*x));
+                }
+                if let Some((verdict, reason)) = verdict {
+                    let reason =
+                        if reason.is_empty() { String::new() } else { format!(": {}", printable(reason)) };
+                    let _ = writeln!(text, "  as it stands here: {}{reason}", verdict.as_str());
+                }
+                for option in undecided {
+                    let _ = writeln!(
+                        text,
+                        "  option {option} is left open: its words state nothing that was measured"
+                    );
+                }
+                if !a.write {
+                    let _ = writeln!(text, "\n\"verify\": {}\n", printable_lines(&laid_out(verify)));
+                }
+            }
+            ScaffoldOutcome::Contradicted { option, values } => {
+                counts[1] += 1;
+                let _ = writeln!(
+                    text,
+                    "  the runs support option {}, which is not the key; nothing is proposed",
+                    option + 1
+                );
+                for (name, x) in values {
+                    let _ = writeln!(text, "    {} = {}", printable(name), significant(*x));
+                }
+            }
+            ScaffoldOutcome::Open(why) => {
+                counts[2] += 1;
+                let _ = writeln!(text, "  left open: {}", printable(why));
+            }
+        }
+    }
+    let [proposed, against, open] = counts;
+    let done = if a.write { "written" } else { "proposed" };
+    let against =
+        if against > 0 { format!("{against} where the runs contradict the key, ") } else { String::new() };
+    let _ = writeln!(text, "\n{}: {proposed} {done}, {against}{open} left open", printable_path(&a.lesson));
+    text
+}
+
+fn value(lesson: &Lesson, all: &[Scaffold]) -> Value {
+    let measured = |values: &[(String, f64)]| -> Value {
+        values.iter().map(|(name, x)| json!({"name": name, "value": x})).collect()
+    };
+    let one = |one: &Scaffold| {
+        let at = lesson.file.position(one.span.start);
+        let mut value = json!({
+            "name": one.name, "start": one.span.start, "end": one.span.end, "line": at.line, "column": at.column,
+            "outcome": null, "verify": null, "values": [], "undecided": [], "verdict": null, "reason": null, "option": null,
+        });
+        match &one.found {
+            ScaffoldOutcome::Proposed { verify, values, undecided, verdict } => {
+                value["outcome"] = json!("proposed");
+                value["verify"] = verify.clone();
+                value["values"] = measured(values);
+                value["undecided"] = json!(undecided);
+                value["verdict"] = json!(verdict.as_ref().map(|(v, _)| v.as_str()));
+                value["reason"] = json!(verdict.as_ref().map(|(_, reason)| reason));
+            }
+            ScaffoldOutcome::Contradicted { option, values } => {
+                value["outcome"] = json!("contradicted");
+                value["values"] = measured(values);
+                value["option"] = json!(option + 1);
+            }
+            ScaffoldOutcome::Open(why) => {
+                value["outcome"] = json!("open");
+                value["reason"] = json!(why);
+            }
+        }
+        value
+    };
+    report("scaffold", json!({"found": all.iter().map(one).collect::<Vec<_>>()}))
+}

@@ -1,0 +1,362 @@
+//! `labspec snapshot`: what the labs of lessons show, stored beside them; and the review of what has changed.
+
+use super::collect::{Collected, collect, lost_snapshots};
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::file_check::is_other_json;
+use super::machine;
+use super::output::{remove_file, write_file};
+use super::output_kind::OutputKind;
+use super::stdio::{print, print_json};
+use super::target::model_folder_within;
+use clap::ValueEnum;
+use labspec::bind::scene::Models;
+use labspec::check::{self, Renewal, RenewedLab};
+use labspec::ledger::State;
+use labspec::lint::{ModelFolder, load_lesson_file, snapshot_path};
+use labspec::report::counted;
+use labspec::report::{self, printable, printable_path};
+use labspec::spec::{FileKind, kind_of};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::io::{BufRead, IsTerminal};
+use std::path::PathBuf;
+
+/// Arguments of `snapshot`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// Lessons (.md), labs and quizzes (.json), or folders of lessons
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Review the changes lab by lab; without a terminal, list them
+    #[arg(long, conflicts_with = "accept")]
+    review: bool,
+    /// Store the current output, and remove snapshots of deleted lessons
+    #[arg(long)]
+    accept: bool,
+    /// Output format
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Human,
+    /// For programs
+    Json,
+}
+
+/// What is to be said of the snapshot of a lesson.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Standing {
+    /// None was stored.
+    New,
+    /// Everything is as stored.
+    Same,
+    /// Something is not.
+    Changed,
+    /// What is stored cannot be read.
+    Unreadable,
+    /// The lesson is gone.
+    Gone,
+}
+
+impl Standing {
+    fn as_str(self) -> &'static str {
+        match self {
+            Standing::New => "new",
+            Standing::Same => "same",
+            Standing::Changed => "changed",
+            Standing::Unreadable => "unreadable",
+            Standing::Gone => "gone",
+        }
+    }
+}
+
+/// A snapshot, and what was done with it.
+struct Looked {
+    file: PathBuf,
+    standing: Standing,
+    renewal: Option<Renewal>,
+    /// Labs that are stored as they are now.
+    accepted: BTreeSet<String>,
+    written: bool,
+}
+
+pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
+    let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
+    let asks = a.review && a.format == Format::Human && terminal;
+    let mut all = collect_lessons(a)?;
+    for one in &mut all {
+        if interrupted() {
+            return Ok(Outcome::Findings);
+        }
+        // What nobody has stored yet overwrites nothing.
+        let whole = a.accept || (one.standing == Standing::New && !a.review);
+        if let Some(renewal) = one.renewal.as_ref().filter(|_| whole) {
+            one.accepted = renewal.labs.iter().map(|lab| lab.kept.lab.clone()).collect();
+        }
+    }
+    if asks {
+        let mut questions = std::io::stdin().lock();
+        let mut say = |text: &str| print(text);
+        review(&mut all, &mut questions, &mut say)?;
+    }
+    for one in &mut all {
+        store(one, a.accept)?;
+    }
+    match a.format {
+        Format::Human => print(&summary(&all, asks))?,
+        Format::Json => print_json(&report::report("snapshot", machine(&all)), true)?,
+    }
+    let open = |one: &Looked| left(one).next().is_some() || (one.standing == Standing::Gone && !one.written);
+    let unread = |one: &Looked| one.standing == Standing::Unreadable && !one.written;
+    let bad = all.iter().any(|one| open(one) || unread(one));
+    Ok(if bad { Outcome::Findings } else { Outcome::Clean })
+}
+
+/// Reads every lesson, runs its labs, and compares.
+fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
+    let collected = collect(&a.paths);
+    collected.complain();
+    let Collected { files, problems, .. } = collected;
+    if let Some((_, why)) = problems.first() {
+        return Err(why.clone());
+    }
+    let mut by_folder: BTreeMap<String, Models> = BTreeMap::new();
+    let mut all = Vec::new();
+    for (path, named) in &files {
+        if interrupted() {
+            break;
+        }
+        if !matches!(kind_of(path), FileKind::Lesson | FileKind::Json) {
+            return Err(format!(
+                "{} is not a lesson: name .md or .json files, or a folder of them",
+                printable_path(path)
+            ));
+        }
+        let folder: ModelFolder = model_folder_within(&a.models, path, &a.paths)?;
+        let models = by_folder.entry(format!("{folder:?}")).or_insert_with(|| Models::new(folder));
+        let lesson = load_lesson_file(path, models.folder())?;
+        if !named && is_other_json(&lesson) || lesson.addressed().is_empty() && lesson.snapshot.is_none() {
+            continue;
+        }
+        let renewal = check::renew(&lesson, models);
+        let same = |lab: &RenewedLab| matches!(lab.kept.state, State::True(_));
+        let standing = match &renewal {
+            r if r.fault.is_some() => Standing::Unreadable,
+            r if !r.stored => Standing::New,
+            r if r.labs.iter().all(same) => Standing::Same,
+            _ => Standing::Changed,
+        };
+        let file = snapshot_path(path);
+        all.push(Looked {
+            file,
+            standing,
+            renewal: Some(renewal),
+            accepted: BTreeSet::new(),
+            written: false,
+        });
+    }
+    for file in lost_snapshots(&a.paths) {
+        let (standing, accepted) = (Standing::Gone, BTreeSet::new());
+        all.push(Looked { file, standing, renewal: None, accepted, written: false });
+    }
+    if all.is_empty() {
+        let names: Vec<String> = a.paths.iter().map(|p| printable_path(p)).collect();
+        return Err(format!("{} has no lab", names.join(", ")));
+    }
+    Ok(all)
+}
+
+/// Labs that are not as stored, or not stored, also afterwards.
+fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
+    let labs = one.renewal.iter().flat_map(|r| &r.labs);
+    labs.filter(|lab| {
+        let can = lab.new.is_some() || lab.kept.state == State::False;
+        let done = can && one.accepted.contains(&lab.kept.lab);
+        !done && !matches!(lab.kept.state, State::True(_))
+    })
+}
+
+/// Asks for each lab that is not as stored whether it is meant.
+fn review(
+    all: &mut [Looked],
+    answers: &mut impl BufRead,
+    say: &mut impl FnMut(&str) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    let total: usize = all.iter().map(|one| left(one).count()).sum();
+    let (mut number, mut rest) = (0, false);
+    for one in all {
+        let file = printable_path(&one.file);
+        let open: Vec<RenewedLab> = left(one).cloned().collect();
+        for lab in open {
+            number += 1;
+            let can = lab.new.is_some() || lab.kept.state == State::False;
+            say(&format!("\n{file} ({number} of {total})\n{}", about(&lab)))?;
+            while can && !rest {
+                say("accept it? y: yes, n: no, a: this and all that follow, q: leave the rest > ")?;
+                let mut answer = String::new();
+                let read =
+                    answers.read_line(&mut answer).map_err(|e| format!("cannot read an answer: {e}"))?;
+                match answer.trim().to_lowercase().as_str() {
+                    "y" | "yes" => {
+                        one.accepted.insert(lab.kept.lab.clone());
+                        break;
+                    }
+                    "n" | "no" => break,
+                    "a" | "all" => rest = true,
+                    "q" | "quit" => return Ok(()),
+                    _ if read == 0 => return Ok(()),
+                    _ => {}
+                }
+            }
+            if can && rest {
+                one.accepted.insert(lab.kept.lab.clone());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Writes what was accepted.
+fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
+    let Some(renewal) = &one.renewal else {
+        if everything {
+            remove_file(&one.file, OutputKind::Snapshot)?;
+            one.written = true;
+        }
+        return Ok(());
+    };
+    if one.accepted.is_empty() {
+        return Ok(());
+    }
+    let Some(text) = renewal.text(|lab| one.accepted.contains(&lab.kept.lab)) else { return Ok(()) };
+    let old = std::fs::read_to_string(&one.file).ok();
+    // Line breaks may have been changed on the way.
+    if old.is_none_or(|old| old.replace("\r\n", "\n") != text) {
+        write_file(&one.file, OutputKind::Snapshot, &text)?;
+        one.written = true;
+    }
+    Ok(())
+}
+
+/// What is said of a lab that is not as stored.
+fn about(lab: &RenewedLab) -> String {
+    let snapshot = &lab.kept;
+    let mut text = format!(
+        "  {:<10} lab {}: {}\n",
+        snapshot.word(),
+        printable(&snapshot.lab),
+        printable(&snapshot.remark())
+    );
+    for line in snapshot.shown() {
+        let _ = writeln!(text, "  {:<10}   {}", "", printable(&line));
+    }
+    text
+}
+
+/// Everything, for people. What was asked about is not told again.
+fn summary(all: &[Looked], asked: bool) -> String {
+    let mut text = String::new();
+    let (mut same, mut open) = (0, 0);
+    for one in all {
+        let file = printable_path(&one.file);
+        let fault = one.renewal.as_ref().and_then(|r| r.fault.as_deref()).unwrap_or_default();
+        let labs = one.accepted.len();
+        match (one.standing, one.written) {
+            (Standing::Same, false) => same += 1,
+            (Standing::Gone, true) => _ = writeln!(text, "removed    {file}: its lesson is gone"),
+            (Standing::Gone, false) => {
+                open += 1;
+                _ = writeln!(text, "gone       {file}: its lesson does not exist");
+            }
+            (_, true) => _ = writeln!(text, "stored     {file}: {}", counted(labs, "lab")),
+            (Standing::Unreadable, false) => {
+                open += 1;
+                _ = writeln!(text, "unreadable {}", printable(fault));
+            }
+            (Standing::New | Standing::Changed, false) => {
+                _ = writeln!(text, "{:<10} {file}", one.standing.as_str());
+            }
+        }
+        let listed = !(asked || one.standing == Standing::Unreadable);
+        for lab in left(one) {
+            open += 1;
+            if listed {
+                text.push_str(&about(lab));
+            }
+        }
+    }
+    if same > 0 {
+        let _ = writeln!(text, "as stored  {}", counted(same, "lesson"));
+    }
+    if open > 0 {
+        text.push_str("labspec snapshot --review shows each change and asks; --accept accepts all of them\n");
+    }
+    text
+}
+
+fn machine(all: &[Looked]) -> Value {
+    let one = |one: &Looked| {
+        let labs = one.renewal.iter().flat_map(|r| &r.labs).map(|lab| {
+            let mut value = machine::kept(&lab.kept);
+            value["accepted"] = json!(one.accepted.contains(&lab.kept.lab));
+            value
+        });
+        json!({
+            "file": one.file.display().to_string(), "standing": one.standing.as_str(), "written": one.written,
+            "fault": one.renewal.as_ref().and_then(|r| r.fault.clone()), "labs": labs.collect::<Vec<_>>(),
+        })
+    };
+    json!({"files": all.iter().map(one).collect::<Vec<_>>()})
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use labspec::source::SourceFile;
+    use labspec::spec::read_lesson;
+
+    /// A lesson with three labs, of which nothing is stored.
+    fn looked() -> Looked {
+        let lab = "```lab simlab\n{\"xml\": \"<mujoco/>\", \"stopAt\": 0.01, \"readouts\": [{\"label\": \"t\", \"expr\": \"data.time\"}]}\n```\n\n";
+        let lesson = read_lesson(SourceFile::new("a.md", lab.repeat(3)));
+        let renewal = check::renew(&lesson, &Models::new(ModelFolder::unknown()));
+        let standing = Standing::Changed;
+        Looked {
+            file: "a.md.snap".into(),
+            standing,
+            renewal: Some(renewal),
+            accepted: BTreeSet::new(),
+            written: false,
+        }
+    }
+
+    #[test]
+    fn each_lab_is_asked_for() {
+        for (answers, accepted, questions) in [
+            ("y\nn\nyes\n", &["#1", "#3"][..], 3),
+            ("what\nn\na\n", &["#2", "#3"], 3),
+            ("n\nq\n", &[], 2),
+            ("y\n", &["#1"], 2),
+            ("a", &["#1", "#2", "#3"], 1),
+        ] {
+            let mut all = [looked()];
+            let mut said = String::new();
+            let mut say = |text: &str| {
+                said.push_str(text);
+                Ok(())
+            };
+            review(&mut all, &mut answers.as_bytes(), &mut say).unwrap();
+            assert_eq!(all[0].accepted.iter().collect::<Vec<_>>(), accepted, "{answers}");
+            assert_eq!(said.matches("accept it?").count(), questions, "{answers}: {said}");
+            assert!(
+                said.contains("a.md.snap (1 of 3)\n  changed    lab #1: the lab is not in the snapshot\n")
+            );
+        }
+    }
+}

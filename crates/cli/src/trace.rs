@@ -1,0 +1,159 @@
+//! `labspec trace`.
+
+use super::common::{Failure, ModelOptions, Outcome, interrupted};
+use super::stdio::{Progress, print, print_json};
+use super::target::model_folder;
+use clap::ValueEnum;
+use labspec::bind::scene::Models;
+use labspec::lint::load_lesson_file;
+use labspec::report::{printable, printable_lines, printable_path, report};
+use labspec::spec::Lesson;
+use labspec::verify::significant;
+use labspec_proposals::trace::{self, Hit, Origin, Traced, Traces, blocks, laid_out};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Arguments of `trace`.
+#[derive(clap::Args, Debug)]
+pub(super) struct Arguments {
+    /// A lesson, or a JSON file of labs or quizzes
+    lesson: PathBuf,
+    #[command(flatten)]
+    models: ModelOptions,
+    /// Output format
+    #[arg(long, value_enum, default_value = "human")]
+    format: Format,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Human,
+    Json,
+}
+
+pub(super) fn trace(a: &Arguments) -> Result<Outcome, Failure> {
+    let folder = model_folder(&a.models, &a.lesson)?;
+    let lesson = load_lesson_file(&a.lesson, &folder)?;
+    let models = Models::new(folder);
+    let progress = Progress::new(a.format == Format::Human);
+    let found = trace::trace(&lesson, &models, &mut |text| progress.tell(text));
+    drop(progress);
+    if interrupted() {
+        return Ok(Outcome::Clean);
+    }
+    match a.format {
+        Format::Human => print(&human(a, &lesson, &found))?,
+        Format::Json => print_json(&value(&lesson, &found), true)?,
+    }
+    let traced = |n: &Traced| matches!(n.origin, Origin::Claimed | Origin::From(_) | Origin::Setting(_));
+    Ok(if found.numbers.iter().all(traced) { Outcome::Clean } else { Outcome::Findings })
+}
+
+/// Where a hit comes from, in words.
+fn place(found: &Traces<'_>, hit: &Hit) -> String {
+    match hit.place.and_then(|(lab, trial)| found.run(lab, trial)) {
+        Some((address, words)) => format!("lab {address} {words}"),
+        None => "worked out".to_string(),
+    }
+}
+
+fn human(a: &Arguments, lesson: &Lesson, found: &Traces<'_>) -> String {
+    let mut text = String::new();
+    for n in &found.numbers {
+        let at = lesson.file.position(n.stated.span.start);
+        let quote = printable(&n.stated.quote);
+        let _ = writeln!(
+            text,
+            "{:>4}:{:<4} {quote:<14}{}",
+            at.line,
+            at.column,
+            describe_origin(&n.origin, found)
+        );
+    }
+    for (address, block) in blocks(found) {
+        let has = lesson.lab(&address).is_some_and(|lab| lab.verify.is_some());
+        let accept = if has { "to add to its `verify`" } else { "to accept" };
+        let _ = write!(
+            text,
+            "\nfor lab {address}, {accept}:\n\n\"verify\": {}\n",
+            printable_lines(&laid_out(&block))
+        );
+    }
+    let _ = writeln!(text, "\n{}: {}", printable_path(&a.lesson), summarize(&found.numbers));
+    text
+}
+
+/// Where a number comes from, in words.
+fn describe_origin(origin: &Origin, found: &Traces<'_>) -> String {
+    match origin {
+        Origin::From(hit) => {
+            let value = significant(hit.value);
+            let chance =
+                if hit.chance > 0.0 { format!(", chance {}", share(hit.chance)) } else { String::new() };
+            let description = hit.description();
+            format!(" = {} = {value}  ({}{chance})", printable(&description), printable(&place(found, hit)))
+        }
+        Origin::Unsteady(hit) => format!(
+            " is not reproducible: {} = {}  ({}), and other digits if the start moves by 1e-14",
+            printable(&hit.description()),
+            significant(hit.value),
+            printable(&place(found, hit))
+        ),
+        Origin::Setting(words) => format!(" is set: {}", printable(words)),
+        Origin::Chance(hit) => {
+            format!(" may be chance ({}): {}", share(hit.chance), printable(&hit.description()))
+        }
+        Origin::Claimed => " is claimed".to_string(),
+        Origin::Unknown => " not traced".to_string(),
+    }
+}
+
+/// How many numbers have each kind of origin.
+fn summarize(numbers: &[Traced]) -> String {
+    let count = |is: fn(&Origin) -> bool| numbers.iter().filter(|n| is(&n.origin)).count();
+    let claimed = count(|o| matches!(o, Origin::Claimed));
+    let from = count(|o| matches!(o, Origin::From(_)));
+    let set = count(|o| matches!(o, Origin::Setting(_)));
+    let chance = count(|o| matches!(o, Origin::Chance(_)));
+    let unknown = count(|o| matches!(o, Origin::Unknown));
+    let unsteady = match count(|o| matches!(o, Origin::Unsteady(_))) {
+        0 => String::new(),
+        n => format!("{n} not reproducible, "),
+    };
+    format!(
+        "{} numbers with units; {claimed} claimed, {from} traced, {set} set by the text, {chance} perhaps by chance, {unsteady}{unknown} not traced",
+        numbers.len()
+    )
+}
+
+fn share(x: f64) -> String {
+    if x < 0.001 { "below 0.1 %".to_string() } else { format!("{:.1} %", 100.0 * x) }
+}
+
+fn value(lesson: &Lesson, found: &Traces<'_>) -> Value {
+    let one = |n: &Traced| {
+        let at = lesson.file.position(n.stated.span.start);
+        let (word, hit, by) = match &n.origin {
+            Origin::From(hit) => ("traced", Some(hit), None),
+            Origin::Chance(hit) => ("chance", Some(hit), None),
+            Origin::Unsteady(hit) => ("unsteady", Some(hit), None),
+            Origin::Setting(words) => ("set", None, Some(words)),
+            Origin::Claimed => ("claimed", None, None),
+            Origin::Unknown => ("unknown", None, None),
+        };
+        json!({
+            "text": n.stated.quote, "start": n.stated.span.start, "end": n.stated.span.end,
+            "line": at.line, "column": at.column, "unit": n.stated.unit, "origin": word,
+            "from": hit.map(|hit| place(found, hit)), "measure": hit.map(|hit| &hit.measure),
+            "factor": hit.map(|hit| &hit.factor), "value": hit.map(|hit| hit.value), "chance": hit.map(|hit| hit.chance),
+            "by": by,
+        })
+    };
+    let numbers: Vec<Value> = found.numbers.iter().map(one).collect();
+    let blocks: Vec<Value> = blocks(found)
+        .into_iter()
+        .map(|(address, verify)| json!({"lab": address.to_string(), "verify": verify}))
+        .collect();
+    report("trace", json!({"numbers": numbers, "proposals": blocks}))
+}

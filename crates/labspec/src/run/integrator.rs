@@ -1,0 +1,46 @@
+//! The integrators of the engine, by number and name.
+
+use labspec_core::{Model, integrator};
+
+/// An integrator by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Integrator {
+    /// Its number (`opt.integrator`).
+    pub id: i32,
+    /// Its name, as MJCF writes it.
+    pub name: &'static str,
+    /// MuJoCo has it too, so that a lab on a page can use it.
+    pub shared: bool,
+}
+
+/// All of them: MuJoCo's first.
+pub const INTEGRATORS: [Integrator; 9] = [
+    Integrator { id: integrator::EULER, name: "Euler", shared: true },
+    Integrator { id: integrator::IMPLICIT, name: "implicit", shared: true },
+    Integrator { id: integrator::IMPLICITFAST, name: "implicitfast", shared: true },
+    Integrator { id: integrator::RK4, name: "RK4", shared: true },
+    Integrator { id: integrator::DISCRETE, name: "discrete", shared: true },
+    Integrator { id: integrator::RKMK4, name: "rkmk4", shared: false },
+    Integrator { id: integrator::RKMK8, name: "rkmk8", shared: false },
+    Integrator { id: integrator::GAUSS, name: "gauss", shared: false },
+    Integrator { id: integrator::ADAPTIVE, name: "adaptive", shared: false },
+];
+
+impl Integrator {
+    /// The integrator with a name, whatever the case of its letters.
+    pub fn named(name: &str) -> Option<Integrator> {
+        INTEGRATORS.into_iter().find(|i| i.name.eq_ignore_ascii_case(name))
+    }
+
+    /// Whether its steps can be made again with any length to see what is between them: it is of an order above the second.
+    pub fn is_high(self) -> bool {
+        use integrator::{ADAPTIVE, GAUSS, RK4, RKMK4, RKMK8};
+        [RK4, RKMK4, RKMK8, GAUSS, ADAPTIVE].contains(&self.id)
+    }
+
+    /// The integrator that a model's options name; Euler's, as the engine takes it, for a number without a meaning.
+    pub fn of(model: &Model) -> Integrator {
+        let euler = INTEGRATORS[0];
+        INTEGRATORS.into_iter().find(|i| i.id == model.opt.integrator).unwrap_or(euler)
+    }
+}

@@ -1,0 +1,257 @@
+//! What is found as one types: the rules of structure, models, and the names in every text. Nothing is run.
+//!
+//! A lesson is read anew at every change, which is quick. Its code is bound block by block, and what was found of a block is kept
+//! for as long as its text and the labs that it names stay what they are.
+
+use super::course::Around;
+use super::documents::Document;
+use labspec::bind::scene::{Models, compile_file};
+use labspec::check::{self, CheckLevel, LabOutcome};
+use labspec::finding::Finding;
+use labspec::lint::{load_lesson_at, root_of};
+use labspec::source::Asked;
+use labspec::spec::{FileKind, Lab, LabEntry, Lesson, Other, Verify, VerifyLab};
+use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Looks at a document: what is found of it is in the document then.
+pub(super) fn check_document(document: &mut Document, around: &Around) {
+    document.stale = false;
+    match document.kind {
+        FileKind::Lesson | FileKind::Json => {
+            let lesson = read(document, around);
+            // JSON that is neither labs nor quizzes belongs to somebody else.
+            let other =
+                document.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty();
+            document.findings =
+                if other { Vec::new() } else { bound(&lesson, &mut document.blocks, &around.models) };
+            document.lesson = Some(Arc::new(lesson));
+        }
+        FileKind::Model => {
+            let folder = document.path.parent().unwrap_or(Path::new(""));
+            let find = || Some(root_of(folder, &[]));
+            let root = around.sources.place(Asked::Root, folder, find).unwrap_or_default();
+            let found = compile_file(&document.file, &document.path, &root, &around.sources, None).findings;
+            let own = |f: &Finding| f.path == *document.file.path();
+            document.findings = found.into_iter().filter(own).collect();
+        }
+        FileKind::Unknown => {}
+    }
+}
+
+/// The lesson of a document, read if need be.
+pub(super) fn lesson(document: &mut Document, around: &Around) -> Option<Arc<Lesson>> {
+    if !matches!(document.kind, FileKind::Lesson | FileKind::Json) {
+        return None;
+    }
+    let lesson = document.lesson.clone().unwrap_or_else(|| Arc::new(read(document, around)));
+    document.lesson = Some(lesson.clone());
+    Some(lesson)
+}
+
+fn read(document: &Document, around: &Around) -> Lesson {
+    load_lesson_at(document.file.clone(), &document.path, &around.sources, around.models.folder())
+}
+
+/// The findings of a lesson whose blocks are bound as far as they are new.
+fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &Models) -> Vec<Finding> {
+    let mut kept = BTreeMap::new();
+    let mut findings = Vec::new();
+    let models_now = models_hash(models);
+    for unit in units(lesson) {
+        let key = format!("{models_now}\0{}", key(lesson, &unit));
+        let known = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
+        let found = known.unwrap_or_else(|| examine(lesson, &unit, models));
+        findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
+        // A finding that points out of its block rests on more than the block.
+        if found.iter().all(|f| spans(f).all(|span| span.end <= unit.len())) {
+            kept.insert(key, found);
+        }
+    }
+    *blocks = kept;
+    let found = LabOutcome::from_findings(findings);
+    check::join(lesson.clone(), found, CheckLevel::STATIC).findings
+}
+
+/// A mark of the models, which changes when they do.
+fn models_hash(models: &Models) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    (models.folder().path_of_folder(), models.folder().names()).hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The labs, quizzes and claims in comments of a lesson, as bytes.
+fn units(lesson: &Lesson) -> Vec<Range<usize>> {
+    let labs = lesson.labs.iter().map(|entry| entry.span.clone());
+    let quizzes = lesson.quizzes.iter().map(|quiz| quiz.span.clone());
+    labs.chain(quizzes).chain(lesson.remarks.iter().map(|remark| remark.span.clone())).collect()
+}
+
+/// What the findings of a block rest on: its text, that which it is about, and that of the labs and claims that it names.
+fn key(lesson: &Lesson, unit: &Range<usize>) -> String {
+    let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
+    let mut key = lesson.file.slice(unit.clone()).to_string();
+    let used = claims(lesson, unit).flat_map(|claim| lesson.used_by(claim)).map(|used| used.span.clone());
+    for span in over.chain(used) {
+        key.push('\0');
+        key.push_str(lesson.file.slice(span));
+    }
+    for named in named_by(lesson, unit) {
+        key.push('\0');
+        match named {
+            VerifyLab::Reference(text, _) => {
+                key.push_str(&text.value);
+                key.push_str(lesson.named(named).map_or("", |lab| lesson.file.slice(lab.span.clone())));
+            }
+            VerifyLab::Elsewhere(text, ..) => {
+                key.push_str(lesson.other(&text.span()).map_or("", |other| &other.text));
+            }
+            VerifyLab::Inline(_) | VerifyLab::Broken => {}
+        }
+    }
+    key
+}
+
+/// The `verify` objects of a block.
+fn claims<'l>(lesson: &'l Lesson, unit: &Range<usize>) -> impl Iterator<Item = &'l Verify> {
+    lesson.verifies().filter(|claim| within(&claim.span, unit))
+}
+
+/// The labs that they name, and those that these use.
+fn named_by<'l>(lesson: &'l Lesson, unit: &Range<usize>) -> impl Iterator<Item = &'l VerifyLab> {
+    claims(lesson, unit).flat_map(|claim| lesson.whole(claim).labs())
+}
+
+fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
+    unit.start <= span.start && span.end <= unit.end
+}
+
+/// Binds one block, as if there were no others but those that it names. Places count from its beginning.
+fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
+    let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
+    let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
+    let elsewhere = |other: &&Other| {
+        let here =
+            |named: &&VerifyLab| matches!(named, VerifyLab::Elsewhere(text, ..) if text.span() == other.span);
+        named.iter().any(here)
+    };
+    let needed = |span: &Range<usize>| within(span, unit) || wanted.iter().any(|lab| within(&lab.span, span));
+    let entry = |entry: &LabEntry| LabEntry {
+        lab: entry.lab.clone().filter(|_| needed(&entry.span)),
+        ..entry.clone()
+    };
+    let part = Lesson {
+        file: lesson.file.clone(),
+        labs: lesson.labs.iter().map(entry).collect(),
+        quizzes: lesson.quizzes.iter().filter(|quiz| needed(&quiz.span)).cloned().collect(),
+        widgets: Vec::new(),
+        broken: Vec::new(),
+        remarks: lesson.remarks.iter().filter(|remark| within(&remark.span, unit)).cloned().collect(),
+        wholes: lesson.wholes.clone(),
+        others: lesson.others.iter().filter(elsewhere).cloned().collect(),
+        scan: Default::default(),
+        problems: Vec::new(),
+        findings: Vec::new(),
+        snapshot: None,
+        place: None,
+    };
+    let found = check::examine(&part, models, CheckLevel::STATIC).findings;
+    let own = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
+    own.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
+}
+
+/// A finding with all its places moved.
+fn moved(f: &Finding, to: impl Fn(usize) -> usize) -> Finding {
+    let mut f = f.clone();
+    let shift = |span: &Range<usize>| to(span.start)..to(span.end);
+    f.span = shift(&f.span);
+    f.related
+        .iter_mut()
+        .filter(|place| place.path.is_empty())
+        .for_each(|place| place.span = shift(&place.span));
+    if let Some(fix) = &mut f.fix {
+        fix.span = shift(&fix.span);
+    }
+    f
+}
+
+/// All places of a finding in its own text.
+fn spans(f: &Finding) -> impl Iterator<Item = &Range<usize>> {
+    let related = f.related.iter().filter(|place| place.path.is_empty()).map(|place| &place.span);
+    related.chain(f.fix.iter().map(|fix| &fix.span)).chain([&f.span])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use labspec::lint::ModelFolder;
+    use labspec::source::{SourceFile, Sources};
+    use std::path::Path;
+
+    /// What a lesson says without anything kept: what [`look`] must find, too.
+    fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
+        check::check_lesson(
+            load_lesson_at(file, path, &Sources::Disk, models.folder()),
+            models,
+            CheckLevel::STATIC,
+        )
+        .findings
+    }
+
+    /// Claims that name others: one in a comment, one of another lesson's lab, one that uses the runs of another.
+    const NAMING: &str = r##"# Naming
+
+```lab simlab
+{"model": "pendulum", "readouts": [{"label": "a", "expr": "data.qpos[0]"}],
+ "verify": {"runs": {"swing": {"until": 1}}, "measure": {"far": "max(abs(data.qpos[0]))"}, "says": [["far", "far > 0"]]}}
+```
+
+<!-- labspec verify {"use": "#1", "measure": {"low": "min(data.qpos[0])"}, "says": [["low", "low < far"]]} -->
+The pendulum swings low.
+
+<!-- labspec verify {"lab": "02-bounce-and-swing.md#1", "measure": {"late": "max(data.qpos[0])"}, "says": [["late", "late < 9"]]} -->
+It comes late.
+"##;
+
+    /// Changes in the texts of real lessons: what is kept of the blocks never changes what is found.
+    #[test]
+    fn what_is_kept_changes_nothing() {
+        let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();
+        let folder = ModelFolder::open(&specs.join("models")).unwrap();
+        let around =
+            Around { models: Arc::new(Models::new(folder)), sources: Sources::Disk, started: Vec::new() };
+        let (mut changes, mut with_findings) = (0, 0);
+        let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
+        let lessons =
+            ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
+        for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
+            let path = specs.join("lessons").join(name);
+            let mut document = Document::new("file:///a.md", path.clone(), &text, 1);
+            let typed =
+                [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")];
+            for (at, what) in
+                typed.into_iter().chain([("far", "fra"), ("low", "lwo"), ("#1", "#2"), ("late", "lat")])
+            {
+                for (place, _) in text.match_indices(at).step_by(apart) {
+                    let mut changed = text.clone();
+                    changed.replace_range(place..place + at.len(), what);
+                    document.change(&[serde_json::json!({"text": changed})], 2);
+                    check_document(&mut document, &around);
+                    let plain = plainly(document.file.clone(), &path, &around.models);
+                    assert_eq!(document.findings, plain, "{what} at {place} of {name}");
+                    changes += 1;
+                    with_findings += usize::from(!plain.is_empty());
+                }
+            }
+            if name == "naming.md" {
+                document.change(&[serde_json::json!({"text": text})], 3);
+                check_document(&mut document, &around);
+                assert_eq!(document.findings, []);
+            }
+        }
+        assert!(changes > 60 && with_findings > 60, "{changes} {with_findings}");
+    }
+}

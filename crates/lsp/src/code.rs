@@ -1,0 +1,93 @@
+//! The texts of a lesson that are code, each with the lab that it is about.
+
+use labspec::bind::{ModelNames, Scope};
+use labspec::source::Text;
+use labspec::spec::{Form, Lab, Lesson, Run, Verify};
+use labspec_core::Model;
+use labspec_expr::{Compiled, Compiler, Globals, Type};
+
+/// A text of code.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece<'l> {
+    pub(super) form: Form,
+    /// Which functions there are.
+    pub(super) scope: Scope,
+    pub(super) text: &'l Text,
+    /// The lab whose model it names.
+    pub(super) lab: &'l Lab,
+    /// The claim that it stands in.
+    pub(super) verify: Option<&'l Verify>,
+}
+
+/// Every text of code, in the order in which the lesson is read.
+pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece<'_>> {
+    let mut all = Vec::new();
+    for lab in lesson.all_labs() {
+        let own = lab.code().into_iter();
+        all.extend(own.map(|(form, text)| Piece { form, scope: Scope::Lab, text, lab, verify: None }));
+        if let Some(verify) = &lab.verify {
+            claim(lesson, verify, Some(lab), &mut all);
+        }
+    }
+    for (_, question) in lesson.quizzes.iter().flat_map(|quiz| quiz.numbered()) {
+        if let Some(verify) = &question.verify {
+            claim(lesson, verify, question.sim(), &mut all);
+        }
+    }
+    for remark in &lesson.remarks {
+        claim(lesson, &remark.verify, None, &mut all);
+    }
+    all
+}
+
+fn claim<'l>(lesson: &'l Lesson, verify: &'l Verify, own: Option<&'l Lab>, all: &mut Vec<Piece<'l>>) {
+    let whole = lesson.whole(verify);
+    let base = whole.lab.as_ref().map_or(own, |named| lesson.named(named));
+    let scope = |form| if form == Form::Statements { Scope::Lab } else { Scope::Measure };
+    let mut add = |texts: Vec<(Form, &'l Text)>, lab: Option<&'l Lab>| {
+        let Some(lab) = lab else { return };
+        let piece = |(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(whole) };
+        all.extend(texts.into_iter().map(piece));
+    };
+    let lab_of = |run: &'l Run| run.lab.as_ref().map_or(base, |named| lesson.named(named));
+    for run in &verify.runs {
+        add(run.code().collect(), lab_of(run));
+    }
+    add(verify.expressions().collect(), base.or_else(|| whole.runs.iter().find_map(lab_of)));
+}
+
+/// The text of code at a byte of the lesson, and the byte of the text.
+pub(super) fn at(lesson: &Lesson, byte: usize) -> Option<(Piece<'_>, usize)> {
+    let all = pieces(lesson);
+    let piece = all.into_iter().find(|p| {
+        let span = p.text.span();
+        span.start <= byte && byte <= span.end
+    })?;
+    Some((piece, inside(piece.text, byte)))
+}
+
+/// The byte of a text that stands at a byte of the file. The bytes of both keep their order.
+fn inside(text: &Text, byte: usize) -> usize {
+    let (mut low, mut high) = (0, text.value.len());
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if text.map.span(middle..middle).start < byte {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    labspec_expr::floor(&text.value, low)
+}
+
+/// Compiles a text with what each part of it means.
+pub(super) fn explained(piece: &Piece<'_>, model: &Model, globals: &mut Globals) -> Compiled {
+    let shown = labspec::verify::labels(piece.lab);
+    let names = ModelNames::new(model, piece.scope).showing(&shown);
+    let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Any)).explaining();
+    match piece.form {
+        Form::Expression => compiler.expression(&piece.text.value),
+        Form::Statements => compiler.statements(&piece.text.value),
+        Form::Target => compiler.assignment(&piece.text.value),
+    }
+}

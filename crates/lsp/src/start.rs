@@ -1,0 +1,81 @@
+//! Labs at their start, for whoever points at something in them: what it is worth before the first step.
+
+use super::course::Around;
+use labspec::bind::dimension_of;
+use labspec::bind::{ModelNames, Programs, Scope};
+use labspec::finding::Finding;
+use labspec::run::{Budget, Session};
+use labspec::source::{SourceMap, Text};
+use labspec::spec::Lab;
+use labspec_bind::units::written;
+use labspec_core::{AccessSet, Model};
+use labspec_expr::{Compiler, Type};
+use std::sync::Arc;
+
+/// What a lab may do to get there, in units of about a nanosecond: who points at something does not wait.
+const WORK: Budget = Budget { left: 20_000_000 };
+/// How many labs are kept.
+const MOST: usize = 8;
+/// Most elements of an array that are shown.
+const SHOWN: usize = 9;
+
+/// A lab at its start.
+#[derive(Debug)]
+pub(super) struct Started {
+    /// The text of the lab.
+    key: String,
+    pub(super) model: Arc<Model>,
+    session: Session<'static>,
+}
+
+/// The model of a lab, started if need be. `None` when there is no such model, or it has mistakes.
+pub(super) fn started<'a>(around: &'a mut Around, lab: &Lab, key: &str) -> Option<&'a Started> {
+    if let Some(at) = around.started.iter().position(|s| s.key == key) {
+        return around.started.get(at);
+    }
+    let model = around.models.model_of_lab(lab, &mut Vec::<Finding>::new())?;
+    let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
+    let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
+    if around.started.len() >= MOST {
+        around.started.remove(0);
+    }
+    around.started.push(Started { key: key.to_string(), model, session });
+    around.started.last()
+}
+
+/// What an expression is worth at the start of the lab, as text. `None` when it means nothing there, or does not come to an end.
+pub(super) fn value(started: &Started, code: &str) -> Option<String> {
+    let mut session = started.session.clone();
+    if session.ended().is_some() {
+        return None;
+    }
+    match evaluate(&mut session, &started.model, code) {
+        Some((Type::View | Type::List, _)) | None => elements(&mut session, &started.model, code),
+        Some((Type::Record | Type::Function | Type::Undefined, _)) => None,
+        Some((_, text)) => Some(text),
+    }
+}
+
+/// What an expression measures, as a unit; `None` where that is not certain, or it is a plain number.
+pub(super) fn unit(started: &Started, lab: &Lab, code: &str) -> Option<String> {
+    let dimension = dimension_of(lab, &started.model, started.session.programs(), code)?;
+    // A number of the text may stand for anything.
+    (!dimension.is_number() && !dimension.factor.is_nan()).then(|| written(&dimension))
+}
+
+/// The first elements of an array; an array alone is no value of an expression.
+fn elements(session: &mut Session<'static>, model: &Model, code: &str) -> Option<String> {
+    let mut text = |code: String| evaluate(session, model, &code).map(|(_, text)| text);
+    let count: usize = text(format!("({code}).length"))?.parse().ok()?;
+    let first = text(format!("({code}).slice(0, {SHOWN}).join(', ')"))?;
+    Some(if count > SHOWN { format!("[{first}, … {count} in all]") } else { format!("[{first}]") })
+}
+
+fn evaluate(session: &mut Session<'static>, model: &Model, code: &str) -> Option<(Type, String)> {
+    let names = ModelNames::new(model, Scope::Lab);
+    let mut globals = session.programs().globals.clone();
+    let program = Compiler::new(&names, &mut globals).expression(code).program?;
+    let text = Text { value: code.to_string(), map: SourceMap::point(0) };
+    let value = session.evaluate(&program, &text)?;
+    Some((value.type_of(), value.to_string()))
+}

@@ -1,0 +1,202 @@
+//! What the numbers come to: which settings nobody should take, as another is both closer and cheaper, and which one to take.
+
+use super::case::AGAIN;
+use super::case::LeftOut;
+use super::judge::Compared;
+use super::numbers::milliseconds;
+use super::report::{Advice, Kind, Report, Row};
+use super::run_record::Fate;
+use labspec::run::two_digits;
+
+/// Whether a row came to its end and is compared.
+fn counts(row: &Row) -> bool {
+    row.fate == Fate::Good && row.score.is_finite()
+}
+
+/// The error that can be counted on, in times of what nobody sees: the largest of this step and all shorter ones of the same
+/// method. That a step happens to meet an impact well is no merit.
+fn reliable(rows: &[Row], i: usize) -> f64 {
+    let mine = rows[i].setting;
+    let shorter = |r: &&Row| {
+        r.setting.integrator == mine.integrator
+            && r.setting.solver.is_none()
+            && r.setting.timestep < mine.timestep
+    };
+    let others = rows.iter().filter(shorter).map(|r| if counts(r) { r.score } else { f64::INFINITY });
+    if mine.solver.is_some() { rows[i].score } else { others.fold(rows[i].score, f64::max) }
+}
+
+/// The settings that no other beats in both, from the cheapest to the closest.
+pub(super) fn front(rows: &[Row]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..rows.len()).filter(|&i| counts(&rows[i])).collect();
+    order.sort_by(|&a, &b| {
+        let key = |i: usize| (rows[i].cost.work, reliable(rows, i));
+        key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1))
+    });
+    let mut best = f64::INFINITY;
+    order.retain(|&i| {
+        let error = reliable(rows, i);
+        let better = error < best;
+        best = best.min(error);
+        better
+    });
+    order
+}
+
+/// Less is no difference.
+const NO_LONGER: f64 = 1.05;
+
+/// The error of the lab's own setting, a closer one for the same work, and the cheapest that shows every digit correctly. Only
+/// settings that a page can use are advised.
+pub(super) fn advise(report: &Report) -> Vec<Advice> {
+    let rows = &report.rows;
+    let usable: Vec<usize> =
+        (0..rows.len()).filter(|&i| rows[i].setting.integrator.shared && counts(&rows[i])).collect();
+    let own = rows.iter().position(|r| r.own);
+    let mut list = Vec::new();
+    if let Some(own) = own {
+        list.push(Advice { kind: Kind::Own, row: own, text: about_own(report, own) });
+        list.extend(closer_for_same_work(rows, &usable, own));
+    }
+    let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);
+    let cheapest = correct.min_by(|&a, &b| rows[a].cost.work.total_cmp(&rows[b].cost.work));
+    list.extend(match cheapest {
+        Some(i) => Some(cheapest_correct(report, own, i)),
+        None => closest(report, &usable),
+    });
+    list
+}
+
+/// The closest setting that takes no more work than the lab's own, if it is much closer.
+fn closer_for_same_work(rows: &[Row], usable: &[usize], own: usize) -> Option<Advice> {
+    let affordable = usable.iter().copied().filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own].cost.work);
+    let i = affordable.min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)))?;
+    if !(rows[own].score > 2.0 * reliable(rows, i) && counts(&rows[own])) {
+        return None;
+    }
+    let times = rows[own].score / reliable(rows, i).max(f64::MIN_POSITIVE);
+    let how = if reliable(rows, i) == 0.0 || times > 1e12 {
+        "exact except for rounding".to_string()
+    } else {
+        format!("{} times closer", two_digits(times))
+    };
+    let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own]));
+    Some(Advice { kind: Kind::Closer, row: i, text })
+}
+
+/// The cheapest setting that shows every number correctly.
+fn cheapest_correct(report: &Report, own: Option<usize>, i: usize) -> Advice {
+    let (rows, every) = (&report.rows, every(report));
+    let text = match own {
+        Some(own) if i == own => {
+            format!("It is also the cheapest tested setting that shows {every} correctly.")
+        }
+        own => {
+            let time =
+                own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
+            format!("The cheapest tested setting that shows {every} correctly is {}{time}.", name(&rows[i]))
+        }
+    };
+    Advice { kind: Kind::Right, row: i, text }
+}
+
+/// The closest setting, where none shows every number correctly or that is unknown.
+fn closest(report: &Report, usable: &[usize]) -> Option<Advice> {
+    let (rows, every) = (&report.rows, every(report));
+    let i = usable.iter().copied().min_by(|&a, &b| rows[a].score.total_cmp(&rows[b].score))?;
+    // Wrong whatever the error of the reference.
+    let wrong =
+        |row: &Row| report.targets.iter().zip(&row.errors).any(|(t, e)| t.is_compared() && e.seen[1] > 1.0);
+    let doubtful = report.targets.iter().zip(&rows[i].errors).find(|(t, e)| {
+        let [most, least] = e.seen;
+        t.is_compared() && most > 1.0 && least <= 1.0
+    });
+    let text = match doubtful {
+        Some((target, _)) if !usable.iter().all(|&i| wrong(&rows[i])) => format!(
+            "It is unknown whether a tested setting shows {every} correctly: the reference of \"{}\" may be off by {}, and {} would be visible; the closest is {}.",
+            target.label,
+            with_unit(target.doubt, target),
+            with_unit(target.unseen, target),
+            name(&rows[i])
+        ),
+        _ => format!("No tested setting shows {every} correctly; the closest is {}.", name(&rows[i])),
+    };
+    Some(Advice { kind: Kind::Closest, row: i, text })
+}
+
+/// What "every number" means in this comparison.
+fn every(report: &Report) -> String {
+    let again = |o: &&LeftOut| o.reason != AGAIN;
+    let compared = report.targets.iter().filter(|t| t.is_compared());
+    let until = compared.filter_map(|t| t.until).reduce(f64::min);
+    let some = report.left_out.iter().any(|o| again(&o)) || report.targets.iter().any(|t| !t.is_compared());
+    match until {
+        Some(t) => format!("every compared number (until {} s)", labspec::run::time(t)),
+        None if some => "every compared number".to_string(),
+        None => "every number".to_string(),
+    }
+}
+
+fn name(row: &Row) -> String {
+    let solver = row.setting.solver.map_or(String::new(), |s| format!(" with {}", s.name()));
+    format!("{} at {} ms{solver}", row.setting.integrator.name, milliseconds(row.setting.timestep))
+}
+
+/// The work of a run beside another's.
+fn beside(row: &Row, own: &Row) -> String {
+    let ratio = row.cost.work / own.cost.work;
+    match ratio {
+        r if !r.is_finite() => "work that was not counted".into(),
+        r if (1.0 / NO_LONGER..=NO_LONGER).contains(&r) => "the same work".into(),
+        r => format!("{} times the work", two_digits(r)),
+    }
+}
+
+/// What the lab's own setting is off by.
+fn about_own(report: &Report, own: usize) -> String {
+    let row = &report.rows[own];
+    let name = name(row);
+    if !matches!(row.fate, Fate::Good | Fate::Warned) {
+        let why = row.reported.first().map_or(String::new(), |t| format!(": {t}"));
+        return format!(
+            "With the settings of the lab, {name}, the run is not usable ({}{why}).",
+            row.fate.word()
+        );
+    }
+    let compared = report.targets.iter().zip(&row.errors).filter(|(t, _)| t.is_compared());
+    if compared.clone().next().is_none() {
+        return format!("With the settings of the lab, {name}, nothing could be compared.");
+    }
+    if let Some((target, _)) = compared.clone().find(|(_, e)| e.largest.is_nan()) {
+        return format!("With the settings of the lab, {name}, \"{}\" is not always a number.", target.label);
+    }
+    let above = compared.filter(|(_, e)| !e.below);
+    let Some((target, e)) = above.max_by(|(_, a), (_, b)| a.seen[0].total_cmp(&b.seen[0])) else {
+        return format!(
+            "With the settings of the lab, {name}, {} is as exact as the reference.",
+            every(report)
+        );
+    };
+    let [most, least] = e.seen;
+    let samples = || format!("at {} of {} samples", e.wrong, e.samples);
+    let seen = match (least > 1.0, target.readout) {
+        _ if most <= 1.0 => "which is not visible".to_string(),
+        (false, _) => {
+            format!("within {}, the error of the reference", with_unit(target.doubt, target))
+        }
+        (true, true) => format!("which its digits show {}", samples()),
+        (true, false) => {
+            format!("which its plot shows {} ({} would not)", samples(), with_unit(target.unseen, target))
+        }
+    };
+    let how = format!("up to {} at {} s", with_unit(e.largest, target), labspec::run::time(e.at));
+    format!("With the settings of the lab, {name}, \"{}\" is off by {how}, {seen}.", target.label)
+}
+
+/// A number with the unit of what is compared.
+fn with_unit(x: f64, target: &Compared) -> String {
+    match &target.unit {
+        Some(unit) => format!("{} {unit}", two_digits(x)),
+        None => two_digits(x),
+    }
+}

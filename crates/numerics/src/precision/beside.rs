@@ -1,0 +1,147 @@
+//! Another program's runs of the same lab, as it recorded them: its errors and times stand beside ours, and never enter them.
+
+use super::agreement::Reference;
+use super::case::PrecisionCase;
+use super::judge::{self, Compared, Errors};
+use super::run_record::Run;
+use labspec::run::RunError;
+use serde_json::Value;
+
+/// What another program recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recording {
+    /// The program and its version.
+    pub engine: String,
+    traces: Vec<String>,
+    times: Vec<f64>,
+    runs: Vec<Recorded>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Recorded {
+    integrator: String,
+    timestep: f64,
+    cost: f64,
+    /// Of each trace, at each time that its steps meet; NaN where it was no number.
+    values: Vec<Vec<f64>>,
+}
+
+/// Another program's run, judged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BesideRow {
+    /// Its integrator.
+    pub integrator: String,
+    /// Timestep, s.
+    pub timestep: f64,
+    /// How far each number is from the truth.
+    pub errors: Vec<Errors>,
+    /// Microseconds per simulated second, as that program measured it.
+    pub cost: f64,
+}
+
+/// All of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beside {
+    /// The program and its version.
+    pub engine: String,
+    /// Its runs.
+    pub rows: Vec<BesideRow>,
+}
+
+impl Recording {
+    /// Reads a recording: `{"engine", "traces": [labels], "times": [s], "rows": [{"integrator", "timestep",
+    /// "microsecondsPerSecond", "values": [[number of each time] of each trace]}]}`. Of a run whose timestep is longer than the times are
+    /// apart, the values at those times that its steps meet.
+    ///
+    /// # Errors
+    /// What is missing or of another kind, in words.
+    pub fn read(text: &str) -> Result<Recording, String> {
+        let value: Value = serde_json::from_str(text).map_err(|e| format!("it is not JSON: {e}"))?;
+        let list = |value: &Value, key: &str| {
+            value.get(key).and_then(Value::as_array).cloned().ok_or_else(|| format!("it has no list `{key}`"))
+        };
+        let words = |v: &Value| v.as_str().map(str::to_string).ok_or("a name is not a text".to_string());
+        let number = |v: Option<&Value>| v.and_then(Value::as_f64).unwrap_or(f64::NAN);
+        let traces = list(&value, "traces")?.iter().map(words).collect::<Result<Vec<_>, _>>()?;
+        let times: Vec<f64> = list(&value, "times")?.iter().map(|v| number(Some(v))).collect();
+        let run = |row: &Value| {
+            let of_trace = |v: &Value| v.as_array().into_iter().flatten().map(|x| number(Some(x))).collect();
+            let values: Vec<Vec<f64>> = list(row, "values")?.iter().map(of_trace).collect();
+            let timestep = number(row.get("timestep"));
+            // A run with longer steps meets fewer of the times.
+            let apart = times.get(1).map_or(1.0, |first| (timestep / first).round().max(1.0));
+            let met = times.len().saturating_sub(1) / apart as usize + 1;
+            if values.len() != traces.len() || values.iter().any(|v| v.len() != met) {
+                return Err("a run lacks a value of a trace at one of its times".to_string());
+            }
+            let integrator =
+                row.get("integrator").map_or(Err("a run has no integrator".to_string()), words)?;
+            Ok(Recorded { integrator, timestep, cost: number(row.get("microsecondsPerSecond")), values })
+        };
+        let runs = list(&value, "rows")?.iter().map(run).collect::<Result<Vec<_>, _>>()?;
+        let engine = value.get("engine").map_or(Err("it has no `engine`".to_string()), words)?;
+        Ok(Recording { engine, traces, times, runs })
+    }
+
+    /// Its runs against the same truth as ours.
+    ///
+    /// # Errors
+    /// It lacks a trace of the lab, or was recorded at other times.
+    pub(super) fn judge(
+        &self,
+        case: &PrecisionCase<'_>,
+        truth: &Reference,
+        targets: &[Compared],
+    ) -> Result<Beside, RunError> {
+        let same = |k: usize, t: f64| (t - k as f64 * case.interval).abs() <= 1e-9 * (1.0 + t);
+        if self.times.len() != case.count + 1 || !self.times.iter().enumerate().all(|(k, &t)| same(k, t)) {
+            return Err(RunError(format!(
+                "the recording has other times; record it at {} times, {} s apart, starting at 0",
+                case.count + 1,
+                labspec::verify::significant(case.interval)
+            )));
+        }
+        let mut places = Vec::new();
+        for target in targets {
+            let place = self.traces.iter().position(|t| *t == target.label);
+            places.push(place.ok_or_else(|| RunError(format!("the recording has no \"{}\"", target.label)))?);
+        }
+        let rows = self.runs.iter().map(|run| {
+            let values = places.iter().map(|&i| run.values[i].clone()).collect();
+            // A closed form is that of the truth's own states: time.
+            let apart = case.rhythm(run.timestep).stride;
+            let met = |list: &Vec<f64>| list.iter().step_by(apart).copied().collect();
+            let exact = truth.run.exact.iter().map(met).collect();
+            let seen = Run { values, exact, ..Run::default() };
+            BesideRow {
+                integrator: run.integrator.clone(),
+                timestep: run.timestep,
+                errors: judge::errors(case, truth, targets, &seen, run.timestep),
+                cost: run.cost,
+            }
+        });
+        Ok(Beside { engine: self.engine.clone(), rows: rows.collect() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_recording_lacks_is_said() {
+        for (text, what) in [
+            ("[", "it is not JSON"),
+            ("{}", "it has no list `traces`"),
+            (r#"{"traces": [1], "times": [], "rows": []}"#, "a name is not a text"),
+            (
+                r#"{"traces": ["z"], "times": [0], "rows": [{"integrator": "Euler", "values": [[]]}]}"#,
+                "lacks a value of a trace",
+            ),
+            (r#"{"traces": [], "times": [], "rows": []}"#, "it has no `engine`"),
+        ] {
+            let error = Recording::read(text).unwrap_err();
+            assert!(error.contains(what), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,301 @@
+//! A lab whose settings are compared: the numbers that it displays, and a run of it under a setting.
+
+use super::event_finder::EventFinder;
+use super::integrator_work::integrator_work;
+use super::jumps;
+use super::run_record::{EnergySampler, Rhythm, Run, RunRequest};
+use super::setting::Setting;
+use labspec::bind::{
+    Bound, ControlProgram, ModelNames, Programs, Scope, dimensions, include, of_label, to_finding,
+};
+use labspec::finding::Finding;
+use labspec::run::{self, Budget, Play, RunError, Session};
+use labspec::spec::{Lab, Plot};
+use labspec_bind::units::written;
+use labspec_core::reflect::{FieldId, option};
+use labspec_core::{AccessSet, Model};
+use labspec_expr::dimension::Measure;
+use labspec_expr::{Compiler, Type, Value};
+use std::ops::ControlFlow;
+
+/// A number that the lab shows.
+pub(super) struct ComparedNumber<'a> {
+    pub(super) label: String,
+    /// Its unit, where it is known.
+    pub(super) unit: Option<String>,
+    pub(super) bound: &'a Bound,
+    /// Its closed form.
+    pub(super) exact: Option<Bound>,
+    pub(super) shown: DisplayPrecision,
+}
+
+/// How exactly a number is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum DisplayPrecision {
+    /// With so many decimals.
+    Decimals(u32),
+    /// As a curve: the ends of its axis, where they are fixed, and its height in pixels.
+    Curve { ends: [Option<f64>; 2], height: f64 },
+}
+
+impl DisplayPrecision {
+    /// The largest error that nobody sees, for values of some range: half a unit of the last digit, half a pixel.
+    pub(super) fn unseen(self, range: f64) -> f64 {
+        match self {
+            DisplayPrecision::Decimals(digits) => 0.5 * 0.1f64.powi(digits as i32),
+            DisplayPrecision::Curve { ends, height } => {
+                let tall = match ends {
+                    [Some(low), Some(high)] if high > low => high - low,
+                    _ => range,
+                };
+                0.5 * tall / height.max(1.0)
+            }
+        }
+    }
+}
+
+/// Something that is not compared, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Its label.
+    pub label: String,
+    /// The reason.
+    pub reason: &'static str,
+}
+
+/// Left out, yet compared: under another label.
+pub(super) const AGAIN: &str = "it repeats another one";
+
+/// What all runs of a comparison share.
+pub(super) struct PrecisionCase<'a> {
+    pub(super) lab: &'a Lab,
+    pub(super) model: &'a Model,
+    pub(super) programs: &'a Programs,
+    pub(super) targets: Vec<ComparedNumber<'a>>,
+    pub(super) left_out: Vec<LeftOut>,
+    pub(super) set: &'a [(String, Value)],
+    /// Buttons and the times of their presses, s.
+    pub(super) presses: Vec<(usize, f64)>,
+    pub(super) demand: AccessSet,
+    /// Time between samples of the truth, s, and their number, the start not counted.
+    pub(super) interval: f64,
+    pub(super) count: usize,
+}
+
+/// Samples in which energy and momentum are looked at.
+const LOOKS: usize = 100;
+
+/// The unit that a label states, or else that of what is measured; a plain number has none.
+fn unit_of(label: &str, measured: Option<Measure>) -> Option<String> {
+    let stated = of_label(label).map(|(text, _)| text.to_string());
+    let computed = || match measured? {
+        Measure::Known(dimension) => Some(written(&dimension)),
+        _ => None,
+    };
+    // A unit times a number has no name.
+    stated.or_else(computed).filter(|unit| unit != "1" && !unit.contains(", times"))
+}
+
+impl<'a> PrecisionCase<'a> {
+    /// The numbers that a lab shows, with their closed forms. Mistakes in these go to `findings`. Times are still missing.
+    pub(super) fn new(
+        lab: &'a Lab,
+        model: &'a Model,
+        programs: &'a Programs,
+        set: &'a [(String, Value)],
+        findings: &mut Vec<Finding>,
+    ) -> PrecisionCase<'a> {
+        let mut case = PrecisionCase {
+            lab,
+            model,
+            programs,
+            targets: Vec::new(),
+            left_out: Vec::new(),
+            set,
+            presses: Vec::new(),
+            demand: programs.demand,
+            interval: 0.0,
+            count: 0,
+        };
+        let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
+        let exact = lab.verify.as_ref().map_or(&[][..], |v| &v.exact);
+        let curve = |plot: &Plot| DisplayPrecision::Curve {
+            ends: [&plot.ymin, &plot.ymax].map(|end| end.as_ref().map(|x| x.value)),
+            height: plot.height(),
+        };
+        let curves = |plot: &'a Plot| plot.traces.iter().map(move |t| (&t.label.value, curve(plot)));
+        let traces = lab.plots.iter().flat_map(curves);
+        let readouts = lab.readouts.iter().map(|r| (&r.label.value, DisplayPrecision::Decimals(r.digits())));
+        let measured = dimensions(lab, model, programs).probes;
+        let probes = programs.probes.iter().zip(measured.into_iter().chain(std::iter::repeat(None)));
+        for ((label, shown), (probe, measured)) in traces.chain(readouts).zip(probes) {
+            let Some(bound) = &probe.bound else { continue };
+            let unit = unit_of(label, measured.map(|m| m.value));
+            let closed = exact
+                .iter()
+                .find(|e| e.trace.value == *label && matches!(shown, DisplayPrecision::Curve { .. }));
+            let closed = closed.and_then(|e| {
+                let mut globals = programs.globals.clone();
+                let compiled = Compiler::new(&names, &mut globals).expression(&e.form.value);
+                findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &e.form)));
+                compiled.program.map(|program| Bound { text: e.form.clone(), program })
+            });
+            case.take((label, unit), shown, bound, closed);
+        }
+        case
+    }
+
+    fn take(
+        &mut self,
+        (label, unit): (&str, Option<String>),
+        shown: DisplayPrecision,
+        bound: &'a Bound,
+        exact: Option<Bound>,
+    ) {
+        let effects = bound.program.effects();
+        let reads = |id| effects.reads.iter().any(|a| FieldId::new(a.field.0 as usize) == Some(id));
+        let reason = if !matches!(bound.program.result_type(), Type::Number | Type::Any) {
+            "it is not a number"
+        } else if exact.is_none() && (reads(option::timestep) || reads(option::integrator)) {
+            "it depends on the timestep or the integrator, so it has no closed form"
+        } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.shown == shown) {
+            AGAIN
+        } else {
+            if let Some(e) = &exact {
+                include(e.program.effects(), &mut self.demand);
+            }
+            self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, shown });
+            return;
+        };
+        self.left_out.push(LeftOut { label: label.to_string(), reason });
+    }
+
+    /// Whether a program runs at every step: its controls are held for a step, so that the step is part of what the lab does.
+    pub(super) fn controlled(&self) -> bool {
+        self.programs.controller.is_some()
+    }
+
+    /// What sets the timestep while the lab runs, so that no other can be tried.
+    pub(super) fn steps_itself(&self) -> Option<String> {
+        let timestep = Some(option::timestep);
+        let writes = |bound: &Bound| {
+            let effects = bound.program.effects();
+            effects.writes.iter().any(|w| FieldId::new(w.field.0 as usize) == timestep)
+        };
+        if self.programs.controller.as_ref().is_some_and(writes) {
+            return Some("the controller".to_string());
+        }
+        self.presses.iter().find_map(|(i, _)| match self.programs.controls.get(*i) {
+            Some((label, ControlProgram::Press(Some(bound)))) if writes(bound) => {
+                Some(format!("the button \"{label}\""))
+            }
+            _ => None,
+        })
+    }
+
+    /// The lab as it starts, with its controls set; under a setting, or as it stands.
+    ///
+    /// # Errors
+    /// A control that cannot be set so.
+    pub(super) fn start(&self, setting: Option<&Setting>) -> Result<Session<'a>, RunError> {
+        let mut model = self.model.clone();
+        if let Some(s) = setting {
+            s.apply(&mut model);
+        }
+        let key = self.lab.keyframe();
+        let mut session = Session::start_within(self.programs, &model, key, &self.demand, Budget::COMPARED);
+        run::set_controls(&mut session, self.lab, self.programs, self.set)?;
+        if let Some(s) = setting {
+            // The lab's own code may have set others.
+            s.apply(&mut session.world.model);
+        }
+        Ok(session)
+    }
+
+    /// Length of the runs, s.
+    pub(super) fn length(&self) -> f64 {
+        self.count as f64 * self.interval
+    }
+
+    /// When a run with some timestep is looked at: after each of its own steps, as a page shows them, where the truth is known
+    /// as often.
+    pub(super) fn rhythm(&self, timestep: f64) -> Rhythm {
+        let whole = |x: f64| x.round().max(1.0) as usize;
+        let stride = whole(timestep / self.interval);
+        Rhythm { steps: whole(self.interval / timestep), stride, count: self.count / stride }
+    }
+
+    /// A run under a setting.
+    pub(super) fn run(&self, setting: &Setting, request: RunRequest<'_>) -> Result<Run, RunError> {
+        let mut session = self.start(Some(setting))?;
+        if request.perturbation != 0.0 {
+            let perturbation = request.perturbation;
+            session.perturb(run::StepVariant { perturbation, ..run::StepVariant::NOMINAL }, true);
+        }
+        let rhythm = self.rhythm(setting.timestep);
+        let steps = rhythm.count * rhythm.steps;
+        let mut record = Run::with_capacity(self.targets.len(), rhythm.count + 1);
+        let mut energy = EnergySampler::new(&session.world.model);
+        let mut finder = request.sought.map(|s| EventFinder::new(s, &session.world.model, setting));
+        let evaluate = |session: &mut Session<'_>, i: usize| self.value(session, i);
+        let every = rhythm.count.div_ceil(LOOKS).max(1);
+        let before = session.spent();
+        let mut sampling = 0;
+        let mut now = vec![0.0; self.targets.len()];
+        let sample = |session: &mut Session<'_>, made: usize| {
+            let began = session.spent();
+            let sampled = made.is_multiple_of(rhythm.steps);
+            if request.fresh && made > 0 {
+                session.refresh();
+            }
+            self.sample_targets(session, &mut now, sampled.then_some(&mut record));
+            record.observe(session);
+            if let Some(finder) = &mut finder {
+                finder.see(session, &now, &evaluate);
+            }
+            if sampled && (made / rhythm.steps).is_multiple_of(every) {
+                energy.sample(session, &mut record);
+            }
+            sampling += session.spent() - began;
+            let time = session.world.data.time();
+            let found = finder.as_ref().is_some_and(EventFinder::is_complete);
+            match request.stop.is_some_and(|stop| found || time > stop) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        };
+        let played = Play { steps, every: 1, presses: &self.presses, watched: !request.fresh };
+        let made = match request.cut {
+            true => jumps::play(&mut session, &played, setting.timestep, sample),
+            false => run::play(&mut session, &played, sample),
+        };
+        let simulated = made as f64 * setting.timestep;
+        let counted = (session.spent() - before - sampling) as f64;
+        let of_steps = made as f64 * integrator_work(&session, setting.integrator);
+        record.work = (counted + of_steps) / simulated.max(setting.timestep);
+        if let Some(finder) = finder {
+            record.take_moments(finder);
+        }
+        record.fill_up(rhythm.count + 1);
+        record.set_fate(&session);
+        Ok(record)
+    }
+
+    /// The values of all targets now; at a sample they are recorded, with those of the closed forms.
+    fn sample_targets(&self, session: &mut Session<'_>, now: &mut [f64], mut record: Option<&mut Run>) {
+        for (i, target) in self.targets.iter().enumerate() {
+            now[i] = self.value(session, i);
+            if let Some(record) = &mut record {
+                record.values[i].push(now[i]);
+                let exact = target.exact.as_ref().and_then(|b| session.evaluate(&b.program, &b.text));
+                record.exact[i].push(exact.map_or(f64::NAN, |v| v.to_number()));
+            }
+        }
+    }
+
+    fn value(&self, session: &mut Session<'_>, target: usize) -> f64 {
+        let bound = self.targets.get(target).map(|t| t.bound);
+        let value = bound.and_then(|b| session.evaluate(&b.program, &b.text));
+        value.map_or(f64::NAN, |v| v.to_number())
+    }
+}

@@ -1,0 +1,245 @@
+//! The comparison: the reference, a run with every setting, and the report.
+
+use super::agreement::Reference;
+use super::case::{LeftOut, PrecisionCase};
+use super::conserved::{Conserved, change};
+use super::events::{self, Event};
+use super::judge::{self, Compared, Errors};
+use super::ladder::Ladder;
+use super::report::{Options, Report, Row};
+use super::run_cost::{self, RunCost};
+use super::run_record::{Fate, RunRequest};
+use super::setting::Setting;
+use super::{advice, orders, reference};
+use labspec::bind::Programs;
+use labspec::finding::Finding;
+use labspec::interrupt;
+use labspec::run::Integrator;
+use labspec::run::{self, RunError};
+use labspec::spec::Lab;
+use labspec::spec::format::RUN_LENGTH;
+use labspec_core::Model;
+
+/// Runs the lab with every setting. `tell` hears what is being done.
+///
+/// # Errors
+/// The lab shows no numbers to compare, sets its timestep itself while it runs, cannot be handled as asked, or the runs would take
+/// too many steps. Mistakes in closed forms go to `findings`.
+pub fn compare(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    options: &Options,
+    findings: &mut Vec<Finding>,
+    tell: &mut dyn FnMut(&str),
+) -> Result<Report, RunError> {
+    let mut case = PrecisionCase::new(lab, model, programs, &options.set, findings);
+    let ladder = prepare(&mut case, options)?;
+    tell("the reference");
+    let truth = find_reference(&mut case, &ladder)?;
+    let settings = ladder.settings(options);
+    let Some(truth) = truth else { return without_reference(case, &settings, &ladder) };
+    let mine = Setting { integrator: ladder.integrator, timestep: ladder.own, solver: None };
+    let mine = case.run(&mine, RunRequest::default())?;
+    let targets = judge::compared(&case, &truth, &mine);
+    let blank = targets.iter().filter(|t| t.blank);
+    case.left_out
+        .extend(blank.map(|t| LeftOut { label: t.label.clone(), reason: "it is not a number at the start" }));
+    let horizon = targets.iter().filter_map(|t| t.until).reduce(f64::min);
+    let part = horizon.map_or(1.0, |t| t / case.length().max(f64::MIN_POSITIVE));
+    let judge = Comparison {
+        case: &case,
+        ladder: &ladder,
+        truth: &truth,
+        kept: Conserved::measure(&truth.run, part),
+        events: events::events(&case, &truth, &targets),
+        targets,
+        part,
+    };
+    let mut rows = judge.rows(&settings, tell)?;
+    orders::observe_orders(&mut rows, &judge.targets, !truth.jumps && horizon.is_none());
+    tell("run times");
+    measure_run_times(&case, &mut rows);
+    let Comparison { kept, events, targets, .. } = judge;
+    let known_to_end = |x: f64| if horizon.is_none() { x } else { f64::NAN };
+    let mut report = Report {
+        nearby: horizon.map(|_| events::nearby(&case, &targets, ladder.own)).transpose()?,
+        beside: options.beside.as_ref().map(|r| r.judge(&case, &truth, &targets)).transpose()?,
+        events,
+        length: case.length(),
+        samples: case.count,
+        left_out: case.left_out,
+        energy: kept.energy,
+        momentum: kept.momentum,
+        penetration: known_to_end(truth.run.penetration),
+        penetration_doubt: known_to_end(truth.depth_doubt),
+        reference: Some(truth.how),
+        targets,
+        rows,
+        front: Vec::new(),
+        advice: Vec::new(),
+    };
+    report.front = advice::front(&report.rows);
+    report.advice = advice::advise(&report);
+    Ok(report)
+}
+
+/// The reference at the closest samples for which there is one.
+fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Option<Reference>, RunError> {
+    for samples in ladder.samplings() {
+        (case.interval, case.count) = samples;
+        let reference = reference::reference(case, ladder.own)?;
+        if reference.is_some() || interrupt::requested() {
+            return Ok(reference);
+        }
+    }
+    Ok(None)
+}
+
+/// Measures the run time of every setting that came to its end.
+fn measure_run_times(case: &PrecisionCase<'_>, rows: &mut [Row]) {
+    let timed: Vec<Option<Setting>> =
+        rows.iter().map(|r| (r.fate != Fate::Stopped).then_some(r.setting)).collect();
+    for (row, [median, low, high]) in rows.iter_mut().zip(run_cost::measure(case, &timed)) {
+        (row.cost.median, row.cost.low, row.cost.high) = (median, low, high);
+    }
+}
+
+/// Checks that the lab can be compared; presses come where all timesteps meet.
+fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, RunError> {
+    if case.targets.is_empty() {
+        let why = match case.left_out.first() {
+            Some(out) => {
+                format!(": \"{}\" is skipped, because {}", labspec::report::printable(&out.label), out.reason)
+            }
+            None => "; add a plot with a trace, or a readout".to_string(),
+        };
+        return Err(RunError(format!("this lab displays no numbers to compare{why}")));
+    }
+    case.presses = run::presses(case.programs, &options.press)?;
+    if let Some(who) = case.steps_itself() {
+        return Err(RunError(format!(
+            "{} sets the timestep while the lab runs, so no other timestep can be tested",
+            labspec::report::printable(&who)
+        )));
+    }
+    let (own, integrator) = {
+        let session = case.start(None)?;
+        (session.world.model.opt.timestep, Integrator::of(&session.world.model))
+    };
+    let length = options.until.or(case.lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
+    let ladder = Ladder::new(case.lab, own, integrator, length)?;
+    // A press between would come at another time in each run.
+    let coarse = ladder.coarse();
+    for (_, time) in &mut case.presses {
+        *time = (*time / coarse - 1e-9).ceil().max(0.0) * coarse;
+    }
+    run::presses_within(case.programs, &case.presses, ladder.count, coarse)?;
+    Ok(ladder)
+}
+
+/// What runs are held against.
+struct Comparison<'j, 'a> {
+    case: &'j PrecisionCase<'a>,
+    ladder: &'j Ladder,
+    truth: &'j Reference,
+    targets: Vec<Compared>,
+    events: Vec<Event>,
+    kept: Conserved,
+    /// The part of the run before the horizon of the truth.
+    part: f64,
+}
+
+impl Comparison<'_, '_> {
+    /// All settings; of each method also longer steps, until something changes that a student sees.
+    fn rows(&self, settings: &[Setting], tell: &mut dyn FnMut(&str)) -> Result<Vec<Row>, RunError> {
+        let mut rows: Vec<Row> = Vec::new();
+        for (i, setting) in settings.iter().enumerate() {
+            if interrupt::requested() {
+                break;
+            }
+            tell(&format!("setting {} of {}: {}", i + 1, settings.len(), setting.integrator.name));
+            let mut now = vec![self.row(setting)?];
+            let begins = rows.last().is_none_or(|r| r.setting.integrator != setting.integrator);
+            let longest = begins && setting.solver.is_none() && setting.timestep == self.ladder.coarse();
+            while longest
+                && now.last().is_some_and(|r| r.fate == Fate::Good && r.score <= 1.0)
+                && let Some(step) = now.last().and_then(|r| self.ladder.longer(r.setting.timestep, self.case))
+            {
+                now.push(self.row(&Setting { timestep: step, ..*setting })?);
+            }
+            rows.extend(now.into_iter().rev());
+        }
+        Ok(rows)
+    }
+
+    fn row(&self, setting: &Setting) -> Result<Row, RunError> {
+        let ask = RunRequest { sought: Some(&self.truth.sought), ..RunRequest::default() };
+        let run = self.case.run(setting, ask)?;
+        let errors = judge::errors(self.case, self.truth, &self.targets, &run, setting.timestep);
+        let score = match run.fate {
+            Fate::Good | Fate::Warned => score(&self.targets, &errors),
+            _ => f64::NAN,
+        };
+        Ok(Row {
+            setting: *setting,
+            own: self.ladder.is_own(setting),
+            errors,
+            events: events::offs(&run, &self.events),
+            energy: self.kept.energy.map(|_| change(&run.energy, self.part)),
+            momentum: [0, 1].map(|k| self.kept.momentum[k].map(|_| self.kept.change(&run, k, self.part))),
+            penetration: if self.part < 1.0 { f64::NAN } else { run.penetration },
+            cost: RunCost::of_work(run.work),
+            fate: run.fate,
+            reported: run.reported,
+            score,
+        })
+    }
+}
+
+fn score(targets: &[Compared], errors: &[Errors]) -> f64 {
+    let compared = targets.iter().zip(errors).filter(|(t, _)| t.is_compared());
+    compared.map(|(_, e)| e.seen[0]).reduce(f64::max).unwrap_or(f64::NAN)
+}
+
+/// The report of a lab that no method comes through: what became of each setting, and nothing else.
+fn without_reference(
+    case: PrecisionCase<'_>,
+    settings: &[Setting],
+    ladder: &Ladder,
+) -> Result<Report, RunError> {
+    let mut rows = Vec::new();
+    for setting in settings {
+        let run = case.run(setting, RunRequest::default())?;
+        rows.push(Row {
+            setting: *setting,
+            own: ladder.is_own(setting),
+            errors: Vec::new(),
+            events: Vec::new(),
+            energy: None,
+            momentum: [None; 2],
+            penetration: run.penetration,
+            cost: RunCost::of_work(run.work),
+            fate: run.fate,
+            reported: run.reported,
+            score: f64::NAN,
+        });
+    }
+    Ok(Report {
+        targets: Vec::new(),
+        reference: None,
+        length: case.length(),
+        samples: case.count,
+        left_out: case.left_out,
+        beside: None,
+        rows,
+        events: Vec::new(),
+        energy: None,
+        momentum: [None; 2],
+        penetration: f64::NAN,
+        penetration_doubt: f64::NAN,
+        nearby: None,
+        front: Vec::new(),
+        advice: Vec::new(),
+    })
+}

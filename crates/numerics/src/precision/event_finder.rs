@@ -1,0 +1,336 @@
+//! When something happens in a run: bodies touch, a number passes through zero, a number turns back.
+//!
+//! What happens between two steps is found by stepping again from the state before it, with shorter steps of the same method: a
+//! one-step method gives the state at any time in its step as exactly as at its end (dense output by repeated steps). A turning
+//! point is where the derivative of the interpolating polynomial at Chebyshev's points vanishes (Trefethen 2013, *Approximation
+//! Theory and Approximation Practice*, chapters 3 and 21).
+
+use super::chebyshev::turning_point;
+use super::event_time::EventTime;
+use super::numbers::range;
+use super::setting::Setting;
+use super::step_replay::{Evaluate, StepHistory, StepReplay};
+use labspec::run::Session;
+use labspec_core::Model;
+
+/// By how much a number must leave zero on both sides to pass through it, and must turn back at a turning point, as parts of its
+/// range: less is rounding, or a scene that settles.
+const PASSES: f64 = 1e-5;
+const TURNS: f64 = 1e-3;
+/// A number that changes by less than this part of its size has no events.
+const CONSTANT: f64 = 1e-9;
+/// Bodies that are this close at the start touch, m.
+const TOUCHING: f64 = 1e-9;
+/// Turning points of one number that are looked at closely.
+const MOST_TURNS: usize = 100;
+/// Halvings of an interval that find a time to rounding.
+const HALVINGS: usize = 80;
+
+/// What is looked for: of each target, what it must pass by and turn by.
+#[derive(Clone, Debug)]
+pub(super) struct EventThresholds {
+    least: Vec<[f64; 2]>,
+}
+
+impl EventThresholds {
+    /// For numbers with such values. What does not change has no events.
+    pub(super) fn for_values(values: &[Vec<f64>]) -> EventThresholds {
+        let least = |values: &Vec<f64>| {
+            let size = values.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+            let range = range(values);
+            let range = if range > CONSTANT * size { range } else { f64::INFINITY };
+            [PASSES * range, TURNS * range]
+        };
+        EventThresholds { least: values.iter().map(least).collect() }
+    }
+}
+
+/// Follows a number to its first passage through zero.
+#[derive(Clone, Debug)]
+struct Passage {
+    side: f64,
+    last: f64,
+    candidate: EventTime,
+    done: bool,
+}
+
+/// Follows a number to its first turning point.
+#[derive(Clone, Debug)]
+struct Turn {
+    low: f64,
+    high: f64,
+    /// Up, down, or not known yet.
+    way: f64,
+    last: f64,
+    candidate: EventTime,
+    looks: usize,
+    done: bool,
+}
+
+/// Looks for the moments of a run.
+pub(super) struct EventFinder<'s> {
+    sought: &'s EventThresholds,
+    /// The method is of high order, so that its steps can be made again with any length.
+    dense: bool,
+    past: StepHistory,
+    /// The length of a step, the time at the start, s, and the number of steps since: the engine's own time is a sum of that many
+    /// steps, each rounded.
+    step: f64,
+    start: f64,
+    made: usize,
+    /// Pairs of geoms that touch at the start.
+    touching: Vec<[usize; 2]>,
+    contact: Option<EventTime>,
+    passages: Vec<Passage>,
+    turns: Vec<Turn>,
+    /// When the last of them was sure to be one, s.
+    settled: f64,
+}
+
+impl<'s> EventFinder<'s> {
+    pub(super) fn new(sought: &'s EventThresholds, m: &Model, setting: &Setting) -> EventFinder<'s> {
+        let none = EventTime::NONE;
+        let passage = Passage { side: 0.0, last: f64::NAN, candidate: none, done: false };
+        let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let turn = Turn { low, high, way: 0.0, last: f64::NAN, candidate: none, looks: 0, done: false };
+        EventFinder {
+            sought,
+            dense: setting.integrator.is_high(),
+            past: StepHistory::new(m),
+            step: setting.timestep,
+            start: 0.0,
+            made: 0,
+            touching: Vec::new(),
+            contact: None,
+            passages: vec![passage; sought.least.len()],
+            turns: vec![turn; sought.least.len()],
+            settled: 0.0,
+        }
+    }
+
+    /// When the last moment so far was sure to be one, s.
+    pub(super) fn settled(&self) -> f64 {
+        self.settled
+    }
+
+    /// Whether all is found that is looked for.
+    pub(super) fn is_complete(&self) -> bool {
+        self.contact.is_some() && self.passages.iter().all(|p| p.done) && self.turns.iter().all(|t| t.done)
+    }
+
+    /// The run after a step, with the values that it shows there.
+    pub(super) fn see(&mut self, session: &Session<'_>, values: &[f64], evaluate: &Evaluate<'_>) {
+        let time = self.time(session);
+        self.past.keep(session, time);
+        let before = self.number_found();
+        if self.past.count() == 1 {
+            let near = |c: &labspec_core::Contact| c.dist <= TOUCHING;
+            let contacts = session.world.data.fields().contact.iter().filter(|c| near(c));
+            self.touching = contacts.map(|c| [c.geom1, c.geom2]).collect();
+        } else if self.contact.is_none() && depth(session, &self.touching) > 0.0 {
+            self.contact = Some(self.first_contact(session));
+        }
+        for (i, &value) in values.iter().enumerate() {
+            self.pass(i, value, session, evaluate);
+            self.turn(i, value, session, evaluate);
+        }
+        if self.number_found() > before {
+            self.settled = self.past.time(0);
+        }
+    }
+
+    /// The time of the next state.
+    fn time(&mut self, session: &Session<'_>) -> f64 {
+        let clock = session.world.data.time();
+        if self.past.count() == 0 {
+            self.start = clock;
+        }
+        let time = self.start + self.made as f64 * self.step;
+        self.made += 1;
+        // A button may have set the clock.
+        if (time - clock).abs() <= 0.1 * self.step { time } else { clock }
+    }
+
+    fn number_found(&self) -> usize {
+        let passages = self.passages.iter().filter(|p| p.done).count();
+        passages + self.turns.iter().filter(|t| t.done).count() + usize::from(self.contact.is_some())
+    }
+
+    /// The first contact, then all passages, then all turning points.
+    pub(super) fn finish(self) -> Vec<EventTime> {
+        let found = |done: bool, candidate: EventTime| if done { candidate } else { EventTime::NONE };
+        let contact = std::iter::once(self.contact.unwrap_or(EventTime::NONE));
+        let passages = self.passages.iter().map(|p| found(p.done, p.candidate));
+        let turns = self.turns.iter().map(|t| found(t.done, t.candidate));
+        contact.chain(passages).chain(turns).collect()
+    }
+
+    /// Whether bodies touch at the start: those that do are no first contact.
+    pub(super) fn touches_at_start(&self) -> bool {
+        !self.touching.is_empty()
+    }
+
+    fn pass(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
+        let (Some(p), Some([least, _])) = (self.passages.get_mut(i), self.sought.least.get(i)) else {
+            return;
+        };
+        let last = std::mem::replace(&mut p.last, now);
+        if p.done || !now.is_finite() {
+            return;
+        }
+        let crossed = p.side != 0.0 && now * p.side <= 0.0 && last * p.side > 0.0;
+        if p.side != 0.0 && now * p.side > 0.0 {
+            p.candidate = EventTime::NONE;
+        }
+        if crossed {
+            let side = p.side;
+            let mut bench = StepReplay::new(session, &self.past);
+            let found = passage(&mut bench, i, side, evaluate);
+            let Some(p) = self.passages.get_mut(i) else { return };
+            p.candidate = found.unwrap_or_else(|| between(&self.past, last, now));
+        }
+        let Some(p) = self.passages.get_mut(i) else { return };
+        if now.abs() > *least {
+            p.done = p.side != 0.0 && now.signum() != p.side;
+            p.side = now.signum();
+        }
+    }
+
+    fn turn(&mut self, i: usize, now: f64, session: &Session<'_>, evaluate: &Evaluate<'_>) {
+        let (Some(t), Some([_, least])) = (self.turns.get_mut(i), self.sought.least.get(i)) else { return };
+        let last = std::mem::replace(&mut t.last, now);
+        if t.done || !now.is_finite() {
+            return;
+        }
+        // The extreme so far was the last sample, and the way back begins.
+        let extreme = if t.way > 0.0 { t.high } else { t.low };
+        let begins = t.way != 0.0 && last == extreme && (now - last) * t.way < 0.0;
+        (t.low, t.high) = (t.low.min(now), t.high.max(now));
+        if t.way == 0.0 {
+            t.way = if now - t.low > *least {
+                1.0
+            } else if t.high - now > *least {
+                -1.0
+            } else {
+                0.0
+            };
+            return;
+        }
+        let back = if t.way > 0.0 { t.high - now } else { now - t.low };
+        let (way, looks) = (t.way, t.looks);
+        if begins {
+            t.looks += 1;
+            let dense = self.dense && looks < MOST_TURNS;
+            let mut bench = StepReplay::new(session, &self.past);
+            let found = turning_point(&mut bench, i, way, dense, evaluate);
+            let Some(t) = self.turns.get_mut(i) else { return };
+            t.candidate = found.unwrap_or(EventTime::NONE);
+        }
+        let Some(t) = self.turns.get_mut(i) else { return };
+        t.done = back > *least;
+    }
+
+    /// When bodies that did not touch at the start touch: the shortest step that ends with a contact.
+    fn first_contact(&self, session: &Session<'_>) -> EventTime {
+        let mut bench = StepReplay::new(session, &self.past);
+        // What a page shows of contacts is of the step before.
+        let oldest = self.past.count().min(3) - 1;
+        let touches = |bench: &mut StepReplay<'_>, from: usize, x: f64| {
+            bench.place(from, x);
+            depth(&bench.session, &self.touching)
+        };
+        let from = (1..=oldest).rev().find(|&j| touches(&mut bench, j - 1, 0.0) > 0.0);
+        let Some(from) = from else { return EventTime::NONE };
+        let h = self.past.step(from);
+        let (mut low, mut high) = (0.0, h);
+        let start = self.past.time(from);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if touches(&mut bench, from, middle) > 0.0 {
+                high = middle
+            } else {
+                low = middle
+            }
+            if high - low <= f64::EPSILON * (start + high) {
+                break;
+            }
+        }
+        let later = (high + 1e-3 * h).min(h);
+        let speed = (touches(&mut bench, from, later) / (later - high)).abs();
+        let size =
+            bench.session.world.data.fields().contact.iter().map(|c| length(c.pos)).fold(1.0, f64::max);
+        let rounding = 8.0 * f64::EPSILON * size / speed.max(f64::MIN_POSITIVE);
+        let doubt = (high - low) + if rounding.is_finite() { rounding.min(h) } else { h };
+        EventTime { at: start + high, doubt, slope: f64::INFINITY, top: false }
+    }
+}
+
+fn length(v: [f64; 3]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// How deep bodies are in each other that did not touch at the start, m; NaN where none are near.
+fn depth(session: &Session<'_>, apart: &[[usize; 2]]) -> f64 {
+    let contacts = session.world.data.fields().contact.iter();
+    let others = contacts.filter(|c| !apart.contains(&[c.geom1, c.geom2]));
+    others.map(|c| -c.dist).fold(f64::NAN, f64::max)
+}
+
+/// A passage between the last two samples, as a straight line has it.
+fn between(past: &StepHistory, last: f64, now: f64) -> EventTime {
+    let h = past.step(1);
+    let part = (last / (last - now)).clamp(0.0, 1.0);
+    EventTime { at: past.time(1) + part * h, doubt: 2.0 * h, slope: (now - last).abs() / h, top: false }
+}
+
+/// When a target leaves its side of zero, in the last step or in that before.
+fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<'_>) -> Option<EventTime> {
+    let oldest = bench.past.count().min(3) - 1;
+    let leaves = |bench: &mut StepReplay<'_>, j: usize| {
+        bench.value(j, 0.0, i, evaluate) * side > 0.0 && bench.value(j - 1, 0.0, i, evaluate) * side <= 0.0
+    };
+    let from = (1..=oldest).rev().find(|&j| leaves(bench, j))?;
+    let (h, start) = (bench.past.step(from), bench.past.time(from));
+    let (mut low, mut high) = (0.0, h);
+    let mut at_low = bench.value(from, 0.0, i, evaluate) * side;
+    let mut at_high = bench.value(from - 1, 0.0, i, evaluate) * side;
+    // The step made again has to end where it did.
+    let again = bench.value(from, h, i, evaluate) * side;
+    let missed = (again - at_high).abs();
+    if again > 0.0 {
+        return None;
+    }
+    let mut moved = 0.0;
+    for k in 0..HALVINGS {
+        // The method of Illinois, and halving where it does not get on.
+        let line = low + (high - low) * at_low / (at_low - at_high);
+        let inside = line > low && line < high && k % 3 != 2;
+        let x = if inside { line } else { 0.5 * (low + high) };
+        if x <= low || x >= high || high - low <= 0.5 * f64::EPSILON * (start + high) {
+            break;
+        }
+        let value = bench.value(from, x, i, evaluate) * side;
+        if value > 0.0 {
+            (low, at_low) = (x, value);
+            at_high *= if moved > 0.0 { 0.5 } else { 1.0 };
+        } else {
+            (high, at_high) = (x, value);
+            at_low *= if moved < 0.0 { 0.5 } else { 1.0 };
+        }
+        moved = value.signum();
+        if value == 0.0 {
+            low = x;
+            break;
+        }
+    }
+    let delta = 0.02 * h;
+    let [a, b] = [(high - delta).max(0.0), (high + delta).min(h)];
+    let slope = (bench.value(from, b, i, evaluate) - bench.value(from, a, i, evaluate)).abs() / (b - a);
+    let size = bench.size.max(missed);
+    let rounding = (8.0 * f64::EPSILON * size + missed) / slope.max(f64::MIN_POSITIVE);
+    let doubt = (high - low) + rounding.min(2.0 * h);
+    Some(EventTime { at: start + 0.5 * (low + high), doubt, slope, top: false })
+}

@@ -1,0 +1,88 @@
+//! What happens in the reference, how far other runs are from it, and how long nearby starts stay together.
+
+use super::agreement::{KnownEvent, Reference, method};
+use super::case::PrecisionCase;
+use super::judge::Compared;
+use super::run_record::{Run, RunRequest};
+use super::setting::Setting;
+use labspec::run::RunError;
+use labspec_core::integrator;
+
+/// How far apart nearby starts are, and the part of its range by which a number has left the other.
+const NUDGE: f64 = 1e-9;
+const LEFT: f64 = 0.01;
+
+/// Something that happens in a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// In words.
+    pub name: String,
+    /// When, s.
+    pub time: f64,
+    /// How far that may be off, s.
+    pub uncertain: f64,
+}
+
+/// Two starts that nobody could tell apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearby {
+    /// How far apart they are, in the unit of each coordinate.
+    pub apart: f64,
+    /// Until when they show the same to a hundredth of every range, s; `None` where they do to the end.
+    pub until: Option<f64>,
+}
+
+/// What happens in the reference before its horizon.
+pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Compared]) -> Vec<Event> {
+    let n = case.targets.len();
+    let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
+    let contact = if truth.run.touching { "first new contact" } else { "first contact" };
+    let event = |(i, known): (usize, &KnownEvent)| {
+        let target = i.checked_sub(1).and_then(|k| targets.get(k % n.max(1)));
+        let name = match target {
+            None => contact.to_string(),
+            Some(t) if i <= n => format!("\"{}\" passes through zero", t.label),
+            Some(t) => {
+                let which = if known.top { "maximum" } else { "minimum" };
+                format!("first {which} of \"{}\"", t.label)
+            }
+        };
+        // A number that is compared twice, with a plot and with digits, has its events once.
+        let text = |k: usize| case.targets.get(k).map(|t| t.bound.text.value.as_str());
+        let again =
+            i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
+        let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
+        match !again && horizon.is_none_or(|until| known.at + known.doubt <= until) {
+            true => Event { name, time: known.at, uncertain: known.doubt },
+            false => Event { name, time: f64::NAN, uncertain: f64::NAN },
+        }
+    };
+    truth.moments.iter().enumerate().map(event).collect()
+}
+
+/// How far a run's events are from their times, s; never below what these may be off.
+pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
+    let off = |(i, event): (usize, &Event)| {
+        let found = run.moments.get(i).map_or(f64::NAN, |m| m.at);
+        let off = (found - event.time).abs();
+        if off.is_nan() { f64::NAN } else { off.max(event.uncertain) }
+    };
+    events.iter().enumerate().map(off).collect()
+}
+
+/// How long two starts that nobody could tell apart show the same.
+pub(super) fn nearby(case: &PrecisionCase<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
+    let setting = Setting { integrator: method(integrator::RKMK8), timestep: own / 2.0, solver: None };
+    let (one, other) = (
+        case.run(&setting, RunRequest::FRESH)?,
+        case.run(&setting, RunRequest { perturbation: NUDGE, ..RunRequest::FRESH })?,
+    );
+    let leaves = |((a, b), target): ((&Vec<f64>, &Vec<f64>), &Compared)| {
+        let far = LEFT * target.range;
+        // Not to be told apart is less than the part, and no number is far from every other.
+        a.iter().zip(b).position(|(a, b)| (a - b).abs() > far || (a - b).is_nan())
+    };
+    let first = one.values.iter().zip(&other.values).zip(targets).filter_map(leaves).min();
+    let apart = case.rhythm(setting.timestep).stride as f64 * case.interval;
+    Ok(Nearby { apart: NUDGE, until: first.map(|i| i as f64 * apart) })
+}

@@ -1,0 +1,251 @@
+//! Errors of a run against the reference.
+
+use super::agreement::Reference;
+use super::case::{ComparedNumber, DisplayPrecision, PrecisionCase};
+use super::numbers::range;
+use super::run_record::{Fate, Run};
+use labspec::run::printed;
+
+/// How far a run is from the truth, in the unit of the trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// The largest error, and when, s.
+    pub largest: f64,
+    /// When that was.
+    pub at: f64,
+    /// Root of the mean square.
+    pub rms: f64,
+    /// At the last sample that is compared.
+    pub end: f64,
+    /// It is not above what the reference itself may be off: nothing more is known of it.
+    pub below: bool,
+    /// Observed order: how many times the error halves when the timestep halves.
+    pub order: Option<f64>,
+    /// The most and the least that a student may see of it at any sample, as the reference itself is in doubt; in times of what nobody
+    /// sees. A readout that shows other digits than the truth is above one.
+    pub seen: [f64; 2],
+    /// Samples that are compared, and those of them at which a student sees the error.
+    pub samples: usize,
+    /// Those at which a student sees it.
+    pub wrong: usize,
+}
+
+impl Errors {
+    /// Nothing is known.
+    const NONE: Errors = Errors {
+        largest: f64::NAN,
+        at: f64::NAN,
+        rms: f64::NAN,
+        end: f64::NAN,
+        below: false,
+        order: None,
+        seen: [f64::INFINITY; 2],
+        samples: 0,
+        wrong: 0,
+    };
+}
+
+/// What one of the lab's numbers is held against.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// Its label.
+    pub label: String,
+    /// Its unit, where it is known.
+    pub unit: Option<String>,
+    /// It has a closed form.
+    pub closed: bool,
+    /// How far the reference may be off, where it is used.
+    pub uncertain: f64,
+    /// The same without what rounding leaves.
+    pub doubt: f64,
+    /// Largest value less smallest, in the reference; as the lab has it, where it does not change there.
+    pub range: f64,
+    /// The largest error that nobody sees: half a unit of the last digit, half a pixel of the plot.
+    pub unseen: f64,
+    /// Whether it is a readout.
+    pub readout: bool,
+    /// Its decimals, then.
+    pub(super) digits: u32,
+    /// Until when the two families of the reference agree to a hundredth of the range, s, where that is not the end.
+    pub until: Option<f64>,
+    /// The largest value.
+    pub(super) size: f64,
+    /// It is no number at the start, nor anywhere: nothing is compared.
+    pub blank: bool,
+    /// The samples of the truth that are compared.
+    pub(super) samples: usize,
+}
+
+impl Compared {
+    /// Whether anything is compared.
+    pub fn is_compared(&self) -> bool {
+        self.samples > 1
+    }
+
+    /// The most and the least that a student may see of an error at one sample, where the truth is `exact` to within `doubt`; in
+    /// times of what nobody sees.
+    fn in_sight(&self, shown: f64, exact: f64, doubt: f64) -> [f64; 2] {
+        let error = (shown - exact).abs();
+        let parts = |unit: f64| {
+            [error + doubt, error - doubt]
+                .map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
+        };
+        if !self.readout {
+            return parts(self.unseen);
+        }
+        // Digits: a number that is within its doubt of the next one may show as either.
+        let slack = doubt + DIGITS_ROUND * self.size;
+        let print = |x: f64| printed(x, self.digits);
+        let (low, now, high) = (print(exact - slack), print(shown), print(exact + slack));
+        let unit = 2.0 * self.unseen;
+        let [most, least] = parts(unit);
+        if !(low..=high).contains(&now) {
+            return [1.0 + most, 1.0 + least];
+        }
+        [if doubt <= self.unseen * DOUBTFUL { most.min(1.0) } else { most }, least.min(1.0)]
+    }
+}
+
+/// A reference is known where its doubt, which is twice the difference of its families, is below this part of the range, or of what
+/// nobody sees.
+const KNOWN: f64 = 0.02;
+const UNSEEN: f64 = 0.2;
+/// A reference that is known to this part of what nobody sees is not in doubt.
+const DOUBTFUL: f64 = 0.2;
+/// What rounding leaves of a number in a run of many steps; and of one that is rounded once more to be shown.
+const ROUNDING: f64 = 1e-13;
+const DIGITS_ROUND: f64 = 1e-12;
+/// A number that changes by less than this part of its size does not change.
+const CONSTANT: f64 = 1e-6;
+
+/// What the targets of a case are held against; `own` is the run as the lab has it.
+pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
+    let one = |(i, target): (usize, &ComparedNumber<'_>)| {
+        let closed = target.exact.is_some();
+        let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
+        let uncertain = &reference.uncertain[i];
+        let whole = values.iter().filter(|x| x.is_finite()).fold(0.0f64, |a, x| a.max(x.abs()));
+        // A run that breaks is no measure of what a plot hides; one of a number that should not change is.
+        let mut range_of = range(values);
+        if range_of <= CONSTANT * whole {
+            let mine = if own.fate == Fate::Good { range(&own.values[i]) } else { 0.0 };
+            range_of = range_of.max(if mine > 0.0 { mine } else { whole });
+        }
+        let unseen = target.shown.unseen(range_of);
+        let enough = (KNOWN * range_of).max(UNSEEN * unseen).max(ROUNDING);
+        let certain = uncertain.partition_point(|u| *u <= enough);
+        let blank = values.first().is_none_or(|x| !x.is_finite());
+        let samples = match (blank, closed) {
+            (true, _) => 0,
+            (false, true) => values.len(),
+            (false, false) => certain,
+        };
+        let cut = samples < values.len() && !blank;
+        let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
+        let most = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
+        let digits = if let DisplayPrecision::Decimals(digits) = target.shown { Some(digits) } else { None };
+        Compared {
+            label: target.label.clone(),
+            unit: target.unit.clone(),
+            closed,
+            size,
+            uncertain: most.max(ROUNDING * size),
+            doubt: most,
+            range: range_of,
+            unseen,
+            readout: digits.is_some(),
+            digits: digits.unwrap_or(0),
+            blank,
+            until: cut.then(|| samples.saturating_sub(1) as f64 * case.interval),
+            samples,
+        }
+    };
+    case.targets.iter().enumerate().map(one).collect()
+}
+
+/// The errors of a run with some timestep, target by target.
+pub(super) fn errors(
+    case: &PrecisionCase<'_>,
+    reference: &Reference,
+    targets: &[Compared],
+    run: &Run,
+    timestep: f64,
+) -> Vec<Errors> {
+    // Time itself is a sum of so many steps, each rounded.
+    let rounding = f64::EPSILON * case.count as f64 * case.interval / timestep;
+    let stride = case.rhythm(timestep).stride;
+    let one = |(i, target): (usize, &Compared)| {
+        let (truth, apart) = if target.closed { (&run.exact[i], 1) } else { (&reference.values[i], stride) };
+        let compared = target.samples.div_ceil(stride).min(run.values[i].len());
+        let both = run.values[i].iter().zip(truth.iter().step_by(apart)).take(compared);
+        let mut e =
+            Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
+        for (k, (&shown, &exact)) in both.enumerate() {
+            let d = (shown - exact).abs();
+            if d.is_nan() {
+                return Errors::NONE;
+            }
+            if d > e.largest {
+                (e.largest, e.at) = (d, (k * stride) as f64 * case.interval);
+            }
+            e.rms += d * d;
+            e.end = d;
+            let doubt = match target.closed {
+                true => 0.0,
+                false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.doubt),
+            };
+            let [most, least] = target.in_sight(shown, exact, doubt);
+            e.seen = [e.seen[0].max(most), e.seen[1].max(least)];
+            e.wrong += usize::from(least > 1.0);
+        }
+        e.rms = (e.rms / compared.max(1) as f64).sqrt();
+        e.below = e.largest <= target.uncertain.max(rounding * target.size);
+        // Of a run that is looked at only after that nothing is known.
+        if compared > 1 { e } else { Errors::NONE }
+    };
+    targets.iter().enumerate().map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn readout(digits: u32, size: f64) -> Compared {
+        Compared {
+            label: "x".into(),
+            unit: None,
+            closed: false,
+            uncertain: 0.0,
+            doubt: 0.0,
+            range: size,
+            unseen: 0.5 * 0.1f64.powi(digits as i32),
+            readout: true,
+            digits,
+            until: None,
+            size,
+            blank: false,
+            samples: 2,
+        }
+    }
+
+    #[test]
+    fn digits_decide_at_every_sample() {
+        let x = readout(1, 20.0);
+        // Closer than half a unit, and another digit.
+        assert!(x.in_sight(16.051, 16.049, 1e-9)[1] > 1.0);
+        // Farther, and the same.
+        assert!(x.in_sight(16.149, 16.051, 1e-9)[0] <= 1.0);
+        // Next to a tie, nobody can tell.
+        assert!(x.in_sight(16.05 + 1e-12, 16.05 - 1e-12, 1e-9)[0] <= 1.0);
+        // A reference that is in doubt by more than a digit.
+        let [most, least] = x.in_sight(16.2, 16.0, 0.3);
+        assert!(most > 1.0 && least <= 1.0, "{most} {least}");
+    }
+
+    #[test]
+    fn a_curve_hides_half_a_pixel() {
+        let x = Compared { readout: false, ..readout(1, 20.0) };
+        assert_eq!(x.in_sight(1.0, 1.1, 0.0).map(|p| (p * 10.0).round()), [20.0, 20.0]);
+        assert_eq!(x.in_sight(1.0, 1.01, 0.02)[1], 0.0);
+    }
+}

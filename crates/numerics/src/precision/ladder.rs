@@ -1,0 +1,126 @@
+//! The timesteps of a comparison, and the samples at which their runs meet the truth.
+
+use super::case::PrecisionCase;
+use super::report::Options;
+use super::setting::{Setting, Solver};
+use labspec::run::{self, RunError};
+use labspec::run::{INTEGRATORS, Integrator};
+use labspec::spec::Lab;
+
+/// Timesteps, as multiples of the lab's own; each divides the first. Longer ones are tried while nothing visible changes.
+const STEPS: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
+/// Samples at which the truth is known, at most.
+const MOST_SAMPLES: usize = 40_000;
+/// Steps of a run, at least.
+const FEWEST: f64 = 8.0;
+
+/// The timesteps of a lab.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ladder {
+    /// The lab's own timestep and integrator.
+    pub(super) own: f64,
+    pub(super) integrator: Integrator,
+    /// The longest of the steps that are always tried, as a multiple of the lab's own; and how many of them the run has.
+    longest: f64,
+    pub(super) count: usize,
+    length: f64,
+}
+
+impl Ladder {
+    /// The steps for a run of some length, s, which all of them divide; a short run begins with shorter ones.
+    ///
+    /// # Errors
+    /// The run is too long, or the runs together are.
+    pub(super) fn new(lab: &Lab, own: f64, integrator: Integrator, length: f64) -> Result<Ladder, RunError> {
+        run::count_steps(lab, Some(length), None, own)?;
+        let fits = |s: &f64| length >= FEWEST * own * s || *s == 1.0;
+        let longest = STEPS.into_iter().find(fits).unwrap_or(1.0);
+        let count = run::count_steps(lab, Some(length), None, own * longest)?.max(1);
+        if count as f64 * (longest / STEPS[5]) > run::MAX_STEPS as f64 {
+            return Err(RunError("the runs would take too many steps; shorten them with --until".into()));
+        }
+        Ok(Ladder { own, integrator, longest, count, length })
+    }
+
+    /// The longest step that is always tried, s.
+    pub(super) fn coarse(&self) -> f64 {
+        self.own * self.longest
+    }
+
+    /// Times between samples of the truth, and their numbers.
+    pub(super) fn samplings(&self) -> impl Iterator<Item = (f64, usize)> + use<> {
+        samplings(self.count, self.longest, self.own)
+    }
+
+    /// The step of twice the length, where a run has enough of them and every press is between two of them.
+    pub(super) fn longer(&self, step: f64, case: &PrecisionCase<'_>) -> Option<f64> {
+        let next = 2.0 * step;
+        let meets = |(_, time): &(usize, f64)| (time / next - (time / next).round()).abs() < 1e-6;
+        (self.length >= FEWEST * next * (1.0 - 1e-9) && case.presses.iter().all(meets)).then_some(next)
+    }
+
+    /// Whether a setting is the lab's own.
+    pub(super) fn is_own(&self, setting: &Setting) -> bool {
+        setting.solver.is_none() && setting.integrator == self.integrator && setting.timestep == self.own
+    }
+
+    /// The settings that are compared: each integrator over the ladder, then the solver at the lab's own.
+    pub(super) fn settings(&self, options: &Options) -> Vec<Setting> {
+        let named = match options.integrators.as_slice() {
+            [] => INTEGRATORS.into_iter().filter(|i| i.shared).collect(),
+            some => some.to_vec(),
+        };
+        let (own, longest) = (self.own, self.longest);
+        let steps = |integrator: Integrator| {
+            let steps = STEPS.into_iter().filter(move |s| *s <= longest);
+            steps.map(move |s| Setting { integrator, timestep: s * own, solver: None })
+        };
+        let mut list: Vec<Setting> = named.into_iter().flat_map(steps).collect();
+        let mine = Setting { integrator: self.integrator, timestep: own, solver: None };
+        if !list.contains(&mine) {
+            list.push(mine);
+        }
+        let solver = |s: Solver| Setting { solver: Some(s), ..mine };
+        list.extend(options.axes.iter().flat_map(|axis| axis.values()).map(solver));
+        list
+    }
+}
+
+/// Times between samples of the truth, s, and their numbers. First as short as the shortest step, so that each run is compared after
+/// every step of its own; longer ones follow, for labs that last too long for that or whose truth takes too much work.
+fn samplings(count: usize, longest: f64, own: f64) -> impl Iterator<Item = (f64, usize)> {
+    let number = move |step: f64| count * (longest / step) as usize;
+    let few = move |step: &f64| number(*step) <= MOST_SAMPLES || *step == longest;
+    let mut steps: Vec<f64> = STEPS.into_iter().rev().filter(|s| *s <= longest).filter(few).collect();
+    // The truth takes no longer steps than the lab.
+    let useful = steps.iter().filter(|s| **s <= 1.0).count().max(1);
+    steps.truncate(useful);
+    steps.into_iter().map(move |step| {
+        let stride = number(step).div_ceil(MOST_SAMPLES).max(1);
+        (own * step * stride as f64, number(step).div_ceil(stride))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// All steps of a comparison meet all samples of its truth, or all of its samples.
+        #[test]
+        fn steps_meet_the_samples(count in 1usize..3_000_000, longest in prop::sample::select(&STEPS[..3]), own in 1e-5..0.1f64) {
+            let mut before = 0.0;
+            for (interval, number) in samplings(count, longest, own) {
+                prop_assert!(interval > before && (1..=MOST_SAMPLES).contains(&number));
+                prop_assert!(interval * number as f64 >= 0.999_999 * own * longest * count as f64);
+                for step in STEPS.into_iter().filter(|s| *s <= longest) {
+                    let ratio = (own * step / interval).max(interval / (own * step));
+                    prop_assert!((ratio - ratio.round()).abs() < 1e-9, "{interval} {step}");
+                }
+                before = interval;
+            }
+            prop_assert!(before > 0.0);
+        }
+    }
+}

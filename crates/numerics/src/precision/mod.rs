@@ -1,0 +1,40 @@
+//! Work and precision: how far each integrator and timestep is from the truth, and what it costs.
+//!
+//! The truth is the closed form that the author gives (`exact` in the lab's `verify`), otherwise what two families of methods
+//! agree on (`reference.rs`). Reporting error against cost, not against the step, is the method of Hairer, Nørsett
+//! and Wanner 1993, *Solving Ordinary Differential Equations I*, section II.10.
+
+mod advice;
+mod agreement;
+mod beside;
+mod case;
+mod chebyshev;
+mod compare;
+mod conserved;
+mod event_finder;
+mod event_time;
+mod events;
+mod extrapolation;
+mod integrator_work;
+mod judge;
+mod jumps;
+mod ladder;
+mod numbers;
+mod orders;
+mod reference;
+mod report;
+mod run_cost;
+mod run_record;
+mod setting;
+mod step_replay;
+
+pub use beside::{Beside, BesideRow, Recording};
+pub use case::LeftOut;
+pub use compare::compare;
+pub use events::{Event, Nearby};
+pub use judge::{Compared, Errors};
+pub use numbers::milliseconds;
+pub use report::{Advice, Kind, Options, Report, Row};
+pub use run_cost::RunCost;
+pub use run_record::Fate;
+pub use setting::{Axis, Setting, Solver};

@@ -1,0 +1,130 @@
+//! What runs are held against: the closed form, else two families of methods that owe each other nothing, as far as they agree.
+//!
+//! The first is extrapolation of the midpoint rule, which chooses its own steps; the second a Runge–Kutta method of eighth order
+//! with ever shorter ones. Where a program computes controls at every step, which are held until the next, the runs approach the
+//! continuous controller with the powers of the step: a table of ever shorter steps is extrapolated to a step of nothing
+//! (`extrapolation.rs`).
+
+use super::agreement::{Reference, UNKNOWN, agree, known, method, run, so_far, too_long, worst_part};
+use super::case::PrecisionCase;
+use super::event_finder::EventThresholds;
+use super::extrapolation::extrapolated;
+use super::numbers::milliseconds;
+use super::run_record::{Run, RunRequest};
+use super::setting::Setting;
+use labspec::run::RunError;
+use labspec_core::integrator;
+
+/// Part of its range by which the two families may differ.
+const AGREE: f64 = 1e-9;
+/// Steps of the second family that are tried, each a quarter of the one before.
+const TRIES: usize = 5;
+/// The reference; `None` when no method comes through the lab, or none within the work
+/// that a run may do.
+///
+/// # Errors
+/// A control that cannot be set so.
+pub(super) fn reference(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+    if case.controlled() { extrapolated(case, own) } else { direct(case, own) }
+}
+
+/// A method and a step.
+type MethodStep = (i32, f64);
+
+/// Two runs beside each other.
+struct AgreeingRuns {
+    reference: Reference,
+    ways: [MethodStep; 2],
+}
+
+fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+    let mut first = None;
+    for way in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, own / 16.0)] {
+        if first.is_none() && !too_long(case, way.1) {
+            first = run(case, way.0, way.1, RunRequest::FRESH)?.map(|run| (way, run));
+        }
+    }
+    let mut best: Option<AgreeingRuns> = None;
+    let mut step = own.min(case.interval);
+    for _ in 0..TRIES {
+        if too_long(case, step) {
+            break;
+        }
+        let Some(second) = run(case, integrator::RKMK8, step, RunRequest::FRESH)? else {
+            // A step that is too long for it may only be too long.
+            if best.is_some() {
+                break;
+            }
+            step /= 4.0;
+            continue;
+        };
+        let mine = (integrator::RKMK8, step);
+        let now = match &first {
+            Some((way, seen)) => {
+                let how = format!("{} and {}", in_words(*way), in_words(mine));
+                AgreeingRuns { reference: compare(seen.clone(), &second, how), ways: [*way, mine] }
+            }
+            // One family alone: a run of half the step judges it.
+            None => {
+                let half = (integrator::RKMK8, step / 2.0);
+                let Some(finer) = run(case, half.0, half.1, RunRequest::FRESH)? else { break };
+                let how = format!("{}, and at twice that", in_words(half));
+                AgreeingRuns { reference: compare(finer, &second, how), ways: [half, mine] }
+            }
+        };
+        let agreed = agrees(&now.reference);
+        if best.as_ref().is_none_or(|b| worst(&now.reference) < worst(&b.reference)) {
+            best = Some(now);
+        }
+        if agreed {
+            break;
+        }
+        step /= 4.0;
+    }
+    let Some(mut best) = best else { return Ok(None) };
+    find_moments(case, &mut best)?;
+    Ok(Some(best.reference))
+}
+
+fn in_words((id, timestep): MethodStep) -> String {
+    format!("{} at {} ms", method(id).name, milliseconds(timestep))
+}
+
+/// Runs both once more, for what happens in them.
+fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(), RunError> {
+    let r = &mut pair.reference;
+    let mut found: Vec<Run> = Vec::new();
+    for (id, timestep) in pair.ways {
+        // The other one finds the same, or nothing.
+        let late = |run: &Run| run.settled + UNKNOWN * case.length() + 8.0 * timestep;
+        let stop = found.first().map_or(f64::INFINITY, late);
+        let ask = RunRequest { sought: Some(&r.sought), stop: Some(stop), ..RunRequest::FRESH };
+        let setting = Setting { integrator: method(id), timestep, solver: None };
+        found.push(case.run(&setting, ask)?);
+    }
+    if let [a, b] = found.as_slice() {
+        r.run.touching = a.touching;
+        let steps = case.length() / pair.ways[0].1.min(pair.ways[1].1);
+        r.moments = known(case, &r.uncertain, [&a.moments, &b.moments], steps);
+    }
+    Ok(())
+}
+
+/// The first as far as the second agrees.
+fn compare(mut first: Run, second: &Run, how: String) -> Reference {
+    let uncertain = so_far(first.values.iter().zip(&second.values));
+    let depth_doubt = (first.penetration - second.penetration).abs();
+    let jumps = first.jumps || second.jumps;
+    first.penetration = second.penetration;
+    let values = first.values.clone();
+    let sought = EventThresholds::for_values(&values);
+    Reference { values, uncertain, run: first, depth_doubt, moments: Vec::new(), sought, jumps, how }
+}
+
+fn worst(r: &Reference) -> f64 {
+    worst_part(&r.values, &r.uncertain)
+}
+
+fn agrees(r: &Reference) -> bool {
+    agree(&r.values, &r.uncertain, AGREE)
+}

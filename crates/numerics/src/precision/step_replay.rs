@@ -1,0 +1,105 @@
+//! The last steps of a run, to be made again with other lengths.
+
+use labspec::run::Session;
+use labspec_core::{self as core, Model, state};
+
+/// What moves by itself in a step, and what is held during it.
+const MOTION: i32 = state::FULLPHYSICS | state::WARMSTART;
+const HELD: i32 = state::USER;
+/// States that are kept.
+const MOST_STATES: usize = 4;
+
+/// A state at the end of a step, with what was held in that step.
+#[derive(Clone, Debug, Default)]
+struct PastState {
+    time: f64,
+    motion: Vec<f64>,
+    held: Vec<f64>,
+}
+
+/// The last states of a run, from the newest on.
+#[derive(Clone, Debug)]
+pub(super) struct StepHistory {
+    states: [PastState; MOST_STATES],
+    count: usize,
+}
+
+impl StepHistory {
+    pub(super) fn new(m: &Model) -> StepHistory {
+        let room = |sig| vec![0.0; state::size(m, sig).unwrap_or(0)];
+        let empty = PastState { time: 0.0, motion: room(MOTION), held: room(HELD) };
+        StepHistory { states: std::array::from_fn(|_| empty.clone()), count: 0 }
+    }
+
+    /// Keeps the state at a time.
+    pub(super) fn keep(&mut self, session: &Session<'_>, time: f64) {
+        self.states.rotate_right(1);
+        let (m, d) = (&session.world.model, &session.world.data);
+        let [now, ..] = &mut self.states;
+        now.time = time;
+        // Of the model that it was made for: nothing can be refused.
+        let _ = state::get(m, d, &mut now.motion, MOTION);
+        let _ = state::get(m, d, &mut now.held, HELD);
+        self.count = (self.count + 1).min(MOST_STATES);
+    }
+
+    /// States that are known.
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// When a state was, s.
+    pub(super) fn time(&self, j: usize) -> f64 {
+        self.states.get(j).map_or(f64::NAN, |s| s.time)
+    }
+
+    /// The length of the step that begins at a state.
+    pub(super) fn step(&self, j: usize) -> f64 {
+        self.time(j.saturating_sub(1)) - self.time(j)
+    }
+}
+
+/// Evaluates a target in a session.
+pub(super) type Evaluate<'e> = dyn Fn(&mut Session<'_>, usize) -> f64 + 'e;
+
+/// A copy of a run in which its last steps are made again.
+pub(super) struct StepReplay<'b> {
+    pub(super) session: Session<'b>,
+    pub(super) past: &'b StepHistory,
+    /// The largest value that was seen.
+    pub(super) size: f64,
+}
+
+impl<'b> StepReplay<'b> {
+    pub(super) fn new(session: &Session<'b>, past: &'b StepHistory) -> StepReplay<'b> {
+        StepReplay { session: session.clone(), past, size: 0.0 }
+    }
+
+    /// Goes to a time after a state, with a step of that length; everything is computed there.
+    pub(super) fn place(&mut self, from: usize, x: f64) {
+        let Some(start) = self.past.states.get(from) else { return };
+        // What was held in the step is known at its end.
+        let Some(end) = self.past.states.get(from.saturating_sub(1)) else { return };
+        let world = &mut self.session.world;
+        if x > 0.0 {
+            *world.model.edit().opt.timestep = x;
+        }
+        let (m, d) = (&world.model, &mut world.data);
+        let _ = state::set(m, d, &start.motion, MOTION);
+        let _ = state::set(m, d, &end.held, HELD);
+        if x > 0.0 {
+            let _ = core::step(m, d);
+        }
+        let _ = core::forward(m, d);
+    }
+
+    /// A target's value at a time after a state.
+    pub(super) fn value(&mut self, from: usize, x: f64, target: usize, evaluate: &Evaluate<'_>) -> f64 {
+        self.place(from, x);
+        let value = evaluate(&mut self.session, target);
+        if value.is_finite() {
+            self.size = self.size.max(value.abs());
+        }
+        value
+    }
+}

@@ -1,0 +1,175 @@
+//! What of the engine a lab uses besides its stages: pairs of geoms, the solver, the integrator, ways of computing trees.
+
+use labspec::run::INTEGRATORS;
+use labspec_core::reflect::{Stage, data, option};
+use labspec_core::{self as core, AccessSet, Model, PairFilterReason, Plan, geom, solver};
+
+/// A piece of code of which a lab uses one or none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EngineOption {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it is used.
+    pub keep: bool,
+    /// Why, or why not.
+    pub reason: String,
+}
+
+/// What happens where a program may write an option.
+const WHEN_WRITTEN: &str = "a program that changes it triggers a new plan";
+
+/// A way of computing trees, and how many take it: for where their bodies are, for their inertia and forces, and for their
+/// accelerations.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TreeAlgorithmUse {
+    /// Its name.
+    pub name: &'static str,
+    /// Trees.
+    pub trees: [usize; 3],
+}
+
+/// A sensor.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SensorRow {
+    /// Its name; its number where it has none.
+    pub name: String,
+    /// Whether its values are computed.
+    pub keep: bool,
+    /// Why, or why not.
+    pub reason: &'static str,
+}
+
+/// What was seen in the steps that were run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ConstraintCounts {
+    /// Pairs within reach of each other, in the mean and at most.
+    pub in_reach: [f64; 2],
+    /// Contacts, likewise,
+    pub contacts: [f64; 2],
+    /// rows of constraints,
+    pub rows: [f64; 2],
+    /// iterations of the solver.
+    pub iterations: [f64; 2],
+}
+
+/// The pairs of geoms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairSummary {
+    /// All there are.
+    pub all: usize,
+    /// Those that can ever touch. With contacts switched off there are none.
+    pub can_touch: usize,
+    /// The others by reason.
+    pub left_out: Vec<(&'static str, usize)>,
+    /// How those that can touch are tested: the shapes, how many, and whether by the general search.
+    pub tests: Vec<([&'static str; 2], usize, bool)>,
+    /// What was seen of them.
+    pub seen: Option<ConstraintCounts>,
+}
+
+pub(super) fn pairs(model: &Model, plan: &Plan, seen: Option<ConstraintCounts>) -> PairSummary {
+    let census = plan.pairs(model);
+    let all = census.iter().map(|(_, n)| n).sum();
+    if !plan.keeps(Stage::Collision) && census.iter().any(|(fate, _)| *fate == PairFilterReason::CanTouch) {
+        let left_out = vec![("contacts are switched off", all)];
+        return PairSummary { all, can_touch: 0, left_out, tests: Vec::new(), seen };
+    }
+    let can_touch =
+        census.iter().find(|(fate, _)| *fate == PairFilterReason::CanTouch).map_or(0, |(_, n)| *n);
+    let others = census.iter().filter(|(fate, _)| *fate != PairFilterReason::CanTouch);
+    let tests = plan.tests(model).into_iter().map(|(types, n, searched)| (types.map(shape), n, searched));
+    PairSummary {
+        all,
+        can_touch,
+        left_out: others.map(|(fate, n)| (fate.reason(), *n)).collect(),
+        tests: tests.collect(),
+        seen,
+    }
+}
+
+fn shape(kind: i32) -> &'static str {
+    match kind {
+        geom::PLANE => "plane",
+        geom::HFIELD => "height field",
+        geom::SPHERE => "sphere",
+        geom::CAPSULE => "capsule",
+        geom::ELLIPSOID => "ellipsoid",
+        geom::CYLINDER => "cylinder",
+        geom::BOX => "box",
+        _ => "mesh",
+    }
+}
+
+/// The sensors in their order.
+pub(super) fn sensors(model: &Model, plan: &Plan) -> Vec<SensorRow> {
+    let sensor = |sensor: core::SensorId| {
+        let read = |i| plan.demand().reads.contains_element(data::sensordata, i);
+        let keep = plan.evaluates(model, sensor);
+        let reason = match keep {
+            true if sensor.values(model).any(read) => "its values are read",
+            true => "the state or the energies contain what it measures",
+            false => "nothing reads it",
+        };
+        let name = model.name_of(core::Obj::Sensor, sensor.index());
+        let name = name.map_or_else(|| format!("sensor {}", sensor.index()), String::from);
+        SensorRow { name, keep, reason }
+    };
+    model.sensors().map(sensor).collect()
+}
+
+/// The methods of the solver.
+pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
+    const METHODS: [(&str, i32); 3] = [("newton", solver::NEWTON), ("cg", solver::CG), ("pgs", solver::PGS)];
+    let runs = plan.keeps(Stage::Solve);
+    let nothing = plan.decisions().iter().find(|d| d.stage == Stage::Solve).map_or("", |d| d.reason.as_str());
+    let named = METHODS.iter().find(|(_, id)| *id == model.opt.solver).map_or("newton", |(name, _)| name);
+    let written = plan.demand().writes.contains(option::solver);
+    let methods = METHODS.iter().map(|&(name, _)| EngineOption {
+        name,
+        keep: runs && name == named,
+        reason: match () {
+            () if !runs => nothing.to_string(),
+            () if name == named => "the options name it".into(),
+            () if written => format!("the options name {named}; {WHEN_WRITTEN}"),
+            () => format!("the options name {named}"),
+        },
+    });
+    let slips = plan.demand().writes.contains(option::noslip_iterations);
+    let noslip = EngineOption {
+        name: "noslip",
+        keep: runs && model.opt.noslip_iterations > 0,
+        reason: match () {
+            () if !runs => nothing.to_string(),
+            () if model.opt.noslip_iterations > 0 => "the options request it".into(),
+            () if slips => format!("the options request no iterations of it; {WHEN_WRITTEN}"),
+            () => "the options request no iterations of it".into(),
+        },
+    };
+    methods.chain([noslip]).collect()
+}
+
+/// The integrators.
+pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption> {
+    let integrator = labspec::run::Integrator::of(model);
+    let written = demand.writes.contains(option::integrator);
+    let code = |i: labspec::run::Integrator| EngineOption {
+        name: i.name,
+        keep: i == integrator,
+        reason: match () {
+            () if i == integrator => "the options name it".into(),
+            () if written => format!("the options name {}; {WHEN_WRITTEN}", integrator.name),
+            () => format!("the options name {}", integrator.name),
+        },
+    };
+    INTEGRATORS.into_iter().map(code).collect()
+}
+
+/// The ways, in their order.
+pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
+    let trees = plan.ways(model);
+    let count = |way: core::TreeAlgorithm| {
+        let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();
+        TreeAlgorithmUse { name: way.name(), trees: [of(0), of(1), of(2)] }
+    };
+    core::TreeAlgorithm::all().map(count).collect()
+}

@@ -1,0 +1,75 @@
+//! One more reader: which stages it makes run.
+
+use labspec::bind::{ModelNames, Programs, Scope, include};
+use labspec::run::RunError;
+use labspec_core::reflect::{Object, Stage, data, field};
+use labspec_core::{AccessSet, Model, Plan};
+use labspec_expr::Compiler;
+
+/// Something that would be read besides what the lab reads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExtraReader {
+    /// As it was asked for.
+    pub text: String,
+    /// What programs read and write with it.
+    pub demand: AccessSet,
+    /// The stages that run with it and not without.
+    pub joins: Vec<Stage>,
+    /// What a step takes longer, ns; `None` where nothing was run.
+    pub cost: Option<f64>,
+}
+
+/// The readers one by one and, where there are several, all of them together.
+///
+/// # Errors
+/// A text that names no field and no sensor and is no expression.
+pub(super) fn readers(
+    model: &Model,
+    programs: &Programs,
+    texts: &[String],
+) -> Result<Vec<ExtraReader>, RunError> {
+    let mut all = programs.demand;
+    let mut readers = Vec::new();
+    for text in texts {
+        let mut demand = programs.demand;
+        read(model, programs, text, &mut demand)?;
+        read(model, programs, text, &mut all)?;
+        readers.push(reader(model, programs, text, demand));
+    }
+    if texts.len() > 1 {
+        readers.push(reader(model, programs, "all of these", all));
+    }
+    Ok(readers)
+}
+
+fn reader(model: &Model, programs: &Programs, text: &str, demand: AccessSet) -> ExtraReader {
+    let (before, after) = (Plan::new(model, &programs.demand), Plan::new(model, &demand));
+    let joins = after.decisions().iter().map(|d| d.stage).filter(|s| after.keeps(*s) && !before.keeps(*s));
+    ExtraReader { text: text.to_string(), demand, joins: joins.collect(), cost: None }
+}
+
+/// Adds what a field, a sensor by its name, or an expression reads.
+fn read(model: &Model, programs: &Programs, text: &str, demand: &mut AccessSet) -> Result<(), RunError> {
+    if let Some(field) = field(Object::Data, text.strip_prefix("data.").unwrap_or(text)) {
+        demand.reads.insert(field);
+        return Ok(());
+    }
+    if let Ok(sensor) = model.sensor(text) {
+        let places = sensor.values(model);
+        demand.reads.insert_elements(data::sensordata, places.start, Some(places.len()));
+        return Ok(());
+    }
+    let names = ModelNames::new(model, Scope::Lab).with(&programs.functions);
+    let mut globals = programs.globals.clone();
+    let compiled = Compiler::new(&names, &mut globals).expression(text);
+    match compiled.program {
+        Some(program) => include(program.effects(), demand),
+        None => {
+            let why = compiled.diagnostics.first().map_or(String::new(), |d| format!(": {}", d.message));
+            return Err(RunError(format!(
+                "`{text}` is not a field of the data, a sensor or an expression{why}"
+            )));
+        }
+    }
+    Ok(())
+}

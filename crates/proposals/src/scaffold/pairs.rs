@@ -1,0 +1,130 @@
+//! The runs that a question compares: those of its words, in the order of its words.
+
+use crate::trace::{Trial, si, trials};
+use labspec::json::{Number, Scalar};
+use labspec::run::settings;
+use labspec::spec::{Control, ControlKind, Lab, Question};
+use labspec::verify::Stated;
+use labspec_expr::Value;
+
+/// How long a run is after a button is pressed, s.
+const ROUTINE: f64 = 10.0;
+/// Words that change a quantity, and by how much.
+const CHANGES: [(&str, f64); 12] = [
+    ("doubled", 2.0),
+    ("double", 2.0),
+    ("twice", 2.0),
+    ("halved", 0.5),
+    ("halve", 0.5),
+    ("half", 0.5),
+    ("tripled", 3.0),
+    ("triple", 3.0),
+    ("four times", 4.0),
+    ("quadruple", 4.0),
+    ("ten times", 10.0),
+    ("tenfold", 10.0),
+];
+
+/// Runs, and pairs of them: what was before, and what is after.
+pub(super) struct Runs {
+    pub(super) trials: Vec<Trial>,
+    pub(super) pairs: Vec<(usize, usize)>,
+}
+
+/// The runs of a lab that a question speaks of. The first is the lab as it stands.
+pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
+    let of_question: Vec<Stated> =
+        numbers.iter().filter(|n| question.span.contains(&n.span.start) && !n.answer).cloned().collect();
+    let said: Vec<Stated> =
+        of_question.iter().filter(|n| n.span.end <= question.q.span().end).cloned().collect();
+    // What the question itself names; what only its options and explanation name says what comes of it.
+    let mut all = trials(lab, &said);
+    let base = all.first().cloned();
+    for control in &lab.controls {
+        if let Some(base) = &base {
+            all.extend(changed(control, asked, base));
+        }
+    }
+    // Buttons that the question speaks of are pressed in every run.
+    let named = |label: &str| asked.contains(&label.to_lowercase());
+    let buttons = lab.controls.iter().filter(|c| matches!(c.kind, ControlKind::Button { .. }));
+    let pressed: Vec<String> = buttons.map(|c| c.label.value.clone()).filter(|label| named(label)).collect();
+    if !pressed.is_empty() {
+        all.retain(|t| t.press.is_empty());
+        for t in &mut all {
+            t.press = pressed.clone();
+            // What a button begins takes its time.
+            t.until = t.until.or(lab.stop_at.is_none().then_some(ROUTINE));
+        }
+    }
+    let pairs = pairs(&all, asked, lab, &said);
+    Runs { trials: all, pairs }
+}
+
+/// A control whose label the question names beside a word of change.
+fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
+    let label = control.label.as_str();
+    let ControlKind::Slider { value: start, min, .. } = &control.kind else { return None };
+    let words = label.split(|c: char| !c.is_alphanumeric()).filter(|w| w.chars().count() > 2);
+    let shared = words.filter(|w| super::relation::says(asked, &w.to_lowercase())).count();
+    let (_, factor) = CHANGES.iter().find(|(words, _)| super::relation::says(asked, words))?;
+    if shared == 0 {
+        return None;
+    }
+    let step = control.step().unwrap_or(0.0);
+    let wanted = start.value * factor;
+    let x = if step > 0.0 { min.value + ((wanted - min.value) / step).round() * step } else { wanted };
+    let x: f64 = format!("{x:.12}").parse().unwrap_or(x);
+    let reached = settings::value(control, &Value::Number(x)).is_ok();
+    if !reached || x == start.value || (x - wanted).abs() > 0.05 * wanted.abs() {
+        return None;
+    }
+    Some(Trial {
+        words: format!("with \"{label}\" at {x}"),
+        set: vec![(label.to_string(), Scalar::Number(Number { value: x, span: 0..0 }))],
+        ..base.clone()
+    })
+}
+
+/// Before and after, in the order in which the question names them; what it does not name is as it stands, before.
+fn pairs(all: &[Trial], asked: &str, lab: &Lab, said: &[Stated]) -> Vec<(usize, usize)> {
+    let place = |t: &Trial| {
+        let (x, unit) = t.named?;
+        said.iter().position(|n| n.dimension.agrees(&unit) && (si(n) - x).abs() <= 1e-9 * x.abs())
+    };
+    let mut list = Vec::new();
+    for (i, a) in all.iter().enumerate().skip(1) {
+        for (j, b) in all.iter().enumerate().skip(1) {
+            let alike = a.timestep.is_some() == b.timestep.is_some()
+                && a.set.iter().map(|(l, _)| l).eq(b.set.iter().map(|(l, _)| l));
+            if alike && place(a).zip(place(b)).is_some_and(|(p, q)| p < q) {
+                list.push((i, j));
+            }
+        }
+    }
+    for (i, t) in all.iter().enumerate().skip(1) {
+        list.push(if comes_first(t, asked, lab) { (i, 0) } else { (0, i) });
+    }
+    list
+}
+
+/// Whether the question goes from this run to the lab as it stands: "from 10 to 1", where 1 is the start.
+fn comes_first(t: &Trial, asked: &str, lab: &Lab) -> bool {
+    let [(label, value)] = t.set.as_slice() else { return false };
+    let Some(control) = lab.control(label) else { return false };
+    let written = |value: &Scalar| match value {
+        Scalar::Number(n) => n.value.to_string(),
+        Scalar::Text(text) => text.value.to_lowercase(),
+        Scalar::Bool(b, _) => b.to_string(),
+    };
+    let start = match &control.kind {
+        ControlKind::Slider { value, .. } => value.value.to_string(),
+        ControlKind::Select { value, .. } => written(value),
+        ControlKind::Button { .. } => return false,
+    };
+    let from = format!("from {} ", written(value));
+    asked.find(&from).is_some_and(|at| {
+        let rest = asked.get(at + from.len()..).unwrap_or_default();
+        rest.split(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '?')).take(4).any(|w| w == start)
+    })
+}

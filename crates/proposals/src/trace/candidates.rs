@@ -1,0 +1,343 @@
+//! What could be measured in a lab: what it shows, at the start, at the end, at named times and at contacts; how fast its bodies
+//! move; constants of its model. The simplest come first.
+
+use super::units::{LONGEST_TIMESTEP, second, si};
+use super::words::split_words;
+use labspec::bind::{ModelNames, Programs, Scope, dimensions, of_label};
+use labspec::check;
+use labspec::run::{self, Play, Session};
+use labspec::spec::Lab;
+use labspec::verify::Stated;
+use labspec_bind::element_owner;
+use labspec_core::{AccessSet, Model};
+use labspec_core::{geom, joint, trntype, wraptype};
+use labspec_expr::Compiler;
+use labspec_expr::dimension::{Dimension, Measure};
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+
+/// Something that can be measured in a run.
+#[derive(Clone, Debug)]
+pub(crate) struct Candidate {
+    /// The measure.
+    pub(crate) text: String,
+    /// What its numbers measure.
+    pub(crate) dimension: Dimension,
+    /// How far-fetched it is.
+    pub(crate) cost: f64,
+    /// Words of its label and of the names in it.
+    pub(crate) words: BTreeSet<String>,
+    /// It is a constant of the model: no run says it.
+    pub(crate) constant: bool,
+    /// A time, s, that has to be named beside the number.
+    pub(crate) time: Option<f64>,
+}
+
+/// Most pairs of geoms, named times, joints and constants of one kind.
+const PAIRS: usize = 4;
+const TIMES: usize = 24;
+const JOINTS: usize = 6;
+const CONSTANTS: usize = 12;
+/// Steps of the run in which contacts are looked for, at most.
+const STEPS: usize = 20_000;
+
+/// Words of a moment in which two geoms meet.
+const MEETING: &str = "contact touch touches touchdown impact lands landing hits first";
+
+/// What is shown, or follows from it: an expression, what it measures, its words.
+struct DisplayedNumber {
+    text: String,
+    dimension: Dimension,
+    words: String,
+    /// What it costs more than what is shown.
+    more: f64,
+}
+
+/// Everything that could be measured in a lab, with texts that compile.
+pub(super) fn candidates(
+    lab: &Lab,
+    model: &Model,
+    programs: &Programs,
+    numbers: &[Stated],
+) -> Vec<Candidate> {
+    let mut all = Vec::new();
+    constants(model, &mut all);
+    let pairs = touching(lab, model, programs);
+    let mut displayed = displayed_numbers(lab, model, programs);
+    displayed.extend(motions(model));
+    displayed.extend(forces(model));
+    let times = times(numbers);
+    for (a, b) in &pairs {
+        let met = format!("contact('{a}', '{b}')");
+        let named = format!("{a} {b} {MEETING}");
+        let s = second();
+        add(&mut all, format!("first({met})"), s, 2.0, &named);
+        add(&mut all, format!("first({met}) - model.opt.timestep"), s, 2.6, &named);
+    }
+    if lab.stop_at.is_some() {
+        add(&mut all, "final(data.time)".into(), second(), 2.0, "time stops pauses end");
+    }
+    for x in displayed.iter().filter(|x| x.text != "data.time") {
+        let DisplayedNumber { text, dimension, words, more } = x;
+        let mut of = |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, words);
+        of(format!("final({text})"), 2.0);
+        of(format!("max({text})"), 2.2);
+        of(format!("min({text})"), 2.2);
+        of(format!("initial({text})"), 2.2);
+        of(format!("max({text}) - min({text})"), 3.0);
+        of(format!("mean({text})"), 3.5);
+        for (a, b) in &pairs {
+            let words = format!("{words} {a} {b} {MEETING}");
+            let mut of = |measure: String, cost: f64| add(&mut all, measure, *dimension, cost + more, &words);
+            of(format!("before(contact('{a}', '{b}'), {text})"), 2.6);
+            of(format!("at(contact('{a}', '{b}'), {text})"), 3.0);
+        }
+        if *more == 0.0 {
+            add(&mut all, format!("period({text})"), second(), 3.0, words);
+            add(&mut all, format!("crossing({text})"), second(), 3.0, words);
+        }
+        for t in &times {
+            let text = format!("at(data.time >= {t} - 1e-9, {text})");
+            add(&mut all, text, *dimension, 2.5 + more, words);
+            if let Some(last) = all.last_mut() {
+                last.time = Some(*t);
+            }
+        }
+    }
+    depths(model, &displayed, &mut all);
+    let names = ModelNames::new(model, Scope::Measure).with(&programs.functions);
+    let mut globals = programs.globals.clone();
+    let mut texts = BTreeSet::new();
+    all.retain(|c| {
+        texts.insert(c.text.clone())
+            && Compiler::new(&names, &mut globals).expression(&c.text).program.is_some()
+    });
+    all
+}
+
+fn add(all: &mut Vec<Candidate>, text: String, dimension: Dimension, cost: f64, named: &str) {
+    let words = split_words(named).collect();
+    all.push(Candidate { text, dimension, cost, words, constant: false, time: None });
+}
+
+/// Traces and readouts, each text once.
+fn displayed_numbers(lab: &Lab, model: &Model, programs: &Programs) -> Vec<DisplayedNumber> {
+    let found = dimensions(lab, model, programs);
+    let mut all: Vec<DisplayedNumber> = Vec::new();
+    for ((labels, probe), measured) in check::labels_of(lab).zip(&programs.probes).zip(&found.probes) {
+        let Some(bound) = &probe.bound else { continue };
+        let label = labels.iter().find_map(|l| of_label(l.as_str()));
+        let dimension = measured.as_ref().and_then(|m| match m.value {
+            Measure::Known(d) if d.factor.is_finite() && d.factor != 0.0 => Some(d),
+            _ => None,
+        });
+        let Some(dimension) = label.map(|(_, d)| d).or(dimension) else { continue };
+        let text = bound.text.value.trim().to_string();
+        let reads = bound.program.effects().reads.iter();
+        let owners = reads.filter_map(|r| element_owner(model, r.field, r.first, r.count?));
+        let names = owners.filter_map(|(kind, i)| model.names.of(kind).get(i).map(String::as_str));
+        let words: Vec<&str> = labels.iter().map(|l| l.as_str()).chain(names).collect();
+        match all.iter_mut().find(|s| s.text == text) {
+            Some(same) => same.words = format!("{} {}", same.words, words.join(" ")),
+            None => all.push(DisplayedNumber { text, dimension, words: words.join(" "), more: 0.0 }),
+        }
+    }
+    all
+}
+
+/// Coordinates and speeds of the joints that have names.
+fn motions(m: &Model) -> Vec<DisplayedNumber> {
+    let [metre, radian] = ["m", "rad"].map(|u| labspec_bind::units::parse(u).unwrap_or(Dimension::NUMBER));
+    let per = |d: Dimension| second().power(-1.0).and_then(|s| d.product(s)).unwrap_or(d);
+    let mut all = Vec::new();
+    let named = m.names.joint.iter().zip(&m.jnt_type).filter(|(name, _)| simple(name));
+    for (name, kind) in named.take(JOINTS) {
+        let mut one = |what: &str, i: usize, dimension| {
+            all.push(DisplayedNumber {
+                text: format!("data.joint('{name}').{what}[{i}]"),
+                dimension,
+                words: name.clone(),
+                more: 1.0,
+            });
+        };
+        match *kind {
+            joint::FREE => {
+                (0..3).for_each(|i| one("qpos", i, metre));
+                (0..3).for_each(|i| one("qvel", i, per(metre)));
+            }
+            joint::HINGE => {
+                one("qpos", 0, radian);
+                one("qvel", 0, per(radian));
+            }
+            joint::SLIDE => {
+                one("qpos", 0, metre);
+                one("qvel", 0, per(metre));
+            }
+            _ => {}
+        }
+    }
+    all
+}
+
+/// Forces that a lab has and need not show: of actuators, of weight and limits on joints, of contacts on geoms.
+fn forces(m: &Model) -> Vec<DisplayedNumber> {
+    let [newton, torque] = ["N", "N m"].map(|u| labspec_bind::units::parse(u).unwrap_or(Dimension::NUMBER));
+    let mut all = Vec::new();
+    let joints =
+        m.names.joint.iter().zip(&m.jnt_type).zip(&m.jnt_dofadr).filter(|((name, _), _)| simple(name));
+    for ((name, kind), dof) in joints.take(JOINTS) {
+        let dimension = match *kind {
+            joint::HINGE => torque,
+            joint::SLIDE => newton,
+            _ => continue,
+        };
+        for (what, said) in [
+            ("bias", "weight gravity load"),
+            ("constraint", "limit contact stop"),
+            ("actuator", "motor servo"),
+        ] {
+            let words = format!("{name} force torque {said}");
+            all.push(DisplayedNumber {
+                text: format!("data.qfrc_{what}[{dof}]"),
+                dimension,
+                words,
+                more: 1.2,
+            });
+        }
+    }
+    let actuators = m.names.actuator.iter().enumerate().filter(|(_, name)| simple(name));
+    for (a, name) in actuators.take(JOINTS) {
+        let Some(rotates) = rotates(m, a) else { continue };
+        let dimension = if rotates { torque } else { newton };
+        let words = format!("{name} force torque servo motor limit");
+        all.push(DisplayedNumber { text: format!("data.actuator_force[{a}]"), dimension, words, more: 1.2 });
+    }
+    all
+}
+
+/// Whether an actuator turns a hinge, so that its force is a torque; `None` where that is nothing simple.
+fn rotates(m: &Model, actuator: usize) -> Option<bool> {
+    let index = |list: &[i32], i: usize| list.get(i).and_then(|x| usize::try_from(*x).ok());
+    let moved = index(&m.actuator_trnid, 2 * actuator)?;
+    let kind = match *m.actuator_trntype.get(actuator)? {
+        trntype::JOINT | trntype::JOINTINPARENT => *m.jnt_type.get(moved)?,
+        // A tendon is a sum of joints, or a way along sites: a force then.
+        trntype::TENDON => {
+            let first = index(&m.tendon_adr, moved)?;
+            if m.wrap_type.get(first) != Some(&wraptype::JOINT) {
+                return Some(false);
+            }
+            *m.jnt_type.get(index(&m.wrap_objid, first)?)?
+        }
+        _ => return None,
+    };
+    match kind {
+        joint::HINGE => Some(true),
+        joint::SLIDE => Some(false),
+        _ => None,
+    }
+}
+
+/// A name that needs no care in a text.
+fn simple(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ' | '.' | '/'))
+}
+
+/// Constants of the model that a text may state.
+fn constants(m: &Model, all: &mut Vec<Candidate>) {
+    let unit = |text: &str| labspec_bind::units::parse(text).unwrap_or(Dimension::NUMBER);
+    let mut add = |text: String, dimension, cost, named: &str| {
+        let words = split_words(named).collect();
+        all.push(Candidate { text, dimension, cost, words, constant: true, time: None });
+    };
+    add("model.opt.timestep".into(), second(), 1.0, "timestep step");
+    for (i, g) in m.opt.gravity.iter().enumerate().filter(|(_, g)| **g != 0.0) {
+        let minus = if *g < 0.0 { "-" } else { "" };
+        add(format!("{minus}model.opt.gravity[{i}]"), unit("m/s^2"), 1.0, "gravity");
+    }
+    let bodies = m.names.body.iter().enumerate().skip(1).filter(|(_, name)| simple(name));
+    for (i, name) in bodies.take(CONSTANTS) {
+        add(format!("model.body('{name}').mass[0]"), unit("kg"), 1.5, &format!("{name} mass heavy weight"));
+        for k in 0..3 {
+            if m.body_pos.get(3 * i + k).is_some_and(|x| *x != 0.0) {
+                add(
+                    format!("model.body('{name}').pos[{k}]"),
+                    unit("m"),
+                    2.5,
+                    &format!("{name} height centre"),
+                );
+            }
+        }
+    }
+    let geoms = m.names.geom.iter().zip(&m.geom_type).enumerate().filter(|(_, (name, _))| simple(name));
+    for (i, (name, kind)) in geoms.take(CONSTANTS) {
+        if matches!(*kind, geom::PLANE | geom::MESH | geom::HFIELD) {
+            continue;
+        }
+        for k in 0..3 {
+            if m.geom_size.get(3 * i + k).is_some_and(|x| *x != 0.0) {
+                let named = format!("{name} radius size length width thick");
+                add(format!("model.geom('{name}').size[{k}]"), unit("m"), 2.0, &named);
+            }
+        }
+        add(format!("model.geom('{name}').solref[0]"), second(), 2.5, &format!("{name} solref constant"));
+    }
+}
+
+/// How deep something lies in the ground at its coordinate 0: a size less a height.
+fn depths(m: &Model, shown: &[DisplayedNumber], all: &mut Vec<Candidate>) {
+    let Some(metre) = labspec_bind::units::parse("m") else { return };
+    let geoms =
+        m.names.geom.iter().zip(&m.geom_type).filter(|(name, kind)| simple(name) && **kind == geom::SPHERE);
+    for (name, _) in geoms.take(PAIRS) {
+        for x in shown.iter().filter(|x| x.dimension == metre) {
+            for (how, cost) in [("final", 3.0), ("min", 3.2)] {
+                let text = format!("model.geom('{name}').size[0] - {how}({})", x.text);
+                add(
+                    all,
+                    text,
+                    metre,
+                    cost + x.more,
+                    &format!(
+                        "{name} {} deep deeper depth sink sinks sits rest resting penetration inside displacement",
+                        x.words
+                    ),
+                );
+            }
+        }
+    }
+}
+
+/// Times that the text names, s: those that many numbers stand beside first.
+fn times(numbers: &[Stated]) -> Vec<f64> {
+    let mut all: Vec<f64> = Vec::new();
+    for s in numbers {
+        let t = si(s);
+        let is_time = s.dimension == second().times(s.dimension.factor);
+        if is_time && t > LONGEST_TIMESTEP && t <= 20.0 && !all.contains(&t) && all.len() < TIMES {
+            all.push(t);
+        }
+    }
+    all
+}
+
+/// Pairs of named geoms that touch in a run of the lab as it stands.
+fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
+    let mut session = Session::start(programs, model, lab.keyframe(), &AccessSet::ANY);
+    let timestep = session.world.model.opt.timestep;
+    let Ok(steps) = run::count_steps(lab, None, None, timestep) else { return Vec::new() };
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    run::play(&mut session, &Play::steps(steps.min(STEPS)), |session, _| {
+        for c in &session.world.data.fields().contact {
+            let name = |g: usize| model.names.geom.get(g).filter(|n| simple(n)).cloned();
+            if let (Some(a), Some(b)) = (name(c.geom1), name(c.geom2))
+                && !pairs.contains(&(a.clone(), b.clone()))
+                && pairs.len() < PAIRS
+            {
+                pairs.push((a, b));
+            }
+        }
+        ControlFlow::Continue(())
+    });
+    pairs
+}

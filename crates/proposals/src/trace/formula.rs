@@ -1,0 +1,414 @@
+//! Formulas that stand before a number: `t = \sqrt{2d/g} = 0.4401 s`, worked out with the numbers that the text gives to d and g.
+
+use super::units::si;
+use labspec::verify::Stated;
+
+/// A symbol that the text gives a number to.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Binding {
+    name: String,
+    /// In SI units.
+    value: f64,
+    /// Where that stands in the file.
+    at: usize,
+}
+
+/// A formula, in the language of labs, with its value in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Worked {
+    pub(super) code: String,
+    pub(super) value: f64,
+}
+
+/// Bytes before a number that may be its formula.
+const LONG: usize = 300;
+/// Tokens of a formula, and how deep it may nest.
+const TOKENS: usize = 60;
+const DEEP: usize = 12;
+
+/// The symbols that a text gives numbers to.
+pub(super) fn bindings(numbers: &[Stated]) -> Vec<Binding> {
+    let one = |s: &Stated| {
+        // The formula ends where words begin.
+        let mut parts = chain(s)?.into_iter().map(|part| tokens(&part));
+        let first = parts.find(|all| has_words(all) || all.len() == 1)?;
+        let Some(Token::Symbol(name)) = first.last().cloned() else { return None };
+        Some(Binding { name, value: si(s), at: s.span.start })
+    };
+    numbers.iter().filter_map(one).collect()
+}
+
+/// The formula before a number, worked out.
+pub(super) fn before(s: &Stated, bindings: &[Binding]) -> Option<Worked> {
+    for part in chain(s)? {
+        let all = tokens(&part);
+        // Words stand before the formula: the longest end of the text that is one.
+        let found = (0..all.len()).find_map(|from| {
+            let mut parser = Parser { tokens: all.get(from..)?, at: 0, deep: 0, operations: 0, s, bindings };
+            let worked = parser.sum()?;
+            let whole = parser.at == parser.tokens.len() && parser.operations > 0;
+            whole.then_some(worked)
+        });
+        if found.is_some() {
+            return found.filter(|w| w.value.is_finite());
+        }
+        if has_words(&all) {
+            return None;
+        }
+    }
+    None
+}
+
+/// Whether there is more than a formula.
+fn has_words(all: &[Token]) -> bool {
+    all.iter()
+        .any(|t| matches!(t, Token::Symbol(name) if name.len() > 3 && name.chars().all(char::is_alphabetic)))
+}
+
+/// What stands before a number, between the signs of equality, the nearest first; `None` where no such sign is before it.
+fn chain(s: &Stated) -> Option<Vec<String>> {
+    let text = s.paragraph.get(..s.at)?;
+    let mut from = text.len().saturating_sub(LONG);
+    while !text.is_char_boundary(from) {
+        from += 1;
+    }
+    let text = text.get(from..)?.replace("\\approx", "≈").replace("\\quad", "=");
+    let mut parts: Vec<&str> = text.split(['=', '≈']).collect();
+    let last = parts.pop()?;
+    let nothing = last.chars().all(|c| c.is_whitespace() || matches!(c, '$' | '{' | '~' | '\\' | ',' | ';'));
+    if parts.is_empty() || !nothing {
+        return None;
+    }
+    parts.reverse();
+    Some(parts.into_iter().map(|p| p.trim_matches(['$', ' ', '\n']).to_string()).collect())
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    Number(f64, String),
+    Symbol(String),
+    Command(String),
+    Sign(char),
+}
+
+/// The last tokens of a text.
+fn tokens(text: &str) -> Vec<Token> {
+    let chars: Vec<char> = text.chars().collect();
+    let at = |i: usize| chars.get(i).copied();
+    let mut all = Vec::new();
+    let mut i = 0;
+    while let Some(c) = at(i) {
+        let run = |from: usize, test: &dyn Fn(char) -> bool| {
+            (from..).take_while(|k| at(*k).is_some_and(test)).count()
+        };
+        match c {
+            '0'..='9' => {
+                let length = match is_digit_of_fraction(&all) {
+                    true => 1,
+                    false => run(i, &|c| c.is_ascii_digit() || c == '.'),
+                };
+                let word: String = chars.iter().skip(i).take(length).collect();
+                let word = word.trim_end_matches('.').to_string();
+                all.push(word.parse().map_or(Token::Sign('?'), |x| Token::Number(x, word)));
+                i += length;
+                continue;
+            }
+            '\\' => {
+                let length = run(i + 1, &|c| c.is_ascii_alphabetic());
+                let word: String = chars.iter().skip(i + 1).take(length).collect();
+                command(&chars, &mut i, word, length, &mut all);
+                i += length + 1;
+                continue;
+            }
+            '×' | '·' | '*' => all.push(Token::Sign('*')),
+            '−' | '-' | '–' => all.push(Token::Sign('-')),
+            '²' | '³' => {
+                all.push(Token::Sign('^'));
+                let (x, word) = if c == '²' { (2.0, "2") } else { (3.0, "3") };
+                all.push(Token::Number(x, word.into()));
+            }
+            '√' => all.push(Token::Command("sqrt".into())),
+            '+' | '/' | '(' | ')' | '{' | '}' | '^' => all.push(Token::Sign(c)),
+            c if c.is_alphabetic() => {
+                let length = run(i, &|c| c.is_alphabetic());
+                if length == 1 {
+                    symbol(&chars, &mut i, c.to_string(), 1, &mut all);
+                } else {
+                    // Letters side by side are a product in a formula, and a word in a sentence.
+                    let word: String = chars.iter().skip(i).take(length).collect();
+                    all.push(Token::Symbol(word));
+                    i += length - 1;
+                }
+            }
+            c if c.is_whitespace() || matches!(c, '$' | '~') => {}
+            c => all.push(Token::Sign(c)),
+        }
+        i += 1;
+    }
+    let from = all.len().saturating_sub(TOKENS);
+    all.split_off(from)
+}
+
+/// Whether the next digit is a number by itself: of `\tfrac12` each digit is one.
+fn is_digit_of_fraction(before: &[Token]) -> bool {
+    match before {
+        [.., Token::Command(c)] | [.., Token::Command(c), Token::Number(..)] => c.ends_with("frac"),
+        _ => false,
+    }
+}
+
+/// The token of a command of TeX with a name of this length.
+fn command(chars: &[char], i: &mut usize, name: String, length: usize, all: &mut Vec<Token>) {
+    match name.as_str() {
+        // Spaces, and marks of size.
+        "" => *i += 1,
+        "left" | "right" | "displaystyle" | "mathrm" | "text" | "ast" | "dot" => {}
+        "times" | "cdot" => all.push(Token::Sign('*')),
+        "frac" | "tfrac" | "dfrac" | "sqrt" | "sin" | "cos" | "tan" | "exp" | "ln" => {
+            all.push(Token::Command(name));
+        }
+        _ => symbol(chars, i, name, length + 1, all),
+    }
+}
+
+/// A symbol with what stands below it and its star: `t^\ast`, `z_{k+1}`.
+fn symbol(chars: &[char], i: &mut usize, mut name: String, length: usize, all: &mut Vec<Token>) {
+    let mut end = *i + length;
+    if chars.get(end) == Some(&'_') {
+        let braces = chars.get(end + 1) == Some(&'{');
+        let from = end + if braces { 2 } else { 1 };
+        let count = if braces {
+            (from..).take_while(|k| chars.get(*k).is_some_and(|c| *c != '}')).count()
+        } else {
+            1
+        };
+        name.push('_');
+        name.extend(chars.iter().skip(from).take(count));
+        end = from + count + usize::from(braces);
+    }
+    let rest: String = chars.iter().skip(end).take(5).collect();
+    for star in ["^\\ast", "^*", "^{*}"] {
+        if rest.starts_with(star) {
+            name.push('*');
+            end += star.chars().count();
+            break;
+        }
+    }
+    all.push(Token::Symbol(name));
+    *i = end - length;
+}
+
+struct Parser<'a> {
+    tokens: &'a [Token],
+    at: usize,
+    deep: usize,
+    operations: usize,
+    s: &'a Stated,
+    bindings: &'a [Binding],
+}
+
+impl Parser<'_> {
+    fn sign(&mut self, c: char) -> bool {
+        let there = self.tokens.get(self.at) == Some(&Token::Sign(c));
+        self.at += usize::from(there);
+        there
+    }
+
+    fn sum(&mut self) -> Option<Worked> {
+        self.deep += 1;
+        if self.deep > DEEP {
+            return None;
+        }
+        let mut all = self.product()?;
+        loop {
+            let (sign, add) = if self.sign('+') {
+                ("+", 1.0)
+            } else if self.sign('-') {
+                ("-", -1.0)
+            } else {
+                break;
+            };
+            let next = self.product()?;
+            self.operations += 1;
+            all = Worked {
+                code: format!("({} {sign} {})", all.code, next.code),
+                value: all.value + add * next.value,
+            };
+        }
+        self.deep -= 1;
+        Some(all)
+    }
+
+    fn product(&mut self) -> Option<Worked> {
+        let mut all = self.power()?;
+        loop {
+            if self.sign('/') {
+                let next = self.power()?;
+                all = Worked { code: format!("{} / {}", all.code, next.code), value: all.value / next.value };
+            } else {
+                let written = self.sign('*');
+                let begins = match self.tokens.get(self.at) {
+                    Some(Token::Number(..)) => written,
+                    Some(Token::Symbol(_) | Token::Command(_) | Token::Sign('(' | '{')) => true,
+                    _ => written,
+                };
+                if !begins {
+                    break;
+                }
+                let next = self.power()?;
+                all = Worked { code: format!("{} * {}", all.code, next.code), value: all.value * next.value };
+            }
+            self.operations += 1;
+        }
+        Some(all)
+    }
+
+    fn power(&mut self) -> Option<Worked> {
+        let base = self.atom()?;
+        if !self.sign('^') {
+            return Some(base);
+        }
+        let exponent = self.atom()?;
+        self.operations += 1;
+        Some(Worked {
+            code: format!("({}) ** ({})", base.code, exponent.code),
+            value: base.value.powf(exponent.value),
+        })
+    }
+
+    fn group(&mut self, close: char) -> Option<Worked> {
+        let inner = self.sum()?;
+        let inner = Worked { code: format!("({})", inner.code), ..inner };
+        self.sign(close).then_some(inner)
+    }
+
+    fn atom(&mut self) -> Option<Worked> {
+        let token = self.tokens.get(self.at)?;
+        self.at += 1;
+        match token {
+            Token::Number(value, code) => Some(Worked { code: code.clone(), value: *value }),
+            Token::Symbol(name) => self.bound(name),
+            Token::Sign('(') => self.group(')'),
+            Token::Sign('{') => self.group('}'),
+            Token::Sign('-') => {
+                let inner = self.product()?;
+                Some(Worked { code: format!("(-{})", inner.code), value: -inner.value })
+            }
+            Token::Sign(_) => None,
+            Token::Command(name) if name.ends_with("frac") => {
+                let (above, below) = (self.atom()?, self.atom()?);
+                self.operations += 1;
+                Some(Worked {
+                    code: format!("({} / {})", above.code, below.code),
+                    value: above.value / below.value,
+                })
+            }
+            Token::Command(name) => {
+                let of = self.atom()?;
+                self.operations += 1;
+                let (function, value) = match name.as_str() {
+                    "sqrt" => ("sqrt", of.value.sqrt()),
+                    "sin" => ("sin", of.value.sin()),
+                    "cos" => ("cos", of.value.cos()),
+                    "tan" => ("tan", of.value.tan()),
+                    "exp" => ("exp", of.value.exp()),
+                    _ => ("log", of.value.ln()),
+                };
+                Some(Worked { code: format!("Math.{function}({})", of.code), value })
+            }
+        }
+    }
+
+    /// What a symbol is: what the text last said before the number, else what it says behind it.
+    fn bound(&self, name: &str) -> Option<Worked> {
+        let here = self.s.span.start;
+        let bound = || self.bindings.iter().filter(|b| b.name == name && b.at != here);
+        let found =
+            bound().filter(|b| b.at < here).max_by_key(|b| b.at).or_else(|| bound().min_by_key(|b| b.at));
+        let constant = match name {
+            "pi" | "π" => Some(("Math.PI".to_string(), std::f64::consts::PI)),
+            "e" => Some(("Math.E".to_string(), std::f64::consts::E)),
+            _ => None,
+        };
+        if let Some(b) = found {
+            return Some(Worked { code: b.value.to_string(), value: b.value });
+        }
+        if let Some((code, value)) = constant {
+            return Some(Worked { code, value });
+        }
+        // Letters side by side: `gd`.
+        let letters: Vec<char> = name.chars().collect();
+        if !(2..=3).contains(&letters.len()) || !letters.iter().all(|c| c.is_ascii_lowercase()) {
+            return None;
+        }
+        let parts: Vec<Worked> = letters.iter().map(|c| self.bound(&c.to_string())).collect::<Option<_>>()?;
+        let code: Vec<&str> = parts.iter().map(|p| p.code.as_str()).collect();
+        Some(Worked { code: code.join(" * "), value: parts.iter().map(|p| p.value).product() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use labspec_expr::dimension::Dimension;
+    use std::sync::Arc;
+
+    fn stated(text: &str, number: &str, at: usize) -> Option<Stated> {
+        let read = labspec::verify::quoted(number).ok()?;
+        Some(Stated {
+            quote: number.into(),
+            span: at..at + 1,
+            read,
+            unit: String::new(),
+            dimension: Dimension::NUMBER,
+            context: String::new(),
+            column: String::new(),
+            paragraph: Arc::from(text),
+            at: text.rfind(number)?,
+            bound: false,
+            answer: false,
+        })
+    }
+
+    fn value(text: &str, number: &str) -> Option<f64> {
+        let known =
+            [("d", 0.95), ("g", 9.81), ("h", 0.005), ("t", 0.5), ("v_0", 4.3), ("z_0", 1.0), ("r", 0.05)];
+        let known: Vec<Binding> = known
+            .iter()
+            .map(|(name, value)| Binding { name: (*name).into(), value: *value, at: 0 })
+            .collect();
+        before(&stated(text, number, 9)?, &known).map(|w| w.value)
+    }
+
+    #[test]
+    fn formulas_are_worked_out() {
+        for (text, number, truth) in [
+            ("which takes $t^\\ast = \\sqrt{2d/g} = 0.4401$ s", "0.4401", (2.0 * 0.95 / 9.81f64).sqrt()),
+            ("at speed \\sqrt{2gd} = 4.317", "4.317", (2.0 * 9.81 * 0.95f64).sqrt()),
+            ("it falls d = z_0 - r = 0.95", "0.95", 0.95),
+            ("is \\tfrac12 g h t = 0.01226 m = 12.26", "12.26", 0.5 * 9.81 * 0.005 * 0.5),
+            ("about $v_0 / (\\omega e) = 4.3 / (50 \\times 2.72)$ = 32", "32", 4.3 / (50.0 * 2.72)),
+            ("\\frac{1}{2} g t^2 = 1.2", "1.2", 0.5 * 9.81 * 0.25),
+        ] {
+            let found = value(text, number).unwrap_or(f64::NAN);
+            assert!((found - truth).abs() < 1e-12 * truth, "{text}: {found}");
+        }
+        for (text, number) in
+            [("the ball falls 0.95", "0.95"), ("h = 5", "5"), ("a word = 3", "3"), ("= 3", "3")]
+        {
+            assert_eq!(value(text, number), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn symbols_are_bound_where_they_are_given() {
+        let names = |text: &str, number: &str| -> Vec<String> {
+            stated(text, number, 3)
+                .map_or(Vec::new(), |s| bindings(&[s]).into_iter().map(|b| b.name).collect())
+        };
+        assert_eq!(names("with $h$ = 5", "5"), ["h"]);
+        assert_eq!(names("t^\\ast = \\sqrt{2d/g} = 0.44", "0.44"), ["t*"]);
+        assert_eq!(names("height $z_0$ = 1.0", "1.0"), ["z_0"]);
+        assert!(names("a height of 1.0", "1.0").is_empty());
+    }
+}

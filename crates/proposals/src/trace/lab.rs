@@ -1,0 +1,64 @@
+//! A lab with everything that was measured in it.
+
+use super::candidates::{Candidate, candidates};
+use super::restored;
+use super::trials::{Trial, trials};
+use super::words::text;
+use labspec::bind::Programs;
+use labspec::bind::scene::Models;
+use labspec::check;
+use labspec::run::StepVariant;
+use labspec::spec::{Lab, LabAddress, Lesson, Verify};
+use labspec::verify::{self, BoundLab, BoundVerify, Stage, Stated};
+use labspec_core::Model;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A lab with everything that was measured in it.
+pub(crate) struct TracedLab<'l> {
+    pub(crate) address: LabAddress,
+    pub(crate) lab: &'l Lab,
+    /// The question that it belongs to.
+    pub(crate) owner: Option<Range<usize>>,
+    model: Arc<Model>,
+    programs: Programs,
+    pub(crate) trials: Vec<Trial>,
+    pub(crate) candidates: Vec<Candidate>,
+    /// Value of every candidate in every trial; NaN where there is none.
+    pub(crate) values: Vec<Vec<f64>>,
+}
+
+impl<'l> TracedLab<'l> {
+    /// Makes the runs of a lab that the text names, and takes every measure; `None` where the lab cannot run.
+    pub(super) fn measure(
+        lesson: &Lesson,
+        (address, lab): (LabAddress, &'l Lab),
+        numbers: &[Stated],
+        models: &Models,
+        stage: &Stage<'_>,
+    ) -> Option<TracedLab<'l>> {
+        let (model, programs, _) = check::bind(lab, models, &mut Vec::new())?;
+        let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
+        let owner = questions.map(|(_, q)| q.span.clone()).find(|span| span.contains(&lab.span.start));
+        let trials = restored::with(trials(lab, numbers), lab, &model, &programs);
+        let candidates = candidates(lab, &model, &programs, numbers);
+        let mut traced =
+            TracedLab { address, lab, owner, model, programs, trials, candidates, values: Vec::new() };
+        traced.values =
+            traced.trials.iter().map(|t| traced.values_of(t, stage, StepVariant::NOMINAL)).collect();
+        Some(traced)
+    }
+
+    /// Makes a run of the lab, and takes every measure. A run that breaks has no values.
+    pub(crate) fn values_of(&self, trial: &Trial, stage: &Stage<'_>, numerics: StepVariant) -> Vec<f64> {
+        let TracedLab { lab, model, programs, candidates, .. } = self;
+        let none = || vec![f64::NAN; candidates.len()];
+        let name = |i: usize| text(&format!("m{i}"));
+        let measure = candidates.iter().enumerate().map(|(i, c)| (name(i), text(&c.text))).collect();
+        let verify = Verify::measuring(0..0, vec![trial.run("run")], measure);
+        let scene = BoundLab::new(lab, model, programs);
+        let bound = BoundVerify::new(&verify, None, &[vec![scene]], stage, &mut Vec::new());
+        let found = bound.and_then(|bound| verify::measure_only_run(&bound, numerics));
+        found.filter(|values| values.len() == candidates.len()).unwrap_or_else(none)
+    }
+}

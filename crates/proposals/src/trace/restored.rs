@@ -1,0 +1,79 @@
+//! Runs with the model as its file has it. The setup of a lab, of a question above all, may change its model ("the cube weighs
+//! 1.2 kg"), while the text goes on to speak of the one that the course has shown so far.
+
+use super::trials::{MOST, Trial};
+use labspec::bind::{ControlProgram, Programs, functions};
+use labspec::run::{Budget, Session};
+use labspec::spec::Lab;
+use labspec_core::Model;
+use labspec_core::reflect::{FieldId, Object};
+
+/// A setup that changes more than this makes another model.
+const CHANGED: usize = 8;
+
+/// The runs of a lab; behind them the first one, and those with a button, with the model as its file has it.
+pub(super) fn with(mut all: Vec<Trial>, lab: &Lab, model: &Model, programs: &Programs) -> Vec<Trial> {
+    let Some(statements) = statements(lab, model, programs) else { return all };
+    let again = |(at, trial): (usize, &Trial)| {
+        (at == 0 || !trial.press.is_empty()).then(|| Trial {
+            words: format!("{}, with the model as in its file", trial.words),
+            restored: Some(statements.clone()),
+            ..trial.clone()
+        })
+    };
+    let more: Vec<Trial> = all.iter().enumerate().filter_map(again).collect();
+    all.extend(more);
+    all.truncate(MOST);
+    all
+}
+
+/// Statements that put back what the setup of a lab changes of its model; `None` where that is nothing, or too much, or where a
+/// control sets it, too.
+fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
+    let setup = programs.setup.as_ref()?;
+    let set = programs.controls.iter().filter_map(|(_, control)| match control {
+        ControlProgram::Change(_, action) => action.run.as_ref(),
+        ControlProgram::Press(run) => run.as_ref(),
+    });
+    let set: Vec<_> = set.flat_map(|bound| bound.program.own_writes()).map(|write| write.field).collect();
+    let writes = setup.program.own_writes();
+    if !writes.iter().any(|write| of_model(FieldId::new(write.field.0 as usize))) {
+        return None;
+    }
+    let session = Session::start_within(programs, model, lab.keyframe(), &programs.demand, Budget::TRIAL);
+    let mut all: Vec<String> = Vec::new();
+    for write in writes {
+        let field = FieldId::new(write.field.0 as usize).filter(|f| of_model(Some(*f)));
+        let Some(field) = field.filter(|_| !set.contains(&write.field)) else { continue };
+        let (own, now) = (model.field(field)?, session.world.model.field(field)?);
+        let end = write.count.map_or(own.len(), |n| write.first + n).min(own.len());
+        for i in write.first..end {
+            let (own, now) = (own.get(i)?, now.get(i)?);
+            let statement = format!("{} = {own}", element(field, i));
+            if own != now && own.is_finite() && !all.contains(&statement) {
+                all.push(statement);
+            }
+        }
+    }
+    if all.is_empty() || all.len() > CHANGED {
+        return None;
+    }
+    // What follows from masses is computed again where the setup does so.
+    let calls = &setup.program.effects().calls;
+    if calls.iter().any(|&f| functions::name(f) == Some("mj_setConst")) {
+        all.push("mj.mj_setConst(model, data)".into());
+    }
+    Some(all.join("; "))
+}
+
+fn of_model(field: Option<FieldId>) -> bool {
+    field.is_some_and(|f| matches!(f.info().object, Object::Model | Object::Option))
+}
+
+/// An element as a lab writes it.
+fn element(field: FieldId, index: usize) -> String {
+    let info = field.info();
+    let object = if info.object == Object::Option { "model.opt" } else { "model" };
+    let at = if info.shape.is_empty() { String::new() } else { format!("[{index}]") };
+    format!("{object}.{}{at}", info.name)
+}
