@@ -120,7 +120,7 @@ impl<'a> BoundVerify<'a> {
         };
         let bare = |run: &BoundRun<'_>| (run.name.to_string(), run.swept, names(run));
         let runs: Vec<_> = self.runs.iter().map(bare).collect();
-        self.layout = Layout::lay_out(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
+        self.layout = Layout::from_runs(&runs, self.verify.find.iter().map(|f| f.name.value.clone()));
     }
 
     /// The places of the numbers that claims read.

@@ -57,7 +57,7 @@ pub(super) fn check_column(
     for [key, text] in cells {
         all.push(match rows.member(&key) {
             Ok(member) => check_cell(checker, &text, &claim.is, &unit, &format!("[{member}]"), findings),
-            Err(finding) => refused(&text, finding, findings),
+            Err(finding) => refused(&text, *finding, findings),
         });
     }
     all
@@ -79,7 +79,7 @@ impl SweepRows<'_> {
     ///
     /// # Errors
     /// No value of the sweep is that of the cell.
-    fn member(&self, key: &Text) -> Result<usize, Finding> {
+    fn member(&self, key: &Text) -> Result<usize, Box<Finding>> {
         let read = quote::reading(&key.value).ok();
         let unit = read.as_ref().and_then(|read| read.unit().cloned()).or_else(|| self.key_head.clone());
         // Cells in millimetres beside values in metres are converted; another dimension is nobody's value.
@@ -98,10 +98,11 @@ impl SweepRows<'_> {
                 format!(": the column is in {}, but the values are in another unit", unit.text)
             });
             let message = format!("no run covers the row \"{}\"{other}", key.value);
-            Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
+            let finding = Finding::new(rules::QUOTE_UNCLEAR, key.span(), message)
                 .why("the number in this row was compared with nothing")
                 .help("add this value to the sweep, or correct the row")
-                .related(self.list.span(), "the values of the sweep")
+                .related(self.list.span(), "the values of the sweep");
+            Box::new(finding)
         })
     }
 }
@@ -140,7 +141,7 @@ fn check_word_cell(
 ) -> Quote {
     let expr = match condition_of_word(text, words) {
         Ok(expr) => part(expr, member),
-        Err(finding) => return refused(text, finding, findings),
+        Err(finding) => return refused(text, *finding, findings),
     };
     let given = match QuotedValue::measure(checker, &expr, findings) {
         Ok(given) => given,
@@ -171,27 +172,33 @@ fn check_word_cell(
 ///
 /// # Errors
 /// There is none, there are too many words, or the cell holds a number that no condition checks.
-fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w Text, Finding> {
+fn condition_of_word<'w>(text: &Text, words: &'w [(Text, Text)]) -> Result<&'w Text, Box<Finding>> {
     let is_word = |(word, _): &&(Text, Text)| quote::reads_the_same(word.as_str(), text.as_str());
     let Some((_, expr)) = words.iter().find(is_word) else {
         let message = format!("no condition belongs to \"{}\"", text.value);
         let claimed: Vec<&str> = words.iter().map(|(word, _)| word.as_str()).collect();
-        return Err(Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
-            .why("this cell was compared with nothing")
-            .help(format!("write one of {}, or add a condition for this word", claimed.join(", "))));
+        return Err(Box::new(
+            Finding::new(rules::QUOTE_UNCLEAR, text.span(), message)
+                .why("this cell was compared with nothing")
+                .help(format!("write one of {}, or add a condition for this word", claimed.join(", "))),
+        ));
     };
     if words.len() > MOST_WORDS {
         let message =
             format!("a column has {} different words, but at most {MOST_WORDS} are allowed", words.len());
-        return Err(Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
-            .why("nothing was compared")
-            .help("claim its cells one by one, with `row`"));
+        return Err(Box::new(
+            Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
+                .why("nothing was compared")
+                .help("claim its cells one by one, with `row`"),
+        ));
     }
     if !quote::parts(text.as_str(), 0).is_empty() {
         let message = format!("\"{}\" contains a number that no condition checks", text.value);
-        return Err(Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
-            .why("the cell would count as right whatever its number")
-            .help("quote it under `says`: an expression for its number, and a condition for its words"));
+        return Err(Box::new(
+            Finding::error(rules::QUOTE_UNCLEAR, text.span(), message)
+                .why("the cell would count as right whatever its number")
+                .help("quote it under `says`: an expression for its number, and a condition for its words"),
+        ));
     }
     Ok(expr)
 }

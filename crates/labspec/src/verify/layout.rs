@@ -55,7 +55,7 @@ const WARNINGS: &str = "warnings";
 
 impl Layout {
     /// Of the runs in their order, and the names of what is searched for.
-    pub(super) fn lay_out(runs: &[RunShape], found: impl Iterator<Item = String>) -> Layout {
+    pub(super) fn from_runs(runs: &[RunShape], found: impl Iterator<Item = String>) -> Layout {
         let mut layout = Layout::default();
         for (place, (name, swept, measures)) in runs.iter().enumerate() {
             let mut run = LayoutRun { name: name.clone(), list: None, at: Vec::new() };

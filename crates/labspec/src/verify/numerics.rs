@@ -16,9 +16,9 @@ pub(super) const TIGHT: StepVariant = StepVariant { tight: true, ..StepVariant::
 
 /// Far below what anybody could set or measure; a system that shows it after seconds is chaotic.
 pub(super) const NUDGE: f64 = 1e-14;
-
+/// The start moved by `NUDGE`.
 pub const NUDGED: StepVariant = StepVariant { perturbation: NUDGE, ..StepVariant::NOMINAL };
-
+/// The start moved back by it.
 pub const NUDGED_BACK: StepVariant = StepVariant { perturbation: -NUDGE, ..StepVariant::NOMINAL };
 
 /// Other numerics that every answer is put to.
