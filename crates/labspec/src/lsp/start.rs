@@ -1,6 +1,6 @@
 //! Labs at their start, for whoever points at something in them: what it is worth before the first step.
 
-use super::course::Around;
+use super::context::ModelContext;
 use crate::bind::dimension_of;
 use crate::bind::{ModelNames, Programs, Scope};
 use crate::finding::Finding;
@@ -16,12 +16,12 @@ use std::sync::Arc;
 const WORK: Budget = Budget { left: 20_000_000 };
 /// How many labs are kept.
 const MOST: usize = 8;
-/// Most elements of an array that are shown.
-const SHOWN: usize = 9;
+/// Most elements of an array that are displayed.
+const MOST_ELEMENTS: usize = 9;
 
 /// A lab at its start.
 #[derive(Debug)]
-pub(super) struct Started {
+pub(super) struct StartedLab {
     /// The text of the lab.
     key: String,
     pub(super) model: Arc<Model>,
@@ -29,22 +29,22 @@ pub(super) struct Started {
 }
 
 /// The model of a lab, started if need be. `None` when there is no such model, or it has mistakes.
-pub(super) fn started<'a>(around: &'a mut Around, lab: &Lab, key: &str) -> Option<&'a Started> {
-    if let Some(at) = around.started.iter().position(|s| s.key == key) {
-        return around.started.get(at);
+pub(super) fn started<'a>(context: &'a mut ModelContext, lab: &Lab, key: &str) -> Option<&'a StartedLab> {
+    if let Some(at) = context.started.iter().position(|s| s.key == key) {
+        return context.started.get(at);
     }
-    let model = around.models.of(lab, &mut Vec::<Finding>::new())?;
+    let model = context.models.of(lab, &mut Vec::<Finding>::new())?;
     let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
     let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
-    if around.started.len() >= MOST {
-        around.started.remove(0);
+    if context.started.len() >= MOST {
+        context.started.remove(0);
     }
-    around.started.push(Started { key: key.to_string(), model, session });
-    around.started.last()
+    context.started.push(StartedLab { key: key.to_string(), model, session });
+    context.started.last()
 }
 
 /// What an expression is worth at the start of the lab, as text. `None` when it means nothing there, or does not come to an end.
-pub(super) fn value(started: &Started, code: &str) -> Option<String> {
+pub(super) fn value(started: &StartedLab, code: &str) -> Option<String> {
     let mut session = started.session.clone();
     if session.ended().is_some() {
         return None;
@@ -57,7 +57,7 @@ pub(super) fn value(started: &Started, code: &str) -> Option<String> {
 }
 
 /// What an expression measures, as a unit; `None` where that is not certain, or it is a plain number.
-pub(super) fn unit(started: &Started, lab: &Lab, code: &str) -> Option<String> {
+pub(super) fn unit(started: &StartedLab, lab: &Lab, code: &str) -> Option<String> {
     let dimension = dimension_of(lab, &started.model, started.session.programs(), code)?;
     // A number of the text may stand for anything.
     (!dimension.is_number() && !dimension.factor.is_nan()).then(|| written(&dimension))
@@ -67,8 +67,8 @@ pub(super) fn unit(started: &Started, lab: &Lab, code: &str) -> Option<String> {
 fn elements(session: &mut Session<'static>, model: &Model, code: &str) -> Option<String> {
     let mut text = |code: String| evaluate(session, model, &code).map(|(_, text)| text);
     let count: usize = text(format!("({code}).length"))?.parse().ok()?;
-    let first = text(format!("({code}).slice(0, {SHOWN}).join(', ')"))?;
-    Some(if count > SHOWN { format!("[{first}, … {count} in all]") } else { format!("[{first}]") })
+    let first = text(format!("({code}).slice(0, {MOST_ELEMENTS}).join(', ')"))?;
+    Some(if count > MOST_ELEMENTS { format!("[{first}, … {count} in all]") } else { format!("[{first}]") })
 }
 
 fn evaluate(session: &mut Session<'static>, model: &Model, code: &str) -> Option<(Type, String)> {

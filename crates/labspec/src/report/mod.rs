@@ -9,7 +9,7 @@ mod human;
 mod machine;
 mod table;
 #[cfg(feature = "cli")]
-mod uri;
+pub(crate) mod uri;
 
 pub use crate::printable::{printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "cli")]
