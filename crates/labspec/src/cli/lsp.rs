@@ -6,7 +6,7 @@ use super::target::model_folder;
 use super::{Failure, ModelOptions, Outcome};
 use crate::finding::Finding;
 use crate::lint::ModelFolder;
-use crate::lsp::{Course, serve};
+use crate::lsp::{CourseConfig, serve};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufReader;
@@ -26,35 +26,35 @@ pub(super) struct Arguments {
 
 pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
     Policies::new(&a.policy)?;
-    // What cannot be read is said once, on standard error: editors keep it in their log.
-    let said = RefCell::new(BTreeSet::new());
-    let say = |why: Failure| {
-        if said.borrow_mut().insert(why.clone()) {
+    // What cannot be read is reported once, on standard error: editors keep it in their log.
+    let reported = RefCell::new(BTreeSet::new());
+    let report = |why: Failure| {
+        if reported.borrow_mut().insert(why.clone()) {
             complain(&format!("labspec: {why}\n"));
         }
     };
     let models = |path: &Path| {
         model_folder(&a.models, path).unwrap_or_else(|why| {
-            say(why);
+            report(why);
             ModelFolder::unknown()
         })
     };
     // Settings may change while the editor is open: they are read anew where files may have changed.
-    let known: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
+    let cached: RefCell<BTreeMap<PathBuf, Policy>> = RefCell::default();
     let mut policy = |path: &Path, findings: &mut Vec<Finding>| {
-        if let Some(policy) = known.borrow().get(path) {
+        if let Some(policy) = cached.borrow().get(path) {
             return drop(policy.apply(findings));
         }
         match Policies::new(&a.policy).and_then(|mut all| all.of(path)) {
             Ok(policy) => {
                 drop(policy.apply(findings));
-                known.borrow_mut().insert(path.to_path_buf(), policy);
+                cached.borrow_mut().insert(path.to_path_buf(), policy);
             }
-            Err(why) => say(why),
+            Err(why) => report(why),
         }
     };
-    let refresh = || known.borrow_mut().clear();
-    let course = Course { models: &models, policy: &mut policy, refresh: &refresh };
+    let refresh = || cached.borrow_mut().clear();
+    let course = CourseConfig { models: &models, policy: &mut policy, refresh: &refresh };
     let input = BufReader::new(std::io::stdin());
     match serve(course, input, &mut std::io::stdout().lock()) {
         Ok(true) => Ok(Outcome::Clean),

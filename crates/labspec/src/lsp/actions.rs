@@ -2,7 +2,7 @@
 
 use super::convert;
 use super::diagnostic::diagnostic;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use crate::bind::scene::Models;
 use crate::check::{self, CheckLevel};
 use crate::finding::{Applicability, Finding, Fix};
@@ -20,7 +20,7 @@ const FIX_ALL: CodeActionKind = CodeActionKind::new("source.fixAll.labspec");
 
 /// What is offered for a range of a document. `only` are the kinds that are asked for; without it all are.
 pub(super) fn code_actions(
-    document: &Document,
+    document: &OpenDocument,
     lesson: Option<&Lesson>,
     span: &Range<usize>,
     only: Option<&[CodeActionKind]>,
@@ -50,7 +50,7 @@ pub(super) fn code_actions(
 }
 
 /// The fix of a finding.
-fn apply_fix(document: &Document, f: &Finding, fix: &Fix) -> Option<CodeAction> {
+fn apply_fix(document: &OpenDocument, f: &Finding, fix: &Fix) -> Option<CodeAction> {
     let file = &document.file;
     let (old, new) = (shorten(file.slice(fix.span.clone())), shorten(&fix.text));
     let change = match (old.is_empty(), new.is_empty()) {
@@ -68,7 +68,7 @@ fn apply_fix(document: &Document, f: &Finding, fix: &Fix) -> Option<CodeAction> 
 }
 
 /// An action that answers a finding.
-fn quick_fix(document: &Document, f: &Finding, title: String, edit: WorkspaceEdit) -> CodeAction {
+fn quick_fix(document: &OpenDocument, f: &Finding, title: String, edit: WorkspaceEdit) -> CodeAction {
     CodeAction {
         title,
         kind: Some(CodeActionKind::QUICKFIX),
@@ -86,7 +86,7 @@ fn shorten(text: &str) -> String {
 }
 
 /// A text in place of a span of the document, in the version that the editor holds.
-fn workspace_edit(document: &Document, span: Range<usize>, new_text: String) -> WorkspaceEdit {
+fn workspace_edit(document: &OpenDocument, span: Range<usize>, new_text: String) -> WorkspaceEdit {
     let edit = TextEdit { range: convert::range(&document.file, &span), new_text };
     let edits = TextDocumentEdit {
         text_document: OptionalVersionedTextDocumentIdentifier {
@@ -99,7 +99,7 @@ fn workspace_edit(document: &Document, span: Range<usize>, new_text: String) -> 
 }
 
 /// All safe fixes that are proven, at once.
-fn fix_all(document: &Document, lesson: &Lesson, models: &Models) -> Option<CodeAction> {
+fn fix_all(document: &OpenDocument, lesson: &Lesson, models: &Models) -> Option<CodeAction> {
     let is_safe = |f: &Finding| f.fix.as_ref().is_some_and(|fix| fix.applicability == Applicability::Safe);
     if !document.findings.iter().any(is_safe) {
         return None;
@@ -140,7 +140,7 @@ fn changed(old: &str, new: &str) -> (Range<usize>, String) {
 
 /// To suppress a finding: its code in the `lint` of the lab, the question or the quiz, where the author writes the reason; for prose,
 /// in a comment before it.
-fn suppress(document: &Document, lesson: &Lesson, f: &Finding) -> Option<CodeAction> {
+fn suppress(document: &OpenDocument, lesson: &Lesson, f: &Finding) -> Option<CodeAction> {
     let file = &document.file;
     if lesson.is_broken(&f.span) {
         return None;

@@ -4,7 +4,7 @@
 //! for as long as its text and the labs that it names stay what they are.
 
 use super::context::ModelContext;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use crate::bind::scene::{Models, compile_file};
 use crate::check::{self, CheckLevel, LabOutcome};
 use crate::finding::Finding;
@@ -18,7 +18,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Looks at a document: what is found of it is in the document then.
-pub(super) fn check_document(document: &mut Document, context: &ModelContext) {
+pub(super) fn check_document(document: &mut OpenDocument, context: &ModelContext) {
     document.stale = false;
     match document.kind {
         FileKind::Lesson | FileKind::Json => {
@@ -27,7 +27,7 @@ pub(super) fn check_document(document: &mut Document, context: &ModelContext) {
             let other =
                 document.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty();
             document.findings =
-                if other { Vec::new() } else { bound(&lesson, &mut document.blocks, &context.models) };
+                if other { Vec::new() } else { check_blocks(&lesson, &mut document.blocks, &context.models) };
             document.lesson = Some(Arc::new(lesson));
         }
         FileKind::Model => {
@@ -43,7 +43,7 @@ pub(super) fn check_document(document: &mut Document, context: &ModelContext) {
 }
 
 /// The lesson of a document, read if need be.
-pub(super) fn lesson(document: &mut Document, context: &ModelContext) -> Option<Arc<Lesson>> {
+pub(super) fn lesson(document: &mut OpenDocument, context: &ModelContext) -> Option<Arc<Lesson>> {
     if !matches!(document.kind, FileKind::Lesson | FileKind::Json) {
         return None;
     }
@@ -52,19 +52,23 @@ pub(super) fn lesson(document: &mut Document, context: &ModelContext) -> Option<
     Some(lesson)
 }
 
-fn read(document: &Document, context: &ModelContext) -> Lesson {
+fn read(document: &OpenDocument, context: &ModelContext) -> Lesson {
     load_lesson_at(document.file.clone(), &document.path, &context.sources, context.models.folder())
 }
 
 /// The findings of a lesson whose blocks are bound as far as they are new.
-fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &Models) -> Vec<Finding> {
+fn check_blocks(
+    lesson: &Lesson,
+    blocks: &mut BTreeMap<String, Vec<Finding>>,
+    models: &Models,
+) -> Vec<Finding> {
     let mut kept = BTreeMap::new();
     let mut findings = Vec::new();
     let models_now = models_hash(models);
     for unit in units(lesson) {
-        let key = format!("{models_now}\0{}", key(lesson, &unit));
+        let key = format!("{models_now}\0{}", block_key(lesson, &unit));
         let cached = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
-        let found = cached.unwrap_or_else(|| examine(lesson, &unit, models));
+        let found = cached.unwrap_or_else(|| check_block(lesson, &unit, models));
         findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
         // A finding that points out of its block rests on more than the block.
         if found.iter().all(|f| spans(f).all(|span| span.end <= unit.len())) {
@@ -91,7 +95,7 @@ fn units(lesson: &Lesson) -> Vec<Range<usize>> {
 }
 
 /// What the findings of a block rest on: its text, that which it is about, and that of the labs and claims that it names.
-fn key(lesson: &Lesson, unit: &Range<usize>) -> String {
+fn block_key(lesson: &Lesson, unit: &Range<usize>) -> String {
     let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
     let mut key = lesson.file.slice(unit.clone()).to_string();
     let used = claims(lesson, unit).flat_map(|claim| lesson.used_by(claim)).map(|used| used.span.clone());
@@ -130,7 +134,7 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
 }
 
 /// Binds one block, as if there were no others but those that it names. Occurrences count from its beginning.
-fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
+fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
     let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
     let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
     let elsewhere = |other: &&Other| {
@@ -221,7 +225,7 @@ It comes late.
         let context = ModelContext {
             models: Arc::new(Models::new(folder)),
             sources: Sources::Disk,
-            started: Vec::new(),
+            started: Default::default(),
         };
         let (mut changes, mut with_findings) = (0, 0);
         let whole = |text: String| TextDocumentContentChangeEvent { range: None, range_length: None, text };
@@ -230,7 +234,7 @@ It comes late.
             ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
         for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
             let path = specs.join("lessons").join(name);
-            let mut document = Document::new("file:///a.md".parse().unwrap(), path.clone(), &text, 1);
+            let mut document = OpenDocument::new("file:///a.md".parse().unwrap(), path.clone(), &text, 1);
             let typed =
                 [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")];
             for (at, what) in

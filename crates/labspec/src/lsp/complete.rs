@@ -4,7 +4,7 @@ use super::check::lesson;
 use super::code;
 use super::context::ModelContext;
 use super::convert;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use crate::bind::ModelNames;
 use crate::spec::Verify;
 use crate::spec::format::{Completion, completions_in};
@@ -13,7 +13,7 @@ use lsp_types::{CompletionItem, CompletionItemKind, Documentation, MarkupContent
 
 /// What can be written at a byte of a document.
 pub(super) fn completions(
-    document: &mut Document,
+    document: &mut OpenDocument,
     context: &ModelContext,
     byte: usize,
 ) -> Vec<CompletionItem> {

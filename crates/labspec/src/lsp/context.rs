@@ -1,8 +1,8 @@
 //! What lies around a document: the models that its labs name, compiled once, and the other lessons of the folder.
 
 use super::convert;
-use super::documents::Document;
-use super::start::StartedLab;
+use super::documents::OpenDocument;
+use super::start::StartedLabs;
 use crate::bind::scene::Models;
 use crate::lint::ModelFolder;
 use crate::source::{MAX_FILE, Overlay, SourceFile, Sources};
@@ -26,7 +26,7 @@ pub(super) struct ModelContext {
     /// Where other lessons are read from: the editor's texts, then files.
     pub(super) sources: Sources,
     /// The labs that somebody pointed into last.
-    pub(super) started: Vec<StartedLab>,
+    pub(super) started: StartedLabs,
 }
 
 /// The models and sources of all open documents, by the folder of models.
@@ -62,7 +62,7 @@ impl ModelContexts {
         let new = |folder: &ModelFolder| ModelContext {
             models: Arc::new(Models::new(folder.clone()).with_sources(sources.clone())),
             sources: sources.clone(),
-            started: Vec::new(),
+            started: StartedLabs::default(),
         };
         let context = self.by_folder.entry(key).or_insert_with(|| new(folder));
         // A model that was added or taken away.
@@ -101,7 +101,7 @@ pub(super) struct WorkspaceRoot {
 /// A file as the editor names it: by the document that it has open, or by the folder that it opened.
 pub(super) fn editor_uri(
     path: &Path,
-    open: &BTreeMap<String, Document>,
+    open: &BTreeMap<String, OpenDocument>,
     folders: &[WorkspaceRoot],
 ) -> Option<Uri> {
     if let Some(document) = open.values().find(|d| d.path == path) {
@@ -112,7 +112,7 @@ pub(super) fn editor_uri(
 }
 
 /// The lessons below a folder, as the editor holds them or else as they are saved. Files that `.gitignore` names are left out.
-pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, Document>) -> Vec<SourceFile> {
+pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, OpenDocument>) -> Vec<SourceFile> {
     let mut paths: Vec<PathBuf> = WalkBuilder::new(folder)
         .build()
         .take(MOST_ENTRIES)
@@ -129,7 +129,7 @@ pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, Document>) ->
 }
 
 /// A file as the editor holds it, or else as it is saved.
-pub(super) fn text_of(path: &Path, open: &BTreeMap<String, Document>) -> Option<SourceFile> {
+pub(super) fn text_of(path: &Path, open: &BTreeMap<String, OpenDocument>) -> Option<SourceFile> {
     if let Some(document) = open.values().find(|d| d.path == path) {
         return Some(document.file.clone());
     }

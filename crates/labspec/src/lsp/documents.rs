@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 /// A text of the editor.
 #[derive(Debug)]
-pub(super) struct Document {
+pub(super) struct OpenDocument {
     /// Its name for the editor.
     pub(super) uri: Uri,
     /// Its file, links resolved, which may not exist yet.
@@ -26,17 +26,17 @@ pub(super) struct Document {
     pub(super) stale: bool,
     /// As it was read the last time, if it is a lesson.
     pub(super) lesson: Option<Arc<Lesson>>,
-    /// What is told of it.
+    /// What is reported of it.
     pub(super) findings: Vec<Finding>,
     /// What was found of each block, by the block's text and what it rests on.
     pub(super) blocks: BTreeMap<String, Vec<Finding>>,
 }
 
-impl Document {
+impl OpenDocument {
     /// A text that was opened.
-    pub(super) fn new(uri: Uri, path: PathBuf, text: &str, version: i32) -> Document {
+    pub(super) fn new(uri: Uri, path: PathBuf, text: &str, version: i32) -> OpenDocument {
         let name = path.display().to_string();
-        Document {
+        OpenDocument {
             uri,
             kind: kind_of(&path),
             path,
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn changes_follow_each_other() {
         let uri = "file:///a.md".parse().unwrap();
-        let mut document = Document::new(uri, "/a.md".into(), "a𝄞b\r\ncd\n", 1);
+        let mut document = OpenDocument::new(uri, "/a.md".into(), "a𝄞b\r\ncd\n", 1);
         let at = |line, from, to, text: &str| TextDocumentContentChangeEvent {
             range: Some(Range { start: Position::new(line, from), end: Position::new(line, to) }),
             range_length: None,

@@ -4,14 +4,18 @@ use super::check::lesson;
 use super::code;
 use super::context::ModelContext;
 use super::convert;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use crate::bind::ModelNames;
 use labspec_expr::{Mention, Schema, fields_in};
 use lsp_types::InlayHint;
 use std::ops::Range;
 
 /// The units within a range of a document.
-pub(super) fn hints(document: &mut Document, context: &ModelContext, range: &Range<usize>) -> Vec<InlayHint> {
+pub(super) fn hints(
+    document: &mut OpenDocument,
+    context: &ModelContext,
+    range: &Range<usize>,
+) -> Vec<InlayHint> {
     let Some(lesson) = lesson(document, context) else { return Vec::new() };
     let mut all = Vec::new();
     for piece in code::code_texts(&lesson) {

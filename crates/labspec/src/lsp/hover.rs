@@ -5,8 +5,8 @@ use super::check::lesson;
 use super::code;
 use super::context::ModelContext;
 use super::convert;
-use super::documents::Document;
-use super::start::{started, unit, value};
+use super::documents::OpenDocument;
+use super::start::{unit, value};
 use crate::bind::Scope;
 use crate::source::SourceFile;
 use crate::spec::format::completions_in;
@@ -14,17 +14,18 @@ use labspec_expr::{Globals, Help, Span, chain_at};
 use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind};
 use std::ops::Range;
 
-/// What is shown for a byte of a document; nothing where there is nothing to say.
-pub(super) fn hover(document: &mut Document, context: &mut ModelContext, byte: usize) -> Option<Hover> {
+/// What is displayed for a byte of a document; nothing where there is nothing to say.
+pub(super) fn hover(document: &mut OpenDocument, context: &mut ModelContext, byte: usize) -> Option<Hover> {
     let lesson = lesson(document, context)?;
     let file = &document.file;
     let Some((piece, inside)) = code::code_at(&lesson, byte) else {
         return hover_key(document, context, byte);
     };
     let text = &piece.text.value;
-    let started = started(context, piece.lab, file.slice(piece.lab.span.clone()))?;
+    let key = file.slice(piece.lab.span.clone());
+    let started = context.started.start(&context.models, piece.lab, key)?;
     let help = code::explained(&piece, &started.model, &mut Globals::new()).help;
-    // The smallest part that something is known of.
+    // The smallest part that has help.
     let holds = |span: &Span| span.start <= inside && inside <= span.end;
     let mut explained: Vec<&(Span, Help)> = help.iter().filter(|(span, _)| holds(span)).collect();
     explained.sort_by_key(|(span, _)| span.end - span.start);
@@ -56,7 +57,7 @@ fn markdown_hover(value: String, file: &SourceFile, span: &Range<usize>) -> Hove
 }
 
 /// What a key of the format takes and means.
-fn hover_key(document: &Document, context: &ModelContext, byte: usize) -> Option<Hover> {
+fn hover_key(document: &OpenDocument, context: &ModelContext, byte: usize) -> Option<Hover> {
     let file = &document.file;
     // The text between quotes that the byte stands in.
     let line = file.text().get(..byte)?.rfind('\n').map_or(0, |at| at + 1);

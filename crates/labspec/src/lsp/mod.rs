@@ -31,4 +31,4 @@ mod state;
 mod wire;
 
 pub use server::serve;
-pub use state::Course;
+pub use state::CourseConfig;

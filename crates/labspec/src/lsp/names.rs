@@ -3,7 +3,7 @@
 use super::code;
 use super::context::{ModelContexts, WorkspaceRoot, editor_uri, lessons_below, text_of};
 use super::convert;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use super::elements::{ElementName, element_names};
 use crate::bind::ModelNames;
 use crate::bind::scene::Models;
@@ -65,7 +65,7 @@ pub(super) struct Occurrences {
 
 /// What is needed to find names: what the editor holds, and where models and folders are.
 pub(super) struct SearchScope<'a> {
-    pub(super) open: &'a BTreeMap<String, Document>,
+    pub(super) open: &'a BTreeMap<String, OpenDocument>,
     pub(super) folders: &'a [WorkspaceRoot],
     pub(super) models_of: &'a dyn Fn(&Path) -> ModelFolder,
     pub(super) overlay: &'a Arc<Overlay>,
@@ -288,6 +288,6 @@ pub(super) fn beginning(uri: Uri) -> Location {
 }
 
 /// Whether a document is a model's.
-pub(super) fn is_model(document: &Document) -> bool {
+pub(super) fn is_model(document: &OpenDocument) -> bool {
     document.kind == FileKind::Model
 }

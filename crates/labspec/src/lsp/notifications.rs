@@ -2,7 +2,7 @@
 //! is answered; what cannot be read is dropped.
 
 use super::convert;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use super::state::ServerState;
 use crate::spec::{FileKind, kind_of};
 use lsp_server::Notification as Message;
@@ -53,7 +53,7 @@ fn did_open(state: &mut ServerState<'_>, params: DidOpenTextDocumentParams) -> i
     let key = opened.uri.as_str().to_string();
     state.cancel_runs_of(&key);
     let path = convert::resolve_links(&path);
-    let document = Document::new(opened.uri, path.clone(), &opened.text, opened.version);
+    let document = OpenDocument::new(opened.uri, path.clone(), &opened.text, opened.version);
     state.refresh();
     let text = document.file.text().to_string();
     state.documents.insert(key, document);

@@ -4,7 +4,7 @@ use super::actions::code_actions;
 use super::check::lesson;
 use super::complete::completions;
 use super::convert;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use super::hints::hints;
 use super::hover::hover;
 use super::initialize::{ClientSetup, initialize_result};
@@ -106,7 +106,7 @@ fn not_open() -> ResponseError {
     error(ErrorCode::InvalidParams, "this document is not open")
 }
 
-fn open_document<'s>(state: &'s ServerState<'_>, id: &TextDocumentIdentifier) -> Answer<&'s Document> {
+fn open_document<'s>(state: &'s ServerState<'_>, id: &TextDocumentIdentifier) -> Answer<&'s OpenDocument> {
     state.documents.get(id.uri.as_str()).ok_or_else(not_open)
 }
 

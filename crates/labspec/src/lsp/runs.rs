@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What was found of a version of a document.
 #[derive(Debug)]
-pub(super) struct RunOutcome {
+pub(super) struct FinishedJob {
     /// Of which check this is the outcome.
     pub(super) job: u64,
     pub(super) uri: String,
@@ -38,7 +38,7 @@ impl Job {
         version: i32,
         (file, path): (SourceFile, PathBuf),
         (models, sources): (Arc<Models>, Sources),
-        done: impl FnOnce(RunOutcome) + Send + 'static,
+        done: impl FnOnce(FinishedJob) + Send + 'static,
     ) -> Option<Job> {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
         let (asked, of) = (stop.clone(), uri.clone());
@@ -49,7 +49,7 @@ impl Job {
             });
             // What a run that was stopped says is not used.
             if !asked.load(Ordering::Relaxed) {
-                done(RunOutcome { job: number, uri: of, version, findings });
+                done(FinishedJob { job: number, uri: of, version, findings });
             }
         };
         threads::checking().spawn(work).ok()?;

@@ -1,6 +1,6 @@
 //! The loop: a message in, what it asks for out. All state belongs to this thread; runs go on beside it.
 
-use super::state::{Course, Event, Phase, ServerState};
+use super::state::{CourseConfig, Phase, ServerEvent, ServerState};
 use super::wire::{self, Incoming};
 use super::{notifications, requests};
 use crate::threads;
@@ -23,7 +23,7 @@ struct Unidentified {
 /// # Errors
 /// The answers cannot be written.
 pub fn serve<'c>(
-    course: Course<'c>,
+    course: CourseConfig<'c>,
     mut input: impl BufRead + Send + 'static,
     output: &'c mut dyn Write,
 ) -> io::Result<bool> {
@@ -34,7 +34,7 @@ pub fn serve<'c>(
         loop {
             let read = wire::read(&mut input).unwrap_or(Incoming::End);
             let last = matches!(read, Incoming::End);
-            if incoming.send(Event::Incoming(read)).is_err() || last {
+            if incoming.send(ServerEvent::Incoming(read)).is_err() || last {
                 return;
             }
         }
@@ -42,7 +42,7 @@ pub fn serve<'c>(
     run(&mut ServerState::new(course, output, sender), &events)
 }
 
-fn run(state: &mut ServerState<'_>, events: &Receiver<Event>) -> io::Result<bool> {
+fn run(state: &mut ServerState<'_>, events: &Receiver<ServerEvent>) -> io::Result<bool> {
     loop {
         // What waits is done first: of many changes that follow each other only the last is checked.
         let event = match events.try_recv() {
@@ -56,20 +56,22 @@ fn run(state: &mut ServerState<'_>, events: &Receiver<Event>) -> io::Result<bool
             }
         };
         match event {
-            Event::Finished(outcome) => state.finish_runs(outcome)?,
-            Event::Incoming(Incoming::End) => return Ok(state.phase == Phase::ShutDown),
-            Event::Incoming(Incoming::Bad(message)) => {
+            ServerEvent::Finished(job) => state.finish_runs(job)?,
+            ServerEvent::Incoming(Incoming::End) => return Ok(state.phase == Phase::ShutDown),
+            ServerEvent::Incoming(Incoming::Bad(message)) => {
                 let error = ResponseError { code: ErrorCode::ParseError as i32, message, data: None };
                 state.send(&Unidentified { id: (), error })?;
             }
-            Event::Incoming(Incoming::Message(Message::Request(request))) => {
+            ServerEvent::Incoming(Incoming::Message(Message::Request(request))) => {
                 let response = requests::answer(state, request);
                 state.send(&response)?;
             }
-            Event::Incoming(Incoming::Message(Message::Notification(n))) if n.method == Exit::METHOD => {
+            ServerEvent::Incoming(Incoming::Message(Message::Notification(n)))
+                if n.method == Exit::METHOD =>
+            {
                 return Ok(state.phase == Phase::ShutDown);
             }
-            Event::Incoming(Incoming::Message(Message::Notification(n))) => {
+            ServerEvent::Incoming(Incoming::Message(Message::Notification(n))) => {
                 // What is before or behind the conversation is dropped, as the protocol asks.
                 if state.phase == Phase::Running {
                     let handled = catch_unwind(AssertUnwindSafe(|| notifications::handle(state, n)));
@@ -77,7 +79,67 @@ fn run(state: &mut ServerState<'_>, events: &Receiver<Event>) -> io::Result<bool
                 }
             }
             // This server sends no requests.
-            Event::Incoming(Incoming::Message(Message::Response(_))) => {}
+            ServerEvent::Incoming(Incoming::Message(Message::Response(_))) => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lint::ModelFolder;
+    use serde_json::{Value, json};
+
+    /// What the server answers to requests, in order, and whether it ended by the protocol.
+    fn answers(requests: &[(&str, Value)]) -> (Vec<Value>, bool) {
+        let mut input = Vec::new();
+        for (id, (method, params)) in requests.iter().enumerate() {
+            wire::write(&mut input, &json!({"id": id, "method": method, "params": params})).unwrap();
+        }
+        wire::write(&mut input, &json!({"method": "exit"})).unwrap();
+        let (models, mut policy) = (|_: &_| ModelFolder::unknown(), |_: &_, _: &mut _| {});
+        let course = CourseConfig { models: &models, policy: &mut policy, refresh: &|| {} };
+        let mut output = Vec::new();
+        let ended = serve(course, io::Cursor::new(input), &mut output).unwrap();
+        let bodies = String::from_utf8(output).unwrap();
+        let bodies = bodies.split("Content-Length: ").filter_map(|message| message.split_once("\r\n\r\n"));
+        (bodies.map(|(_, body)| serde_json::from_str(body).unwrap()).collect(), ended)
+    }
+
+    #[test]
+    fn invalid_parameters_are_answered_with_a_sentence() {
+        let position = json!({"line": 0, "character": 0});
+        let (hover, rename) = ("textDocument/hover", "textDocument/rename");
+        let about = |uri: &str| json!({"textDocument": {"uri": uri}, "position": position});
+        let cases = [
+            ("initialize", json!(null), "the parameters of `initialize` are invalid"),
+            ("initialize", json!({"rootUri": "file:///%zz"}), "the parameters of `initialize` are invalid"),
+            ("initialize", json!({}), ""),
+            (hover, json!(null), "the parameters of `textDocument/hover` are invalid"),
+            (hover, json!({}), "missing field `textDocument`"),
+            (hover, about("not a URI"), "the parameters of `textDocument/hover` are invalid"),
+            (hover, about("file:///a.md"), "this document is not open"),
+            (rename, about("file:///a.md"), "missing field `newName`"),
+            ("textDocument/references", about("untitled:1"), "this document is not open"),
+            ("textDocument/inlayHint", about("untitled:1"), "missing field `range`"),
+            ("shutdown", json!({"ignored": 1}), ""),
+        ];
+        let requests = cases.clone().map(|(method, params, _)| (method, params));
+        let (answers, ended) = answers(&requests);
+        assert!(ended);
+        assert_eq!(answers.len(), cases.len());
+        for ((method, params, why), answer) in cases.iter().zip(&answers) {
+            assert_eq!(answer["jsonrpc"], "2.0");
+            match answer.get("error") {
+                None => {
+                    assert!(why.is_empty() && answer.get("result").is_some(), "{method} {params}: {answer}")
+                }
+                Some(error) => {
+                    assert_eq!(error["code"], ErrorCode::InvalidParams as i32, "{method} {params}");
+                    let message = error["message"].as_str().unwrap();
+                    assert!(!why.is_empty() && message.contains(why), "{method} {params}: {message}");
+                }
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Labs at their start, for whoever points at something in them: what it is worth before the first step.
 
-use super::context::ModelContext;
 use crate::bind::dimension_of;
+use crate::bind::scene::Models;
 use crate::bind::{ModelNames, Programs, Scope};
 use crate::finding::Finding;
 use crate::run::{Budget, Session};
@@ -28,19 +28,25 @@ pub(super) struct StartedLab {
     session: Session<'static>,
 }
 
-/// The model of a lab, started if need be. `None` when there is no such model, or it has mistakes.
-pub(super) fn started<'a>(context: &'a mut ModelContext, lab: &Lab, key: &str) -> Option<&'a StartedLab> {
-    if let Some(at) = context.started.iter().position(|s| s.key == key) {
-        return context.started.get(at);
+/// The labs that somebody pointed into last.
+#[derive(Debug, Default)]
+pub(super) struct StartedLabs(Vec<StartedLab>);
+
+impl StartedLabs {
+    /// A lab, started if need be. `None` when its model does not exist, or has mistakes.
+    pub(super) fn start(&mut self, models: &Models, lab: &Lab, key: &str) -> Option<&StartedLab> {
+        if let Some(at) = self.0.iter().position(|s| s.key == key) {
+            return self.0.get(at);
+        }
+        let model = models.of(lab, &mut Vec::<Finding>::new())?;
+        let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
+        let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
+        if self.0.len() >= MOST {
+            self.0.remove(0);
+        }
+        self.0.push(StartedLab { key: key.to_string(), model, session });
+        self.0.last()
     }
-    let model = context.models.of(lab, &mut Vec::<Finding>::new())?;
-    let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
-    let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
-    if context.started.len() >= MOST {
-        context.started.remove(0);
-    }
-    context.started.push(StartedLab { key: key.to_string(), model, session });
-    context.started.last()
 }
 
 /// What an expression is worth at the start of the lab, as text. `None` when it means nothing there, or does not come to an end.

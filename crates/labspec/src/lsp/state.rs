@@ -4,9 +4,9 @@ use super::check::check_document;
 use super::context::{ModelContext, ModelContexts, WorkspaceRoot};
 use super::convert;
 use super::diagnostic::diagnostic;
-use super::documents::Document;
+use super::documents::OpenDocument;
 use super::initialize::EditorSettings;
-use super::runs::{Job, RunOutcome};
+use super::runs::{FinishedJob, Job};
 use super::wire::{self, Incoming};
 use crate::finding::Finding;
 use crate::lint::{ModelFolder, links_to};
@@ -23,7 +23,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
 /// What the program knows of a course: where its models are, and which findings it reports.
-pub struct Course<'c> {
+pub struct CourseConfig<'c> {
     /// The models of a lesson.
     pub models: &'c dyn Fn(&Path) -> ModelFolder,
     /// Takes out what is not to be reported of a file.
@@ -33,9 +33,9 @@ pub struct Course<'c> {
 }
 
 /// What wakes the server.
-pub(super) enum Event {
+pub(super) enum ServerEvent {
     Incoming(Incoming),
-    Finished(RunOutcome),
+    Finished(FinishedJob),
 }
 
 /// Where the conversation is.
@@ -49,12 +49,12 @@ pub(super) enum Phase {
 }
 
 pub(super) struct ServerState<'c> {
-    pub(super) course: Course<'c>,
+    pub(super) course: CourseConfig<'c>,
     output: &'c mut dyn Write,
-    sender: Sender<Event>,
+    sender: Sender<ServerEvent>,
     pub(super) phase: Phase,
     /// What the editor has open, by its URI.
-    pub(super) documents: BTreeMap<String, Document>,
+    pub(super) documents: BTreeMap<String, OpenDocument>,
     pub(super) contexts: ModelContexts,
     /// The folders that the editor opened.
     pub(super) folders: Vec<WorkspaceRoot>,
@@ -65,7 +65,11 @@ pub(super) struct ServerState<'c> {
 }
 
 impl<'c> ServerState<'c> {
-    pub(super) fn new(course: Course<'c>, output: &'c mut dyn Write, sender: Sender<Event>) -> Self {
+    pub(super) fn new(
+        course: CourseConfig<'c>,
+        output: &'c mut dyn Write,
+        sender: Sender<ServerEvent>,
+    ) -> Self {
         ServerState {
             course,
             output,
@@ -101,7 +105,10 @@ impl<'c> ServerState<'c> {
     }
 
     /// A document that is open, with the models and sources that it uses.
-    pub(super) fn document_in_context(&mut self, uri: &Uri) -> Option<(&mut Document, &mut ModelContext)> {
+    pub(super) fn document_in_context(
+        &mut self,
+        uri: &Uri,
+    ) -> Option<(&mut OpenDocument, &mut ModelContext)> {
         let document = self.documents.get_mut(uri.as_str())?;
         let context = self.contexts.model_context(&document.path, self.course.models);
         Some((document, context))
@@ -167,26 +174,26 @@ impl<'c> ServerState<'c> {
         let text = (document.file.clone(), document.path.clone());
         let sender = self.sender.clone();
         // Nobody listens any more when the server has ended.
-        let done = move |outcome| drop(sender.send(Event::Finished(outcome)));
+        let done = move |finished| drop(sender.send(ServerEvent::Finished(finished)));
         self.jobs += 1;
         self.job = Job::start(self.jobs, uri, document.version, text, context, done);
     }
 
     /// What runs found, unless the text is another one by now.
-    pub(super) fn finish_runs(&mut self, outcome: RunOutcome) -> io::Result<()> {
+    pub(super) fn finish_runs(&mut self, finished: FinishedJob) -> io::Result<()> {
         // One that was stopped may have ended just before.
-        if self.job.as_ref().is_none_or(|job| job.number != outcome.job) {
+        if self.job.as_ref().is_none_or(|job| job.number != finished.job) {
             return Ok(());
         }
         self.job = None;
         let Some(document) =
-            self.documents.get_mut(&outcome.uri).filter(|d| d.version == outcome.version && !d.stale)
+            self.documents.get_mut(&finished.uri).filter(|d| d.version == finished.version && !d.stale)
         else {
             return Ok(());
         };
-        document.findings = outcome.findings;
+        document.findings = finished.findings;
         (self.course.policy)(&document.path, &mut document.findings);
-        self.publish(&outcome.uri)
+        self.publish(&finished.uri)
     }
 
     pub(super) fn cancel_runs(&mut self) {
@@ -221,7 +228,7 @@ impl<'c> ServerState<'c> {
 
     /// Sends the findings of a document.
     fn publish(&mut self, uri: &str) -> io::Result<()> {
-        let Some(Document { uri, file, version, findings, .. }) = self.documents.get(uri) else {
+        let Some(OpenDocument { uri, file, version, findings, .. }) = self.documents.get(uri) else {
             return Ok(());
         };
         let diagnostics = findings.iter().map(|f| diagnostic(f, file, uri)).collect();
