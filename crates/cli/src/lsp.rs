@@ -6,7 +6,7 @@ use super::stdio::complain;
 use super::target::model_folder;
 use labspec::finding::Finding;
 use labspec::lint::ModelFolder;
-use labspec_lsp::{Course, serve};
+use labspec_lsp::{CourseConfig, serve};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufReader;
@@ -54,7 +54,7 @@ pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
         }
     };
     let refresh = || policies.borrow_mut().clear();
-    let course = Course { models: &models, policy: &mut policy, refresh: &refresh };
+    let course = CourseConfig { models: &models, policy: &mut policy, refresh: &refresh };
     let input = BufReader::new(std::io::stdin());
     match serve(course, input, &mut std::io::stdout().lock()) {
         Ok(true) => Ok(Outcome::Clean),

@@ -1,113 +1,138 @@
 //! What an editor offers where something is found: its repair, all safe repairs, or to keep it with a reason.
 
-use super::documents::Document;
-use super::places;
+use super::convert;
+use super::diagnostic::diagnostic;
+use super::documents::OpenDocument;
 use labspec::bind::scene::Models;
 use labspec::check::{self, CheckLevel};
 use labspec::finding::{Applicability, Finding, Fix};
 use labspec::lint::reload_lesson;
 use labspec::repair::{CheckedText, repair as repair_text, traces};
 use labspec::spec::{FileKind, Lesson};
-use serde_json::{Value, json};
+use lsp_types::{
+    CodeAction, CodeActionKind, CodeActionOrCommand, DocumentChanges, OneOf,
+    OptionalVersionedTextDocumentIdentifier, TextDocumentEdit, TextEdit, WorkspaceEdit,
+};
 use std::ops::Range;
 
-/// What is offered for a range of a document. `only` are the kinds that are asked for, all of them when it is empty.
-pub(super) fn actions(
-    document: &Document,
+/// Safe fixes of the whole document at once.
+const FIX_ALL: CodeActionKind = CodeActionKind::new("source.fixAll.labspec");
+
+/// What is offered for a range of a document. `only` are the kinds that are asked for; without it all are.
+pub(super) fn code_actions(
+    document: &OpenDocument,
     lesson: Option<&Lesson>,
     span: &Range<usize>,
-    only: &[String],
+    only: Option<&[CodeActionKind]>,
     models: &Models,
-) -> Value {
-    let wanted =
-        |kind: &str| only.is_empty() || only.iter().any(|o| kind == o || kind.starts_with(&format!("{o}.")));
+) -> Vec<CodeActionOrCommand> {
+    let only = only.unwrap_or_default();
+    let includes = |wanted: &CodeActionKind, kind: &CodeActionKind| {
+        let rest = kind.as_str().strip_prefix(wanted.as_str());
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    let wanted = |kind: &CodeActionKind| only.is_empty() || only.iter().any(|o| includes(o, kind));
     let touches = |f: &&Finding| f.span.start <= span.end && span.start <= f.span.end;
     let mut all = Vec::new();
     let here = || document.findings.iter().filter(touches);
-    if wanted("quickfix") {
+    if wanted(&CodeActionKind::QUICKFIX) {
         for f in here() {
-            all.extend(f.fix.as_ref().and_then(|fix| repair(document, f, fix)));
+            all.extend(f.fix.as_ref().and_then(|fix| apply_fix(document, f, fix)));
         }
         for f in here().filter(|f| !f.is_error()) {
-            all.extend(lesson.and_then(|lesson| allow(document, lesson, f)));
+            all.extend(lesson.and_then(|lesson| suppress(document, lesson, f)));
         }
     }
-    if wanted("source.fixAll") {
-        all.extend(lesson.and_then(|lesson| everything(document, lesson, models)));
+    if wanted(&CodeActionKind::SOURCE_FIX_ALL) {
+        all.extend(lesson.and_then(|lesson| fix_all(document, lesson, models)));
     }
-    all.into()
+    all.into_iter().map(CodeActionOrCommand::from).collect()
 }
 
-/// The repair of a finding.
-fn repair(document: &Document, f: &Finding, fix: &Fix) -> Option<Value> {
+/// The fix of a finding.
+fn apply_fix(document: &OpenDocument, f: &Finding, fix: &Fix) -> Option<CodeAction> {
     let file = &document.file;
-    let (old, new) = (short(file.slice(fix.span.clone())), short(&fix.text));
-    let what = match (old.is_empty(), new.is_empty()) {
+    let (old, new) = (shorten(file.slice(fix.span.clone())), shorten(&fix.text));
+    let change = match (old.is_empty(), new.is_empty()) {
         (true, _) => format!("write `{new}`"),
         (_, true) => format!("delete `{old}`"),
         _ => format!("write `{new}` instead of `{old}`"),
     };
-    let (title, preferred) = match fix.applicability {
-        Applicability::Safe => (what, true),
-        Applicability::Unsafe => (format!("{what} (a guess)"), false),
+    let (title, is_preferred) = match fix.applicability {
+        Applicability::Safe => (change, true),
+        Applicability::Unsafe => (format!("{change} (a guess)"), false),
         Applicability::Display => return None,
     };
-    Some(json!({
-        "title": title,
-        "kind": "quickfix",
-        "diagnostics": [super::diagnostic::diagnostic(f, file, &document.uri)],
-        "isPreferred": preferred,
-        "edit": edit(document, &[(fix.span.clone(), fix.text.clone())]),
-    }))
+    let edit = workspace_edit(document, fix.span.clone(), fix.text.clone());
+    Some(CodeAction { is_preferred: Some(is_preferred), ..quick_fix(document, f, title, edit) })
+}
+
+/// An action that answers a finding.
+fn quick_fix(document: &OpenDocument, f: &Finding, title: String, edit: WorkspaceEdit) -> CodeAction {
+    CodeAction {
+        title,
+        kind: Some(CodeActionKind::QUICKFIX),
+        diagnostics: Some(vec![diagnostic(f, &document.file, &document.uri)]),
+        edit: Some(edit),
+        ..CodeAction::default()
+    }
 }
 
 /// A text that fits into a menu.
-fn short(text: &str) -> String {
+fn shorten(text: &str) -> String {
     let line = text.lines().next().unwrap_or("");
     let cut: String = line.chars().take(40).collect();
     if cut.len() < text.len() { format!("{cut}…") } else { cut }
 }
 
-/// A change of the document, from its last place to its first.
-fn edit(document: &Document, changes: &[(Range<usize>, String)]) -> Value {
-    let file = &document.file;
-    let edits: Vec<Value> = changes
-        .iter()
-        .map(|(span, text)| json!({"range": places::range(file, span), "newText": text}))
-        .collect();
-    let document = json!({"uri": document.uri, "version": document.version});
-    json!({"documentChanges": [{"textDocument": document, "edits": edits}]})
+/// A text in place of a span of the document, in the version that the editor holds.
+fn workspace_edit(document: &OpenDocument, span: Range<usize>, new_text: String) -> WorkspaceEdit {
+    let edit = TextEdit { range: convert::range(&document.file, &span), new_text };
+    let edits = TextDocumentEdit {
+        text_document: OptionalVersionedTextDocumentIdentifier {
+            uri: document.uri.clone(),
+            version: Some(document.version),
+        },
+        edits: vec![OneOf::Left(edit)],
+    };
+    WorkspaceEdit { document_changes: Some(DocumentChanges::Edits(vec![edits])), ..WorkspaceEdit::default() }
 }
 
-/// All safe repairs that are proven, at once.
-fn everything(document: &Document, lesson: &Lesson, models: &Models) -> Option<Value> {
+/// All safe fixes that are proven, at once.
+fn fix_all(document: &OpenDocument, lesson: &Lesson, models: &Models) -> Option<CodeAction> {
     let is_safe = |f: &Finding| f.fix.as_ref().is_some_and(|fix| fix.applicability == Applicability::Safe);
     if !document.findings.iter().any(is_safe) {
         return None;
     }
-    let depth = CheckLevel { programs: true, ..CheckLevel::STATIC };
+    let level = CheckLevel { programs: true, ..CheckLevel::STATIC };
     let load = |text: &str| reload_lesson(lesson, text, models.folder());
-    let look = |text: &str| {
+    let check_text = |text: &str| {
         let lesson = load(text);
         let broken = lesson.broken.len();
         CheckedText {
             text: text.to_string(),
-            findings: check::check_lesson(lesson, models, depth).findings,
+            findings: check::check_lesson(lesson, models, level).findings,
             broken,
         }
     };
     let old = lesson.file.text();
     // What only a run of the labs finds has been found already.
-    let now =
-        CheckedText { text: old.to_string(), findings: look(old).findings, broken: lesson.broken.len() };
-    let (new, made) = repair_text(now, false, &look, &|text| traces(&load(text), models));
+    let now = CheckedText {
+        text: old.to_string(),
+        findings: check_text(old).findings,
+        broken: lesson.broken.len(),
+    };
+    let (new, made) = repair_text(now, false, &check_text, &|text| traces(&load(text), models));
     if made == 0 {
         return None;
     }
-    let changes = [changed(old, &new)];
-    Some(
-        json!({"title": "labspec: apply all safe fixes", "kind": "source.fixAll.labspec", "edit": edit(document, &changes)}),
-    )
+    let (span, text) = changed(old, &new);
+    Some(CodeAction {
+        title: "labspec: apply all safe fixes".to_string(),
+        kind: Some(FIX_ALL),
+        edit: Some(workspace_edit(document, span, text)),
+        ..CodeAction::default()
+    })
 }
 
 /// Where two texts differ, and what the second has there.
@@ -120,9 +145,9 @@ fn changed(old: &str, new: &str) -> (Range<usize>, String) {
     (start..old.len() - end, new_rest.get(..new_rest.len() - end).unwrap_or("").to_string())
 }
 
-/// To keep what is found: its code in the `lint` of the lab, the question or the quiz, where the author writes the reason; for prose,
+/// To suppress a finding: its code in the `lint` of the lab, the question or the quiz, where the author writes the reason; for prose,
 /// in a comment before it.
-fn allow(document: &Document, lesson: &Lesson, f: &Finding) -> Option<Value> {
+fn suppress(document: &OpenDocument, lesson: &Lesson, f: &Finding) -> Option<CodeAction> {
     let file = &document.file;
     if lesson.is_broken(&f.span) {
         return None;
@@ -130,8 +155,8 @@ fn allow(document: &Document, lesson: &Lesson, f: &Finding) -> Option<Value> {
     let holds = |span: &Range<usize>| span.start <= f.span.start && f.span.start < span.end;
     let labs = lesson.all_labs().into_iter().map(|lab| (lab.span.clone(), lab.lint.clone()));
     let questions = lesson.quizzes.iter().flat_map(|quiz| {
-        let own = std::iter::once((quiz.span.clone(), quiz.lint.clone()));
-        own.chain(quiz.numbered().map(|(_, q)| (q.span.clone(), q.lint.clone())))
+        let whole = std::iter::once((quiz.span.clone(), quiz.lint.clone()));
+        whole.chain(quiz.numbered().map(|(_, q)| (q.span.clone(), q.lint.clone())))
     });
     let object =
         labs.chain(questions).filter(|(span, _)| holds(span)).min_by_key(|(span, _)| span.end - span.start);
@@ -161,10 +186,6 @@ fn allow(document: &Document, lesson: &Lesson, f: &Finding) -> Option<Value> {
         }
         None => return None,
     };
-    Some(json!({
-        "title": format!("suppress `{}` here, with a reason", f.code),
-        "kind": "quickfix",
-        "diagnostics": [super::diagnostic::diagnostic(f, file, &document.uri)],
-        "edit": edit(document, &[(at..at, text)]),
-    }))
+    let title = format!("suppress `{}` here, with a reason", f.code);
+    Some(quick_fix(document, f, title, workspace_edit(document, at..at, text)))
 }

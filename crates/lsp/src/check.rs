@@ -3,8 +3,8 @@
 //! A lesson is read anew at every change, which is quick. Its code is bound block by block, and what was found of a block is kept
 //! for as long as its text and the labs that it names stay what they are.
 
-use super::course::Around;
-use super::documents::Document;
+use super::context::ModelContext;
+use super::documents::OpenDocument;
 use labspec::bind::scene::{Models, compile_file};
 use labspec::check::{self, CheckLevel, LabOutcome};
 use labspec::finding::Finding;
@@ -18,53 +18,57 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Looks at a document: what is found of it is in the document then.
-pub(super) fn check_document(document: &mut Document, around: &Around) {
+pub(super) fn check_document(document: &mut OpenDocument, context: &ModelContext) {
     document.stale = false;
     match document.kind {
         FileKind::Lesson | FileKind::Json => {
-            let lesson = read(document, around);
+            let lesson = read(document, context);
             // JSON that is neither labs nor quizzes belongs to somebody else.
             let other =
                 document.kind == FileKind::Json && lesson.labs.is_empty() && lesson.quizzes.is_empty();
             document.findings =
-                if other { Vec::new() } else { bound(&lesson, &mut document.blocks, &around.models) };
+                if other { Vec::new() } else { check_blocks(&lesson, &mut document.blocks, &context.models) };
             document.lesson = Some(Arc::new(lesson));
         }
         FileKind::Model => {
             let folder = document.path.parent().unwrap_or(Path::new(""));
             let find = || Some(root_of(folder, &[]));
-            let root = around.sources.place(Asked::Root, folder, find).unwrap_or_default();
-            let found = compile_file(&document.file, &document.path, &root, &around.sources, None).findings;
-            let own = |f: &Finding| f.path == *document.file.path();
-            document.findings = found.into_iter().filter(own).collect();
+            let root = context.sources.place(Asked::Root, folder, find).unwrap_or_default();
+            let found = compile_file(&document.file, &document.path, &root, &context.sources, None).findings;
+            let is_here = |f: &Finding| f.path == *document.file.path();
+            document.findings = found.into_iter().filter(is_here).collect();
         }
         FileKind::Unknown => {}
     }
 }
 
 /// The lesson of a document, read if need be.
-pub(super) fn lesson(document: &mut Document, around: &Around) -> Option<Arc<Lesson>> {
+pub(super) fn lesson(document: &mut OpenDocument, context: &ModelContext) -> Option<Arc<Lesson>> {
     if !matches!(document.kind, FileKind::Lesson | FileKind::Json) {
         return None;
     }
-    let lesson = document.lesson.clone().unwrap_or_else(|| Arc::new(read(document, around)));
+    let lesson = document.lesson.clone().unwrap_or_else(|| Arc::new(read(document, context)));
     document.lesson = Some(lesson.clone());
     Some(lesson)
 }
 
-fn read(document: &Document, around: &Around) -> Lesson {
-    load_lesson_at(document.file.clone(), &document.path, &around.sources, around.models.folder())
+fn read(document: &OpenDocument, context: &ModelContext) -> Lesson {
+    load_lesson_at(document.file.clone(), &document.path, &context.sources, context.models.folder())
 }
 
 /// The findings of a lesson whose blocks are bound as far as they are new.
-fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &Models) -> Vec<Finding> {
+fn check_blocks(
+    lesson: &Lesson,
+    blocks: &mut BTreeMap<String, Vec<Finding>>,
+    models: &Models,
+) -> Vec<Finding> {
     let mut kept = BTreeMap::new();
     let mut findings = Vec::new();
     let models_now = models_hash(models);
     for unit in units(lesson) {
-        let key = format!("{models_now}\0{}", key(lesson, &unit));
-        let known = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
-        let found = known.unwrap_or_else(|| examine(lesson, &unit, models));
+        let key = format!("{models_now}\0{}", block_key(lesson, &unit));
+        let cached = blocks.get(&key).or_else(|| kept.get(&key)).cloned();
+        let found = cached.unwrap_or_else(|| check_block(lesson, &unit, models));
         findings.extend(found.iter().map(|f| moved(f, |at| at + unit.start)));
         // A finding that points out of its block rests on more than the block.
         if found.iter().all(|f| spans(f).all(|span| span.end <= unit.len())) {
@@ -76,7 +80,7 @@ fn bound(lesson: &Lesson, blocks: &mut BTreeMap<String, Vec<Finding>>, models: &
     check::join(lesson.clone(), found, CheckLevel::STATIC).findings
 }
 
-/// A mark of the models, which changes when they do.
+/// A hash of the models, which changes when they do.
 fn models_hash(models: &Models) -> u64 {
     let mut hasher = DefaultHasher::new();
     (models.folder().path_of_folder(), models.folder().names()).hash(&mut hasher);
@@ -91,7 +95,7 @@ fn units(lesson: &Lesson) -> Vec<Range<usize>> {
 }
 
 /// What the findings of a block rest on: its text, that which it is about, and that of the labs and claims that it names.
-fn key(lesson: &Lesson, unit: &Range<usize>) -> String {
+fn block_key(lesson: &Lesson, unit: &Range<usize>) -> String {
     let over = lesson.remarks.iter().filter(|remark| remark.span == *unit).map(|remark| remark.over.clone());
     let mut key = lesson.file.slice(unit.clone()).to_string();
     let used = claims(lesson, unit).flat_map(|claim| lesson.used_by(claim)).map(|used| used.span.clone());
@@ -129,8 +133,8 @@ fn within(span: &Range<usize>, unit: &Range<usize>) -> bool {
     unit.start <= span.start && span.end <= unit.end
 }
 
-/// Binds one block, as if there were no others but those that it names. Places count from its beginning.
-fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
+/// Binds one block, as if there were no others but those that it names. Occurrences count from its beginning.
+fn check_block(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding> {
     let named: Vec<&VerifyLab> = named_by(lesson, unit).collect();
     let wanted: Vec<&Lab> = named.iter().filter_map(|named| lesson.named(named)).collect();
     let elsewhere = |other: &&Other| {
@@ -159,8 +163,8 @@ fn examine(lesson: &Lesson, unit: &Range<usize>, models: &Models) -> Vec<Finding
         place: None,
     };
     let found = check::examine(&part, models, CheckLevel::STATIC).findings;
-    let own = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
-    own.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
+    let inside = found.into_iter().filter(|f| (unit.start..=unit.end).contains(&f.span.start));
+    inside.map(|f| moved(&f, |at| at.wrapping_sub(unit.start))).collect()
 }
 
 /// A finding with all its places moved.
@@ -189,9 +193,10 @@ mod tests {
     use super::*;
     use labspec::lint::ModelFolder;
     use labspec::source::{SourceFile, Sources};
+    use lsp_types::TextDocumentContentChangeEvent;
     use std::path::Path;
 
-    /// What a lesson says without anything kept: what [`look`] must find, too.
+    /// What a lesson says without anything kept: what [`check_document`] must find, too.
     fn plainly(file: SourceFile, path: &Path, models: &Models) -> Vec<Finding> {
         check::check_lesson(
             load_lesson_at(file, path, &Sources::Disk, models.folder()),
@@ -221,15 +226,19 @@ It comes late.
     fn what_is_kept_changes_nothing() {
         let specs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../specs").canonicalize().unwrap();
         let folder = ModelFolder::open(&specs.join("models")).unwrap();
-        let around =
-            Around { models: Arc::new(Models::new(folder)), sources: Sources::Disk, started: Vec::new() };
+        let context = ModelContext {
+            models: Arc::new(Models::new(folder)),
+            sources: Sources::Disk,
+            started: Default::default(),
+        };
         let (mut changes, mut with_findings) = (0, 0);
+        let whole = |text: String| TextDocumentContentChangeEvent { range: None, range_length: None, text };
         let read = |name: &str| std::fs::read_to_string(specs.join("lessons").join(name)).unwrap();
         let lessons =
             ["01-what-a-step-computes.md", "02-bounce-and-swing.md"].map(|name| (name, read(name), 7));
         for (name, text, apart) in lessons.into_iter().chain([("naming.md", NAMING.to_string(), 1)]) {
             let path = specs.join("lessons").join(name);
-            let mut document = Document::new("file:///a.md", path.clone(), &text, 1);
+            let mut document = OpenDocument::new("file:///a.md".parse().unwrap(), path.clone(), &text, 1);
             let typed =
                 [("qpos", "qpso"), ("\"verify\"", "\"verfy\""), ("{", ""), ("data.", "dta."), ("```", "``")];
             for (at, what) in
@@ -238,17 +247,17 @@ It comes late.
                 for (place, _) in text.match_indices(at).step_by(apart) {
                     let mut changed = text.clone();
                     changed.replace_range(place..place + at.len(), what);
-                    document.change(&[serde_json::json!({"text": changed})], 2);
-                    check_document(&mut document, &around);
-                    let plain = plainly(document.file.clone(), &path, &around.models);
+                    document.change(&[whole(changed)], 2);
+                    check_document(&mut document, &context);
+                    let plain = plainly(document.file.clone(), &path, &context.models);
                     assert_eq!(document.findings, plain, "{what} at {place} of {name}");
                     changes += 1;
                     with_findings += usize::from(!plain.is_empty());
                 }
             }
             if name == "naming.md" {
-                document.change(&[serde_json::json!({"text": text})], 3);
-                check_document(&mut document, &around);
+                document.change(&[whole(text)], 3);
+                check_document(&mut document, &context);
                 assert_eq!(document.findings, []);
             }
         }

@@ -8,7 +8,7 @@ use labspec_expr::{Compiled, Compiler, Globals, Type};
 
 /// A text of code.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece<'l> {
+pub(super) struct CodeText<'l> {
     pub(super) form: Form,
     /// Which functions there are.
     pub(super) scope: Scope,
@@ -20,33 +20,33 @@ pub(super) struct Piece<'l> {
 }
 
 /// Every text of code, in the order in which the lesson is read.
-pub(super) fn pieces(lesson: &Lesson) -> Vec<Piece<'_>> {
+pub(super) fn code_texts(lesson: &Lesson) -> Vec<CodeText<'_>> {
     let mut all = Vec::new();
     for lab in lesson.all_labs() {
-        let own = lab.code().into_iter();
-        all.extend(own.map(|(form, text)| Piece { form, scope: Scope::Lab, text, lab, verify: None }));
+        let code = lab.code().into_iter();
+        all.extend(code.map(|(form, text)| CodeText { form, scope: Scope::Lab, text, lab, verify: None }));
         if let Some(verify) = &lab.verify {
-            claim(lesson, verify, Some(lab), &mut all);
+            add_claim(lesson, verify, Some(lab), &mut all);
         }
     }
     for (_, question) in lesson.quizzes.iter().flat_map(|quiz| quiz.numbered()) {
         if let Some(verify) = &question.verify {
-            claim(lesson, verify, question.sim(), &mut all);
+            add_claim(lesson, verify, question.sim(), &mut all);
         }
     }
     for remark in &lesson.remarks {
-        claim(lesson, &remark.verify, None, &mut all);
+        add_claim(lesson, &remark.verify, None, &mut all);
     }
     all
 }
 
-fn claim<'l>(lesson: &'l Lesson, verify: &'l Verify, own: Option<&'l Lab>, all: &mut Vec<Piece<'l>>) {
+fn add_claim<'l>(lesson: &'l Lesson, verify: &'l Verify, lab: Option<&'l Lab>, all: &mut Vec<CodeText<'l>>) {
     let whole = lesson.whole(verify);
-    let base = whole.lab.as_ref().map_or(own, |named| lesson.named(named));
+    let base = whole.lab.as_ref().map_or(lab, |named| lesson.named(named));
     let scope = |form| if form == Form::Statements { Scope::Lab } else { Scope::Measure };
     let mut add = |texts: Vec<(Form, &'l Text)>, lab: Option<&'l Lab>| {
         let Some(lab) = lab else { return };
-        let piece = |(form, text)| Piece { form, scope: scope(form), text, lab, verify: Some(whole) };
+        let piece = |(form, text)| CodeText { form, scope: scope(form), text, lab, verify: Some(whole) };
         all.extend(texts.into_iter().map(piece));
     };
     let lab_of = |run: &'l Run| run.lab.as_ref().map_or(base, |named| lesson.named(named));
@@ -57,17 +57,17 @@ fn claim<'l>(lesson: &'l Lesson, verify: &'l Verify, own: Option<&'l Lab>, all: 
 }
 
 /// The text of code at a byte of the lesson, and the byte of the text.
-pub(super) fn at(lesson: &Lesson, byte: usize) -> Option<(Piece<'_>, usize)> {
-    let all = pieces(lesson);
+pub(super) fn code_at(lesson: &Lesson, byte: usize) -> Option<(CodeText<'_>, usize)> {
+    let all = code_texts(lesson);
     let piece = all.into_iter().find(|p| {
         let span = p.text.span();
         span.start <= byte && byte <= span.end
     })?;
-    Some((piece, inside(piece.text, byte)))
+    Some((piece, offset_in_text(piece.text, byte)))
 }
 
 /// The byte of a text that stands at a byte of the file. The bytes of both keep their order.
-fn inside(text: &Text, byte: usize) -> usize {
+fn offset_in_text(text: &Text, byte: usize) -> usize {
     let (mut low, mut high) = (0, text.value.len());
     while low < high {
         let middle = low + (high - low) / 2;
@@ -81,9 +81,9 @@ fn inside(text: &Text, byte: usize) -> usize {
 }
 
 /// Compiles a text with what each part of it means.
-pub(super) fn explained(piece: &Piece<'_>, model: &Model, globals: &mut Globals) -> Compiled {
-    let shown = labspec::verify::labels(piece.lab);
-    let names = ModelNames::new(model, piece.scope).showing(&shown);
+pub(super) fn explained(piece: &CodeText<'_>, model: &Model, globals: &mut Globals) -> Compiled {
+    let readouts = labspec::verify::labels(piece.lab);
+    let names = ModelNames::new(model, piece.scope).showing(&readouts);
     let mut compiler = Compiler::new(&names, globals).with_value(Some(Type::Any)).explaining();
     match piece.form {
         Form::Expression => compiler.expression(&piece.text.value),

@@ -1,45 +1,43 @@
 //! A finding as an editor shows it.
 
-use super::places;
-use labspec::finding::{Finding, Severity};
+use super::convert;
+use labspec::finding::{self, Finding};
 use labspec::report::page;
 use labspec::source::SourceFile;
-use serde_json::{Value, json};
+use lsp_types::{
+    CodeDescription, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Location,
+    NumberOrString, Uri,
+};
 
-/// What the editor calls something that has no effect, so that it is drawn pale.
-const UNNECESSARY: u8 = 1;
-/// Rules about what could as well be left out.
-const PALE: [&str; 3] = ["unused-allowance", "value-unused", "apply-unused"];
+/// Rules about what could as well be left out; editors draw it pale.
+const UNNECESSARY: [&str; 3] = ["unused-allowance", "value-unused", "apply-unused"];
 
 /// The finding, at its place in a file that the editor knows by this URI.
-pub(super) fn diagnostic(f: &Finding, file: &SourceFile, uri: &str) -> Value {
+pub(super) fn diagnostic(f: &Finding, file: &SourceFile, uri: &Uri) -> Diagnostic {
     let severity = match f.severity {
-        Severity::Error => 1,
-        Severity::Warning => 2,
-        Severity::Note => 3,
+        finding::Severity::Error => DiagnosticSeverity::ERROR,
+        finding::Severity::Warning => DiagnosticSeverity::WARNING,
+        finding::Severity::Note => DiagnosticSeverity::INFORMATION,
     };
     let parts = [Some(&f.message), f.why.as_ref(), f.help.as_ref()];
     let message: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
-    let mut told = json!({
-        "range": places::range(file, &f.span),
-        "severity": severity,
-        "code": f.code,
-        "codeDescription": {"href": page(f.code)},
-        "source": "labspec",
-        "message": message.join("\n"),
-    });
     // Places in files that are not at hand have no lines to name.
-    let here = f.related.iter().filter(|place| place.path == *file.path());
-    let related: Vec<Value> = here
-        .map(|place| {
-            json!({"location": {"uri": uri, "range": places::range(file, &place.span)}, "message": place.label})
+    let related = f.related.iter().filter(|place| place.path == *file.path());
+    let related: Vec<DiagnosticRelatedInformation> = related
+        .map(|place| DiagnosticRelatedInformation {
+            location: Location { uri: uri.clone(), range: convert::range(file, &place.span) },
+            message: place.label.to_string(),
         })
         .collect();
-    if !related.is_empty() {
-        told["relatedInformation"] = related.into();
+    Diagnostic {
+        range: convert::range(file, &f.span),
+        severity: Some(severity),
+        code: Some(NumberOrString::String(f.code.to_string())),
+        code_description: page(f.code).parse().ok().map(|href| CodeDescription { href }),
+        source: Some("labspec".to_string()),
+        message: message.join("\n"),
+        related_information: (!related.is_empty()).then_some(related),
+        tags: UNNECESSARY.contains(&f.code).then(|| vec![DiagnosticTag::UNNECESSARY]),
+        data: None,
     }
-    if PALE.contains(&f.code) {
-        told["tags"] = json!([UNNECESSARY]);
-    }
-    told
 }

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 /// A name in a model's file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Mention {
+pub(super) struct ElementName {
     /// What is called so: `body`, `joint`.
     pub(super) noun: &'static str,
     pub(super) name: String,
@@ -20,8 +20,8 @@ pub(super) struct Mention {
 
 /// What the names of a model's file are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Mentions {
-    pub(super) all: Vec<Mention>,
+pub(super) struct ElementNames {
+    pub(super) all: Vec<ElementName>,
     /// An element that makes names out of others, or takes them from other files: then a name may mean more than this file shows.
     pub(super) composed: Option<String>,
     /// Texts in attributes of which nobody knows what they name.
@@ -55,8 +55,8 @@ fn noun_of(word: &str) -> Option<&'static str> {
 }
 
 /// All names of a model's text.
-pub(super) fn mentions(xml: &str) -> Mentions {
-    let mut found = Mentions::default();
+pub(super) fn element_names(xml: &str) -> ElementNames {
+    let mut found = ElementNames::default();
     // Below the root, the first element that is open is the section.
     let mut open: Vec<&str> = Vec::new();
     let mut at = 0;
@@ -136,7 +136,7 @@ fn attributes(xml: &str, from: usize) -> (Vec<Attribute<'_>>, usize, bool) {
 }
 
 /// Notes the names that an element has and names.
-fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], found: &mut Mentions) {
+fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], found: &mut ElementNames) {
     if COMPOSING.contains(&name) {
         found.composed.get_or_insert_with(|| name.to_string());
     }
@@ -146,10 +146,11 @@ fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], f
             Some(Kind::Name(noun)) => (*noun, true),
             Some(Kind::Ref(noun)) => (*noun, false),
             Some(Kind::Text) => {
-                // What `objname` and `refname` name is told by the attribute beside them.
-                let teller = attribute.strip_suffix("name").map(|beginning| format!("{beginning}type"));
-                let told = attributes.iter().find(|(a, _)| Some(*a) == teller.as_deref());
-                match told.and_then(|(_, span)| noun_of(value(span))) {
+                // What `objname` and `refname` name is said by the attribute beside them.
+                let kind_attribute =
+                    attribute.strip_suffix("name").map(|beginning| format!("{beginning}type"));
+                let kind = attributes.iter().find(|(a, _)| Some(*a) == kind_attribute.as_deref());
+                match kind.and_then(|(_, span)| noun_of(value(span))) {
                     Some(noun) => (noun, false),
                     None => {
                         found.texts.push((value(span).to_string(), span.clone()));
@@ -161,7 +162,7 @@ fn element(xml: &str, section: &str, name: &str, attributes: &[Attribute<'_>], f
         };
         let name = value(span).to_string();
         if !name.is_empty() && !name.contains('&') {
-            found.all.push(Mention { noun, name, span: span.clone(), defines });
+            found.all.push(ElementName { noun, name, span: span.clone(), defines });
         }
     }
 }
@@ -171,8 +172,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn shown(xml: &str) -> Vec<String> {
-        let found = mentions(xml).all.into_iter();
+    fn describe_names(xml: &str) -> Vec<String> {
+        let found = element_names(xml).all.into_iter();
         found
             .map(|m| {
                 assert_eq!(&xml[m.span.clone()], m.name);
@@ -190,7 +191,7 @@ mod tests {
             <actuator><motor name="pull" joint="hinge"/></actuator>
             <sensor><framepos objtype="site" objname="tip"/><jointpos joint="hinge"/></sensor></mujoco>"#;
         assert_eq!(
-            shown(xml),
+            describe_names(xml),
             [
                 "+body arm",
                 "+joint hinge",
@@ -206,9 +207,9 @@ mod tests {
                 "joint hinge",
             ]
         );
-        assert_eq!(mentions(xml).composed, None);
+        assert_eq!(element_names(xml).composed, None);
         assert_eq!(
-            mentions("<mujoco><worldbody><replicate count='3'>").composed.as_deref(),
+            element_names("<mujoco><worldbody><replicate count='3'>").composed.as_deref(),
             Some("replicate")
         );
     }
@@ -216,11 +217,11 @@ mod tests {
     #[test]
     fn broken_models_keep_their_names() {
         assert_eq!(
-            shown("<mujoco><worldbody><body name='a' <joint name='j'/><geom name='g"),
+            describe_names("<mujoco><worldbody><body name='a' <joint name='j'/><geom name='g"),
             ["+body a", "+joint j"]
         );
         assert_eq!(
-            shown("<mujoco><worldbody><body name='a'></wrong><geom name=\"g\"/>"),
+            describe_names("<mujoco><worldbody><body name='a'></wrong><geom name=\"g\"/>"),
             ["+body a", "+geom g"]
         );
     }
@@ -229,7 +230,7 @@ mod tests {
         /// No text is a panic, and every place is one.
         #[test]
         fn any_text_is_read(text in "[<>/='\"a! \\-é]{0,40}|(<mujoco>|<worldbody>|<body |name=|'a'|/>|<!--|\\]\\]>|</body>|é){0,12}") {
-            for m in mentions(&text).all {
+            for m in element_names(&text).all {
                 prop_assert_eq!(&text[m.span], m.name);
             }
         }

@@ -2,43 +2,55 @@
 
 use super::check::lesson;
 use super::code;
-use super::course::Around;
-use super::documents::Document;
-use super::places;
+use super::context::ModelContext;
+use super::convert;
+use super::documents::OpenDocument;
 use labspec::bind::ModelNames;
 use labspec_expr::{Mention, Schema, fields_in};
-use serde_json::{Value, json};
+use lsp_types::InlayHint;
 use std::ops::Range;
 
 /// The units within a range of a document.
-pub(super) fn hints(document: &mut Document, around: &Around, range: &Range<usize>) -> Value {
-    let Some(lesson) = lesson(document, around) else { return json!([]) };
+pub(super) fn hints(
+    document: &mut OpenDocument,
+    context: &ModelContext,
+    range: &Range<usize>,
+) -> Vec<InlayHint> {
+    let Some(lesson) = lesson(document, context) else { return Vec::new() };
     let mut all = Vec::new();
-    for piece in code::pieces(&lesson) {
+    for piece in code::code_texts(&lesson) {
         let span = piece.text.span();
         if span.end < range.start || range.end < span.start {
             continue;
         }
-        let Some(model) = around.models.model_of_lab(piece.lab, &mut Vec::new()) else { continue };
-        let shown = labspec::verify::labels(piece.lab);
-        let names = ModelNames::new(&model, piece.scope).showing(&shown);
+        let Some(model) = context.models.model_of_lab(piece.lab, &mut Vec::new()) else { continue };
+        let readouts = labspec::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&readouts);
         for mention in fields_in(&names, &piece.text.value) {
             let Some(unit) = unit(&names, &mention) else { continue };
             let end = piece.text.span_of(mention.span.into()).end;
-            let place = places::range(&document.file, &(end..end));
-            all.push(json!({"position": place["start"], "label": unit, "paddingLeft": true}));
+            all.push(InlayHint {
+                position: convert::range(&document.file, &(end..end)).start,
+                label: unit.into(),
+                kind: None,
+                text_edits: None,
+                tooltip: None,
+                padding_left: Some(true),
+                padding_right: None,
+                data: None,
+            });
         }
     }
-    all.into()
+    all
 }
 
 /// The unit of a field, or of the element of one whose elements differ: the height of a free body is in m, the parts of its
 /// quaternion have none.
 fn unit(names: &ModelNames<'_>, mention: &Mention) -> Option<String> {
     let Mention { field, element, .. } = mention;
-    let told = element.and_then(|i| names.element_help(field.key, field.first + i));
+    let help = element.and_then(|i| names.element_help(field.key, field.first + i));
     let of_element =
-        told.as_deref().and_then(|help| help.rsplit_once(", ")).map(|(_, unit)| unit.to_string());
+        help.as_deref().and_then(|help| help.rsplit_once(", ")).map(|(_, unit)| unit.to_string());
     match field.unit.as_str() {
         "" => None,
         // Each element is of its own kind of joint.

@@ -3,29 +3,32 @@
 
 use super::check::lesson;
 use super::code;
-use super::course::Around;
-use super::documents::Document;
-use super::places;
-use super::start::{started, unit, value};
+use super::context::ModelContext;
+use super::convert;
+use super::documents::OpenDocument;
+use super::start::{unit, value};
 use labspec::bind::Scope;
-use labspec::source::Text;
+use labspec::source::SourceFile;
 use labspec::spec::format::completions_in;
 use labspec_expr::{Globals, Help, Span, chain_at};
-use serde_json::{Value, json};
+use lsp_types::{Hover, HoverContents, MarkupContent, MarkupKind};
 use std::ops::Range;
 
-/// What is shown for a byte of a document; nothing where there is nothing to say.
-pub(super) fn hover(document: &mut Document, around: &mut Around, byte: usize) -> Option<Value> {
-    let lesson = lesson(document, around)?;
+/// What is displayed for a byte of a document; nothing where there is nothing to say.
+pub(super) fn hover(document: &mut OpenDocument, context: &mut ModelContext, byte: usize) -> Option<Hover> {
+    let lesson = lesson(document, context)?;
     let file = &document.file;
-    let Some((piece, inside)) = code::at(&lesson, byte) else { return key(document, around, byte) };
+    let Some((piece, inside)) = code::code_at(&lesson, byte) else {
+        return hover_key(document, context, byte);
+    };
     let text = &piece.text.value;
-    let started = started(around, piece.lab, file.slice(piece.lab.span.clone()))?;
+    let key = file.slice(piece.lab.span.clone());
+    let started = context.started.start(&context.models, piece.lab, key)?;
     let help = code::explained(&piece, &started.model, &mut Globals::new()).help;
-    // The smallest part that something is known of.
+    // The smallest part that has help.
     let holds = |span: &Span| span.start <= inside && inside <= span.end;
-    let mut known: Vec<&(Span, Help)> = help.iter().filter(|(span, _)| holds(span)).collect();
-    known.sort_by_key(|(span, _)| span.end - span.start);
+    let mut explained: Vec<&(Span, Help)> = help.iter().filter(|(span, _)| holds(span)).collect();
+    explained.sort_by_key(|(span, _)| span.end - span.start);
     let chain = chain_at(text, inside);
     let worth = chain.and_then(|span| {
         let code = span.text(text);
@@ -35,7 +38,7 @@ pub(super) fn hover(document: &mut Document, around: &mut Around, byte: usize) -
         let code = span.text(text);
         unit(started, piece.lab, code).map(|unit| format!("By its dimension, `{code}` is in {unit}."))
     });
-    let first = known.first().map(|(_, help)| help);
+    let first = explained.first().map(|(_, help)| help);
     if first.is_none() && worth.is_none() {
         return None;
     }
@@ -44,31 +47,26 @@ pub(super) fn hover(document: &mut Document, around: &mut Around, byte: usize) -
     let measured = (piece.scope == Scope::Measure && first.is_none())
         .then(|| "In a measure, over a whole run.".to_string());
     let parts: Vec<String> = [title, lines, measures, measured, worth].into_iter().flatten().collect();
-    let span = chain.or(known.first().map(|(span, _)| *span))?;
-    Some(json!({
-        "contents": {"kind": "markdown", "value": parts.join("\n\n")},
-        "range": places::range(file, &place(piece.text, span)),
-    }))
+    let span = chain.or(explained.first().map(|(span, _)| *span))?;
+    Some(markdown_hover(parts.join("\n\n"), file, &piece.text.span_of(span.into())))
 }
 
-fn place(text: &Text, span: Span) -> Range<usize> {
-    text.span_of(span.into())
+fn markdown_hover(value: String, file: &SourceFile, span: &Range<usize>) -> Hover {
+    let contents = HoverContents::Markup(MarkupContent { kind: MarkupKind::Markdown, value });
+    Hover { contents, range: Some(convert::range(file, span)) }
 }
 
 /// What a key of the format takes and means.
-fn key(document: &Document, around: &Around, byte: usize) -> Option<Value> {
+fn hover_key(document: &OpenDocument, context: &ModelContext, byte: usize) -> Option<Hover> {
     let file = &document.file;
     // The text between quotes that the byte stands in.
     let line = file.text().get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
     let start = file.text().get(line..byte)?.rfind('"').map(|at| line + at)?;
     let end = start + 1 + file.text().get(start + 1..)?.find(['"', '\n'])?;
     let word = file.text().get(start + 1..end)?;
-    let offered = completions_in(file, end, &|asked| around.models.names(asked));
+    let offered = completions_in(file, end, &|asked| context.models.names(asked));
     let found = offered.iter().find(|c| c.text == word)?;
     let default = found.default.as_ref().map_or(String::new(), |d| format!("\n\nDefault: `{d}`"));
     let text = format!("**{}**: {}\n\n{}{default}", found.text, found.takes, found.doc);
-    Some(json!({
-        "contents": {"kind": "markdown", "value": text},
-        "range": places::range(file, &(start..end + 1)),
-    }))
+    Some(markdown_hover(text, file, &(start..end + 1)))
 }

@@ -1,17 +1,17 @@
 //! Where a name of the model stands: in the model itself, and in the labs and claims of the lessons around it.
 
 use super::code;
-use super::course::{Arounds, Opened, lessons_below, text_of, uri_of};
-use super::documents::Document;
-use super::elements::{Mention, mentions};
-use super::places;
+use super::context::{ModelContexts, WorkspaceRoot, editor_uri, lessons_below, text_of};
+use super::convert;
+use super::documents::OpenDocument;
+use super::elements::{ElementName, element_names};
 use labspec::bind::ModelNames;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson_at};
 use labspec::source::{Overlay, SourceFile, Text};
 use labspec::spec::{FileKind, Lab, Lesson, ModelSource};
 use labspec_expr::{Schema, names_in, texts_in};
-use serde_json::{Value, json};
+use lsp_types::{Location, Position, Uri};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -19,18 +19,18 @@ use std::sync::Arc;
 
 /// A name, and in which model it has its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Name {
+pub(super) struct QualifiedName {
     /// What is called so: `body`.
     pub(super) noun: String,
     pub(super) name: String,
-    pub(super) model: Home,
+    pub(super) model: ModelLocation,
     /// Where it was pointed at: bytes of that file.
     pub(super) span: Range<usize>,
 }
 
 /// Where the text of a model stands.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Home {
+pub(super) enum ModelLocation {
     /// A file of its own.
     File(PathBuf),
     /// The lab with these bytes of a lesson.
@@ -39,7 +39,7 @@ pub(super) enum Home {
 
 /// A place where a name stands.
 #[derive(Clone, Debug)]
-pub(super) struct Spot {
+pub(super) struct Occurrence {
     pub(super) file: SourceFile,
     pub(super) span: Range<usize>,
     /// Here the element gets its name.
@@ -50,7 +50,7 @@ pub(super) struct Spot {
 
 /// What else stands around that bears the name, and may mean it.
 #[derive(Clone, Debug)]
-pub(super) struct Doubt {
+pub(super) struct Ambiguity {
     pub(super) file: SourceFile,
     pub(super) span: Range<usize>,
     pub(super) why: &'static str,
@@ -58,66 +58,84 @@ pub(super) struct Doubt {
 
 /// Every place of a name.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Places {
-    pub(super) spots: Vec<Spot>,
-    pub(super) doubts: Vec<Doubt>,
+pub(super) struct Occurrences {
+    pub(super) all: Vec<Occurrence>,
+    pub(super) ambiguities: Vec<Ambiguity>,
 }
 
 /// What is needed to find names: what the editor holds, and where models and folders are.
-pub(super) struct Ground<'a> {
-    pub(super) open: &'a BTreeMap<String, Document>,
-    pub(super) folders: &'a [Opened],
+pub(super) struct SearchScope<'a> {
+    pub(super) open: &'a BTreeMap<String, OpenDocument>,
+    pub(super) folders: &'a [WorkspaceRoot],
     pub(super) models_of: &'a dyn Fn(&Path) -> ModelFolder,
     pub(super) overlay: &'a Arc<Overlay>,
 }
 
-impl Ground<'_> {
+impl SearchScope<'_> {
     /// A file as the editor names it.
-    pub(super) fn uri(&self, path: &str) -> String {
-        uri_of(Path::new(path), self.open, self.folders)
+    pub(super) fn uri(&self, path: &Path) -> Option<Uri> {
+        editor_uri(path, self.open, self.folders)
     }
 }
 
 /// The name at a byte of a lesson.
-pub(super) fn name_in_lesson(lesson: &Lesson, path: &Path, models: &Models, byte: usize) -> Option<Name> {
-    if let Some((piece, inside)) = code::at(lesson, byte) {
+pub(super) fn name_in_lesson(
+    lesson: &Lesson,
+    path: &Path,
+    models: &Models,
+    byte: usize,
+) -> Option<QualifiedName> {
+    if let Some((piece, inside)) = code::code_at(lesson, byte) {
         let model = models.model_of_lab(piece.lab, &mut Vec::new())?;
-        let shown = labspec::verify::labels(piece.lab);
-        let names = ModelNames::new(&model, piece.scope).showing(&shown);
+        let readouts = labspec::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&readouts);
         let all = names_in(&names, &piece.text.value);
         let found = all.into_iter().find(|n| n.span.start <= inside && inside <= n.span.end)?;
         let span = piece.text.span_of(found.span.into());
         let noun = names.noun(found.collection).to_string();
-        return Some(Name { noun, name: found.name, model: home(piece.lab, path, models)?, span });
+        return Some(QualifiedName {
+            noun,
+            name: found.name,
+            model: model_location(piece.lab, path, models)?,
+            span,
+        });
     }
     let holds = |text: &Text| text.span().start <= byte && byte <= text.span().end;
     let trail =
         lesson.all_labs().into_iter().find_map(|lab| Some((lab, lab.trail.as_ref().filter(|t| holds(t))?)));
     if let Some((lab, text)) = trail {
-        let model = home(lab, path, models)?;
-        return Some(Name { noun: "site".into(), name: text.value.clone(), model, span: text.span() });
+        let model = model_location(lab, path, models)?;
+        return Some(QualifiedName {
+            noun: "site".into(),
+            name: text.value.clone(),
+            model,
+            span: text.span(),
+        });
     }
     // In a model that is written in the lab itself.
-    let own =
+    let inline =
         lesson.all_labs().into_iter().find_map(|lab| Some((lab, lab.xml.as_ref().filter(|t| holds(t))?)));
-    let (lab, text) = own?;
-    let all = mentions(&text.value).all.into_iter();
+    let (lab, text) = inline?;
+    let all = element_names(&text.value).all.into_iter();
     let mut all = all.map(|m| (text.span_of(m.span.clone()), m));
     let (span, m) = all.find(|(span, _)| span.start <= byte && byte <= span.end)?;
-    Some(Name {
+    Some(QualifiedName {
         noun: m.noun.into(),
         name: m.name,
-        model: Home::Lab(path.to_path_buf(), lab.span.clone()),
+        model: ModelLocation::Lab(path.to_path_buf(), lab.span.clone()),
         span,
     })
 }
 
 /// The name at a byte of a model's file.
-pub(super) fn name_in_model(file: &SourceFile, path: &Path, byte: usize) -> Option<(Name, bool)> {
-    let all = mentions(file.text()).all.into_iter();
-    let Mention { noun, name, span, defines } =
+pub(super) fn name_in_model(file: &SourceFile, path: &Path, byte: usize) -> Option<(QualifiedName, bool)> {
+    let all = element_names(file.text()).all.into_iter();
+    let ElementName { noun, name, span, defines } =
         all.into_iter().find(|m| m.span.start <= byte && byte <= m.span.end)?;
-    Some((Name { noun: noun.into(), name, model: Home::File(path.to_path_buf()), span }, defines))
+    Some((
+        QualifiedName { noun: noun.into(), name, model: ModelLocation::File(path.to_path_buf()), span },
+        defines,
+    ))
 }
 
 /// The file of the model that a lab names, where the byte stands in that name.
@@ -128,42 +146,42 @@ pub(super) fn model_named(lesson: &Lesson, models: &Models, byte: usize) -> Opti
     models.folder().path(&text.value)
 }
 
-fn home(lab: &Lab, path: &Path, models: &Models) -> Option<Home> {
+fn model_location(lab: &Lab, path: &Path, models: &Models) -> Option<ModelLocation> {
     match lab.scene()? {
-        ModelSource::Model(name) => models.folder().path(&name.value).map(Home::File),
-        ModelSource::Xml(_) => Some(Home::Lab(path.to_path_buf(), lab.span.clone())),
+        ModelSource::Model(name) => models.folder().path(&name.value).map(ModelLocation::File),
+        ModelSource::Xml(_) => Some(ModelLocation::Lab(path.to_path_buf(), lab.span.clone())),
     }
 }
 
 /// Every place of a name in its model, and in the labs and claims that are about this model.
-pub(super) fn places_of(name: &Name, ground: &Ground<'_>) -> Places {
-    let mut found = Places::default();
-    let mut arounds = Arounds::over(ground.overlay.clone());
+pub(super) fn find_occurrences(name: &QualifiedName, scope: &SearchScope<'_>) -> Occurrences {
+    let mut found = Occurrences::default();
+    let mut contexts = ModelContexts::with_overlay(scope.overlay.clone());
     let files = match &name.model {
-        Home::Lab(path, _) => {
-            text_of(path, ground.open).into_iter().map(|file| (path.clone(), file)).collect()
+        ModelLocation::Lab(path, _) => {
+            text_of(path, scope.open).into_iter().map(|file| (path.clone(), file)).collect()
         }
-        Home::File(path) => {
-            if let Some(file) = text_of(path, ground.open) {
+        ModelLocation::File(path) => {
+            if let Some(file) = text_of(path, scope.open) {
                 in_model(name, &file, |span| Some(span.clone()), file.text(), &mut found);
             }
-            lessons_around(path, ground)
+            lessons_around(path, scope)
         }
     };
     for (path, file) in files {
         if !file.text().contains(&name.name) {
             continue;
         }
-        let around = arounds.of(&path, ground.models_of);
-        let lesson = load_lesson_at(file, &path, &around.sources, around.models.folder());
-        in_lesson(name, &lesson, &path, &around.models, &mut found);
+        let context = contexts.model_context(&path, scope.models_of);
+        let lesson = load_lesson_at(file, &path, &context.sources, context.models.folder());
+        in_lesson(name, &lesson, &path, &context.models, &mut found);
     }
     found
 }
 
 /// The lessons of the folder that the editor opened around a model, or else of that which holds the folder of models.
-fn lessons_around(model: &Path, ground: &Ground<'_>) -> Vec<(PathBuf, SourceFile)> {
-    let opened = ground
+fn lessons_around(model: &Path, scope: &SearchScope<'_>) -> Vec<(PathBuf, SourceFile)> {
+    let opened = scope
         .folders
         .iter()
         .map(|folder| &folder.real)
@@ -171,75 +189,75 @@ fn lessons_around(model: &Path, ground: &Ground<'_>) -> Vec<(PathBuf, SourceFile
         .min_by_key(|f| f.components().count());
     let above = model.parent().and_then(Path::parent);
     let Some(folder) = opened.map(PathBuf::as_path).or(above) else { return Vec::new() };
-    let all = lessons_below(folder, ground.open).into_iter();
+    let all = lessons_below(folder, scope.open).into_iter();
     all.map(|file| (PathBuf::from(&**file.path()), file)).collect()
 }
 
 /// In the text of the model.
 fn in_model(
-    name: &Name,
+    name: &QualifiedName,
     file: &SourceFile,
     span_of: impl Fn(&Range<usize>) -> Option<Range<usize>>,
     xml: &str,
-    found: &mut Places,
+    found: &mut Occurrences,
 ) {
-    let read = mentions(xml);
+    let read = element_names(xml);
     for m in read.all.iter().filter(|m| m.noun == name.noun && m.name == name.name) {
         let span = span_of(&m.span);
         let plain = span.as_ref().is_some_and(|span| file.slice(span.clone()) == name.name);
         let span = span.unwrap_or_default();
-        found.spots.push(Spot { file: file.clone(), span, defines: m.defines, plain });
+        found.all.push(Occurrence { file: file.clone(), span, defines: m.defines, plain });
     }
-    let doubt = |span: Range<usize>, why| Doubt { file: file.clone(), span, why };
+    let ambiguity = |span: Range<usize>, why| Ambiguity { file: file.clone(), span, why };
     let texts = read.texts.into_iter().filter(|(text, _)| *text == name.name);
-    found.doubts.extend(texts.map(|(_, span)| {
-        doubt(span_of(&span).unwrap_or_default(), "this attribute may mean it, or something else")
+    found.ambiguities.extend(texts.map(|(_, span)| {
+        ambiguity(span_of(&span).unwrap_or_default(), "this attribute may mean it, or something else")
     }));
     if read.composed.is_some() {
-        found.doubts.push(doubt(0..0, "this model generates names, or takes them from other files"));
+        found.ambiguities.push(ambiguity(0..0, "this model generates names, or takes them from other files"));
     }
 }
 
 /// In the labs and claims of a lesson that are about this model.
-fn in_lesson(name: &Name, lesson: &Lesson, path: &Path, models: &Models, found: &mut Places) {
+fn in_lesson(name: &QualifiedName, lesson: &Lesson, path: &Path, models: &Models, found: &mut Occurrences) {
     let file = &lesson.file;
-    let about = |lab: &Lab| home(lab, path, models).is_some_and(|home| home == name.model);
-    let mut spot = |text: &Text, span: Range<usize>| {
+    let about = |lab: &Lab| model_location(lab, path, models).is_some_and(|location| location == name.model);
+    let mut occurrence = |text: &Text, span: Range<usize>| {
         let at = text.span_of(span.clone());
         let plain = text.map.is_unbroken(span) && file.slice(at.clone()) == name.name;
-        found.spots.push(Spot { file: file.clone(), span: at, defines: false, plain });
+        found.all.push(Occurrence { file: file.clone(), span: at, defines: false, plain });
     };
-    let mut doubts = Vec::new();
-    for piece in code::pieces(lesson).into_iter().filter(|piece| about(piece.lab)) {
+    let mut ambiguities = Vec::new();
+    for piece in code::code_texts(lesson).into_iter().filter(|piece| about(piece.lab)) {
         let Some(model) = models.model_of_lab(piece.lab, &mut Vec::new()) else { continue };
-        let shown = labspec::verify::labels(piece.lab);
-        let names = ModelNames::new(&model, piece.scope).showing(&shown);
-        let known = names_in(&names, &piece.text.value);
-        for n in known.iter().filter(|n| n.name == name.name && names.noun(n.collection) == name.noun) {
-            spot(piece.text, n.span.into());
+        let readouts = labspec::verify::labels(piece.lab);
+        let names = ModelNames::new(&model, piece.scope).showing(&readouts);
+        let named = names_in(&names, &piece.text.value);
+        for n in named.iter().filter(|n| n.name == name.name && names.noun(n.collection) == name.noun) {
+            occurrence(piece.text, n.span.into());
         }
         // Texts that bear the name, alone or as one of several, and are no name of an object.
         let bears = |text: &str| {
             text.split(|c: char| !(c.is_alphanumeric() || "_-.".contains(c))).any(|w| w == name.name)
         };
         let loose = texts_in(&piece.text.value).into_iter().filter(|(text, span)| {
-            (bears(text) || text == &name.name) && !known.iter().any(|n| n.span == *span)
+            (bears(text) || text == &name.name) && !named.iter().any(|n| n.span == *span)
         });
-        doubts.extend(loose.map(|(_, span)| piece.text.span_of(span.into())));
+        ambiguities.extend(loose.map(|(_, span)| piece.text.span_of(span.into())));
     }
     for lab in lesson.all_labs().into_iter().filter(|lab| about(lab)) {
         if let Some(text) = lab.trail.as_ref().filter(|t| name.noun == "site" && t.value == name.name) {
-            spot(text, 0..text.value.len());
+            occurrence(text, 0..text.value.len());
         }
     }
     let why = "this text may mean it, or something else";
-    found.doubts.extend(doubts.into_iter().map(|span| Doubt { file: file.clone(), span, why }));
+    found.ambiguities.extend(ambiguities.into_iter().map(|span| Ambiguity { file: file.clone(), span, why }));
     let broken = lesson.broken.iter().filter(|span| file.slice((*span).clone()).contains(&name.name));
     let why = "the JSON of this block must be fixed before it can be read";
-    found.doubts.extend(broken.map(|span| Doubt { file: file.clone(), span: span.clone(), why }));
+    found.ambiguities.extend(broken.map(|span| Ambiguity { file: file.clone(), span: span.clone(), why }));
     // The model itself, where it is written in the lab.
     for lab in lesson.all_labs() {
-        if let (Home::Lab(of, span), Some(xml)) = (&name.model, &lab.xml)
+        if let (ModelLocation::Lab(of, span), Some(xml)) = (&name.model, &lab.xml)
             && of == path
             && *span == lab.span
         {
@@ -248,22 +266,28 @@ fn in_lesson(name: &Name, lesson: &Lesson, path: &Path, models: &Models, found: 
             in_model(name, file, whole, &xml.value, found);
         }
     }
-    found.spots.dedup_by(|a, b| a.span == b.span && a.file.path() == b.file.path());
+    found.all.dedup_by(|a, b| a.span == b.span && a.file.path() == b.file.path());
 }
 
-/// Places as the editor names them.
-pub(super) fn locations<'s>(spots: impl Iterator<Item = &'s Spot>, ground: &Ground<'_>) -> Value {
-    let one = |spot: &Spot| json!({"uri": ground.uri(spot.file.path()), "range": places::range(&spot.file, &spot.span)});
-    spots.map(one).collect()
+/// Occurrences as the editor names them.
+pub(super) fn locations<'o>(
+    occurrences: impl Iterator<Item = &'o Occurrence>,
+    scope: &SearchScope<'_>,
+) -> Vec<Location> {
+    let location = |found: &Occurrence| {
+        let range = convert::range(&found.file, &found.span);
+        Some(Location { uri: scope.uri(Path::new(&**found.file.path()))?, range })
+    };
+    occurrences.filter_map(location).collect()
 }
 
 /// The start of a file.
-pub(super) fn beginning(uri: &str) -> Value {
-    let zero = json!({"line": 0, "character": 0});
-    json!({"uri": uri, "range": {"start": zero, "end": zero}})
+pub(super) fn beginning(uri: Uri) -> Location {
+    let zero = Position::new(0, 0);
+    Location { uri, range: lsp_types::Range::new(zero, zero) }
 }
 
 /// Whether a document is a model's.
-pub(super) fn is_model(document: &Document) -> bool {
+pub(super) fn is_model(document: &OpenDocument) -> bool {
     document.kind == FileKind::Model
 }

@@ -1,49 +1,63 @@
 //! A new name for an element of a model, in the model and in every lab and claim that names it. Where it is not certain what a text
 //! means, nothing is changed, and the answer says why.
 
-use super::names::{Ground, Name, Places};
-use super::places;
+use super::convert;
+use super::names::{Occurrence, Occurrences, QualifiedName, SearchScope};
 use labspec::source::SourceFile;
-use serde_json::{Map, Value, json};
+use lsp_types::TextEdit;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The answer to a rename: a `WorkspaceEdit` whose files have an order, which those of `lsp_types` do not have.
+#[derive(Debug, Default, Serialize)]
+pub(super) struct FileEdits {
+    /// The edits of each file, by its URI.
+    changes: BTreeMap<String, Vec<TextEdit>>,
+}
 
 /// All changes that the new name asks for.
 ///
 /// # Errors
 /// A sentence for the author: the name cannot be one, is taken, or it is not certain what bears the old one.
-pub(super) fn rename(name: &Name, places: &Places, new: &str, ground: &Ground<'_>) -> Result<Value, String> {
-    let Name { noun, name: old, .. } = name;
-    good(new)?;
-    if places.spots.iter().filter(|spot| spot.defines).count() != 1 {
+pub(super) fn rename(
+    name: &QualifiedName,
+    found: &Occurrences,
+    new: &str,
+    scope: &SearchScope<'_>,
+) -> Result<FileEdits, String> {
+    let QualifiedName { noun, name: old, .. } = name;
+    validate_name(new)?;
+    if found.all.iter().filter(|occurrence| occurrence.defines).count() != 1 {
         return Err(format!("the model does not define the {noun} `{old}` in exactly one place"));
     }
-    if let Some(doubt) = places.doubts.first() {
+    if let Some(ambiguity) = found.ambiguities.first() {
         return Err(format!(
             "{}: {}; nothing was changed",
-            describe_position(&doubt.file, doubt.span.start),
-            doubt.why
+            describe_position(&ambiguity.file, ambiguity.span.start),
+            ambiguity.why
         ));
     }
-    if let Some(spot) = places.spots.iter().find(|spot| !spot.plain) {
-        let at = describe_position(&spot.file, spot.span.start);
+    if let Some(escaped) = found.all.iter().find(|occurrence| !occurrence.plain) {
+        let at = describe_position(&escaped.file, escaped.span.start);
         return Err(format!("{at}: the name is written with escapes here, so nothing was changed"));
     }
-    let mut changes: Map<String, Value> = Map::new();
-    let mut spots: Vec<_> =
-        places.spots.iter().map(|spot| (spot.file.path().clone(), spot.span.start, spot)).collect();
-    spots.sort_by(|a, b| (&a.0, a.1).cmp(&(&b.0, b.1)));
-    spots.dedup_by(|a, b| (&a.0, a.1) == (&b.0, b.1));
-    for (path, _, spot) in spots {
-        let edit = json!({"range": places::range(&spot.file, &spot.span), "newText": new});
-        let edits = changes.entry(ground.uri(&path)).or_insert_with(|| json!([]));
-        if let Value::Array(edits) = edits {
-            edits.push(edit);
-        }
+    let key = |occurrence: &Occurrence| (occurrence.file.path().clone(), occurrence.span.start);
+    let mut occurrences: Vec<&Occurrence> = found.all.iter().collect();
+    occurrences.sort_by_key(|occurrence| key(occurrence));
+    occurrences.dedup_by_key(|occurrence| key(occurrence));
+    let mut edits = FileEdits::default();
+    for Occurrence { file, span, .. } in occurrences {
+        let uri =
+            scope.uri(Path::new(&**file.path())).ok_or_else(|| format!("`{}` has no URI", file.path()))?;
+        let edit = TextEdit { range: convert::range(file, span), new_text: new.to_string() };
+        edits.changes.entry(uri.as_str().to_string()).or_default().push(edit);
     }
-    Ok(json!({"changes": changes}))
+    Ok(edits)
 }
 
 /// Names that need escapes nowhere: neither in MJCF, nor in JSON, nor in code.
-fn good(new: &str) -> Result<(), String> {
+fn validate_name(new: &str) -> Result<(), String> {
     if new.is_empty() || new.trim() != new {
         return Err("a name needs at least one character, and no spaces around it".into());
     }

@@ -13,11 +13,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What was found of a version of a document.
 #[derive(Debug)]
-pub(super) struct Ran {
+pub(super) struct FinishedJob {
     /// Of which check this is the outcome.
     pub(super) job: u64,
     pub(super) uri: String,
-    pub(super) version: i64,
+    pub(super) version: i32,
     pub(super) findings: Vec<Finding>,
 }
 
@@ -35,10 +35,10 @@ impl Job {
     pub(super) fn start(
         number: u64,
         uri: &str,
-        version: i64,
+        version: i32,
         (file, path): (SourceFile, PathBuf),
         (models, sources): (Arc<Models>, Sources),
-        done: impl FnOnce(Ran) + Send + 'static,
+        done: impl FnOnce(FinishedJob) + Send + 'static,
     ) -> Option<Job> {
         let (stop, uri) = (Arc::new(AtomicBool::new(false)), uri.to_string());
         let (asked, of) = (stop.clone(), uri.clone());
@@ -49,7 +49,7 @@ impl Job {
             });
             // What a run that was stopped says is not used.
             if !asked.load(Ordering::Relaxed) {
-                done(Ran { job: number, uri: of, version, findings });
+                done(FinishedJob { job: number, uri: of, version, findings });
             }
         };
         threads::checking().spawn(work).ok()?;

@@ -1,7 +1,7 @@
 //! Labs at their start, for whoever points at something in them: what it is worth before the first step.
 
-use super::course::Around;
 use labspec::bind::dimension_of;
+use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope};
 use labspec::finding::Finding;
 use labspec::run::{Budget, Session};
@@ -16,35 +16,41 @@ use std::sync::Arc;
 const WORK: Budget = Budget { left: 20_000_000 };
 /// How many labs are kept.
 const MOST: usize = 8;
-/// Most elements of an array that are shown.
-const SHOWN: usize = 9;
+/// Most elements of an array that are displayed.
+const MOST_ELEMENTS: usize = 9;
 
 /// A lab at its start.
 #[derive(Debug)]
-pub(super) struct Started {
+pub(super) struct StartedLab {
     /// The text of the lab.
     key: String,
     pub(super) model: Arc<Model>,
     session: Session<'static>,
 }
 
-/// The model of a lab, started if need be. `None` when there is no such model, or it has mistakes.
-pub(super) fn started<'a>(around: &'a mut Around, lab: &Lab, key: &str) -> Option<&'a Started> {
-    if let Some(at) = around.started.iter().position(|s| s.key == key) {
-        return around.started.get(at);
+/// The labs that somebody pointed into last.
+#[derive(Debug, Default)]
+pub(super) struct StartedLabs(Vec<StartedLab>);
+
+impl StartedLabs {
+    /// A lab, started if need be. `None` when its model does not exist, or has mistakes.
+    pub(super) fn start(&mut self, models: &Models, lab: &Lab, key: &str) -> Option<&StartedLab> {
+        if let Some(at) = self.0.iter().position(|s| s.key == key) {
+            return self.0.get(at);
+        }
+        let model = models.model_of_lab(lab, &mut Vec::<Finding>::new())?;
+        let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
+        let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
+        if self.0.len() >= MOST {
+            self.0.remove(0);
+        }
+        self.0.push(StartedLab { key: key.to_string(), model, session });
+        self.0.last()
     }
-    let model = around.models.model_of_lab(lab, &mut Vec::<Finding>::new())?;
-    let programs = Arc::new(Programs::compile(lab, &model, &mut Vec::new()));
-    let session = Session::start_within(programs, &model, lab.keyframe(), &AccessSet::ANY, WORK);
-    if around.started.len() >= MOST {
-        around.started.remove(0);
-    }
-    around.started.push(Started { key: key.to_string(), model, session });
-    around.started.last()
 }
 
 /// What an expression is worth at the start of the lab, as text. `None` when it means nothing there, or does not come to an end.
-pub(super) fn value(started: &Started, code: &str) -> Option<String> {
+pub(super) fn value(started: &StartedLab, code: &str) -> Option<String> {
     let mut session = started.session.clone();
     if session.ended().is_some() {
         return None;
@@ -57,7 +63,7 @@ pub(super) fn value(started: &Started, code: &str) -> Option<String> {
 }
 
 /// What an expression measures, as a unit; `None` where that is not certain, or it is a plain number.
-pub(super) fn unit(started: &Started, lab: &Lab, code: &str) -> Option<String> {
+pub(super) fn unit(started: &StartedLab, lab: &Lab, code: &str) -> Option<String> {
     let dimension = dimension_of(lab, &started.model, started.session.programs(), code)?;
     // A number of the text may stand for anything.
     (!dimension.is_number() && !dimension.factor.is_nan()).then(|| written(&dimension))
@@ -67,8 +73,8 @@ pub(super) fn unit(started: &Started, lab: &Lab, code: &str) -> Option<String> {
 fn elements(session: &mut Session<'static>, model: &Model, code: &str) -> Option<String> {
     let mut text = |code: String| evaluate(session, model, &code).map(|(_, text)| text);
     let count: usize = text(format!("({code}).length"))?.parse().ok()?;
-    let first = text(format!("({code}).slice(0, {SHOWN}).join(', ')"))?;
-    Some(if count > SHOWN { format!("[{first}, … {count} in all]") } else { format!("[{first}]") })
+    let first = text(format!("({code}).slice(0, {MOST_ELEMENTS}).join(', ')"))?;
+    Some(if count > MOST_ELEMENTS { format!("[{first}, … {count} in all]") } else { format!("[{first}]") })
 }
 
 fn evaluate(session: &mut Session<'static>, model: &Model, code: &str) -> Option<(Type, String)> {

@@ -1,10 +1,10 @@
 //! Messages from bytes and back: a header with the length of what follows, then JSON.
 //!
 //! Whoever writes is not trusted: a length beyond all measure is passed over without memory for it, and what is no message is
-//! told to the sender, who may go on.
+//! reported to the sender, who may go on.
 
 use lsp_server::Message;
-use serde_json::Value;
+use serde::Serialize;
 use std::io::{self, BufRead, Read, Write};
 
 /// Most bytes of a message. Lessons have at most 16 MB.
@@ -64,12 +64,20 @@ pub(super) fn read(input: &mut impl BufRead) -> io::Result<Incoming> {
     })
 }
 
-/// Writes JSON with its header.
+/// A message as it is written.
+#[derive(Serialize)]
+struct Envelope<'m, M> {
+    jsonrpc: &'static str,
+    #[serde(flatten)]
+    message: &'m M,
+}
+
+/// Writes a message with its header.
 ///
 /// # Errors
 /// What the system says.
-pub(super) fn write(out: &mut dyn Write, message: &Value) -> io::Result<()> {
-    let text = message.to_string();
+pub(super) fn write(out: &mut dyn Write, message: &impl Serialize) -> io::Result<()> {
+    let text = serde_json::to_string(&Envelope { jsonrpc: "2.0", message })?;
     write!(out, "Content-Length: {}\r\n\r\n{text}", text.len())?;
     out.flush()
 }
@@ -93,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_message_is_told_and_what_follows_is_read() {
+    fn what_is_no_message_is_reported_and_what_follows_is_read() {
         let message = |text: &str| format!("content-length:{}\r\nX: y\r\n\r\n{text}", text.len());
         let good = message(r#"{"jsonrpc":"2.0","method":"exit"}"#);
         for (bad, why) in [

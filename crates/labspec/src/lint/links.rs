@@ -6,6 +6,8 @@ use crate::markdown::{self, Link, Scan};
 use crate::rules;
 use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
 use crate::spec::Lesson;
+use percent_encoding::percent_decode_str;
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Most links that are followed.
@@ -139,7 +141,8 @@ fn inside(target: &str) -> Option<(String, Option<String>)> {
         Some((file, anchor)) => (file, Some(anchor.to_string()).filter(|a| !a.is_empty())),
         None => (target, None),
     };
-    let file = decoded(file.split('?').next().unwrap_or(file));
+    let path = file.split('?').next().unwrap_or(file);
+    let file = decoded(path).into_owned();
     (!file.is_empty()).then_some((file, anchor))
 }
 
@@ -159,26 +162,8 @@ fn joined(folder: &Path, file: &str) -> Option<PathBuf> {
 }
 
 /// `%20` is a space.
-fn decoded(text: &str) -> String {
-    let mut bytes = Vec::new();
-    let mut rest = text.as_bytes();
-    while let Some((first, after)) = rest.split_first() {
-        let code = after
-            .get(..2)
-            .and_then(|h| std::str::from_utf8(h).ok())
-            .and_then(|h| u8::from_str_radix(h, 16).ok());
-        match (first, code) {
-            (b'%', Some(byte)) => {
-                bytes.push(byte);
-                rest = after.get(2..).unwrap_or(&[]);
-            }
-            _ => {
-                bytes.push(*first);
-                rest = after;
-            }
-        }
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
+fn decoded(text: &str) -> Cow<'_, str> {
+    percent_decode_str(text).decode_utf8_lossy()
 }
 
 fn finding(link: &Link, said: &str) -> Finding {

@@ -9,7 +9,7 @@ mod human;
 mod machine;
 mod table;
 #[cfg(feature = "report")]
-mod uri;
+pub mod uri;
 
 pub use crate::printable::{counted, printable, printable_json, printable_lines, printable_path};
 #[cfg(feature = "report")]

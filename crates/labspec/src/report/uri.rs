@@ -1,7 +1,28 @@
 //! Paths as other programs write them: with `/` between folders, and as references of RFC 3986.
 
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use std::borrow::Cow;
-use std::fmt::Write;
+
+/// The characters that RFC 3986 does not leave as they are in a relative path: all but the unreserved ones, and those that may stand
+/// between slashes. A colon is encoded, too: it would end a scheme.
+pub const RELATIVE_PATH: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'/')
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~')
+    .remove(b'!')
+    .remove(b'$')
+    .remove(b'&')
+    .remove(b'\'')
+    .remove(b'(')
+    .remove(b')')
+    .remove(b'*')
+    .remove(b'+')
+    .remove(b',')
+    .remove(b';')
+    .remove(b'=')
+    .remove(b'@');
 
 /// A path with `/` between its folders, and without a `./` that says nothing.
 pub(super) fn slashed(path: &str) -> Cow<'_, str> {
@@ -13,24 +34,16 @@ pub(super) fn slashed(path: &str) -> Cow<'_, str> {
 }
 
 /// The reference of a path: relative as the path is, or a URI of a file. What RFC 3986 does not leave as it is, is written as the
-/// bytes of UTF-8 in hexadecimal: a colon, too, which would end a scheme.
+/// bytes of UTF-8 in hexadecimal.
 pub(super) fn uri(path: &str) -> String {
     let path = slashed(path);
     let drive = cfg!(windows) && path.get(1..2) == Some(":");
-    let mut uri = String::from(match (path.starts_with('/'), drive) {
+    let scheme = match (path.starts_with('/'), drive) {
         (true, _) => "file://",
         (_, true) => "file:///",
         _ => "",
-    });
-    for b in path.bytes() {
-        // The characters that are not reserved, and those that may stand between slashes.
-        if b.is_ascii_alphanumeric() || b"/-._~!$&'()*+,;=@".contains(&b) {
-            uri.push(char::from(b));
-        } else {
-            let _ = write!(uri, "%{b:02X}");
-        }
-    }
-    uri
+    };
+    format!("{scheme}{}", utf8_percent_encode(&path, RELATIVE_PATH))
 }
 
 #[cfg(test)]
@@ -59,19 +72,10 @@ mod tests {
         #[test]
         fn every_path_comes_back(path in "[^./\\\\][^\\\\]{0,30}") {
             let uri = uri(&path);
-            let mut bytes = Vec::new();
-            let mut left = uri.bytes();
-            while let Some(b) = left.next() {
-                let allowed = b.is_ascii_alphanumeric() || b"/-._~!$&'()*+,;=@%".contains(&b);
-                prop_assert!(allowed, "{uri}");
-                if b == b'%' {
-                    let digits = [left.next().unwrap(), left.next().unwrap()];
-                    bytes.push(u8::from_str_radix(std::str::from_utf8(&digits).unwrap(), 16).unwrap());
-                } else {
-                    bytes.push(b);
-                }
-            }
-            prop_assert_eq!(String::from_utf8(bytes).unwrap(), path);
+            let allowed = |b: u8| b.is_ascii_alphanumeric() || b"/-._~!$&'()*+,;=@%".contains(&b);
+            prop_assert!(uri.bytes().all(allowed), "{uri}");
+            let decoded = percent_encoding::percent_decode_str(&uri).decode_utf8().unwrap();
+            prop_assert_eq!(decoded, path);
         }
     }
 }

@@ -1,13 +1,14 @@
 //! What lies around a document: the models that its labs name, compiled once, and the other lessons of the folder.
 
-use super::documents::Document;
-use super::places;
-use super::start::Started;
+use super::convert;
+use super::documents::OpenDocument;
+use super::start::StartedLabs;
 use ignore::WalkBuilder;
 use labspec::bind::scene::Models;
 use labspec::lint::ModelFolder;
 use labspec::source::{MAX_FILE, Overlay, SourceFile, Sources};
 use labspec::spec::{FileKind, kind_of};
+use lsp_types::Uri;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -19,33 +20,37 @@ const MOST_ENTRIES: usize = 100_000;
 
 /// The models of one folder, and the labs that were started with them.
 #[derive(Debug)]
-pub(super) struct Around {
+pub(super) struct ModelContext {
     /// The models; threads that run labs share them.
     pub(super) models: Arc<Models>,
     /// Where other lessons are read from: the editor's texts, then files.
     pub(super) sources: Sources,
     /// The labs that somebody pointed into last.
-    pub(super) started: Vec<Started>,
+    pub(super) started: StartedLabs,
 }
 
-/// Everything around the open documents, by the folder of models.
+/// The models and sources of all open documents, by the folder of models.
 #[derive(Debug, Default)]
-pub(super) struct Arounds {
-    by_folder: BTreeMap<Option<PathBuf>, Around>,
+pub(super) struct ModelContexts {
+    by_folder: BTreeMap<Option<PathBuf>, ModelContext>,
     /// The folder of models of each document, as it was found.
     folders: BTreeMap<PathBuf, ModelFolder>,
     /// The texts that the editor holds.
     pub(super) overlay: Arc<Overlay>,
 }
 
-impl Arounds {
+impl ModelContexts {
     /// Nothing is compiled yet; these are the texts that the editor holds.
-    pub(super) fn over(overlay: Arc<Overlay>) -> Arounds {
-        Arounds { overlay, ..Arounds::default() }
+    pub(super) fn with_overlay(overlay: Arc<Overlay>) -> ModelContexts {
+        ModelContexts { overlay, ..ModelContexts::default() }
     }
 
-    /// What lies around a document.
-    pub(super) fn of(&mut self, document: &Path, models_of: &dyn Fn(&Path) -> ModelFolder) -> &mut Around {
+    /// The models and sources of a document.
+    pub(super) fn model_context(
+        &mut self,
+        document: &Path,
+        models_of: &dyn Fn(&Path) -> ModelFolder,
+    ) -> &mut ModelContext {
         let sources = self.sources();
         let find = || {
             let folder = models_of(document);
@@ -54,17 +59,17 @@ impl Arounds {
         };
         let folder = self.folders.entry(document.to_path_buf()).or_insert_with(find);
         let key = folder.path_of_folder().map(Path::to_path_buf);
-        let new = |folder: &ModelFolder| Around {
+        let new = |folder: &ModelFolder| ModelContext {
             models: Arc::new(Models::new(folder.clone()).with_sources(sources.clone())),
             sources: sources.clone(),
-            started: Vec::new(),
+            started: StartedLabs::default(),
         };
-        let around = self.by_folder.entry(key).or_insert_with(|| new(folder));
+        let context = self.by_folder.entry(key).or_insert_with(|| new(folder));
         // A model that was added or taken away.
-        if around.models.folder().names() != folder.names() {
-            *around = new(folder);
+        if context.models.folder().names() != folder.names() {
+            *context = new(folder);
         }
-        around
+        context
     }
 
     /// The texts of the editor over files.
@@ -86,7 +91,7 @@ impl Arounds {
 
 /// A folder that the editor opened.
 #[derive(Debug)]
-pub(super) struct Opened {
+pub(super) struct WorkspaceRoot {
     /// As the editor names it.
     pub(super) named: PathBuf,
     /// Links resolved.
@@ -94,16 +99,20 @@ pub(super) struct Opened {
 }
 
 /// A file as the editor names it: by the document that it has open, or by the folder that it opened.
-pub(super) fn uri_of(path: &Path, open: &BTreeMap<String, Document>, folders: &[Opened]) -> String {
+pub(super) fn editor_uri(
+    path: &Path,
+    open: &BTreeMap<String, OpenDocument>,
+    folders: &[WorkspaceRoot],
+) -> Option<Uri> {
     if let Some(document) = open.values().find(|d| d.path == path) {
-        return document.uri.clone();
+        return Some(document.uri.clone());
     }
     let inside = folders.iter().find_map(|f| Some(f.named.join(path.strip_prefix(&f.real).ok()?)));
-    places::uri_of(inside.as_deref().unwrap_or(path))
+    convert::uri_of_path(inside.as_deref().unwrap_or(path))
 }
 
 /// The lessons below a folder, as the editor holds them or else as they are saved. Files that `.gitignore` names are left out.
-pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, Document>) -> Vec<SourceFile> {
+pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, OpenDocument>) -> Vec<SourceFile> {
     let mut paths: Vec<PathBuf> = WalkBuilder::new(folder)
         .build()
         .take(MOST_ENTRIES)
@@ -120,7 +129,7 @@ pub(super) fn lessons_below(folder: &Path, open: &BTreeMap<String, Document>) ->
 }
 
 /// A file as the editor holds it, or else as it is saved.
-pub(super) fn text_of(path: &Path, open: &BTreeMap<String, Document>) -> Option<SourceFile> {
+pub(super) fn text_of(path: &Path, open: &BTreeMap<String, OpenDocument>) -> Option<SourceFile> {
     if let Some(document) = open.values().find(|d| d.path == path) {
         return Some(document.file.clone());
     }

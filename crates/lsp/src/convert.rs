@@ -1,0 +1,142 @@
+//! Positions as editors name them (lines from 0, units of UTF-16), and files as URIs.
+
+use labspec::report::uri::RELATIVE_PATH;
+use labspec::source::SourceFile;
+use lsp_types::{Position, Uri};
+use percent_encoding::{AsciiSet, percent_decode_str, utf8_percent_encode};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// What is encoded in the path of a URI, where a colon ends no scheme: editors leave it as it is.
+const ABSOLUTE_PATH: &AsciiSet = &RELATIVE_PATH.remove(b':');
+
+/// The range of a span.
+pub(super) fn range(file: &SourceFile, span: &Range<usize>) -> lsp_types::Range {
+    let span = file.snap(span);
+    lsp_types::Range { start: position(file, span.start), end: position(file, span.end) }
+}
+
+/// The position of a byte.
+pub(super) fn position(file: &SourceFile, byte: usize) -> Position {
+    let at = file.editor_position(byte);
+    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    Position { line: number(at.line), character: number(at.character) }
+}
+
+/// The byte of a position; the end of its line when the line is shorter, the end of the text when it has fewer lines.
+pub(super) fn byte_offset(text: &str, position: Position) -> usize {
+    let mut start = 0;
+    let bytes = text.as_bytes();
+    for _ in 0..position.line {
+        let Some(length) =
+            bytes.get(start..).and_then(|rest| rest.iter().position(|b| matches!(b, b'\n' | b'\r')))
+        else {
+            return text.len();
+        };
+        let end = start + length;
+        let pair = bytes.get(end) == Some(&b'\r') && bytes.get(end + 1) == Some(&b'\n');
+        start = end + if pair { 2 } else { 1 };
+    }
+    // Editors hide a byte-order mark.
+    if start == 0 && text.starts_with('\u{feff}') {
+        start = '\u{feff}'.len_utf8();
+    }
+    let (character, mut units) = (position.character as usize, 0);
+    for (at, c) in text.get(start..).unwrap_or("").char_indices() {
+        if units >= character || matches!(c, '\n' | '\r') {
+            return start + at;
+        }
+        units += c.len_utf16();
+        if units > character {
+            // Inside of a surrogate pair: its beginning.
+            return start + at;
+        }
+    }
+    text.len()
+}
+
+/// The bytes of a range. Ends that are swapped are put in order.
+pub(super) fn byte_span(text: &str, range: lsp_types::Range) -> Range<usize> {
+    let (a, b) = (byte_offset(text, range.start), byte_offset(text, range.end));
+    a.min(b)..a.max(b)
+}
+
+/// The file of a URI; `None` for a URI of another scheme or another machine.
+pub(super) fn path_of_uri(uri: &Uri) -> Option<PathBuf> {
+    if !uri.scheme()?.eq_lowercase("file") || !matches!(uri.authority()?.as_str(), "" | "localhost") {
+        return None;
+    }
+    let path = percent_decode_str(uri.path().as_str()).decode_utf8().ok()?;
+    if !path.starts_with('/') || path.contains('\0') {
+        return None;
+    }
+    // `file:///c:/x` is a path of Windows.
+    let drive = path.get(2..3) == Some(":") && cfg!(windows);
+    Some(PathBuf::from(if drive { path.get(1..)? } else { &path }))
+}
+
+/// The file itself, whatever links lead to it; it may not be there yet.
+pub(super) fn resolve_links(path: &Path) -> PathBuf {
+    let beside = || Some(path.parent()?.canonicalize().ok()?.join(path.file_name()?));
+    path.canonicalize().ok().or_else(beside).unwrap_or_else(|| path.to_path_buf())
+}
+
+/// The URI of a file. `None` stands for text that the parser of URIs refuses, which the encoding rules out.
+pub(super) fn uri_of_path(path: &Path) -> Option<Uri> {
+    let text = path.display().to_string().replace('\\', "/");
+    let root = if text.starts_with('/') { "file://" } else { "file:///" };
+    format!("{root}{}", utf8_percent_encode(&text, ABSOLUTE_PATH)).parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn files_have_uris_and_back() {
+        for path in ["/a/b c.md", "/ä/%/#?.md", "/tmp/x(1).xml", "//x/y", "/a:b/[1]{2}|^`\"<>.md"] {
+            let uri = uri_of_path(Path::new(path)).unwrap();
+            assert_eq!(path_of_uri(&uri).as_deref(), Some(Path::new(path)), "{uri:?}");
+        }
+        assert_eq!(uri_of_path(Path::new("/ä b:c")).unwrap().as_str(), "file:///%C3%A4%20b:c");
+        let local: Uri = "file://localhost/a%20b".parse().unwrap();
+        assert_eq!(path_of_uri(&local), Some(PathBuf::from("/a b")));
+        for none in [
+            "untitled:1",
+            "file://elsewhere/x",
+            "file://me@localhost/x",
+            "file:///%",
+            "file:///%zz",
+            "file:///%ff",
+            "file:///a%00",
+            "file:/a",
+            "a.md",
+            "",
+        ] {
+            let path = none.parse().ok().and_then(|uri: Uri| path_of_uri(&uri));
+            assert_eq!(path, None, "{none}");
+        }
+    }
+
+    proptest! {
+        /// Every byte that begins a character comes back from its position.
+        #[test]
+        fn positions_come_back(text in "[ä𝄞\ta \r\n]{0,24}") {
+            let file = SourceFile::new("a.md", text.as_str());
+            for (at, _) in text.char_indices() {
+                let position = position(&file, at);
+                let back = byte_offset(&text, position);
+                // Between the two halves of a line break the position is the end of the line.
+                prop_assert!(back == at || text[..at].ends_with('\r') && back + 1 == at, "{at} {back} {position:?}");
+            }
+        }
+
+        /// Every path has a URI, and comes back from it.
+        #[test]
+        fn paths_come_back(path in "/[^\0\\\\]{0,30}") {
+            let uri = uri_of_path(Path::new(&path)).unwrap();
+            prop_assert_eq!(path_of_uri(&uri), Some(PathBuf::from(path)));
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! How a conversation begins: what the editor says of itself and of its settings, and what this server can do.
+
+use lsp_types::{
+    CodeActionKind, CodeActionOptions, CodeActionProviderCapability, CompletionOptions,
+    HoverProviderCapability, InitializeResult, OneOf, PositionEncodingKind, RenameOptions, SaveOptions,
+    ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
+    TextDocumentSyncOptions, TextDocumentSyncSaveOptions, Uri, WorkspaceFolder,
+};
+use serde::Deserialize;
+use serde_json::Value;
+
+/// What this server reads of `InitializeParams`. The capabilities of the editor are not read: one that is newer than the types
+/// of `lsp_types` is served, too.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct ClientSetup {
+    root_uri: Option<Uri>,
+    workspace_folders: Option<Vec<WorkspaceFolder>>,
+    /// Settings of this server.
+    pub(super) initialization_options: Option<Value>,
+}
+
+impl ClientSetup {
+    /// The folders that the editor opened.
+    pub(super) fn roots(&self) -> Vec<&Uri> {
+        match self.workspace_folders.as_deref() {
+            None | Some([]) => self.root_uri.iter().collect(),
+            Some(folders) => folders.iter().map(|folder| &folder.uri).collect(),
+        }
+    }
+}
+
+/// What the person wants.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EditorSettings {
+    /// Units behind what texts name.
+    pub(super) units: bool,
+    /// Labs are run when a lesson is saved.
+    pub(super) run_on_save: bool,
+}
+
+impl Default for EditorSettings {
+    fn default() -> EditorSettings {
+        EditorSettings { units: false, run_on_save: true }
+    }
+}
+
+impl EditorSettings {
+    /// Takes the settings that a message has, and leaves the rest. A message with a value of the wrong type changes nothing.
+    pub(super) fn update(&mut self, message: Value) {
+        let settings = match serde_json::from_value(message) {
+            Ok(SettingsMessage::Section { labspec } | SettingsMessage::Plain(labspec)) => labspec,
+            Err(_) => return,
+        };
+        let units = settings.inlay_hints.and_then(|hints| hints.units);
+        self.units = units.unwrap_or(self.units);
+        self.run_on_save = settings.run_on_save.unwrap_or(self.run_on_save);
+    }
+}
+
+/// Settings as editors send them: in a section of the server's name, or alone.
+#[derive(Debug, Deserialize)]
+#[serde(untagged)]
+enum SettingsMessage {
+    Section { labspec: ClientSettings },
+    Plain(ClientSettings),
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ClientSettings {
+    inlay_hints: Option<InlayHintSettings>,
+    run_on_save: Option<bool>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct InlayHintSettings {
+    units: Option<bool>,
+}
+
+/// What this server can do.
+pub(super) fn initialize_result() -> InitializeResult {
+    let sync = TextDocumentSyncOptions {
+        open_close: Some(true),
+        change: Some(TextDocumentSyncKind::INCREMENTAL),
+        save: Some(TextDocumentSyncSaveOptions::SaveOptions(SaveOptions { include_text: Some(false) })),
+        ..TextDocumentSyncOptions::default()
+    };
+    let completion = CompletionOptions {
+        trigger_characters: Some([".", "\"", "'", "("].map(String::from).to_vec()),
+        ..CompletionOptions::default()
+    };
+    let rename =
+        RenameOptions { prepare_provider: Some(true), work_done_progress_options: Default::default() };
+    let code_actions = CodeActionOptions {
+        code_action_kinds: Some(vec![CodeActionKind::QUICKFIX, CodeActionKind::SOURCE_FIX_ALL]),
+        ..CodeActionOptions::default()
+    };
+    let capabilities = ServerCapabilities {
+        position_encoding: Some(PositionEncodingKind::UTF16),
+        text_document_sync: Some(TextDocumentSyncCapability::Options(sync)),
+        completion_provider: Some(completion),
+        hover_provider: Some(HoverProviderCapability::Simple(true)),
+        definition_provider: Some(OneOf::Left(true)),
+        references_provider: Some(OneOf::Left(true)),
+        rename_provider: Some(OneOf::Right(rename)),
+        code_action_provider: Some(CodeActionProviderCapability::Options(code_actions)),
+        inlay_hint_provider: Some(OneOf::Left(true)),
+        ..ServerCapabilities::default()
+    };
+    let version = Some(env!("CARGO_PKG_VERSION").to_string());
+    InitializeResult { capabilities, server_info: Some(ServerInfo { name: "labspec".to_string(), version }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn settings_are_taken_alone_or_in_a_section() {
+        let mut settings = EditorSettings::default();
+        for (message, units, run_on_save) in [
+            (json!({"inlayHints": {"units": true}}), true, true),
+            (json!({"labspec": {"runOnSave": false}}), true, false),
+            (json!({"runOnSave": "yes", "inlayHints": {"units": false}}), true, false),
+            (json!(null), true, false),
+            (json!({"labspec": {"inlayHints": {"units": false}}, "other": 3}), false, false),
+        ] {
+            settings.update(message.clone());
+            assert_eq!((settings.units, settings.run_on_save), (units, run_on_save), "{message}");
+        }
+    }
+
+    #[test]
+    fn an_editor_names_its_folders() {
+        let roots = |params: Value| {
+            let setup: ClientSetup = serde_json::from_value(params).unwrap();
+            setup.roots().into_iter().map(|uri| uri.as_str().to_string()).collect::<Vec<_>>()
+        };
+        let folders = json!([{"uri": "file:///a", "name": "a"}, {"uri": "file:///b", "name": "b"}]);
+        assert_eq!(
+            roots(json!({"rootUri": "file:///c", "workspaceFolders": folders})),
+            ["file:///a", "file:///b"]
+        );
+        assert_eq!(roots(json!({"rootUri": "file:///c", "workspaceFolders": []})), ["file:///c"]);
+        assert_eq!(roots(json!({"rootUri": null, "workspaceFolders": null, "capabilities": 3})), [""; 0]);
+    }
+}

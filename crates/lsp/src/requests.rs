@@ -1,0 +1,249 @@
+//! What an editor asks for: which request is answered by what.
+
+use super::actions::code_actions;
+use super::check::lesson;
+use super::complete::completions;
+use super::convert;
+use super::documents::OpenDocument;
+use super::hints::hints;
+use super::hover::hover;
+use super::initialize::{ClientSetup, initialize_result};
+use super::names::{self, Occurrences, QualifiedName, SearchScope};
+use super::rename::{FileEdits, rename};
+use super::state::{Phase, ServerState};
+use lsp_server::{ErrorCode, Response, ResponseError};
+use lsp_types::request::{
+    CodeActionRequest, Completion, GotoDefinition, HoverRequest, Initialize, InlayHintRequest,
+    PrepareRenameRequest, References, Rename, Request, Shutdown,
+};
+use lsp_types::{
+    CodeActionOrCommand, CodeActionParams, CompletionItem, CompletionParams, GotoDefinitionParams,
+    GotoDefinitionResponse, Hover, HoverParams, InitializeResult, InlayHint, InlayHintParams, Location,
+    PrepareRenameResponse, ReferenceContext, RenameParams, TextDocumentIdentifier,
+    TextDocumentPositionParams,
+};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+type Answer<T> = Result<T, ResponseError>;
+
+fn error(code: ErrorCode, message: impl Into<String>) -> ResponseError {
+    ResponseError { code: code as i32, message: message.into(), data: None }
+}
+
+/// Answers a request, whatever it asks.
+pub(super) fn answer(state: &mut ServerState<'_>, request: lsp_server::Request) -> Response {
+    let lsp_server::Request { id, method, params } = request;
+    // No panic is known here. If there is one, one answer is lost, and not the editor's work.
+    let answer = catch_unwind(AssertUnwindSafe(|| dispatch(state, &method, params)));
+    let failed = || Err(error(ErrorCode::InternalError, format!("`{method}` failed; please report this")));
+    match answer.unwrap_or_else(|_| failed()) {
+        Ok(result) => Response { id, result: Some(result), error: None },
+        Err(error) => Response { id, result: None, error: Some(error) },
+    }
+}
+
+fn dispatch(state: &mut ServerState<'_>, method: &str, params: Value) -> Answer<Value> {
+    match (state.phase, method) {
+        (Phase::Uninitialized, Initialize::METHOD) => return respond(state, method, params, initialize),
+        (Phase::Uninitialized, _) => {
+            return Err(error(ErrorCode::ServerNotInitialized, "`initialize` must come first"));
+        }
+        (Phase::ShutDown, _) => {
+            return Err(error(ErrorCode::InvalidRequest, "the server is shutting down"));
+        }
+        (Phase::Running, Initialize::METHOD) => {
+            return Err(error(ErrorCode::InvalidRequest, "`initialize` can be sent only once"));
+        }
+        // It has no parameters.
+        (Phase::Running, Shutdown::METHOD) => {
+            state.phase = Phase::ShutDown;
+            state.cancel_runs();
+            return Ok(Value::Null);
+        }
+        (Phase::Running, _) => {}
+    }
+    match method {
+        Completion::METHOD => respond(state, method, params, complete_at),
+        HoverRequest::METHOD => respond(state, method, params, hover_at),
+        GotoDefinition::METHOD => respond(state, method, params, find_definition),
+        References::METHOD => respond(state, method, params, find_references),
+        PrepareRenameRequest::METHOD => respond(state, method, params, prepare_rename),
+        Rename::METHOD => respond(state, method, params, rename_at),
+        CodeActionRequest::METHOD => respond(state, method, params, list_code_actions),
+        InlayHintRequest::METHOD => respond(state, method, params, list_inlay_hints),
+        _ => Err(error(ErrorCode::MethodNotFound, format!("unknown method `{method}`"))),
+    }
+}
+
+/// Reads the parameters, and writes what the handler answers.
+fn respond<P: DeserializeOwned, R: Serialize>(
+    state: &mut ServerState<'_>,
+    method: &str,
+    params: Value,
+    handler: impl FnOnce(&mut ServerState<'_>, P) -> Answer<R>,
+) -> Answer<Value> {
+    let params = serde_json::from_value(params).map_err(|e| {
+        error(ErrorCode::InvalidParams, format!("the parameters of `{method}` are invalid: {e}"))
+    })?;
+    serde_json::to_value(handler(state, params)?).map_err(|e| {
+        error(ErrorCode::InternalError, format!("the answer to `{method}` cannot be written: {e}"))
+    })
+}
+
+fn initialize(state: &mut ServerState<'_>, setup: ClientSetup) -> Answer<InitializeResult> {
+    state.phase = Phase::Running;
+    state.open_folders(&setup.roots());
+    if let Some(settings) = setup.initialization_options {
+        state.settings.update(settings);
+    }
+    Ok(initialize_result())
+}
+
+fn not_open() -> ResponseError {
+    error(ErrorCode::InvalidParams, "this document is not open")
+}
+
+fn open_document<'s>(state: &'s ServerState<'_>, id: &TextDocumentIdentifier) -> Answer<&'s OpenDocument> {
+    state.documents.get(id.uri.as_str()).ok_or_else(not_open)
+}
+
+/// The byte of the document that a request is about.
+fn byte_at(state: &ServerState<'_>, params: &TextDocumentPositionParams) -> Answer<usize> {
+    let document = open_document(state, &params.text_document)?;
+    Ok(convert::byte_offset(document.file.text(), params.position))
+}
+
+fn complete_at(state: &mut ServerState<'_>, params: CompletionParams) -> Answer<Vec<CompletionItem>> {
+    let at = params.text_document_position;
+    let byte = byte_at(state, &at)?;
+    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    Ok(completions(document, context, byte))
+}
+
+fn hover_at(state: &mut ServerState<'_>, params: HoverParams) -> Answer<Option<Hover>> {
+    let at = params.text_document_position_params;
+    let byte = byte_at(state, &at)?;
+    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    Ok(hover(document, context, byte))
+}
+
+/// The name at a position; and whether the position is where the element gets it.
+fn name_at(
+    state: &mut ServerState<'_>,
+    at: &TextDocumentPositionParams,
+) -> Answer<Option<(QualifiedName, bool)>> {
+    let byte = byte_at(state, at)?;
+    let document = open_document(state, &at.text_document)?;
+    if names::is_model(document) {
+        return Ok(names::name_in_model(&document.file, &document.path, byte));
+    }
+    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let name = lesson(document, context)
+        .and_then(|lesson| names::name_in_lesson(&lesson, &document.path, &context.models, byte));
+    Ok(name.map(|name| (name, false)))
+}
+
+fn search_scope<'s>(state: &'s ServerState<'_>) -> SearchScope<'s> {
+    SearchScope {
+        open: &state.documents,
+        folders: &state.folders,
+        models_of: state.course.models,
+        overlay: &state.contexts.overlay,
+    }
+}
+
+fn find_occurrences(state: &ServerState<'_>, name: &QualifiedName) -> Occurrences {
+    names::find_occurrences(name, &search_scope(state))
+}
+
+fn find_definition(
+    state: &mut ServerState<'_>,
+    params: GotoDefinitionParams,
+) -> Answer<Option<GotoDefinitionResponse>> {
+    let at = params.text_document_position_params;
+    if let Some((name, defines)) = name_at(state, &at)? {
+        // From where the element gets its name, the way leads back to those who use it.
+        let found = find_occurrences(state, &name);
+        let others = found.all.iter().filter(|occurrence| occurrence.defines != defines);
+        return Ok(Some(names::locations(others, &search_scope(state)).into()));
+    }
+    let byte = byte_at(state, &at)?;
+    let (document, context) = state.document_in_context(&at.text_document.uri).ok_or_else(not_open)?;
+    let path =
+        lesson(document, context).and_then(|lesson| names::model_named(&lesson, &context.models, byte));
+    let uri = path.and_then(|path| search_scope(state).uri(&path));
+    Ok(uri.map(|uri| names::beginning(uri).into()))
+}
+
+/// `ReferenceParams` of an editor that may leave out the context.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct FindReferencesParams {
+    #[serde(flatten)]
+    at: TextDocumentPositionParams,
+    context: Option<ReferenceContext>,
+}
+
+fn find_references(
+    state: &mut ServerState<'_>,
+    params: FindReferencesParams,
+) -> Answer<Option<Vec<Location>>> {
+    let Some((name, _)) = name_at(state, &params.at)? else { return Ok(None) };
+    let also_definition = params.context.is_none_or(|context| context.include_declaration);
+    let found = find_occurrences(state, &name);
+    let wanted = found.all.iter().filter(|occurrence| also_definition || !occurrence.defines);
+    Ok(Some(names::locations(wanted, &search_scope(state))))
+}
+
+fn prepare_rename(
+    state: &mut ServerState<'_>,
+    at: TextDocumentPositionParams,
+) -> Answer<Option<PrepareRenameResponse>> {
+    let Some((name, _)) = name_at(state, &at)? else { return Ok(None) };
+    let document = open_document(state, &at.text_document)?;
+    let range = convert::range(&document.file, &name.span);
+    Ok(Some(PrepareRenameResponse::RangeWithPlaceholder { range, placeholder: name.name }))
+}
+
+fn rename_at(state: &mut ServerState<'_>, params: RenameParams) -> Answer<FileEdits> {
+    let failed = |why: String| error(ErrorCode::RequestFailed, why);
+    let new = params.new_name;
+    let Some((name, _)) = name_at(state, &params.text_document_position)? else {
+        return Err(failed("there is no name of the model here".into()));
+    };
+    let taken = QualifiedName { name: new.clone(), ..name.clone() };
+    if new != name.name && find_occurrences(state, &taken).all.iter().any(|occurrence| occurrence.defines) {
+        return Err(failed(format!("a {} `{new}` already exists", name.noun)));
+    }
+    rename(&name, &find_occurrences(state, &name), &new, &search_scope(state)).map_err(failed)
+}
+
+fn list_code_actions(
+    state: &mut ServerState<'_>,
+    params: CodeActionParams,
+) -> Answer<Vec<CodeActionOrCommand>> {
+    let document = open_document(state, &params.text_document)?;
+    let span = convert::byte_span(document.file.text(), params.range);
+    // What is offered belongs to the text as it is.
+    if document.stale {
+        let uri = params.text_document.uri.as_str();
+        state.check_documents().map_err(|e| error(ErrorCode::InternalError, format!("{uri}: {e}")))?;
+    }
+    let (document, context) = state.document_in_context(&params.text_document.uri).ok_or_else(not_open)?;
+    let lesson = lesson(document, context);
+    let only = params.context.only.as_deref();
+    Ok(code_actions(document, lesson.as_deref(), &span, only, &context.models))
+}
+
+fn list_inlay_hints(state: &mut ServerState<'_>, params: InlayHintParams) -> Answer<Vec<InlayHint>> {
+    if !state.settings.units {
+        return Ok(Vec::new());
+    }
+    let document = open_document(state, &params.text_document)?;
+    let span = convert::byte_span(document.file.text(), params.range);
+    let (document, context) = state.document_in_context(&params.text_document.uri).ok_or_else(not_open)?;
+    Ok(hints(document, context, &span))
+}

@@ -1,0 +1,238 @@
+//! What the server holds: documents, the models around them, settings, and the runs that go on beside. All of it belongs to one thread.
+
+use super::check::check_document;
+use super::context::{ModelContext, ModelContexts, WorkspaceRoot};
+use super::convert;
+use super::diagnostic::diagnostic;
+use super::documents::OpenDocument;
+use super::initialize::EditorSettings;
+use super::runs::{FinishedJob, Job};
+use super::wire::{self, Incoming};
+use labspec::finding::Finding;
+use labspec::lint::{ModelFolder, links_to};
+use labspec::source::MAX_FILE;
+use labspec::spec::{FileKind, Lesson, Other, kind_of};
+use lsp_types::notification::{Notification, PublishDiagnostics};
+use lsp_types::{PublishDiagnosticsParams, Uri};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+
+/// What the program knows of a course: where its models are, and which findings it reports.
+pub struct CourseConfig<'c> {
+    /// The models of a lesson.
+    pub models: &'c dyn Fn(&Path) -> ModelFolder,
+    /// Takes out what is not to be reported of a file.
+    pub policy: &'c mut dyn FnMut(&Path, &mut Vec<Finding>),
+    /// Files may have changed: cached settings are read again.
+    pub refresh: &'c dyn Fn(),
+}
+
+/// What wakes the server.
+pub(super) enum ServerEvent {
+    Incoming(Incoming),
+    Finished(FinishedJob),
+}
+
+/// Where the conversation is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Phase {
+    /// Before `initialize`.
+    Uninitialized,
+    Running,
+    /// After `shutdown`.
+    ShutDown,
+}
+
+pub(super) struct ServerState<'c> {
+    pub(super) course: CourseConfig<'c>,
+    output: &'c mut dyn Write,
+    sender: Sender<ServerEvent>,
+    pub(super) phase: Phase,
+    /// What the editor has open, by its URI.
+    pub(super) documents: BTreeMap<String, OpenDocument>,
+    pub(super) contexts: ModelContexts,
+    /// The folders that the editor opened.
+    pub(super) folders: Vec<WorkspaceRoot>,
+    pub(super) settings: EditorSettings,
+    job: Option<Job>,
+    /// How many checks were started.
+    jobs: u64,
+}
+
+impl<'c> ServerState<'c> {
+    pub(super) fn new(
+        course: CourseConfig<'c>,
+        output: &'c mut dyn Write,
+        sender: Sender<ServerEvent>,
+    ) -> Self {
+        ServerState {
+            course,
+            output,
+            sender,
+            phase: Phase::Uninitialized,
+            documents: BTreeMap::new(),
+            contexts: ModelContexts::default(),
+            folders: Vec::new(),
+            settings: EditorSettings::default(),
+            job: None,
+            jobs: 0,
+        }
+    }
+
+    /// Sends a message.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(super) fn send(&mut self, message: &impl Serialize) -> io::Result<()> {
+        wire::write(self.output, message)
+    }
+
+    pub(super) fn publish_diagnostics(&mut self, params: PublishDiagnosticsParams) -> io::Result<()> {
+        let params = serde_json::to_value(params)?;
+        self.send(&lsp_server::Notification { method: PublishDiagnostics::METHOD.to_string(), params })
+    }
+
+    /// The folders that the editor opened.
+    pub(super) fn open_folders(&mut self, uris: &[&Uri]) {
+        let paths = uris.iter().filter_map(|uri| convert::path_of_uri(uri));
+        self.folders =
+            paths.map(|named| WorkspaceRoot { real: convert::resolve_links(&named), named }).collect();
+    }
+
+    /// A document that is open, with the models and sources that it uses.
+    pub(super) fn document_in_context(
+        &mut self,
+        uri: &Uri,
+    ) -> Option<(&mut OpenDocument, &mut ModelContext)> {
+        let document = self.documents.get_mut(uri.as_str())?;
+        let context = self.contexts.model_context(&document.path, self.course.models);
+        Some((document, context))
+    }
+
+    /// The text that the editor holds of a file now, or that it holds none; whoever reads the file is checked again.
+    pub(super) fn set_text(&mut self, path: &Path, text: Option<&str>) {
+        let sources = self.contexts.sources();
+        let now = || sources.text(path, MAX_FILE, "a lesson or a model").ok();
+        let before = now();
+        match text {
+            Some(text) => self.contexts.overlay.put(path, text),
+            None => self.contexts.overlay.close(path),
+        }
+        if before == now() {
+            return;
+        }
+        match kind_of(path) {
+            FileKind::Model => self.recompile_models(),
+            _ => self.mark_readers_stale(path),
+        }
+    }
+
+    /// Lessons that name labs of this one, or link to it, are read again.
+    pub(super) fn mark_readers_stale(&mut self, path: &Path) {
+        let sources = self.contexts.sources();
+        for document in self.documents.values_mut() {
+            let is_this = |o: &Other| {
+                let other = Path::new(&o.path);
+                sources.real(other).as_deref().unwrap_or(other) == path
+            };
+            let reads = |lesson: &Arc<Lesson>| lesson.others.iter().any(is_this) || links_to(lesson, path);
+            if document.path != path && document.lesson.as_ref().is_some_and(reads) {
+                document.lesson = None;
+                document.stale = true;
+            }
+        }
+    }
+
+    /// The disk is asked again for what is there.
+    pub(super) fn refresh(&mut self) {
+        self.contexts.refresh();
+        (self.course.refresh)();
+    }
+
+    /// Models are compiled anew, and everything is checked again.
+    pub(super) fn recompile_models(&mut self) {
+        self.cancel_runs();
+        self.contexts.forget();
+        for document in self.documents.values_mut() {
+            document.blocks.clear();
+            document.lesson = None;
+            document.stale = true;
+        }
+    }
+
+    /// Runs the labs of a document on a thread of their own.
+    pub(super) fn start_runs(&mut self, uri: &str) {
+        self.cancel_runs();
+        let Some(document) = self.documents.get(uri) else { return };
+        let context = self.contexts.model_context(&document.path, self.course.models);
+        let context = (context.models.clone(), context.sources.clone());
+        let text = (document.file.clone(), document.path.clone());
+        let sender = self.sender.clone();
+        // Nobody listens any more when the server has ended.
+        let done = move |finished| drop(sender.send(ServerEvent::Finished(finished)));
+        self.jobs += 1;
+        self.job = Job::start(self.jobs, uri, document.version, text, context, done);
+    }
+
+    /// What runs found, unless the text is another one by now.
+    pub(super) fn finish_runs(&mut self, finished: FinishedJob) -> io::Result<()> {
+        // One that was stopped may have ended just before.
+        if self.job.as_ref().is_none_or(|job| job.number != finished.job) {
+            return Ok(());
+        }
+        self.job = None;
+        let Some(document) =
+            self.documents.get_mut(&finished.uri).filter(|d| d.version == finished.version && !d.stale)
+        else {
+            return Ok(());
+        };
+        document.findings = finished.findings;
+        (self.course.policy)(&document.path, &mut document.findings);
+        self.publish(&finished.uri)
+    }
+
+    pub(super) fn cancel_runs(&mut self) {
+        if let Some(job) = self.job.take() {
+            job.stop();
+        }
+    }
+
+    pub(super) fn cancel_runs_of(&mut self, uri: &str) {
+        if self.job.as_ref().is_some_and(|job| job.uri == uri) {
+            self.cancel_runs();
+        }
+    }
+
+    /// Checks every document that was changed.
+    pub(super) fn check_documents(&mut self) -> io::Result<()> {
+        let stale = self.documents.iter().filter(|(_, document)| document.stale);
+        let stale: Vec<String> = stale.map(|(uri, _)| uri.clone()).collect();
+        for uri in stale {
+            let Some(document) = self.documents.get_mut(&uri) else { continue };
+            let context = self.contexts.model_context(&document.path, self.course.models);
+            let checked = catch_unwind(AssertUnwindSafe(|| check_document(document, context)));
+            document.stale = false;
+            if checked.is_err() {
+                document.findings.clear();
+            }
+            (self.course.policy)(&document.path, &mut document.findings);
+            self.publish(&uri)?;
+        }
+        Ok(())
+    }
+
+    /// Sends the findings of a document.
+    fn publish(&mut self, uri: &str) -> io::Result<()> {
+        let Some(OpenDocument { uri, file, version, findings, .. }) = self.documents.get(uri) else {
+            return Ok(());
+        };
+        let diagnostics = findings.iter().map(|f| diagnostic(f, file, uri)).collect();
+        let params = PublishDiagnosticsParams { uri: uri.clone(), diagnostics, version: Some(*version) };
+        self.publish_diagnostics(params)
+    }
+}
