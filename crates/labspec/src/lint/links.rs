@@ -181,8 +181,8 @@ fn decoded(text: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-fn finding(link: &Link, said: &str) -> Finding {
+fn finding(link: &Link, message: &str) -> Finding {
     let short_target = crate::json::read::shorten(&link.target);
-    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{short_target}`: {said}"))
+    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{short_target}`: {message}"))
         .help("correct the link, or add its target")
 }
