@@ -320,7 +320,7 @@ fn a_clock_sees_what_the_plan_keeps() {
         }
         let (mut work, laps) = (0, core::laps(&mut d));
         for decision in d.plan().decisions() {
-            let lap = laps.of(decision.stage);
+            let lap = laps.stage_time(decision.stage);
             work += lap.work;
             // What sensors show is left out of the passes within a step.
             let shown = matches!(decision.stage, Stage::Sensors | Stage::SubtreeVel | Stage::RnePost);

@@ -130,7 +130,7 @@ fn world(model: &Model, plan: Plan, change: Option<Change>) -> World {
         }
         core::step(&model, &mut data).unwrap();
     }
-    World { model, data, key: None, own: Functions::new(), shown: Vec::new(), numbers: Vec::new() }
+    World { model, data, key: None, functions: Functions::new(), displayed: Vec::new(), numbers: Vec::new() }
 }
 
 /// What an expression gives, as text with every bit.
@@ -144,7 +144,7 @@ fn shown(world: &mut World, text: &str, demand: Option<&mut AccessSet>) -> Optio
         include(program.effects(), demand);
         return Some(String::new());
     }
-    let mut context = Context::of(&globals);
+    let mut context = Context::for_globals(&globals);
     Some(match program.run(world, &mut context, None) {
         Ok(value) => bits(&context, &value),
         Err(error) => format!("throws: {error}"),

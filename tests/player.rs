@@ -48,7 +48,8 @@ fn a_page_draws_what_the_lab_says() {
     let options = vec![("PGS".to_string(), Value::Number(0.0)), ("Newton".to_string(), Value::Number(2.0))];
     assert_eq!(player.controls()[1].kind, ControlKind::Select { options });
     assert_eq!(player.controls()[2].kind, ControlKind::Button);
-    let shown: Vec<_> = player.shown().iter().map(|s| (s.label.as_str(), s.unit.as_str(), s.place)).collect();
+    let shown: Vec<_> =
+        player.displayed().iter().map(|s| (s.label.as_str(), s.unit.as_str(), s.place)).collect();
     let expected = [
         ("heavy", "m", DisplayedIn::Plot(0)),
         ("v (m/s)", "m/s", DisplayedIn::Plot(0)),
@@ -56,7 +57,7 @@ fn a_page_draws_what_the_lab_says() {
         ("kicks", "", DisplayedIn::Readout(3)),
     ];
     assert_eq!(shown, expected);
-    assert_eq!((player.numbers().len(), player.values()[3].shown(3).as_str()), (4, "none"));
+    assert_eq!((player.numbers().len(), player.values()[3].rounded(3).as_str()), (4, "none"));
     assert_eq!(player.reads(), ["data.qpos", "data.qvel"]);
     assert_eq!(player.writes(), ["model.opt.solver", "data.qpos", "data.qvel"]);
     assert_eq!(player.findings(), []);
@@ -132,11 +133,11 @@ fn a_player_goes_the_way_of_a_run() {
         }
         let row: Vec<u64> = row[1..].iter().map(|c| c.number().to_bits()).collect();
         assert_eq!(player.numbers().iter().map(|x| x.to_bits()).collect::<Vec<_>>(), row, "row {i}");
-        if player.time() >= 0.3 - 1e-12 && player.values()[3].shown(0) == "none" {
+        if player.time() >= 0.3 - 1e-12 && player.values()[3].rounded(0) == "none" {
             player.press("Kick").unwrap();
         }
     }
-    assert_eq!(player.values()[3].shown(0), "1");
+    assert_eq!(player.values()[3].rounded(0), "1");
 }
 
 #[test]
@@ -187,7 +188,7 @@ fn controls_and_resets_keep_the_order_of_the_format() {
     player.press("Kick").unwrap();
     assert_eq!(player.numbers()[1], 2.0);
     player.reset();
-    assert_eq!((player.numbers()[1], player.values()[3].shown(0)), (0.0, "1".into()));
+    assert_eq!((player.numbers()[1], player.values()[3].rounded(0)), (0.0, "1".into()));
     assert_eq!(player.play_to(0.1).unwrap(), (0.1 / player.timestep()).round() as usize);
     assert_eq!(player.play_to(0.05).unwrap(), 0);
 }

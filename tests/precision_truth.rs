@@ -8,7 +8,7 @@ use labspec::bind::Programs;
 use labspec::bind::scene::Models;
 use labspec::lint::{ModelFolder, load_lesson};
 use labspec::run::Integrator;
-use labspec::run::{self, Cell, RunOptions, shown};
+use labspec::run::{self, Cell, RunOptions, rounded};
 use labspec::source::SourceFile;
 use labspec::spec::{Lab, Lesson};
 use labspec::stress;
@@ -54,7 +54,7 @@ fn column(lab: &Lab, (id, timestep): (i32, f64), length: f64, label: &str) -> Ve
 }
 
 fn own(report: &Report) -> &Row {
-    report.rows.iter().find(|r| r.own).unwrap()
+    report.rows.iter().find(|r| r.is_own).unwrap()
 }
 
 fn right(report: &Report) -> &Row {
@@ -220,7 +220,7 @@ fn every_sample_of_a_readout_counts() {
     let seen = column(lab, (best.integrator.id, best.timestep), report.length, "place");
     let fine = column(lab, (integrator::RKMK8, best.timestep / 2.0), report.length, "place");
     for (k, (a, b)) in seen.iter().zip(fine.iter().step_by(2)).enumerate() {
-        assert_eq!(shown(*a, 1), shown(*b, 1), "sample {k}: {a} {b}");
+        assert_eq!(rounded(*a, 1), rounded(*b, 1), "sample {k}: {a} {b}");
     }
 }
 

@@ -101,9 +101,9 @@ fn play(session: &mut Session<'_>, lab: &Lab, steps: usize, text: &mut String) {
         for (i, cell) in session.sample().into_iter().enumerate() {
             let readout = i.checked_sub(1 + traces).and_then(|i| lab.readouts.get(i));
             match (readout, &cell) {
-                (Some(readout), cell) => write!(text, " {}", cell.shown(readout.digits())).unwrap(),
+                (Some(readout), cell) => write!(text, " {}", cell.rounded(readout.digits())).unwrap(),
                 (None, Cell::Number(x)) => write!(text, " {}", rounded(*x)).unwrap(),
-                (None, cell) => write!(text, " {}", cell.shown(6)).unwrap(),
+                (None, cell) => write!(text, " {}", cell.rounded(6)).unwrap(),
             }
         }
         for x in &session.world.data.fields().geom_xpos {
@@ -143,7 +143,7 @@ pub(super) fn prints(json: &Value, models: &Models, readout: usize) -> std::coll
         run::play(&mut session, &Play { every: EVERY, ..Play::steps(STEPS[0]) }, |session, _| {
             let digits = lab.readouts.get(readout).map_or(3, |r| r.digits());
             let cell = session.sample().into_iter().nth(column);
-            all.extend(cell.map(|c| c.shown(digits).trim_start_matches('-').to_string()));
+            all.extend(cell.map(|c| c.rounded(digits).trim_start_matches('-').to_string()));
             ControlFlow::Continue(())
         });
     }

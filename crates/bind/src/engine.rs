@@ -36,14 +36,20 @@ impl Engine {
     pub fn with_model(model: Model) -> Result<Engine, Error> {
         let mut data = Data::planned(&model, Plan::new(&model, &AccessSet::ANY));
         core::forward(&model, &mut data).map_err(refused)?;
-        let world =
-            World { model, data, key: None, own: Functions::new(), shown: Vec::new(), numbers: Vec::new() };
+        let world = World {
+            model,
+            data,
+            key: None,
+            functions: Functions::new(),
+            displayed: Vec::new(),
+            numbers: Vec::new(),
+        };
         Ok(Engine { world, context: Context::new(), globals: Globals::new() })
     }
 
     /// The same with functions of the embedding program, which texts compiled from now on may call.
     pub fn with_functions(mut self, functions: Functions) -> Engine {
-        self.world.own = functions;
+        self.world.functions = functions;
         self
     }
 
@@ -96,7 +102,7 @@ impl Engine {
         what: &'static str,
         compile: impl FnOnce(&mut Compiler<'_>) -> Compiled,
     ) -> Result<Accessor, Error> {
-        let names = ModelNames::new(&self.world.model, Scope::Lab).with(&self.world.own);
+        let names = ModelNames::new(&self.world.model, Scope::Lab).with(&self.world.functions);
         // A text with mistakes leaves no variables behind.
         let mut globals = self.globals.clone();
         let compiled = compile(&mut Compiler::new(&names, &mut globals));

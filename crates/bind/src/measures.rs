@@ -35,7 +35,7 @@ pub(super) fn measure(m: &Model, f: FieldId, first: usize, count: Option<usize>)
     }
     let mut all = (first..last).map(|at| element(m, f, &shape, at));
     let start = all.next().unwrap_or_default();
-    all.fold(start, |known, next| if known == next { known } else { Measure::Unknown })
+    all.fold(start, |common, next| if common == next { common } else { Measure::Unknown })
 }
 
 /// What one element measures.

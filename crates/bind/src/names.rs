@@ -36,25 +36,25 @@ pub struct ModelNames<'m> {
     /// Where the program stands.
     pub scope: Scope,
     /// Functions of the embedding program, if it has any.
-    own: Option<&'m Functions>,
+    functions: Option<&'m Functions>,
     /// What is shown under labels, where something is.
-    shown: Option<&'m Shown>,
+    displayed: Option<&'m Shown>,
 }
 
 impl<'m> ModelNames<'m> {
     /// The names of a model.
     pub fn new(model: &'m Model, scope: Scope) -> ModelNames<'m> {
-        ModelNames { model, scope, own: None, shown: None }
+        ModelNames { model, scope, functions: None, displayed: None }
     }
 
     /// The same with functions of the embedding program.
-    pub fn with(self, own: &'m Functions) -> ModelNames<'m> {
-        ModelNames { own: Some(own), ..self }
+    pub fn with(self, functions: &'m Functions) -> ModelNames<'m> {
+        ModelNames { functions: Some(functions), ..self }
     }
 
     /// The same with what is shown under labels.
-    pub fn showing(self, shown: &'m Shown) -> ModelNames<'m> {
-        ModelNames { shown: Some(shown), ..self }
+    pub fn showing(self, displayed: &'m Shown) -> ModelNames<'m> {
+        ModelNames { displayed: Some(displayed), ..self }
     }
 }
 
@@ -143,7 +143,7 @@ impl Schema for ModelNames<'_> {
             _ => match OBJECTS.iter().position(|o| *o == name) {
                 Some(i) => Some(Entry::Object(handle::encode(Thing::Functions(i)))),
                 None => self.function_of("", name).or_else(|| {
-                    let function = self.own?.find(name)?;
+                    let function = self.functions?.find(name)?;
                     Some(Entry::Function(FunctionId((TABLE.len() + function) as u32)))
                 }),
             },
@@ -157,7 +157,7 @@ impl Schema for ModelNames<'_> {
             .chain(OBJECTS)
             .chain(["mj_setConst"])
             .chain(names_here)
-            .chain(self.own.into_iter().flat_map(Functions::names))
+            .chain(self.functions.into_iter().flat_map(Functions::names))
             .map(String::from)
             .collect()
     }
@@ -272,7 +272,7 @@ impl Schema for ModelNames<'_> {
 
     fn lookup(&self, collection: CollectionId, name: &str) -> Option<ObjectId> {
         if collection == LABELS {
-            return self.shown?.find(name);
+            return self.displayed?.find(name);
         }
         let (side, kind, _) = handle::of_collection(collection)?;
         self.model.names.id(kind, name).map(|i| handle::encode(Thing::Named(side, kind, i)))
@@ -280,7 +280,7 @@ impl Schema for ModelNames<'_> {
 
     fn names(&self, collection: CollectionId) -> Vec<String> {
         if collection == LABELS {
-            return self.shown.map_or(Vec::new(), |shown| shown.labels().to_vec());
+            return self.displayed.map_or(Vec::new(), |displayed| displayed.labels().to_vec());
         }
         let Some((_, kind, _)) = handle::of_collection(collection) else { return Vec::new() };
         self.model.names.of(kind).iter().filter(|n| !n.is_empty()).cloned().collect()
@@ -298,7 +298,7 @@ impl Schema for ModelNames<'_> {
     }
 
     fn gives(&self, FunctionId(f): FunctionId, first: Option<f64>) -> Gives {
-        let label = || self.shown?.measure(handle::index_of(first?));
+        let label = || self.displayed?.measure(handle::index_of(first?));
         match TABLE.get(f as usize) {
             Some(row) if row.name == "shown" => label().map_or(Gives::Unknown, Gives::This),
             _ => self.function(FunctionId(f)).gives,
@@ -342,7 +342,7 @@ impl Schema for ModelNames<'_> {
 
     fn function(&self, FunctionId(i): FunctionId) -> FunctionInfo {
         let at = i as usize;
-        let embedded = || self.own?.info(at.checked_sub(TABLE.len())?);
+        let embedded = || self.functions?.info(at.checked_sub(TABLE.len())?);
         functions::INFO.get(at).cloned().or_else(embedded).unwrap_or_else(functions::none)
     }
 

@@ -16,7 +16,7 @@ pub static WORDS: Words = Words {
     names: "`model`, `data`, `ctx`",
     statements: "`setup`, `controller`, `apply` or `run`",
     keeper: "`controller`",
-    shown: "a readout or a trace",
+    displayed: "a readout or a trace",
     clock: "the simulation time is `data.time`, in seconds",
     wait: "test `data.time` in the controller instead",
     split: "split it: into several controls, or a `setup` and a `controller`",

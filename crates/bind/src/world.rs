@@ -16,9 +16,9 @@ pub struct World {
     /// The keyframe to return to.
     pub key: Option<usize>,
     /// Functions of the embedding program.
-    pub own: Functions,
+    pub functions: Functions,
     /// What is shown now, in the order of [`Shown`](super::Shown)'s labels, where somebody asks.
-    pub shown: Vec<Value>,
+    pub displayed: Vec<Value>,
     /// Numbers of no field, which texts read under [`NUMBERS`]: the members of sweeps.
     pub numbers: Vec<f64>,
 }
@@ -69,8 +69,9 @@ impl Host for World {
             }
             None => {
                 core::charge(&mut self.data, own::PRICE);
-                let called =
-                    (f as usize).checked_sub(functions::TABLE.len()).and_then(|at| self.own.call(at, args));
+                let called = (f as usize)
+                    .checked_sub(functions::TABLE.len())
+                    .and_then(|at| self.functions.call(at, args));
                 called.unwrap_or_else(|| Err("the function does not exist".into()))
             }
         }
@@ -100,7 +101,7 @@ impl World {
 
 /// Values that the engine has no meaning for are refused, not ignored.
 fn check_write(field: FieldId, value: f64) -> Result<(), String> {
-    let refused = |known: &str| Err(format!("`{}` cannot be {value}: {known}", field.info().name));
+    let refused = |reason: &str| Err(format!("`{}` cannot be {value}: {reason}", field.info().name));
     let is = |allowed: &[i32]| allowed.iter().any(|&a| f64::from(a) == value);
     // What is left of a flag is a byte in JavaScript, and on or off here.
     let byte = if value.is_finite() { value.trunc().rem_euclid(256.0) } else { 0.0 };

@@ -24,7 +24,7 @@ type Mark = [String; 6];
 #[derive(Debug, Default)]
 pub(super) struct Baseline {
     folder: PathBuf,
-    known: BTreeMap<Mark, usize>,
+    baselined: BTreeMap<Mark, usize>,
 }
 
 impl Baseline {
@@ -32,7 +32,7 @@ impl Baseline {
     pub(super) fn new(path: &Path) -> Baseline {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
-        Baseline { folder, known: BTreeMap::new() }
+        Baseline { folder, baselined: BTreeMap::new() }
     }
 
     /// # Errors
@@ -59,7 +59,7 @@ impl Baseline {
             let count = entry["count"].as_u64().unwrap_or(1) as usize;
             // Findings about something else carry no claim.
             let [claim, result] = [text("claim"), text("result")].map(Option::unwrap_or_default);
-            *all.known.entry([file, code, message, line, claim, result]).or_default() += count;
+            *all.baselined.entry([file, code, message, line, claim, result]).or_default() += count;
         }
         Ok(all)
     }
@@ -70,7 +70,7 @@ impl Baseline {
         let mut baselined = Vec::new();
         findings.retain(|f| {
             let mark = self.mark(f, files);
-            let Some(&most) = self.known.get(&mark) else { return true };
+            let Some(&most) = self.baselined.get(&mark) else { return true };
             let count = met.entry(mark).or_default();
             *count += 1;
             if *count <= most {
@@ -92,7 +92,7 @@ impl Baseline {
         files: &[&SourceFile],
     ) -> Result<(), Failure> {
         for f in findings {
-            *self.known.entry(self.mark(f, files)).or_default() += 1;
+            *self.baselined.entry(self.mark(f, files)).or_default() += 1;
         }
         let one = |([file, code, message, line, claim, result], count): (&Mark, &usize)| {
             let mut entry =
@@ -103,7 +103,7 @@ impl Baseline {
             }
             entry
         };
-        let list: Vec<Value> = self.known.iter().map(one).collect();
+        let list: Vec<Value> = self.baselined.iter().map(one).collect();
         let value = report::report("baseline", json!({"findings": list}));
         let text = serde_json::to_string_pretty(&value).map_err(|e| e.to_string())?;
         write_file(path, OutputKind::Baseline, &(text + "\n"))
@@ -154,8 +154,8 @@ mod tests {
         Baseline::new(&path).write(&path, &found(&old, "odd"), &[&old]).unwrap();
         let new = file("one\n\n\nodd there\nodd here\n odd here\n");
         let mut findings = found(&new, "odd");
-        let known = Baseline::read(&path).unwrap().apply(&mut findings, &[&new]);
-        assert_eq!((known.len(), findings.len()), (2, 1));
+        let baselined = Baseline::read(&path).unwrap().apply(&mut findings, &[&new]);
+        assert_eq!((baselined.len(), findings.len()), (2, 1));
         std::fs::write(&path, "{}").unwrap();
         assert!(Baseline::read(&path).unwrap_err().contains("--update-baseline"));
     }

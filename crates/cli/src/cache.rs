@@ -149,7 +149,9 @@ fn entry(key: &str, lesson: &Lesson, models: &Models, found: &LabOutcome) -> Opt
     let used: Vec<Value> = named_models(lesson)
         .into_iter()
         .map(|name| match models.parts(name) {
-            Some((parts, talks)) => json!([name, talks, parts.iter().map(part).collect::<Vec<_>>()]),
+            Some((parts, has_diagnostics)) => {
+                json!([name, has_diagnostics, parts.iter().map(part).collect::<Vec<_>>()])
+            }
             // The folder has no such model.
             None => json!([name, false, null]),
         })
@@ -173,7 +175,7 @@ fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<Lab
     let mut names = BTreeSet::new();
     let mut talking = Vec::new();
     for one in used.as_array()? {
-        let [name, talks, parts]: &[Value; 3] = one.as_array()?.as_slice().try_into().ok()?;
+        let [name, has_diagnostics, parts]: &[Value; 3] = one.as_array()?.as_slice().try_into().ok()?;
         let name = name.as_str()?;
         let same = match parts {
             Value::Null => models.folder().path(name).is_none(),
@@ -182,7 +184,7 @@ fn recall(text: &str, key: &str, lesson: &Lesson, models: &Models) -> Option<Lab
         if !same {
             return None;
         }
-        if talks.as_bool()? {
+        if has_diagnostics.as_bool()? {
             talking.push(name);
         }
         names.insert(name);

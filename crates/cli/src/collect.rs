@@ -147,13 +147,16 @@ fn follow(link: &Path, root: &Path, wanted: &dyn Fn(&Path) -> bool, all: &mut Co
         true if is_file => all.files.push((link.to_path_buf(), false)),
         true => {}
         false => {
-            let why =
-                format!("it is a link that leads outside {}; name {} itself", shown(root), shown(&real));
+            let why = format!(
+                "it is a link that leads outside {}; name {} itself",
+                printable_name(root),
+                printable_name(&real)
+            );
             all.left_out.push((link.to_path_buf(), why));
         }
     }
 }
 
-fn shown(path: &Path) -> String {
+fn printable_name(path: &Path) -> String {
     printable_path(path).to_string()
 }

@@ -64,7 +64,7 @@ pub(super) fn read(file: &Path) -> Result<Recording, Failure> {
         let text = |key: &str| {
             run[key].as_str().map(str::to_string).ok_or_else(|| no(&format!("run {i} has no \"{key}\"")))
         };
-        recording.known.insert([text("file")?, text("claim")?, text("run")?]);
+        recording.recorded.insert([text("file")?, text("claim")?, text("run")?]);
         let taken = taken(run).map_err(|why| no(&format!("run {i}: {why}")))?;
         if let Some(before) = recording.runs.insert(text("hash")?, taken.clone())
             && format!("{before:?}") != format!("{taken:?}")

@@ -27,9 +27,9 @@ pub(super) struct Arguments {
 pub(super) fn lsp(a: &Arguments) -> Result<Outcome, Failure> {
     Policies::new(&a.policy)?;
     // What cannot be read is said once, on standard error: editors keep it in their log.
-    let said = RefCell::new(BTreeSet::new());
+    let reported = RefCell::new(BTreeSet::new());
     let say = |why: Failure| {
-        if said.borrow_mut().insert(why.clone()) {
+        if reported.borrow_mut().insert(why.clone()) {
             complain(&format!("labspec: {why}\n"));
         }
     };

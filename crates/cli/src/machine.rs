@@ -53,12 +53,12 @@ fn entry(e: &Entry, sources: &[&SourceFile]) -> Value {
 fn lesson(c: &Checked) -> Value {
     let labs: Vec<Value> = c.labs.iter().map(lab).collect();
     let claims: Vec<Value> = c.claims.iter().map(|of| claim(of, c)).collect();
-    let snapshots: Vec<Value> = c.snapshots.iter().map(kept).collect();
+    let snapshots: Vec<Value> = c.snapshots.iter().map(snapshot_json).collect();
     json!({"file": &**c.lesson.file.path(), "labs": labs, "claims": claims, "snapshots": snapshots})
 }
 
 /// What became of the snapshot of a lab.
-pub(super) fn kept(k: &SnapshotResult) -> Value {
+pub(super) fn snapshot_json(k: &SnapshotResult) -> Value {
     let first = |d: &Divergence| {
         let mut value = json!({"run": d.run, "trace": d.trace, "time": null});
         set_number(&mut value, "time", d.time);

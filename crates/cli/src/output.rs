@@ -296,16 +296,21 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         // No process has the number of the first; the second is this one's, and still being written; the others are no temporary files.
-        let own = format!(".labspec-{}-77.tmp", std::process::id());
-        let kept =
-            [own.as_str(), ".labspec-notes.tmp", ".labspec-1-x.tmp", "labspec-4294967295-0.tmp", "a.tmp"];
-        for name in kept.into_iter().chain([".labspec-4294967295-0.tmp"]) {
+        let temporary = format!(".labspec-{}-77.tmp", std::process::id());
+        let remaining = [
+            temporary.as_str(),
+            ".labspec-notes.tmp",
+            ".labspec-1-x.tmp",
+            "labspec-4294967295-0.tmp",
+            "a.tmp",
+        ];
+        for name in remaining.into_iter().chain([".labspec-4294967295-0.tmp"]) {
             fs::write(at(name), "half").unwrap();
         }
         write_file(&at("out.csv"), OutputKind::Table, "whole").unwrap();
         assert_eq!(fs::read_to_string(at("out.csv")).unwrap(), "whole");
         assert!(!at(".labspec-4294967295-0.tmp").exists() || !Path::new("/proc/self").exists());
-        for name in kept {
+        for name in remaining {
             assert!(at(name).exists(), "{name}");
         }
     }

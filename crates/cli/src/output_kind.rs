@@ -120,8 +120,9 @@ impl OutputKind<'_> {
             }
             OutputKind::Picture => drawn_here(place),
             OutputKind::Snapshot => {
-                let said = |line: &str| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot");
-                text.lines().take(8).any(said)
+                let is_header =
+                    |line: &str| line.trim_start_matches(['#', ' ']).starts_with("labspec snapshot");
+                text.lines().take(8).any(is_header)
             }
             OutputKind::Reference => {
                 text.starts_with("<!-- Written from the tables: ")

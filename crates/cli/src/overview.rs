@@ -40,7 +40,7 @@ fn write_lesson(text: &mut String, c: &Checked, entries: &[&Entry], with_evidenc
         let snapshot = c.snapshots.iter().find(|snapshot| {
             entry.subject == Subject::Snapshot && entry.owner.strip_prefix("lab ") == Some(&*snapshot.lab)
         });
-        for change in snapshot.into_iter().flat_map(check::SnapshotResult::shown) {
+        for change in snapshot.into_iter().flat_map(check::SnapshotResult::lines) {
             let _ = writeln!(text, "  {:<10}   {}", "", printable(&change));
         }
         let is_last = entries.get(written).is_none_or(|next| next.owner != entry.owner);

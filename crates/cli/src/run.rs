@@ -9,7 +9,7 @@ use super::stdio::print;
 use super::stdio::stream;
 use clap::ValueEnum;
 use labspec::report::{printable, printable_path};
-use labspec::run::{Cell, RunOptions, Table, shown};
+use labspec::run::{Cell, RunOptions, Table, rounded};
 use labspec::spec::{Lab, Plot};
 use labspec::stress;
 use labspec_plot::{Chart, Series, line_chart};
@@ -116,7 +116,7 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         1 => "1 sample".to_string(),
         n => format!("{n} samples"),
     };
-    let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), shown(time, 3));
+    let _ = writeln!(text, "{}, after {} s ({samples})", printable(title), rounded(time, 3));
     let digits = |name: &str| {
         let label = name.strip_prefix("readout/")?;
         lab.readouts.iter().find(|r| r.label.value == label).map(|r| r.digits())
@@ -128,7 +128,7 @@ fn readouts(lab: &Lab, table: &Table) -> String {
         .skip(1)
         .map(|(name, cell)| {
             let label = name.strip_prefix("readout/").or_else(|| name.splitn(3, '/').nth(2)).unwrap_or(name);
-            (printable(label).into_owned(), printable(&cell.shown(digits(name).unwrap_or(4))).into_owned())
+            (printable(label).into_owned(), printable(&cell.rounded(digits(name).unwrap_or(4))).into_owned())
         })
         .collect();
     let width = rows.iter().map(|(label, _)| label.chars().count()).max().unwrap_or(0);

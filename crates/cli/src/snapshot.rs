@@ -97,7 +97,7 @@ pub(super) fn snapshot(a: &Arguments) -> Result<Outcome, Failure> {
         // What nobody has stored yet overwrites nothing.
         let whole = a.accept || (one.standing == Standing::New && !a.review);
         if let Some(renewal) = one.renewal.as_ref().filter(|_| whole) {
-            one.accepted = renewal.labs.iter().map(|lab| lab.kept.lab.clone()).collect();
+            one.accepted = renewal.labs.iter().map(|lab| lab.result.lab.clone()).collect();
         }
     }
     if asks {
@@ -145,7 +145,7 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
             continue;
         }
         let renewal = check::renew(&lesson, models);
-        let same = |lab: &RenewedLab| matches!(lab.kept.state, State::True(_));
+        let same = |lab: &RenewedLab| matches!(lab.result.state, State::True(_));
         let standing = match &renewal {
             r if r.fault.is_some() => Standing::Unreadable,
             r if !r.stored => Standing::New,
@@ -176,9 +176,9 @@ fn collect_lessons(a: &Arguments) -> Result<Vec<Looked>, Failure> {
 fn left(one: &Looked) -> impl Iterator<Item = &RenewedLab> {
     let labs = one.renewal.iter().flat_map(|r| &r.labs);
     labs.filter(|lab| {
-        let can = lab.new.is_some() || lab.kept.state == State::False;
-        let done = can && one.accepted.contains(&lab.kept.lab);
-        !done && !matches!(lab.kept.state, State::True(_))
+        let can = lab.new.is_some() || lab.result.state == State::False;
+        let done = can && one.accepted.contains(&lab.result.lab);
+        !done && !matches!(lab.result.state, State::True(_))
     })
 }
 
@@ -195,7 +195,7 @@ fn review(
         let open: Vec<RenewedLab> = left(one).cloned().collect();
         for lab in open {
             number += 1;
-            let can = lab.new.is_some() || lab.kept.state == State::False;
+            let can = lab.new.is_some() || lab.result.state == State::False;
             say(&format!("\n{file} ({number} of {total})\n{}", about(&lab)))?;
             while can && !rest {
                 say("accept it? y: yes, n: no, a: this and all that follow, q: leave the rest > ")?;
@@ -204,7 +204,7 @@ fn review(
                     answers.read_line(&mut answer).map_err(|e| format!("cannot read an answer: {e}"))?;
                 match answer.trim().to_lowercase().as_str() {
                     "y" | "yes" => {
-                        one.accepted.insert(lab.kept.lab.clone());
+                        one.accepted.insert(lab.result.lab.clone());
                         break;
                     }
                     "n" | "no" => break,
@@ -215,7 +215,7 @@ fn review(
                 }
             }
             if can && rest {
-                one.accepted.insert(lab.kept.lab.clone());
+                one.accepted.insert(lab.result.lab.clone());
             }
         }
     }
@@ -234,7 +234,7 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
     if one.accepted.is_empty() {
         return Ok(());
     }
-    let Some(text) = renewal.text(|lab| one.accepted.contains(&lab.kept.lab)) else { return Ok(()) };
+    let Some(text) = renewal.text(|lab| one.accepted.contains(&lab.result.lab)) else { return Ok(()) };
     let old = std::fs::read_to_string(&one.file).ok();
     // Line breaks may have been changed on the way.
     if old.is_none_or(|old| old.replace("\r\n", "\n") != text) {
@@ -246,14 +246,14 @@ fn store(one: &mut Looked, everything: bool) -> Result<(), Failure> {
 
 /// What is said of a lab that is not as stored.
 fn about(lab: &RenewedLab) -> String {
-    let snapshot = &lab.kept;
+    let snapshot = &lab.result;
     let mut text = format!(
         "  {:<10} lab {}: {}\n",
         snapshot.word(),
         printable(&snapshot.lab),
         printable(&snapshot.remark())
     );
-    for line in snapshot.shown() {
+    for line in snapshot.lines() {
         let _ = writeln!(text, "  {:<10}   {}", "", printable(&line));
     }
     text
@@ -303,8 +303,8 @@ fn summary(all: &[Looked], asked: bool) -> String {
 fn machine(all: &[Looked]) -> Value {
     let one = |one: &Looked| {
         let labs = one.renewal.iter().flat_map(|r| &r.labs).map(|lab| {
-            let mut value = machine::kept(&lab.kept);
-            value["accepted"] = json!(one.accepted.contains(&lab.kept.lab));
+            let mut value = machine::snapshot_json(&lab.result);
+            value["accepted"] = json!(one.accepted.contains(&lab.result.lab));
             value
         });
         json!({

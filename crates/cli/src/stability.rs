@@ -182,7 +182,7 @@ fn margins(report: &StressReport, text: &mut String) {
 
 fn margin(m: &Margin) -> [String; 6] {
     let unit = if m.unit.is_empty() { String::new() } else { format!(" {}", m.unit) };
-    let value = |x: f64| format!("{}{unit}", labspec::run::shown(x, 3));
+    let value = |x: f64| format!("{}{unit}", labspec::run::rounded(x, 3));
     let largest = match (m.largest, m.breaks) {
         (Some(x), Some(_)) => value(x),
         (Some(x), None) => format!("> {}", value(x)),

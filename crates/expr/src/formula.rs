@@ -50,7 +50,7 @@ pub(crate) struct Formula {
     /// It gives 1 or 0 for a truth value.
     pub(crate) truth: bool,
     /// Operations that are there already; of functions, by their arguments.
-    known: BTreeMap<Step, At>,
+    places: BTreeMap<Step, At>,
     known_math: BTreeMap<(math::Function, Vec<At>), At>,
 }
 
@@ -70,11 +70,11 @@ impl Formula {
 
     /// An operation, or the same one that is there already.
     pub(crate) fn step(&mut self, step: Step) -> At {
-        if let Some(at) = self.known.get(&step) {
+        if let Some(at) = self.places.get(&step) {
             return *at;
         }
         let at = self.push(step);
-        self.known.insert(step, at);
+        self.places.insert(step, at);
         at
     }
 
@@ -128,7 +128,7 @@ impl Formula {
 
     /// Leaves out what the results do not need; gives where each step stands now. What was known is forgotten.
     pub(crate) fn finish(&mut self, results: &mut [At]) {
-        self.known = BTreeMap::new();
+        self.places = BTreeMap::new();
         self.known_math = BTreeMap::new();
         let Formula { steps, args, .. } = self;
         let mut used = vec![false; steps.len()];
@@ -143,10 +143,10 @@ impl Formula {
                 step.each(args, &mut |at| mark(&mut used, *at));
             }
         }
-        let mut kept = 0;
+        let mut live = 0;
         let count = |used: &bool| {
-            kept += At::from(*used);
-            kept.saturating_sub(1)
+            live += At::from(*used);
+            live.saturating_sub(1)
         };
         let places: Vec<At> = used.iter().map(count).collect();
         let mut moved = |at: &mut At| *at = places.get(*at as usize).copied().unwrap_or(*at);

@@ -18,7 +18,7 @@ pub struct Globals {
     slots: BTreeMap<String, u32>,
     names: Vec<String>,
     /// The same names, for whoever runs programs.
-    known: Known,
+    stored: Known,
     /// The host itself stores the variable.
     given: Vec<bool>,
     uses: Vec<Use>,
@@ -101,7 +101,7 @@ impl Globals {
             let computed = |name: &str| self.computed.iter().any(|c| name.starts_with(c.as_str()));
             stored.get(slot as usize).copied().unwrap_or(false) || computed(self.name(slot))
         };
-        let known: Vec<&str> =
+        let names: Vec<&str> =
             (0..self.names.len() as u32).filter(|s| is_stored(*s)).map(|s| self.name(s)).collect();
         let mut found: Vec<(u32, ProgramId)> = Vec::new();
         let mut reports = Vec::new();
@@ -110,7 +110,7 @@ impl Globals {
                 continue;
             }
             found.push((usage.slot, usage.program));
-            reports.push((usage.program, unset_report(self.name(usage.slot), usage.span, &known, words)));
+            reports.push((usage.program, unset_report(self.name(usage.slot), usage.span, &names, words)));
         }
         reports
     }
@@ -127,8 +127,8 @@ impl Globals {
     }
 
     /// All names, for whoever runs programs.
-    pub(crate) fn known(&self) -> &Known {
-        &self.known
+    pub(crate) fn stored(&self) -> &Known {
+        &self.stored
     }
 
     pub(crate) fn mark(&self) -> Mark {
@@ -154,16 +154,16 @@ impl Globals {
         let slot = self.names.len() as u32;
         self.slots.insert(name.to_owned(), slot);
         self.names.push(name.to_owned());
-        self.known.push(name);
+        self.stored.push(name);
         self.given.push(false);
         slot
     }
 }
 
-fn unset_report(name: &str, span: Span, known: &[&str], words: &Words) -> Finding {
+fn unset_report(name: &str, span: Span, names: &[&str], words: &Words) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
-    match nearest(name, known.iter().copied()) {
+    match nearest(name, names.iter().copied()) {
         Some(meant) => {
             report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
         }

@@ -228,7 +228,7 @@ impl Ir {
     }
 
     /// The value, if it is known and a primitive one.
-    pub(crate) fn known(&self) -> Option<&Value> {
+    pub(crate) fn constant_value(&self) -> Option<&Value> {
         match &self.kind {
             Kind::Constant(value) if value.is_primitive() => Some(value),
             _ => None,
@@ -237,7 +237,7 @@ impl Ir {
 
     /// The value, if it is known and may decide something before the run. NaN decides while running, where a watch sees it.
     fn decided(&self) -> Option<&Value> {
-        self.known().filter(|value| !value.is_nan())
+        self.constant_value().filter(|value| !value.is_nan())
     }
 
     /// Whether it is never a string nor something with parts: then arithmetic on it can use plain numbers.
@@ -258,7 +258,7 @@ impl Ir {
             return Ir::to_number(operand, span);
         }
         let passes = op != UnaryOp::Not && op != UnaryOp::BitNot;
-        if let Some(value) = operand.known().filter(|value| passes || !value.is_nan()) {
+        if let Some(value) = operand.constant_value().filter(|value| passes || !value.is_nan()) {
             return Ir::constant(op.on_value(value), span);
         }
         let operand = Box::new(operand);
@@ -270,7 +270,7 @@ impl Ir {
     }
 
     pub(crate) fn to_number(operand: Ir, span: Span) -> Ir {
-        match operand.known() {
+        match operand.constant_value() {
             Some(value) => Ir::number(value.to_number(), span),
             None if operand.ty == Type::Number => operand,
             None => Ir::new(Kind::ToNumber(Box::new(operand)), Type::Number, span),
@@ -286,7 +286,7 @@ impl Ir {
     }
 
     pub(crate) fn binary(op: BinaryOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let (Some(a), Some(b)) = (left.known(), right.known())
+        if let (Some(a), Some(b)) = (left.constant_value(), right.constant_value())
             && a.text_len() + b.text_len() < 1000
         {
             let value = op.on_values(a, b);
@@ -304,7 +304,8 @@ impl Ir {
     }
 
     pub(crate) fn logical(op: LogicalOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let Some(value) = left.known().filter(|value| op == LogicalOp::Nullish || !value.is_nan()) {
+        if let Some(value) = left.constant_value().filter(|value| op == LogicalOp::Nullish || !value.is_nan())
+        {
             return Ir { span, ..if op.keeps(value) { left } else { right } };
         }
         let ty = match (op, left.ty) {
@@ -326,12 +327,13 @@ impl Ir {
     }
 
     pub(crate) fn math(function: math::Function, args: Vec<Ir>, span: Span) -> Ir {
-        let known: Option<Vec<f64>> = args.iter().map(|a| a.known().map(Value::to_number)).collect();
+        let constants: Option<Vec<f64>> =
+            args.iter().map(|a| a.constant_value().map(Value::to_number)).collect();
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
-        let applied = known.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
+        let applied = constants.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
         // A NaN that is lost is lost while running, where a watch sees it.
-        let kept = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
-        match applied.filter(kept).filter(|_| !args.is_empty()).map(|(_, x)| x) {
+        let fits = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
+        match applied.filter(fits).filter(|_| !args.is_empty()).map(|(_, x)| x) {
             Some(x) if ty == Type::Boolean => Ir::constant(Value::Boolean(x != 0.0), span),
             Some(x) => Ir::number(x, span),
             None => Ir::new(Kind::Math(function, args), ty, span),

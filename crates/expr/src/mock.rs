@@ -51,7 +51,7 @@ static WORDS: Words = Words {
     names: "`model`, `data`, `ctx`",
     statements: "`begin`, `tick` or `press`",
     keeper: "`tick`",
-    shown: "a cell or a curve",
+    displayed: "a cell or a curve",
     clock: "the time of the machine is `data.time`",
     wait: "test `data.time` in the tick instead",
     split: "split it: into several keys, or a `begin` and a `tick`",
@@ -396,7 +396,7 @@ pub(crate) fn execute(source: &str) -> (World, Value) {
     let out = globals.define("out");
     let compiled = Compiler::new(&Mock, &mut globals).statements(source);
     let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:#?}", compiled.diagnostics));
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     program.run(&mut world, &mut context, None).unwrap_or_else(|e| panic!("{source}: {e:?}"));
     (world, context.get(out).clone())
 }

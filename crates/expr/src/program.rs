@@ -173,19 +173,19 @@ impl Context {
     }
 
     /// All variables `undefined`, and their names known: no later run has to learn them.
-    pub fn of(globals: &Globals) -> Context {
+    pub fn for_globals(globals: &Globals) -> Context {
         let mut context = Context::new();
-        context.learn(globals.known());
+        context.learn(globals.stored());
         context
     }
 
     /// Takes in the names of variables before a program runs that was compiled with them, whenever this context was made. What was
     /// stored under a computed name before any text named it is found under that name from now on.
-    fn learn(&mut self, known: &Known) {
-        if known.len() <= self.named.len() {
+    fn learn(&mut self, stored: &Known) {
+        if stored.len() <= self.named.len() {
             return;
         }
-        for (slot, name) in known.since(self.named.len()) {
+        for (slot, name) in stored.since(self.named.len()) {
             if let Some(value) = self.unnamed.remove(&*name) {
                 self.set(slot, value);
             }
@@ -195,7 +195,7 @@ impl Context {
 
     /// Stores a variable for the host, such as what a control gives. Programs find it by its name, too.
     pub fn store(&mut self, globals: &Globals, slot: u32, value: Value) {
-        self.learn(globals.known());
+        self.learn(globals.stored());
         self.set(slot, value);
     }
 
@@ -274,8 +274,8 @@ impl Context {
     }
 
     pub(crate) fn note(&mut self, event: RuntimeEvent) {
-        let known = self.events.iter().any(|e| e.span == event.span && e.kind == event.kind);
-        if !known && self.events.len() < MAX_EVENTS {
+        let is_repeated = self.events.iter().any(|e| e.span == event.span && e.kind == event.kind);
+        if !is_repeated && self.events.len() < MAX_EVENTS {
             self.events.push(event);
         }
     }
@@ -299,7 +299,7 @@ impl Aggregate {
     /// What its result measures.
     fn measure(&self, schema: &dyn Schema, given: &Given) -> Measure {
         let arg = |i: usize| self.args.get(i).map_or(Measure::Unknown, |p| p.measured(schema, given).value);
-        schema.function(self.function).gives.of(arg)
+        schema.function(self.function).gives.result_of(arg)
     }
 }
 
@@ -312,7 +312,7 @@ pub struct Program {
     pub(crate) aggregates: Vec<Aggregate>,
     pub(crate) order: Order,
     /// The variables that were named when it was compiled.
-    pub(crate) known: Known,
+    pub(crate) stored: Known,
     /// What the numbers of its fields and elements are of ([`crate::Schema::identity`]).
     pub(crate) identity: u64,
     /// What it computes, if it is a numeric expression without effects.
@@ -330,18 +330,18 @@ impl Program {
         aggregates: Vec<Aggregate>,
         globals: &Globals,
     ) -> Program {
-        let form = Form::of(tree);
+        let form = Form::from_tree(tree);
         let effects = form::effects(&form, schema);
         let formula = form.units.first().and_then(pure::whole).map(Arc::new);
-        let row = formula.as_deref().and_then(Row::of).map(Arc::new);
-        let order = Order::of(&form, &effects);
+        let row = formula.as_deref().and_then(Row::from_formula).map(Arc::new);
+        let order = Order::from_form(&form, &effects);
         Program {
-            code: Code::of(form, row.is_none()).into(),
+            code: Code::from_form(form, row.is_none()).into(),
             effects,
             result,
             aggregates,
             order,
-            known: globals.known().clone(),
+            stored: globals.stored().clone(),
             identity: schema.identity(),
             formula,
             row,
@@ -406,7 +406,7 @@ impl Program {
             context.events.clear();
             return Ok(value);
         }
-        context.learn(&self.known);
+        context.learn(&self.stored);
         vm::run(&self.code, host, context, value)
     }
 

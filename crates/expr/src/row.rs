@@ -118,7 +118,7 @@ pub(crate) struct Wanted {
 
 impl Row {
     /// `None` when it needs too many registers.
-    pub(crate) fn of(formula: &Formula) -> Option<Row> {
+    pub(crate) fn from_formula(formula: &Formula) -> Option<Row> {
         let load =
             |step: &Step| if let Step::Load(field, index) = step { Some((*field, *index)) } else { None };
         let mut elements: Vec<_> = formula.steps.iter().filter_map(load).collect();
@@ -196,8 +196,8 @@ impl Row {
 
     /// Registers up to the last that it changes.
     pub(crate) fn registers(&self) -> u32 {
-        let kept = |op: &Op| if let Op::Keep(r) | Op::Put(r, _) = *op { u32::from(r) + 1 } else { 0 };
-        self.ops.iter().map(kept).max().unwrap_or(0)
+        let slots = |op: &Op| if let Op::Keep(r) | Op::Put(r, _) = *op { u32::from(r) + 1 } else { 0 };
+        self.ops.iter().map(slots).max().unwrap_or(0)
     }
 
     /// The value now; `None` when an element does not exist.
@@ -272,19 +272,19 @@ impl Row {
                 Op::Asks(f) => f(x),
                 Op::One(f) => {
                     let y = f(x);
-                    watch.kept(x.is_nan(), y);
+                    watch.record(x.is_nan(), y);
                     y
                 }
                 Op::Two(f, a) => {
                     let y = f(x, register(a));
-                    watch.kept(x.is_nan() || register(a).is_nan(), y);
+                    watch.record(x.is_nan() || register(a).is_nan(), y);
                     y
                 }
                 Op::Many(f, count, first) => {
                     let args = self.args.get(usize::from(first)..).unwrap_or(&[]);
                     let nan = args.iter().take(usize::from(count)).any(|a| register(*a).is_nan());
                     let y = self.many(f, first, count, r);
-                    watch.kept(nan, y);
+                    watch.record(nan, y);
                     y
                 }
             };

@@ -82,13 +82,13 @@ impl Watch {
     /// The outcome of an operation on numbers, which it may have turned over.
     pub(crate) fn binary(&mut self, op: BinaryOp, a: f64, b: f64) -> f64 {
         let x = op.on_numbers(a, b);
-        self.kept(a.is_nan() || b.is_nan(), x);
+        self.record(a.is_nan() || b.is_nan(), x);
         if margin(op, a, b).is_some() { self.compared(op, a, b, x) } else { x }
     }
 
     pub(crate) fn unary(&mut self, op: UnaryOp, a: f64) -> f64 {
         let x = op.on_number(a);
-        self.kept(a.is_nan(), x);
+        self.record(a.is_nan(), x);
         x
     }
 
@@ -98,7 +98,7 @@ impl Watch {
     }
 
     /// What became of operands.
-    pub(crate) fn kept(&mut self, nan: bool, result: f64) {
+    pub(crate) fn record(&mut self, nan: bool, result: f64) {
         self.loses |= nan && !result.is_nan();
     }
 
@@ -157,7 +157,7 @@ mod tests {
         let mut globals = Globals::new();
         let compiled = Compiler::new(&Mock, &mut globals).expression(source);
         let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:?}", compiled.diagnostics));
-        let (mut world, mut context) = (World::new(), Context::of(&globals));
+        let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
         world.fields[1][0] = x;
         context.watch(Some(Box::new(watch)));
         let value = program.run(&mut world, &mut context, None).unwrap();
@@ -276,7 +276,7 @@ mod tests {
             let mut globals = Globals::new();
             if let Some(program) = Compiler::new(&Mock, &mut globals).expression(&source).program {
                 let lost = |watch: Watch| {
-                    let (mut world, mut context) = (World::new(), Context::of(&globals));
+                    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
                     world.fields[1][0] = x;
                     context.watch(Some(Box::new(watch)));
                     let _ = program.run(&mut world, &mut context, None);
@@ -294,7 +294,7 @@ mod tests {
             let mut globals = Globals::new();
             if let Some(program) = Compiler::new(&Mock, &mut globals).expression(&source).program {
                 let once = |watch: Option<Watch>| {
-                    let (mut world, mut context) = (World::new(), Context::of(&globals));
+                    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
                     world.fields[1][0] = x;
                     context.watch(watch.map(Box::new));
                     program.run(&mut world, &mut context, None).map(|v| (v.type_of(), v.to_string()))

@@ -29,7 +29,7 @@ pub struct Words {
     /// The text that computes what others only show.
     pub keeper: &'static str,
     /// Where a value is shown.
-    pub shown: &'static str,
+    pub displayed: &'static str,
     /// What tells the time.
     pub clock: &'static str,
     /// What to write where JavaScript would wait.
@@ -61,7 +61,7 @@ impl Words {
         names: "`ctx` and those of the host",
         statements: "a text of statements",
         keeper: "a text of statements",
-        shown: "an expression",
+        displayed: "an expression",
         clock: "the values from the host are the same in every run",
         wait: "store in `ctx` what to wait for, and test it in every run of the text",
         split: "split it",

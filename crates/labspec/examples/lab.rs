@@ -19,7 +19,7 @@ pub(crate) fn main() -> Result<(), Error> {
 pub(crate) fn lab() -> Result<String, Error> {
     let mut player = Player::of_lab(LAB, [("drop", DROP)])?;
     player.play_to(0.2)?;
-    let (bob, saved) = (player.shown()[0].clone(), player.save());
+    let (bob, saved) = (player.displayed()[0].clone(), player.save());
     let as_it_stands = player.numbers()[0];
     player.set("gravity", -1.6)?;
     player.play_to(0.2)?;

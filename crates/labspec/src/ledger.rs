@@ -266,7 +266,7 @@ impl Ledger {
         if any(State::Known) {
             parts.push(match parts.is_empty() {
                 true => "no problems outside the baseline".into(),
-                false => format!("{} already in the baseline", self.known()),
+                false => format!("{} already in the baseline", self.baselined()),
             });
         }
         match (parts.is_empty(), self.outcome()) {
@@ -281,7 +281,7 @@ impl Ledger {
         parts.join(", ")
     }
 
-    fn known(&self) -> usize {
+    fn baselined(&self) -> usize {
         self.entries.iter().filter(|e| e.state == State::Known).count()
     }
 
@@ -324,7 +324,7 @@ impl Ledger {
                 }
             }
         }
-        let baselined = self.known();
+        let baselined = self.baselined();
         if baselined > 0 {
             parts.push(format!("{baselined} already in the baseline"));
         }
@@ -351,11 +351,11 @@ impl Ledger {
     }
 
     /// Marks what is false or could not be checked as known, where somebody says so; and files in which something known is wrong.
-    pub fn know(&mut self, known: impl Fn(&Entry) -> bool) {
+    pub fn know(&mut self, baselined: impl Fn(&Entry) -> bool) {
         for entry in &mut self.entries {
             let bad = matches!(entry.state, State::False | State::Unchecked);
             let file = entry.subject == Subject::File && matches!(entry.state, State::True(_));
-            if (bad || file) && known(entry) {
+            if (bad || file) && baselined(entry) {
                 (entry.state, entry.word) = (State::Known, "known");
             }
         }

@@ -55,7 +55,7 @@ impl Models for BTreeMap<String, String> {
 /// A few models: pairs of name and MJCF.
 impl<const N: usize> Models for [(&str, &str); N] {
     fn text(&self, name: &str) -> Option<String> {
-        self.iter().find(|(known, _)| *known == name).map(|(_, text)| (*text).to_string())
+        self.iter().find(|(listed, _)| *listed == name).map(|(_, text)| (*text).to_string())
     }
 
     fn names(&self) -> Option<Vec<String>> {

@@ -209,12 +209,12 @@ mod tests {
             model: model.clone(),
             data: everything(model),
             key: None,
-            own: crate::bind::Functions::new(),
-            shown: Vec::new(),
+            functions: crate::bind::Functions::new(),
+            displayed: Vec::new(),
             numbers: Vec::new(),
         };
         core::forward(&world.model, &mut world.data).unwrap();
-        let mut context = Context::of(&globals);
+        let mut context = Context::for_globals(&globals);
         let values = programs.map(|p| match p.program {
             Some(program) => program.run(&mut world, &mut context, None).unwrap().to_string(),
             None => format!("{:#?}", p.diagnostics),

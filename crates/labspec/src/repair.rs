@@ -120,16 +120,16 @@ struct RepairJudge<'j> {
 /// A text with some repairs made, and what its labs show, once somebody asks.
 struct TextState {
     looked: CheckedText,
-    shown: OnceCell<Traces>,
+    displayed: OnceCell<Traces>,
 }
 
 impl TextState {
     fn new(looked: CheckedText) -> TextState {
-        TextState { looked, shown: OnceCell::new() }
+        TextState { looked, displayed: OnceCell::new() }
     }
 
-    fn shown(&self, judge: &RepairJudge<'_>) -> &Traces {
-        self.shown.get_or_init(|| (judge.shows)(&self.looked.text))
+    fn displayed(&self, judge: &RepairJudge<'_>) -> &Traces {
+        self.displayed.get_or_init(|| (judge.shows)(&self.looked.text))
     }
 }
 
@@ -179,20 +179,20 @@ fn keep(
     old: &str,
     fixes: &[Repair],
     part: Range<usize>,
-    kept: &mut BTreeSet<usize>,
+    selected: &mut BTreeSet<usize>,
     now: &mut TextState,
     judge: &RepairJudge<'_>,
 ) {
     if part.is_empty() || interrupted() {
         return;
     }
-    if let Some(next) = attempt(old, fixes, part.clone(), kept, now, judge) {
-        kept.extend(part);
+    if let Some(next) = attempt(old, fixes, part.clone(), selected, now, judge) {
+        selected.extend(part);
         *now = next;
     } else if part.len() > 1 {
         let middle = part.start + part.len() / 2;
-        keep(old, fixes, part.start..middle, kept, now, judge);
-        keep(old, fixes, middle..part.end, kept, now, judge);
+        keep(old, fixes, part.start..middle, selected, now, judge);
+        keep(old, fixes, middle..part.end, selected, now, judge);
     }
 }
 
@@ -219,13 +219,13 @@ fn attempt(
     old: &str,
     fixes: &[Repair],
     part: Range<usize>,
-    kept: &BTreeSet<usize>,
+    selected: &BTreeSet<usize>,
     now: &TextState,
     judge: &RepairJudge<'_>,
 ) -> Option<TextState> {
     let mut codes: BTreeMap<&str, usize> = BTreeMap::new();
     let (mut text, mut at) = (String::with_capacity(old.len()), 0);
-    let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || kept.contains(i));
+    let made = fixes.iter().enumerate().filter(|(i, _)| part.contains(i) || selected.contains(i));
     for (i, (code, fix)) in made {
         // A repair that does not fit the text is none.
         old.get(fix.span.clone())?;
@@ -244,7 +244,7 @@ fn attempt(
         return None;
     }
     let shown_by_a_run = codes.keys().all(|code| SHOWN_BY_A_RUN.iter().any(|rule| rule.code == *code));
-    let proven = !judge.proves || shown_by_a_run || now.shown(judge).is_subset(next.shown(judge));
+    let proven = !judge.proves || shown_by_a_run || now.displayed(judge).is_subset(next.displayed(judge));
     proven.then_some(next)
 }
 
@@ -306,8 +306,8 @@ mod tests {
         let fixes = [("a", Fix::safe(0..1, "o")), ("a", Fix::safe(9..12, "o"))];
         let mut now = TextState::new(find_wrong("x b"));
         let judge = RepairJudge { look: &find_wrong, shows: &|_| Traces::new(), proves: true };
-        let mut kept = BTreeSet::new();
-        keep("x b", &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)), 0..2, &mut kept, &mut now, &judge);
-        assert_eq!((now.looked.text.as_str(), kept.len()), ("o b", 1));
+        let mut selected = BTreeSet::new();
+        keep("x b", &fixes.map(|(_, fix)| (UNKNOWN_KEY.code, fix)), 0..2, &mut selected, &mut now, &judge);
+        assert_eq!((now.looked.text.as_str(), selected.len()), ("o b", 1));
     }
 }

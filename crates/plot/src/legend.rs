@@ -35,7 +35,7 @@ pub(super) struct Plan {
 }
 
 /// Plans the legend of a picture of some width whose plot has some height. `aside` allows the right side.
-pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, aside: bool) -> Plan {
+pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, beside_plot: bool) -> Plan {
     let entries: Vec<Entry> = entries
         .into_iter()
         .map(|e| Entry { label: clean(&e.label), ..e })
@@ -45,7 +45,7 @@ pub(super) fn plan(entries: Vec<Entry>, size: f64, height: f64, aside: bool) -> 
     if entries.is_empty() {
         return Plan { right: 0.0, below: 0.0, entries: Vec::new(), more: None };
     }
-    if aside && SAMPLE + widest <= 0.28 * size && entries.len() as f64 * ROW <= height {
+    if beside_plot && SAMPLE + widest <= 0.28 * size && entries.len() as f64 * ROW <= height {
         let placed = entries.into_iter().enumerate().map(|(i, e)| (16.0, i as f64 * ROW, e));
         return Plan { right: 16.0 + SAMPLE + widest, below: 0.0, entries: placed.collect(), more: None };
     }

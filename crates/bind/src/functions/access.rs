@@ -147,8 +147,8 @@ impl EngineAccess<'_> {
     }
 
     /// What is shown under a label.
-    pub(super) fn shown(&self, label: usize) -> Option<&Value> {
-        self.world.shown.get(label)
+    pub(super) fn displayed_value(&self, label: usize) -> Option<&Value> {
+        self.world.displayed.get(label)
     }
 
     /// A number of the members of sweeps.
@@ -170,8 +170,8 @@ mod tests {
             model,
             data,
             key: None,
-            own: crate::Functions::new(),
-            shown: Vec::new(),
+            functions: crate::Functions::new(),
+            displayed: Vec::new(),
             numbers: Vec::new(),
         };
         core::forward(&world.model, &mut world.data).unwrap();

@@ -138,7 +138,7 @@ pub(super) const ROWS: &[Function] = &[
         place: FunctionPlace::Measures,
         doc: "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
         example: ("max(shown('time (s)'))", "0.1"),
-        run: |w, _, args| Ok(w.shown(index(args)?).cloned().unwrap_or_default()),
+        run: |w, _, args| Ok(w.displayed_value(index(args)?).cloned().unwrap_or_default()),
         ..ROW
     },
     Function {

@@ -13,7 +13,8 @@ pub(super) fn csv(report: &Report, out: &mut dyn io::Write) -> io::Result<()> {
     )?;
     for row in &report.rows {
         let solver = row.setting.solver.map_or(String::new(), |s| s.name());
-        let start = format!("{},{solver},{},{}", row.setting.integrator.name, row.setting.timestep, row.own);
+        let start =
+            format!("{},{solver},{},{}", row.setting.integrator.name, row.setting.timestep, row.is_own);
         let RunCost { median, low, high, work } = row.cost;
         let end = format!("{},{median},{low},{high},{work}", key(row.fate.word()));
         if row.errors.is_empty() {
@@ -87,7 +88,7 @@ fn row_value(row: &Row, report: &Report) -> Value {
         "integrator": row.setting.integrator.name,
         "timestep": row.setting.timestep,
         "solver": row.setting.solver.map(|s| s.name()),
-        "own": row.own,
+        "own": row.is_own,
         "fate": key(row.fate.word()),
         "diverged": row.fate == Fate::Diverged,
         "told": row.reported,

@@ -113,7 +113,7 @@ pub(super) fn precision(a: &Arguments) -> Result<Outcome, Failure> {
 
 /// Whether the lab as it stands is no good, or the truth is not known to its end.
 fn lost(report: &Report) -> bool {
-    report.rows.iter().any(|r| r.own && r.fate != Fate::Good)
+    report.rows.iter().any(|r| r.is_own && r.fate != Fate::Good)
         || report.targets.iter().any(|t| t.until.is_some())
 }
 

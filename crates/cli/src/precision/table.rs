@@ -8,7 +8,7 @@ use std::fmt::Write;
 
 pub(super) fn setting(row: &Row) -> String {
     let solver = row.setting.solver.map_or(String::new(), |s| format!(" {}", s.name()));
-    let mark = if row.own { " *" } else { "" };
+    let mark = if row.is_own { " *" } else { "" };
     format!("{}{solver}{mark}", row.setting.integrator.name)
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Assumed {
 
 impl Assumed {
     /// What a plan that was just made takes for granted. One that was made for any value stays so.
-    pub(super) fn of(plan: &mut Plan) -> Assumed {
+    pub(super) fn from_plan(plan: &mut Plan) -> Assumed {
         let wide = plan.any != never_asked(&plan.demand) && plan.made_for.is_some();
         let settled = if wide { u64::MAX } else { 0 };
         Assumed { made_for: plan.made_for.take(), any: plan.any, wide, settled, due: false }
@@ -106,10 +106,10 @@ mod tests {
         let fixed = |m: &Model| Plan::new(m, &demand(&[]));
         let same = |m: &Model, d: &Data<Planned>| {
             let (a, b) = (d.plan(), fixed(m));
-            let kept = |plan: &Plan| {
+            let kept_stages = |plan: &Plan| {
                 plan.decisions().iter().filter(|row| row.keep).map(|row| row.stage).collect::<Vec<_>>()
             };
-            assert_eq!(kept(&a), kept(&b));
+            assert_eq!(kept_stages(&a), kept_stages(&b));
         };
         for (field, i, value) in fields {
             let (mut m, mut d) = start(&all);

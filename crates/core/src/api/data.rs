@@ -111,28 +111,28 @@ impl Deref for Data<Full> {
 impl Data<Full> {
     /// Data for a model, at the default configuration. Nothing is computed yet: call [`forward`](crate::forward).
     pub fn new(m: &Model) -> Data<Full> {
-        Data::of(m, Plan::new(m, &AccessSet::ANY))
+        Data::with_plan(m, Plan::new(m, &AccessSet::ANY))
     }
 }
 
 impl Data<Full> {
     /// Data for which every stage runs in every step, needed or not: the reference that plans are held against.
     pub fn unplanned(m: &Model) -> Data<Full> {
-        Data::of(m, Plan::full())
+        Data::with_plan(m, Plan::full())
     }
 }
 
 impl Data<Planned> {
     /// Data that compute only what a plan keeps. What was not asked for cannot be read.
     pub fn planned(m: &Model, plan: Plan) -> Data<Planned> {
-        Data::of(m, plan)
+        Data::with_plan(m, plan)
     }
 }
 
 impl<S: Scope> Data<S> {
-    fn of(m: &Model, mut plan: Plan) -> Data<S> {
+    fn with_plan(m: &Model, mut plan: Plan) -> Data<S> {
         Data {
-            assumed: Assumed::of(&mut plan),
+            assumed: Assumed::from_plan(&mut plan),
             inner: Inner::planned(m, plan.inner),
             names: Arc::clone(&m.names),
             addresses: Arc::clone(&m.addresses),
@@ -289,7 +289,7 @@ impl<S: Scope> Data<S> {
     /// Replaces the plan.
     pub(super) fn replan(&mut self, m: &Model, mut plan: Plan) -> Result<(), Error> {
         self.belongs_to(m)?;
-        (self.version, self.demand, self.assumed) = (0, plan.demand, Assumed::of(&mut plan));
+        (self.version, self.demand, self.assumed) = (0, plan.demand, Assumed::from_plan(&mut plan));
         reset::set_plan(m, &mut self.inner, plan.inner);
         self.touched = !S::FULL;
         Ok(())

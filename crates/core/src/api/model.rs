@@ -335,9 +335,9 @@ impl Model {
 
     /// Switches a part of the simulation off or on: one of [`disable`].
     pub fn set_disabled(&mut self, bit: i32, off: bool) {
-        let known = bit & (2 * disable::MULTICCD - 1);
+        let supported = bit & (2 * disable::MULTICCD - 1);
         let flags = self.edit().opt.disableflags;
-        *flags = if off { *flags | known } else { *flags & !known };
+        *flags = if off { *flags | supported } else { *flags & !supported };
     }
 
     /// Whether an optional part is on: one of [`enable`].
@@ -347,9 +347,9 @@ impl Model {
 
     /// Switches an optional part on or off: one of [`enable`].
     pub fn set_enabled(&mut self, bit: i32, on: bool) {
-        let known = bit & (2 * enable::IPC - 1);
+        let supported = bit & (2 * enable::IPC - 1);
         let flags = self.edit().opt.enableflags;
-        *flags = if on { *flags | known } else { *flags & !known };
+        *flags = if on { *flags | supported } else { *flags & !supported };
     }
 }
 

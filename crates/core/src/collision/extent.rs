@@ -101,8 +101,8 @@ impl Extents {
         let geom = |g: usize| {
             let body = bodies.get(m.geom_bodyid[g] as usize).copied().unwrap_or(Extent::WORLD);
             let here = body.at(rows::<3>(&m.geom_pos)[g]);
-            let own = quat_normalize(rows::<4>(&m.geom_quat)[g]);
-            Extent { turned: here.turned.map(|turned| quat_mul(turned, own)), ..here }
+            let rotation = quat_normalize(rows::<4>(&m.geom_quat)[g]);
+            Extent { turned: here.turned.map(|turned| quat_mul(turned, rotation)), ..here }
         };
         Extents { geoms: (0..m.ngeom).map(geom).collect() }
     }

@@ -20,7 +20,7 @@ impl Pair {
     pub(crate) const DYNAMIC: u32 = u32::MAX;
 
     /// Geoms ordered by type; equal types stay as they are. `None` when such types pass through each other.
-    fn of(m: &Model, a: usize, b: usize, explicit: u32) -> Option<Pair> {
+    fn for_geoms(m: &Model, a: usize, b: usize, explicit: u32) -> Option<Pair> {
         let (a, b) = if m.geom_type[a] <= m.geom_type[b] { (a, b) } else { (b, a) };
         let method = pair::method(m.geom_type[a], m.geom_type[b])?;
         Some(Pair { geom1: a as u32, geom2: b as u32, explicit, method })
@@ -99,7 +99,7 @@ pub(super) fn explicit_pairs(m: &Model) -> impl Iterator<Item = Pair> + '_ {
     let pairs = if m.nbody > 1 { m.npair } else { 0 };
     (0..pairs).filter_map(move |p| {
         let (a, b) = (m.pair_geom1[p] as usize, m.pair_geom2[p] as usize);
-        Pair::of(m, a, b, p as u32)
+        Pair::for_geoms(m, a, b, p as u32)
     })
 }
 
@@ -114,7 +114,7 @@ pub(super) fn dynamic_pair(m: &Model, a: usize, b: usize, may_change: bool) -> O
         let (x, y) = (m.pair_geom1[p] as usize, m.pair_geom2[p] as usize);
         (x, y) == (a, b) || (x, y) == (b, a)
     };
-    let pair = Pair::of(m, a, b, Pair::DYNAMIC)?;
+    let pair = Pair::for_geoms(m, a, b, Pair::DYNAMIC)?;
     (!(0..m.npair).any(named)).then_some(pair)
 }
 

@@ -183,7 +183,7 @@ fn general(m: &Model, d: &mut Fields, work: &mut Narrow, pair: &Pair, params: &P
         &a,
         &b,
         params.reach,
-        || pair::PairSettings::of(m),
+        || pair::PairSettings::from_model(m),
         &mut work.room,
         &mut work.touches,
     );

@@ -34,7 +34,7 @@ pub(super) mod state {
 
 impl Cost {
     /// Of a row with this `efc_type`.
-    pub(super) fn of(kind: i32) -> Cost {
+    pub(super) fn for_row(kind: i32) -> Cost {
         match kind {
             kind::EQUALITY => Cost::Quadratic,
             kind::FRICTION_DOF | kind::FRICTION_TENDON => Cost::DryFriction,

@@ -110,7 +110,7 @@ impl Hessian {
 
     /// Numbers of the matrix that are kept.
     #[cfg(test)]
-    pub(super) fn kept(&self) -> usize {
+    pub(super) fn block_count(&self) -> usize {
         16 * self.values.len()
     }
 
@@ -154,7 +154,7 @@ impl Hessian {
             self.inverse.resize(self.blocks.len(), [0.0; 4]);
             self.place_mass(m, islands.dofs(island));
             if !math::SMALL {
-                self.place_columns(jac, islands.blocks.of(island));
+                self.place_columns(jac, islands.blocks.members(island));
             }
         }
         self.fits
@@ -185,7 +185,7 @@ impl Hessian {
                 lower(parent, column);
             }
         }
-        for i in islands.blocks.of(island) {
+        for i in islands.blocks.members(island) {
             let columns = jac.columns(&jac.blocks[i]);
             let lowest = columns.iter().map(|&k| local[k as usize]).min().unwrap_or(0);
             for &k in columns {
@@ -275,14 +275,14 @@ impl Hessian {
     pub(super) fn factor(&mut self) {
         for (i, &BlockRow { first, start }) in self.blocks.iter().enumerate() {
             let (above, below) = self.values.split_at_mut(start);
-            let own = &mut below[..i + 1 - first];
+            let target = &mut below[..i + 1 - first];
             for j in first..=i {
-                let mut block = transposed(own[j - first]);
+                let mut block = transposed(target[j - first]);
                 // Less the products of what is to the left of it in both rows.
                 let up = self.blocks[j].first;
-                let row = if j < i { &above[self.blocks[j].start..][..j + 1 - up] } else { &*own };
+                let row = if j < i { &above[self.blocks[j].start..][..j + 1 - up] } else { &*target };
                 let from = first.max(up);
-                for (left, right) in own[from - first..j - first].iter().zip(&row[from - up..j - up]) {
+                for (left, right) in target[from - first..j - first].iter().zip(&row[from - up..j - up]) {
                     for (left, right) in left.iter().zip(right) {
                         let x = f64x4::new(*left);
                         for (b, y) in block.iter_mut().zip(right) {
@@ -310,7 +310,7 @@ impl Hessian {
                         }
                     }
                 }
-                own[j - first] = block.map(|b| b.to_array());
+                target[j - first] = block.map(|b| b.to_array());
             }
         }
     }
@@ -322,13 +322,13 @@ impl Hessian {
         for (i, row) in self.rows() {
             let (before, here) = x.split_at_mut(i);
             let Some((corner, left)) = row.split_last() else { continue };
-            let mut own = f64x4::new(here[0]);
+            let mut sum = f64x4::new(here[0]);
             for (block, x) in left.iter().zip(&before[i - left.len()..]) {
                 for (column, x) in block.iter().zip(x) {
-                    own -= f64x4::new(*column) * *x;
+                    sum -= f64x4::new(*column) * *x;
                 }
             }
-            let mut own = own.to_array();
+            let mut own = sum.to_array();
             for b in 0..4 {
                 own[b] *= self.inverse[i][b];
                 for c in b + 1..4 {
@@ -340,15 +340,15 @@ impl Hessian {
         for (i, row) in self.rows().rev() {
             let (before, here) = x.split_at_mut(i);
             let Some((corner, left)) = row.split_last() else { continue };
-            let mut own = here[0];
+            let mut sum = here[0];
             for b in (0..4).rev() {
                 for c in b + 1..4 {
-                    own[b] -= corner[b][c] * own[c];
+                    sum[b] -= corner[b][c] * sum[c];
                 }
-                own[b] *= self.inverse[i][b];
+                sum[b] *= self.inverse[i][b];
             }
-            here[0] = own;
-            let own = f64x4::new(own);
+            here[0] = sum;
+            let own = f64x4::new(sum);
             for (block, x) in left.iter().zip(&mut before[i - left.len()..]) {
                 for (column, x) in block.iter().zip(x) {
                     *x -= total(f64x4::new(*column) * own);
@@ -449,7 +449,7 @@ impl Order {
     /// Lists the pairs of trees that blocks tie together.
     fn tie(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
         self.pairs.clear();
-        for i in islands.blocks.of(island) {
+        for i in islands.blocks.members(island) {
             let trees = jac.trees(m, &jac.blocks[i]);
             for a in trees.clone() {
                 self.pairs.extend(trees.clone().filter(|&b| b != a).map(|b| [a as u32, b as u32]));
@@ -516,7 +516,7 @@ mod tests {
         let mut d = Workspace::new(&m);
         step(&m, &mut d);
         assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
-        assert_eq!(d.work.constraint.solver.hessian.kept(), 0);
+        assert_eq!(d.work.constraint.solver.hessian.block_count(), 0);
         assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
     }
 
@@ -536,7 +536,7 @@ mod tests {
         let mut d = Workspace::new(m);
         forward(m, &mut d);
         let hessian = &d.work.constraint.solver.hessian;
-        (hessian.kept(), d)
+        (hessian.block_count(), d)
     }
 
     const SMALL_BOX: [f64; 3] = [0.1; 3];

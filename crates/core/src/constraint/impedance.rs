@@ -69,11 +69,11 @@ fn refsafe(m: &Model) -> bool {
 /// given, without mixed signs.
 pub(super) fn kbi_friction(m: &Model, c: &Contact, normal: Kbi) -> Kbi {
     let [a, b] = c.solreffriction;
-    let own = [a, b] != [0.0; 2] && (a > 0.0) == (b > 0.0);
-    if !own && !discrete(m) {
+    let is_direct = [a, b] != [0.0; 2] && (a > 0.0) == (b > 0.0);
+    if !is_direct && !discrete(m) {
         return normal;
     }
-    let solref = if own { [a, b] } else { c.solref };
+    let solref = if is_direct { [a, b] } else { c.solref };
     Kbi { imp: normal.imp, slope: normal.slope, ..kbi(m, Acts::BothWays, solref, c.solimp, 0.0) }
 }
 

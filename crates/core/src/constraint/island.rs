@@ -66,7 +66,7 @@ impl Lists {
 
     /// The items of a list.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn of(&self, list: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {
+    pub(super) fn members(&self, list: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {
         self.items[self.begin[list]..self.begin[list + 1]].iter().map(|&item| item as usize)
     }
 }
@@ -87,7 +87,7 @@ fn root(link: &mut [u32], mut i: usize) -> usize {
 impl Islands {
     /// The trees of an island, ascending.
     pub(crate) fn trees_of(&self, island: usize) -> impl Iterator<Item = usize> + Clone + use<'_> {
-        self.trees.of(island)
+        self.trees.members(island)
     }
 
     /// Whether some constraint touches a tree.
@@ -125,7 +125,7 @@ impl Islands {
         self.run_ends.clear();
         for island in 0..self.count {
             let first = self.runs.len();
-            for t in self.trees.of(island) {
+            for t in self.trees.members(island) {
                 let dofs = m.tree_dofs(t);
                 match self.runs.get_mut(first..).and_then(|runs| runs.last_mut()) {
                     Some(run) if run.end == dofs.start => run.end = dofs.end,
@@ -193,7 +193,7 @@ mod tests {
             lists.fill(4, of.iter().enumerate().map(|(item, &list)| (list, item)));
             for list in 0..4 {
                 let expected: Vec<usize> = (0..of.len()).filter(|&i| of[i] as usize == list).collect();
-                assert_eq!(lists.of(list).collect::<Vec<_>>(), expected);
+                assert_eq!(lists.members(list).collect::<Vec<_>>(), expected);
             }
         }
     }

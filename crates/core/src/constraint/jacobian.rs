@@ -128,7 +128,7 @@ struct Free {
 impl Free {
     /// The free bodies whose degrees of freedom are these, which descend.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn of(descending: &[u32]) -> Free {
+    fn from_columns(descending: &[u32]) -> Free {
         let six = |last: u32, first: u32| last - first + 1 == FREE_DOFS as u32;
         match *descending {
             _ if SMALL => Free::default(),
@@ -233,7 +233,7 @@ impl Jacobian {
             adr: adr as u32,
             col: col as u32,
             ncol: n as u32,
-            free: Free::of(descending),
+            free: Free::from_columns(descending),
         });
         let columns = &mut self.columns[col..col + n];
         let items = descending.iter().copied();

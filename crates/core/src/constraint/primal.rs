@@ -95,7 +95,7 @@ impl<'a> Problem<'a> {
     /// The constraints, by their place in the Jacobian's blocks.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(super) fn blocks(&self) -> impl Iterator<Item = usize> + Clone + use<'a> {
-        self.islands.blocks.of(self.island)
+        self.islands.blocks.members(self.island)
     }
 
     /// Makes costs and gradients comparable between scenes of any mass.

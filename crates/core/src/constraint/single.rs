@@ -58,7 +58,7 @@ struct Row {
 /// Appends the scalars of a row whose Jacobian is there.
 fn scalars(m: &Model, d: &mut Fields, row: Row, solref: [f64; 2], solimp: [f64; 5], weight: f64) {
     let Row { kind, id, pos, margin, loss } = row;
-    let dry = Cost::of(kind) == Cost::DryFriction;
+    let dry = Cost::for_row(kind) == Cost::DryFriction;
     let acts = if dry { Acts::BothWays } else { Acts::OneWay };
     let mut kbi = kbi(m, acts, solref, solimp, pos - margin);
     if dry {

@@ -79,9 +79,9 @@ fn is_diagonal(m: &Model, dofs: &Range<usize>) -> bool {
 /// Inertia that is added to degree of freedom `i`: its own and that of actuators.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn armature(m: &Model, i: usize) -> f64 {
-    let (own, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
+    let (armature, joint) = (m.dof_armature[i], m.dof_jntid[i] as usize);
     // Few joints have an actuator with inertia of its own.
-    if m.jnt_actuatorid[joint] == -1 { own } else { own + reflected::armature(m, On::Joint(joint)) }
+    if m.jnt_actuatorid[joint] == -1 { armature } else { armature + reflected::armature(m, On::Joint(joint)) }
 }
 
 /// Factorizes the rows of the degrees of freedom `dofs` (ascending, whole trees) in place, M = Lᵀ D L with unit L: `ld`

@@ -34,7 +34,7 @@ fn at(bodies: &[i32], id: usize) -> Option<usize> {
 /// The orientation of an object as a quaternion, world: composed of the body's and its own, so that a camera
 /// that turns by itself has the orientation it was given.
 pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Option<Quat> {
-    let (own, body) = match objtype {
+    let (frame, body) = match objtype {
         t if t == Obj::XBody as i32 => return rows(&d.xquat).get(id).copied(),
         t if t == Obj::Body as i32 => (&m.body_iquat, Some(id)),
         t if t == Obj::Geom as i32 => (&m.geom_quat, at(&m.geom_bodyid, id)),
@@ -42,7 +42,7 @@ pub(crate) fn orientation(m: &Model, d: &Fields, objtype: i32, id: usize) -> Opt
         t if t == Obj::Camera as i32 => (&m.cam_quat, at(&m.cam_bodyid, id)),
         _ => return None,
     };
-    Some(quat_mul(*rows(&d.xquat).get(body?)?, *rows(own).get(id)?))
+    Some(quat_mul(*rows(&d.xquat).get(body?)?, *rows(frame).get(id)?))
 }
 
 /// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or

@@ -22,7 +22,7 @@ struct Ring<'a> {
 
 impl<'a> Ring<'a> {
     /// `None` for a buffer that is too short for its samples.
-    fn of(buf: &'a [f64], n: usize, dim: usize) -> Option<Ring<'a>> {
+    fn from_buffer(buf: &'a [f64], n: usize, dim: usize) -> Option<Ring<'a>> {
         let (head, rest) = buf.split_at_checked(2)?;
         let (times, values) = rest.split_at_checked(n)?;
         let fits = n > 0 && values.len() >= n * dim;
@@ -81,7 +81,7 @@ pub(crate) fn init(buf: &mut [f64], n: usize, slot: f64, time: impl Fn(usize) ->
 /// Makes room for a sample and returns its values, to be filled. It takes the place of one of the same time, else of
 /// the oldest.
 pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [f64] {
-    let Some(ring) = Ring::of(buf, n, dim) else { return &mut [] };
+    let Some(ring) = Ring::from_buffer(buf, n, dim) else { return &mut [] };
     let i = ring.first_from(time);
     let same = i < n && ring.time(i) == time;
     let (i, newest) = match i {
@@ -107,7 +107,7 @@ pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [
 /// The value at a time: 0 that of the last sample, 1 between two samples along a line, 2 along a cubic through
 /// neighbouring slopes (Catmull and Rom 1974). Before the first and after the last sample it is theirs.
 pub(crate) fn read(buf: &[f64], n: usize, dim: usize, time: f64, interp: i32, out: &mut [f64]) {
-    let Some(ring) = Ring::of(buf, n, dim) else { return };
+    let Some(ring) = Ring::from_buffer(buf, n, dim) else { return };
     let i = ring.first_from(time);
     // A delay of whole steps finds its sample in spite of rounding.
     let exact = i < n && ring.time(i) - time < MINVAL;

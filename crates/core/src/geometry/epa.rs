@@ -226,8 +226,8 @@ impl Scratch {
                 upper = reach;
                 best = Some((face, Plane { normal, offset: reach }));
             }
-            let known = |v: &Vertex| v.corners == new.corners;
-            if upper - offset <= tolerance.max(rounding) || corners && self.vertices.iter().any(known) {
+            let has_corners = |v: &Vertex| v.corners == new.corners;
+            if upper - offset <= tolerance.max(rounding) || corners && self.vertices.iter().any(has_corners) {
                 break;
             }
             self.vertices.push(new);

@@ -25,7 +25,7 @@ impl Hull<'_> {
 impl<'a> Hull<'a> {
     /// Layout: numbers of vertices and triangles, where each vertex's neighbours begin, the vertices, the lists of
     /// neighbours (six for each pair of triangles, and an end for each vertex), the triangles.
-    pub(crate) fn of(graph: &'a [i32]) -> Option<Hull<'a>> {
+    pub(crate) fn from_graph(graph: &'a [i32]) -> Option<Hull<'a>> {
         let [vertices, faces, rest @ ..] = graph else { return None };
         let (n, f) = (usize::try_from(*vertices).ok()?, usize::try_from(*faces).ok()?);
         let (first_edge, rest) = rest.split_at_checked(n)?;

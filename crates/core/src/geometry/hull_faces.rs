@@ -27,7 +27,7 @@ struct Side {
 
 impl HullFaces {
     /// The sides of the hull of some vertices.
-    pub fn of(vert: &[Vec3], hull: &Hull) -> HullFaces {
+    pub fn from_hull(vert: &[Vec3], hull: &Hull) -> HullFaces {
         let mut sides = merge(vert, hull);
         sides.index(vert.len());
         sides

@@ -35,14 +35,14 @@ const CLIMB_FROM: usize = 10;
 
 impl<'a> Body<'a> {
     pub(crate) fn new(shape: &'a Shape<'a>) -> Body<'a> {
-        Body::of(Form::Shape(shape))
+        Body::from_form(Form::Shape(shape))
     }
 
     pub(crate) fn prism(corners: [Vec3; 6]) -> Body<'a> {
-        Body::of(Form::Prism(corners))
+        Body::from_form(Form::Prism(corners))
     }
 
-    fn of(form: Form<'a>) -> Body<'a> {
+    fn from_form(form: Form<'a>) -> Body<'a> {
         Body { form, shift: [0.0; 3], corner: -1, hull_vertex: 0, work: 0 }
     }
 

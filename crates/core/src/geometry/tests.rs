@@ -52,8 +52,9 @@ impl Assets {
                     assets.face.insert(name.into(), ints(parts[1]).as_chunks().0.to_vec());
                     assets.graph.insert(name.into(), ints(parts[2]));
                     let mesh = assets.mesh(name);
-                    let sides =
-                        mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::of(mesh.vert, &hull));
+                    let sides = mesh
+                        .hull
+                        .map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
                     assets.sides.insert(name.into(), sides);
                 }
                 "field" => assets.field = Some((floats(rest), floats(parts[1]))),
@@ -67,7 +68,7 @@ impl Assets {
         Mesh {
             vert: &self.vert[name],
             face: &self.face[name],
-            hull: Hull::of(&self.graph[name]),
+            hull: Hull::from_graph(&self.graph[name]),
             sides: self.sides.get(name),
         }
     }
@@ -227,7 +228,7 @@ fn rays_hit_where_they_do_in_mujoco() {
 }
 
 fn settings() -> PairSettings {
-    PairSettings::of(&Model { opt: crate::model::Options::default(), ..Model::default() })
+    PairSettings::from_model(&Model { opt: crate::model::Options::default(), ..Model::default() })
 }
 
 /// With more iterations than the default of 35, which do not always do for round bodies deep in each other.

@@ -30,7 +30,7 @@ pub(crate) struct Props {
 
 impl Props {
     /// The attributes of an element alone, for elements without defaults.
-    pub(crate) fn own(node: &Node) -> Props {
+    pub(crate) fn written_props(node: &Node) -> Props {
         let mut props = Props::default();
         props.overlay(node);
         props
@@ -45,8 +45,8 @@ impl Props {
     fn overlay_within(&mut self, node: &Node, room: &CompletionBudget) {
         #[cfg(test)]
         self.elements.push(node.element);
-        let own = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
-        for a in node.attributes.iter().filter(|a| !own(a)) {
+        let is_name = |a: &&Attribute| matches!(a.attr.kind, Kind::Name(_) | Kind::Class);
+        for a in node.attributes.iter().filter(|a| !is_name(a)) {
             if ALTERNATIVES.contains(&a.attr.name) {
                 self.values.remove(&ALTERNATIVES);
             }
@@ -250,8 +250,8 @@ impl Classes {
 
     /// The class of an element: its `class`, else the nearest `childclass` of the bodies around it, else `main`.
     pub(crate) fn class_of(&self, node: &Node, childclass: Option<usize>) -> usize {
-        let own = node.text("class").and_then(|name| self.find(name));
-        own.or(childclass).unwrap_or(self.main)
+        let written_class = node.text("class").and_then(|name| self.find(name));
+        written_class.or(childclass).unwrap_or(self.main)
     }
 
     /// All classes with their parents, which stand before them, and the elements of each itself. The first is its

@@ -157,7 +157,7 @@ impl References<'_> {
         report: &mut Report,
     ) -> Option<i32> {
         if node.text(attribute).is_none() {
-            let message = format!("{} has no `{attribute}`", node.shown());
+            let message = format!("{} has no `{attribute}`", node.describe());
             report
                 .error(rules::MISSING_ATTRIBUTE, node.span.clone(), message)
                 .help(format!("write `{attribute}=\"…\"` with the name of a {kind}"));

@@ -4,7 +4,7 @@
 use super::spec::{BodySpec, Inertia};
 use crate::kinds::joint;
 use crate::math::{Quat, Vec3};
-use crate::mjcf::body::inertia::shown;
+use crate::mjcf::body::inertia::describe_body;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
@@ -88,7 +88,7 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
                 .error(
                     rules::MOCAP,
                     body.span.clone(),
-                    format!("{} is a mocap body, but {what}", shown(body)),
+                    format!("{} is a mocap body, but {what}", describe_body(body)),
                 )
                 .why("a mocap body is moved from outside: `data.mocap_pos` is its position in the world")
                 .help("make it a child of `worldbody` without joints");
@@ -96,7 +96,11 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         let moves = layout.body_tree.get(i).is_some_and(|&t| t >= 0);
         for g in body.geoms.iter().filter(|g| g.only_static && moves) {
             report
-                .error(rules::GEOM, g.span.clone(), format!("a plane is in {}, which can move", shown(body)))
+                .error(
+                    rules::GEOM,
+                    g.span.clone(),
+                    format!("a plane is in {}, which can move", describe_body(body)),
+                )
                 .why("a plane is infinite and has no mass")
                 .help("put it into `worldbody`, or use another shape");
         }
@@ -136,7 +140,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
                 .error(
                     rules::JOINT,
                     j.span.clone(),
-                    format!("a free joint is in {}, which is not a child of the world", shown(body)),
+                    format!("a free joint is in {}, which is not a child of the world", describe_body(body)),
                 )
                 .why("a free joint gives the pose in the world, whatever the parent does")
                 .help("move the body to `worldbody`, or use ball and slide joints");
@@ -146,7 +150,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
                 .error(
                     rules::JOINT,
                     j.span.clone(),
-                    format!("a rotation follows the ball joint of {}", shown(body)),
+                    format!("a rotation follows the ball joint of {}", describe_body(body)),
                 )
                 .why("a ball joint already rotates about every axis")
                 .help("remove the joint, or put it into another body");
@@ -159,7 +163,7 @@ fn check_joints(body: &BodySpec, report: &mut Report) {
                 .error(
                     rules::JOINT,
                     j.span.clone(),
-                    format!("with this joint, {} has more than 6 degrees of freedom", shown(body)),
+                    format!("with this joint, {} has more than 6 degrees of freedom", describe_body(body)),
                 )
                 .why("a rigid body has six: three translations and three rotations")
                 .help("remove a joint; a free joint must be the only one");

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::classes::Classes;
 use super::schema::Kind;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, nearest, shown};
+use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
 use crate::mjcf::words::Words;
@@ -37,7 +37,7 @@ impl<'t> NameTable<'t> {
                         .error(
                             rules::DUPLICATE_NAME,
                             a.span.clone(),
-                            format!("a second {kind} has the name {}", shown(name)),
+                            format!("a second {kind} has the name {}", shorten_name(name)),
                         )
                         .why("expressions and sensors find an object by its name, so it must be unique")
                         .help(match name.as_str() {
@@ -58,7 +58,7 @@ impl<'t> NameTable<'t> {
     }
 
     /// All names of a kind.
-    pub(crate) fn of(&self, kind: &str) -> impl Iterator<Item = &'t str> {
+    pub(crate) fn of_kind(&self, kind: &str) -> impl Iterator<Item = &'t str> {
         self.nodes.get(kind).into_iter().flat_map(|names| names.keys().copied())
     }
 
@@ -67,11 +67,14 @@ impl<'t> NameTable<'t> {
         if report.incomplete {
             return; // it may be the name of something that was left out
         }
-        let error =
-            report.error(rules::UNKNOWN_NAME, span, format!("there is no {kind} named {}", shown(name)));
-        match nearest(name, self.of(kind)) {
+        let error = report.error(
+            rules::UNKNOWN_NAME,
+            span,
+            format!("there is no {kind} named {}", shorten_name(name)),
+        );
+        match nearest(name, self.of_kind(kind)) {
             Some(near) => error.help(format!("did you mean `{near}`?")),
-            None if self.of(kind).next().is_none() => {
+            None if self.of_kind(kind).next().is_none() => {
                 error.help(format!("give it a name: no {kind} of this model has one"))
             }
             None => error,
@@ -128,7 +131,7 @@ pub(crate) fn check_references(tree: &Tree, names: &NameTable, classes: &Classes
                     let error = report.error(
                         rules::UNKNOWN_CLASS,
                         a.span.clone(),
-                        format!("there is no default class named {}", shown(name)),
+                        format!("there is no default class named {}", shorten_name(name)),
                     );
                     match nearest(name, classes.names()) {
                         Some(near) => error.help(format!("did you mean `{near}`?")),
@@ -168,8 +171,8 @@ fn check_dangling(
     let mut childclass: Vec<Option<usize>> = Vec::with_capacity(tree.nodes.len());
     for node in &tree.nodes {
         let above = node.parent.and_then(|p| childclass.get(p).copied().flatten());
-        let own = node.text("childclass").and_then(|name| classes.find(name));
-        childclass.push(own.or(above));
+        let child_class = node.text("childclass").and_then(|name| classes.find(name));
+        childclass.push(child_class.or(above));
         let entry = match node.element.name {
             "spatial" | "fixed" => "tendon",
             name => name,
@@ -192,7 +195,8 @@ fn check_dangling(
         });
     }
     for d in dangling {
-        let message = format!("this default names the {} {}, which does not exist", d.kind, shown(d.name));
+        let message =
+            format!("this default names the {} {}, which does not exist", d.kind, shorten_name(d.name));
         report
             .warning(rules::UNKNOWN_NAME, d.attribute.span.clone(), message)
             .why("no element uses this default yet; if one does, the model will not load")
@@ -221,7 +225,7 @@ fn check_class<'t>(
                 .error(
                     rules::DUPLICATE_NAME,
                     span,
-                    format!("the default class {} is defined twice", shown(name)),
+                    format!("the default class {} is defined twice", shorten_name(name)),
                 )
                 .help("give one of them another name");
         }
@@ -230,7 +234,7 @@ fn check_class<'t>(
                 .error(
                     rules::UNKNOWN_CLASS,
                     span,
-                    format!("the outer default class is called {}, not `main`", shown(name)),
+                    format!("the outer default class is called {}, not `main`", shorten_name(name)),
                 )
                 .help(format!("nest it: `<default><default class=\"{name}\"> … </default></default>`"));
         }

@@ -5,7 +5,7 @@ use super::spec::List;
 use crate::kinds::{disable, enable};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, shown};
+use crate::mjcf::text::diagnostic::{Report, shorten_name};
 use crate::mjcf::text::tree::Tree;
 use crate::mjcf::text::values::Value;
 use crate::model::{Options, Statistic};
@@ -122,7 +122,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
                 .error(
                     rules::VALUE,
                     p.span("eulerseq").unwrap_or(0..0),
-                    format!("`eulerseq` is {}", shown(text)),
+                    format!("`eulerseq` is {}", shorten_name(text)),
                 )
                 .help(
                     "write three letters of x, y, z (axes that turn with the frame) or X, Y, Z (fixed axes)",
@@ -145,9 +145,9 @@ pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     };
     let (density, viscosity) = (from_zero("density", 0.0), from_zero("viscosity", 0.0));
     // Where the real library stops: never, and at once. Both are what zero means.
-    let mut zero = |name: &str, shown: String| {
+    let mut zero = |name: &str, written: String| {
         let span = p.span(name).unwrap_or(0..0);
-        let message = format!("`{name}` of option is {shown}, which has the effect of 0");
+        let message = format!("`{name}` of option is {written}, which has the effect of 0");
         report.warning(rules::NO_EFFECT, span, message).help("write 0, or remove it for the default");
     };
     let mut tolerance = |name: &str, default: f64| {
@@ -396,7 +396,7 @@ pub(crate) fn memory(tree: &Tree, report: &mut Report) {
             text.strip_suffix(['K', 'M', 'G', 'T', 'P', 'E', 'k', 'm', 'g', 't', 'p', 'e']).unwrap_or(text);
         if text != "-1" && (digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit())) {
             let span = p.span("memory").unwrap_or(0..0);
-            let message = format!("`memory` of size is {}, not a number of bytes", shown(text));
+            let message = format!("`memory` of size is {}, not a number of bytes", shorten_name(text));
             report.error(rules::VALUE, span, message).help("write an integer such as `64M`, or remove it");
         }
     }

@@ -251,7 +251,7 @@ pub(crate) struct SensorObjects {
 
 impl SensorObjects {
     /// One object.
-    pub(crate) fn of(objtype: i32, objid: i32) -> SensorObjects {
+    pub(crate) fn for_object(objtype: i32, objid: i32) -> SensorObjects {
         SensorObjects { objtype, objid, reftype: 0, refid: -1 }
     }
 
@@ -263,7 +263,7 @@ impl SensorObjects {
 
 impl Default for SensorObjects {
     fn default() -> Self {
-        SensorObjects::of(0, -1)
+        SensorObjects::for_object(0, -1)
     }
 }
 
@@ -408,7 +408,7 @@ pub(crate) struct TransmissionSpec {
 pub(crate) struct ActuatorSpec {
     pub(crate) span: Range<usize>,
     /// The name of the element, and its own name if it has one.
-    pub(crate) shown: String,
+    pub(crate) described: String,
     pub(crate) name: String,
     /// One of [`crate::gaintype`], [`crate::biastype`], [`crate::dyntype`], with parameters.
     pub(crate) gaintype: i32,

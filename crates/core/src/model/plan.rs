@@ -80,7 +80,7 @@ pub(crate) enum PlanFlag {
 pub(crate) struct PlanTable {
     pub(crate) decisions: Vec<Decision>,
     /// A bit for each stage that runs, and for each fact that holds.
-    kept: u32,
+    kept_stages: u32,
     facts: u32,
     /// How trees may be computed.
     pub(crate) ways: TreeAlgorithms,
@@ -99,7 +99,7 @@ impl Default for PlanTable {
     fn default() -> PlanTable {
         let mut plan = PlanTable {
             decisions: Vec::new(),
-            kept: 0,
+            kept_stages: 0,
             facts: u32::MAX,
             ways: TreeAlgorithms::ALL,
             sensed: Values::ALL,
@@ -107,7 +107,7 @@ impl Default for PlanTable {
             more: None,
             passes: [[0; 3]; 2],
         };
-        let known = [
+        let flags = [
             PlanFlag::MassForRows,
             PlanFlag::DampersStay,
             PlanFlag::Motors,
@@ -116,8 +116,8 @@ impl Default for PlanTable {
             PlanFlag::Unforced,
             PlanFlag::Ballistic,
         ];
-        for known in known {
-            plan.state(known, false);
+        for flag in flags {
+            plan.state(flag, false);
         }
         plan
     }
@@ -127,7 +127,7 @@ impl PlanTable {
     /// Whether a stage runs.
     #[cfg_attr(not(feature = "small"), inline(always))]
     pub(crate) fn keeps(&self, stage: Stage) -> bool {
-        self.kept & (1 << stage as u32) != 0
+        self.kept_stages & (1 << stage as u32) != 0
     }
 
     /// Whether something is known to hold of the scene.
@@ -143,7 +143,7 @@ impl PlanTable {
 
     pub(crate) fn keep(&mut self, stage: Stage, keep: bool) {
         let bit = 1 << stage as u32;
-        self.kept = if keep { self.kept | bit } else { self.kept & !bit };
+        self.kept_stages = if keep { self.kept_stages | bit } else { self.kept_stages & !bit };
     }
 
     pub(crate) fn state(&mut self, fact: PlanFlag, holds: bool) {

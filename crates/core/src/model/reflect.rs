@@ -463,7 +463,7 @@ pub fn is_writable(field: FieldId) -> bool {
 
 /// The dimensions of a field for this model; `None` for a dimension that changes with the state (`nefc`).
 pub fn shape(m: &Model, field: FieldId) -> Vec<Option<usize>> {
-    dimensions(field).iter().map(|dim| dim.of(m)).collect()
+    dimensions(field).iter().map(|dim| dim.size_in(m)).collect()
 }
 
 /// A dimension of a field.
@@ -479,7 +479,7 @@ enum Dimension {
 
 impl Dimension {
     /// Its length for this model, unless it changes with the state.
-    fn of(self, m: &Model) -> Option<usize> {
+    fn size_in(self, m: &Model) -> Option<usize> {
         match self {
             Dimension::Fixed(n) => Some(n),
             Dimension::Size(id) => match m.cell(id).view() {
@@ -510,13 +510,13 @@ fn size_id(name: &str) -> Option<ModelId> {
 
 /// The size of this name (`nq`, `nbody`, …), `None` when the model has no such size.
 pub fn size(m: &Model, name: &str) -> Option<usize> {
-    Dimension::Size(size_id(name)?).of(m)
+    Dimension::Size(size_id(name)?).size_in(m)
 }
 
 /// Number of elements of a field that the sizes of the model decide; 0 while a size is not known. Allocates
 /// nothing: a reset in the step loop asks for every array.
 pub(crate) fn length(m: &Model, field: FieldId) -> usize {
-    dimensions(field).iter().map(|dim| dim.of(m).unwrap_or(0)).fold(1, usize::saturating_mul)
+    dimensions(field).iter().map(|dim| dim.size_in(m).unwrap_or(0)).fold(1, usize::saturating_mul)
 }
 
 /// A number for the names, types and shapes of the fields of the data, or of all others: two programs with the same number

@@ -32,7 +32,7 @@ pub struct StageTimes {
 
 impl StageTimes {
     /// What a stage took.
-    pub fn of(&self, stage: Stage) -> StageTime {
+    pub fn stage_time(&self, stage: Stage) -> StageTime {
         self.stages.iter().find(|(s, _)| *s == stage).map_or(StageTime::default(), |(_, lap)| *lap)
     }
 

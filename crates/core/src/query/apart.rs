@@ -17,7 +17,7 @@ pub(crate) fn geom_distance(
 ) -> Option<Distance> {
     (work.room.cost, work.room.most) = (0, Some(d.meter.left()));
     let (a, b) = (Shape::geom(m, d, geom1), Shape::geom(m, d, geom2));
-    let distance = shape_distance(&a, &b, most, &PairSettings::of(m), work);
+    let distance = shape_distance(&a, &b, most, &PairSettings::from_model(m), work);
     d.meter.add(100 + work.room.cost);
     distance
 }
@@ -26,7 +26,7 @@ pub(crate) fn geom_distance(
 const MOST_ITERATIONS: i32 = 10_000;
 
 impl PairSettings {
-    pub(crate) fn of(m: &Model) -> PairSettings {
+    pub(crate) fn from_model(m: &Model) -> PairSettings {
         PairSettings {
             effort: Effort {
                 tolerance: m.opt.ccd_tolerance,

@@ -14,7 +14,7 @@ impl<'a> Shape<'a> {
         let mut shape = Shape::new(m.geom_type[g], size, pos, mat);
         if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
             match shape.kind {
-                geom::MESH => shape.mesh = Some(Mesh::of(m, id)),
+                geom::MESH => shape.mesh = Some(Mesh::from_model(m, id)),
                 geom::HFIELD => shape.field = Some(Field::of(m, id)),
                 _ => {}
             }
@@ -29,7 +29,7 @@ impl<'a> Shape<'a> {
             (rows::<3>(&m.site_size)[s], rows::<3>(&d.site_xpos)[s], rows::<9>(&d.site_xmat)[s]);
         let mut shape = Shape::new(m.site_type[s], size, pos, mat);
         if let Ok(id) = usize::try_from(m.site_dataid[s]) {
-            shape.mesh = Some(Mesh::of(m, id));
+            shape.mesh = Some(Mesh::from_model(m, id));
         }
         shape
     }
@@ -37,7 +37,7 @@ impl<'a> Shape<'a> {
 
 impl<'a> Mesh<'a> {
     /// Mesh `id` of a model.
-    pub(crate) fn of(m: &'a Model, id: usize) -> Mesh<'a> {
+    pub(crate) fn from_model(m: &'a Model, id: usize) -> Mesh<'a> {
         let range = |adr: &[i32], num: &[i32]| {
             let first = adr[id].max(0) as usize;
             first..first + num[id].max(0) as usize
@@ -45,7 +45,9 @@ impl<'a> Mesh<'a> {
         Mesh {
             vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
             face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],
-            hull: usize::try_from(m.mesh_graphadr[id]).ok().and_then(|adr| Hull::of(&m.mesh_graph[adr..])),
+            hull: usize::try_from(m.mesh_graphadr[id])
+                .ok()
+                .and_then(|adr| Hull::from_graph(&m.mesh_graph[adr..])),
             sides: m.mesh_sides.get(id),
         }
     }

@@ -107,7 +107,7 @@ fn sleeps(m: &Model, d: &Fields, s: usize) -> bool {
 
 /// What sensor `s` measures now, cut off. The cutoff of a segment is that of its length; contacts have none.
 fn read(m: &Model, d: &mut Fields, w: &mut Scratch, s: usize, out: &mut [f64]) {
-    match table::of(m, s).read {
+    match table::for_sensor(m, s).read {
         Read::Of(read) => read(m, d, s, out),
         Read::With(read) => read(m, d, w, s, out),
     }
@@ -143,7 +143,7 @@ pub(crate) fn fits(m: &Model, s: usize) -> bool {
         0 => true,
         _ => solid(kind, id),
     };
-    match table::of(m, s).senses {
+    match table::for_sensor(m, s).senses {
         Senses::Site => within(id, m.nsite),
         Senses::SiteInImage => within(id, m.nsite) && within(reference, m.ncam),
         Senses::Ray if kind == Obj::Camera as i32 => within(id, m.ncam),
@@ -169,7 +169,7 @@ pub(crate) fn needs(m: &Model, stage: Stage) -> bool {
 /// Whether one of some sensors does.
 pub(crate) fn needs_of(m: &Model, stage: Stage, among: impl Fn(usize) -> bool) -> bool {
     (0..m.nsensor).filter(|&s| among(s)).any(|s| {
-        table::of(m, s).needs.contains(&stage)
+        table::for_sensor(m, s).needs.contains(&stage)
             || poses(stage, m.sensor_objtype[s])
             || poses(stage, m.sensor_reftype[s])
             || m.sensor_type[s] == kind::USER && offers(stage, m.sensor_needstage[s])

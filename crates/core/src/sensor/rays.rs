@@ -26,7 +26,7 @@ pub(super) fn rangefinder(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) 
         let ray = Ray { from: f.pos, along: column(&f.mat, 2) };
         return cast(m, d, &ray, &f, false, mask, out);
     }
-    let camera = Camera::of(m, id);
+    let camera = Camera::from_model(m, id);
     let [width, _] = camera.resolution;
     let size = data_layout::size(&RAY_DATA, mask).max(1);
     for (pixel, out) in out.chunks_exact_mut(size).enumerate() {
@@ -71,7 +71,7 @@ struct Camera {
 }
 
 impl Camera {
-    fn of(m: &Model, id: usize) -> Camera {
+    fn from_model(m: &Model, id: usize) -> Camera {
         let size = rows::<2>(&m.cam_sensorsize)[id];
         let [fx, fy, px, py] = rows::<4>(&m.cam_intrinsic)[id];
         let resolution = [m.cam_resolution[2 * id], m.cam_resolution[2 * id + 1]].map(|n| n.max(0) as usize);
@@ -118,7 +118,7 @@ pub(super) fn camera_projection(m: &Model, d: &mut Fields, s: usize, out: &mut [
         return;
     };
     let Some(f) = object::frame(m, d, Obj::Camera as i32, id) else { return };
-    let camera = Camera::of(m, id);
+    let camera = Camera::from_model(m, id);
     let [x, y, z] = mat_t_mul_vec(&f.mat, sub(rows::<3>(&d.site_xpos)[site], f.pos));
     // In the plane of the camera there is no image: the pixel is far outside.
     let depth = if z.abs() < MINVAL { MINVAL.copysign(z) } else { z };

@@ -182,7 +182,7 @@ kinds! {
 
 /// The row of sensor `s`.
 #[inline]
-pub(super) fn of(m: &Model, s: usize) -> &'static Kind {
+pub(super) fn for_sensor(m: &Model, s: usize) -> &'static Kind {
     let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
     KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])
 }

@@ -34,7 +34,7 @@ fn difference(got: &[f64], want: &[f64]) -> (f64, usize) {
 /// Which sensor a value belongs to.
 fn sensor(m: &Model, value: usize) -> String {
     let s = (0..m.nsensor).rfind(|&s| m.sensor_adr[s] as usize <= value && m.sensor_dim[s] > 0).unwrap();
-    format!("{} {s}", super::table::of(m, s).name)
+    format!("{} {s}", super::table::for_sensor(m, s).name)
 }
 
 /// Constants of cameras and lights that are put into the model: the tests of the compiler compare them.

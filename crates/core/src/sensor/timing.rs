@@ -5,7 +5,7 @@
 //! of the last tick of the period, which readings follow as the steps allow.
 
 use super::Scratch;
-use super::table::of;
+use super::table::for_sensor;
 use crate::dynamics::subtree;
 use crate::forces::history;
 use crate::kinds::integrator;
@@ -46,7 +46,7 @@ pub(super) fn past(m: &Model, d: &Fields, s: usize, out: &mut [f64]) -> bool {
 pub(crate) fn record(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let delayed = |s: &usize| m.sensor_delay[*s] > 0.0 && m.sensor_history[2 * s] > 0;
     if integrator::many_stages(m.opt.integrator) {
-        let needs = |stage| (0..m.nsensor).filter(delayed).any(|s| of(m, s).needs.contains(&stage));
+        let needs = |stage| (0..m.nsensor).filter(delayed).any(|s| for_sensor(m, s).needs.contains(&stage));
         if needs(Stage::SubtreeVel) {
             subtree::subtree_vel(m, d);
         }

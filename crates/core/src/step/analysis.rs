@@ -312,9 +312,9 @@ impl<'a> ModelAnalysis<'a> {
 
     /// Whether joints have dampers, unless programs may change that.
     pub(super) fn damped(&self) -> Option<bool> {
-        let own = [JOINT_FORCES[0].0, JOINT_FORCES[1].0];
+        let joint_forces = [JOINT_FORCES[0].0, JOINT_FORCES[1].0];
         let actuators = ACTUATOR_DAMPING.map(|f| f.0);
-        let changes = self.writes(&own)
+        let changes = self.writes(&joint_forces)
             || self.writes(&actuators)
             || self.writes(&[ACTUATOR_ARMATURE.0])
             || self.writes(&[option::disableflags]);

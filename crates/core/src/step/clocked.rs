@@ -21,8 +21,8 @@ pub(super) fn walk(
         watch.begin();
     }
     lap(nothing, None, m, d);
-    let kept = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & (1 << i) != 0);
-    kept.for_each(|(_, (run, stage))| lap(*run, Some(*stage), m, d));
+    let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & (1 << i) != 0);
+    kept_rows.for_each(|(_, (run, stage))| lap(*run, Some(*stage), m, d));
     if let Some(watch) = &mut d.work.watch {
         watch.end();
     }

@@ -155,8 +155,8 @@ pub(crate) fn constraints(
     if d.nefc > 0 {
         constraint::at_end_of_step(m, d, rows, &w.diagonal);
     }
-    let own = d.nefc;
-    let apart = own > 0 && !w.terms.is_empty();
+    let row_count = d.nefc;
+    let apart = row_count > 0 && !w.terms.is_empty();
     if apart {
         for term in &w.terms {
             let (dofs, values) = term.row.jacobian(m, d);
@@ -172,7 +172,7 @@ pub(crate) fn constraints(
     constraint::solve(m, d, rows, trees);
     exchange_metric(d, w);
     if apart {
-        constraint::pop_metric(d, rows, own);
+        constraint::pop_metric(d, rows, row_count);
         std::mem::swap(&mut w.other, &mut d.qacc_smooth);
         constraint::unconstrained_residual(d, &rows.jac);
     }

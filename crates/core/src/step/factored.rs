@@ -10,7 +10,7 @@ use crate::model::Model;
 pub(crate) struct Factored {
     of: Vec<f64>,
     /// Whether the rows of a tree have been factorized.
-    known: Vec<bool>,
+    is_current: Vec<bool>,
     pub(crate) ld: Vec<f64>,
     pub(crate) diag_inv: Vec<f64>,
 }
@@ -19,9 +19,9 @@ impl Factored {
     /// Factorizes M - h D, where `whole` is D, of the trees that are not free bodies. Returns the first degree of freedom whose
     /// pivot is not positive.
     pub(crate) fn make(&mut self, m: &Model, mass: &[f64], whole: &[f64], h: f64) -> Option<usize> {
-        if self.known.len() != m.ntree || self.ld.len() != m.nC {
+        if self.is_current.len() != m.ntree || self.ld.len() != m.nC {
             (self.of, self.ld) = (vec![0.0; m.nC], vec![0.0; m.nC]);
-            (self.known, self.diag_inv) = (vec![false; m.ntree], vec![0.0; m.nv]);
+            (self.is_current, self.diag_inv) = (vec![false; m.ntree], vec![0.0; m.nv]);
         }
         let mut bad = None;
         for tree in (0..m.ntree).filter(|&t| !derivative::is_free_rigid(m, t)) {
@@ -31,12 +31,12 @@ impl Factored {
                 let lower = sparse::lower(m, i, row.len());
                 changed | difference(&mut self.of[row.clone()], &mass[row], &whole[lower], h)
             });
-            if self.known[tree] && !changed {
+            if self.is_current[tree] && !changed {
                 continue;
             }
             let failed = mass::factor_copy(m, &self.of, &mut self.ld, &mut self.diag_inv, dofs);
             // One that warns is factorized again at the next step, and warns again.
-            self.known[tree] = failed.is_none();
+            self.is_current[tree] = failed.is_none();
             bad = bad.or(failed);
         }
         bad

@@ -39,7 +39,7 @@ pub(crate) fn position(m: &Model, d: &mut Workspace) {
 /// The contacts of geoms where they are.
 pub(crate) fn contacts(m: &Model, d: &mut Workspace) {
     let [bits, ..] = d.plan.passes[0];
-    POSITIONS.run(m, d, bits & POSITIONS.of(Stage::Collision));
+    POSITIONS.run(m, d, bits & POSITIONS.stage_bits(Stage::Collision));
 }
 
 /// What depends on `qvel` as well.

@@ -460,7 +460,7 @@ impl<const N: usize> Sequence<N> {
     }
 
     /// The bits of one stage.
-    pub(crate) fn of(&self, stage: Stage) -> u32 {
+    pub(crate) fn stage_bits(&self, stage: Stage) -> u32 {
         self.bits(|s| s == stage)
     }
 

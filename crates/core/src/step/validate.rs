@@ -257,11 +257,12 @@ fn shapes(m: &Model) -> bool {
     let meshes = (0..m.nmesh).all(|id| {
         let corners = m.mesh_vertnum[id];
         let faces = span(m.mesh_faceadr[id], m.mesh_facenum[id]);
-        let own = m.mesh_face.as_chunks::<3>().0[faces].iter().flatten().all(|&v| v < corners);
-        let Ok(at) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && own };
-        let Some(hull) = m.mesh_graph.get(at..).and_then(Hull::of) else { return false };
+        let in_range = m.mesh_face.as_chunks::<3>().0[faces].iter().flatten().all(|&v| v < corners);
+        let Ok(at) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && in_range };
+        let Some(hull) = m.mesh_graph.get(at..).and_then(Hull::from_graph) else { return false };
         let n = hull.vertex.len();
-        own && hull.vertex.iter().chain(hull.face.iter().flatten()).all(|&v| v >= 0 && v < corners)
+        in_range
+            && hull.vertex.iter().chain(hull.face.iter().flatten()).all(|&v| v >= 0 && v < corners)
             && hull.first_edge.iter().all(|&e| within(e, hull.edges.len()))
             && hull.edges.iter().all(|&e| e == -1 || within(e, n))
     });

@@ -105,24 +105,27 @@ impl<'s> Compiler<'s> {
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics, told } = parse::expression(source, self.schema.words(), self.tells);
+        let Parsed { tree, diagnostics, reported: told } =
+            parse::expression(source, self.schema.words(), self.tells);
         self.compile(source, diagnostics, told, Tree::Expression(&tree))
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics, told } = parse::statements(source, self.schema.words(), self.tells);
+        let Parsed { tree, diagnostics, reported: told } =
+            parse::statements(source, self.schema.words(), self.tells);
         self.compile(source, diagnostics, told, Tree::Statements(&tree))
     }
 
     /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
     /// may be anything.
     pub fn assignment(&mut self, target: &str) -> Compiled {
-        let Parsed { tree, diagnostics, told } = parse::expression(target, self.schema.words(), self.tells);
+        let Parsed { tree, diagnostics, reported: told } =
+            parse::expression(target, self.schema.words(), self.tells);
         self.compile(target, diagnostics, told, Tree::Target(&tree))
     }
 
-    fn compile(&mut self, source: &str, mut found: Vec<Finding>, told: bool, tree: Tree<'_>) -> Compiled {
+    fn compile(&mut self, source: &str, mut found: Vec<Finding>, reported: bool, tree: Tree<'_>) -> Compiled {
         let id = self.globals.next_program();
         let around = Surroundings {
             schema: Some(self.schema),
@@ -153,7 +156,7 @@ impl<'s> Compiler<'s> {
             let name = source.get(span.start..span.end).unwrap_or("");
             found.push(Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here")));
         }
-        let failed = told || found.iter().any(Finding::is_error);
+        let failed = reported || found.iter().any(Finding::is_error);
         let parts = bound.program.filter(|_| !failed);
         let program = parts.map(|parts| {
             Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)

@@ -82,7 +82,7 @@ impl<'t> Build<'t> {
     }
 
     fn whole(&mut self, unit: &ir::Unit) {
-        self.unit.result = unit.result.map_or(Slot::Value, Slot::of);
+        self.unit.result = unit.result.map_or(Slot::Value, Slot::for_type);
         self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
         self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
         let given: Vec<(LocalId, At)> =
@@ -143,11 +143,11 @@ impl<'t> Build<'t> {
     }
 
     pub(super) fn constant_value(&mut self, value: &Value) -> Val {
-        let known = self.unit.values.iter().find(|(_, v)| match (v, value) {
+        let existing = self.unit.values.iter().find(|(_, v)| match (v, value) {
             (Value::Number(a), Value::Number(b)) => a.to_bits() == b.to_bits(),
             (a, b) => a == b,
         });
-        if let Some((name, _)) = known {
+        if let Some((name, _)) = existing {
             return *name;
         }
         let name = self.new_value();
@@ -394,7 +394,7 @@ impl<'t> Build<'t> {
 
     /// A number that is true when the node is.
     pub(super) fn truth(&mut self, ir: &Ir) -> Num {
-        match ir.known() {
+        match ir.constant_value() {
             // A NaN is false, and stays one: a watched run sees that it decides.
             Some(Value::Number(x)) if x.is_nan() => self.constant(*x),
             Some(value) => self.constant(f64::from(u8::from(value.truthy()))),

@@ -10,7 +10,7 @@ use crate::value::Value;
 impl Build<'_> {
     /// How a function hands over what it returns.
     pub(super) fn result_slot(&self, unit: UnitId) -> Slot {
-        self.tree.units.get(unit as usize).and_then(|u| u.result).map_or(Slot::Value, Slot::of)
+        self.tree.units.get(unit as usize).and_then(|u| u.result).map_or(Slot::Value, Slot::for_type)
     }
 
     fn params(&self, unit: UnitId) -> Vec<Slot> {

@@ -101,8 +101,8 @@ impl Build<'_> {
         let (mut at, level) = self.variables.now.get(local as usize).copied().flatten()?;
         if (level as usize) < self.loops.len() {
             for i in level as usize..self.loops.len() {
-                let known = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
-                at = match known {
+                let param = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
+                at = match param {
                     Some(param) => param,
                     None => {
                         let param = self.like(at);
@@ -189,7 +189,7 @@ impl Build<'_> {
             return None;
         }
         if let End::If(when, test, _) = end
-            && let Some(x) = self.unit.known(test)
+            && let Some(x) = self.unit.constant(test)
             && !x.is_nan()
         {
             // The answer is known: there is one way.
@@ -405,28 +405,28 @@ impl Build<'_> {
                 level.params.insert(*local, (param, before));
             }
         }
-        let mut kept = Vec::new();
+        let mut live = Vec::new();
         for (local, (param, before)) in &level.params {
             let stored = back.as_ref().and_then(|way| way.held(*local));
             let next = stored.map_or(*param, |at| self.unit.same.at(at));
             if next == *param || next == self.unit.same.at(*before) {
                 self.unit.same.join(*param, *before);
             } else {
-                kept.push((*local, *param, *before, next));
+                live.push((*local, *param, *before, next));
             }
         }
         if let Some(block) = self.unit.blocks.get_mut(level.header as usize) {
-            block.params = kept.iter().map(|k| k.1).collect();
+            block.params = live.iter().map(|k| k.1).collect();
         }
         let from = level.entry.as_ref().map(|e| e.from);
         if let Some(edge) = from.and_then(|from| self.edge(from)) {
-            edge.args = kept.iter().map(|k| k.2).collect();
+            edge.args = live.iter().map(|k| k.2).collect();
         }
         if let Some(block) = back.and_then(|way| self.unit.blocks.get_mut(way.from as usize)) {
-            let args = kept.iter().map(|k| k.3).collect();
+            let args = live.iter().map(|k| k.3).collect();
             block.end = End::Again(Edge { to: level.header, args });
         }
-        for (local, param, ..) in &kept {
+        for (local, param, ..) in &live {
             self.write(*local, *param);
             // Ways that lead further out pass its start too.
             let returns =
@@ -447,7 +447,7 @@ impl Build<'_> {
     pub(super) fn slot(&self, local: LocalId) -> Slot {
         match self.tree.locals.get(local as usize) {
             Some(local) if local.shared => Slot::Value,
-            Some(local) => Slot::of(local.ty),
+            Some(local) => Slot::for_type(local.ty),
             None => Slot::Value,
         }
     }

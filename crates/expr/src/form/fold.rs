@@ -41,17 +41,18 @@ pub(super) fn fold(unit: &mut Unit) {
 
 /// What a numeric operation gives, with its name, where that is known.
 fn result(unit: &Unit, op: &Op) -> Option<(Num, Gives)> {
-    let known = |n: Num| unit.known(unit.same.number(n));
+    let constant = |n: Num| unit.constant(unit.same.number(n));
     Some(match *op {
-        Op::Unary(name, op, a) => (name, kept(&[known(a)?], op.on_number(known(a)?))?),
+        Op::Unary(name, op, a) => (name, keep_operand(&[constant(a)?], op.on_number(constant(a)?))?),
         Op::Binary(name, op, a, b) => {
-            let operands = [known(a)?, known(b)?];
-            (name, kept(&operands, op.on_numbers(operands[0], operands[1]))?)
+            let operands = [constant(a)?, constant(b)?];
+            (name, keep_operand(&operands, op.on_numbers(operands[0], operands[1]))?)
         }
-        Op::Select(_, test, ..) if known(test)?.is_nan() => return None,
-        Op::Select(name, test, a, b) => (name, Gives::Same(select(known(test)?, a, b))),
+        Op::Select(_, test, ..) if constant(test)?.is_nan() => return None,
+        Op::Select(name, test, a, b) => (name, Gives::Same(select(constant(test)?, a, b))),
         Op::Math(name, function, args) => {
-            let numbers: Option<Vec<f64>> = args.of(&unit.args).iter().map(|n| known(Num(*n))).collect();
+            let numbers: Option<Vec<f64>> =
+                args.operands_in(&unit.args).iter().map(|n| constant(Num(*n))).collect();
             let numbers = numbers?;
             let x = function.apply(&numbers);
             // The extreme of nothing is found while running, where it can be seen.
@@ -61,7 +62,7 @@ fn result(unit: &Unit, op: &Op) -> Option<(Num, Gives)> {
                 if function.gives_boolean() {
                     Gives::Known(x)
                 } else {
-                    kept(&numbers, x).filter(|_| some)?
+                    keep_operand(&numbers, x).filter(|_| some)?
                 },
             )
         }
@@ -70,7 +71,7 @@ fn result(unit: &Unit, op: &Op) -> Option<(Num, Gives)> {
 }
 
 /// A known result, unless a NaN was lost on the way to it: a run shows where ([`crate::Watch`]).
-fn kept(operands: &[f64], x: f64) -> Option<Gives> {
+fn keep_operand(operands: &[f64], x: f64) -> Option<Gives> {
     let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
     (!lost).then_some(Gives::Known(x))
 }
@@ -90,7 +91,7 @@ mod tests {
         let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
         let computed = |op: &&Op| matches!(op, Op::Binary(_, BinaryOp::Multiply, ..) | Op::Math(..));
         assert_eq!(program.code.units[0].ops.iter().filter(computed).count(), 0);
-        let mut context = Context::of(&globals);
+        let mut context = Context::for_globals(&globals);
         program.run(&mut World::new(), &mut context, None).unwrap();
         assert_eq!(*context.get(0), Value::Number(24.0));
     }

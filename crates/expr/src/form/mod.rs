@@ -119,7 +119,7 @@ pub(crate) enum Slot {
 }
 
 impl Slot {
-    pub(crate) fn of(ty: Type) -> Slot {
+    pub(crate) fn for_type(ty: Type) -> Slot {
         match ty {
             Type::Number => Slot::Number,
             Type::Boolean => Slot::Boolean,
@@ -130,7 +130,7 @@ impl Slot {
 
 impl Form {
     /// The form of a text.
-    pub(crate) fn of(tree: &Tree) -> Form {
+    pub(crate) fn from_tree(tree: &Tree) -> Form {
         build::form(tree)
     }
 }
@@ -143,7 +143,7 @@ impl Unit {
     }
 
     /// The number, if it is known.
-    pub(crate) fn known(&self, number: Num) -> Option<f64> {
+    pub(crate) fn constant(&self, number: Num) -> Option<f64> {
         let at = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
         self.numbers.get(at).map(|(_, x)| *x)
     }

@@ -30,7 +30,7 @@ pub(crate) struct Order {
 const MOST_PARTS: usize = 20_000;
 
 impl Order {
-    pub(crate) fn of(form: &Form, effects: &Effects) -> Order {
+    pub(crate) fn from_form(form: &Form, effects: &Effects) -> Order {
         // Most texts write nothing and call nothing.
         if effects.writes.is_empty() && effects.calls.is_empty() {
             return Order::default();
@@ -113,8 +113,8 @@ impl Walk<'_> {
 
     /// A store into an array that is a value: into this one, or into whichever became one.
     fn through_values(&mut self, view: Option<View>) {
-        for shown in self.form.views.iter().filter(|s| s.assignable && view.is_none_or(|v| v == s.view)) {
-            self.events.push((Event::Write(whole(shown.view)), false));
+        for view in self.form.views.iter().filter(|s| s.assignable && view.is_none_or(|v| v == s.view)) {
+            self.events.push((Event::Write(whole(view.view)), false));
         }
     }
 }

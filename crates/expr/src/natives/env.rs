@@ -69,8 +69,8 @@ impl Env<'_> {
 
     /// Stores an element of a view that became a value.
     pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), Trouble> {
-        let shown = self.views.iter().find(|s| s.view.field == view.field);
-        match shown {
+        let view_entry = self.views.iter().find(|s| s.view.field == view.field);
+        match view_entry {
             Some(shown) if shown.assignable => {}
             Some(_) => {
                 return Err(Trouble::new(

@@ -373,8 +373,8 @@ mod tests {
         let args: Vec<Value> = args.iter().map(number).collect();
         let mut env = Env { heap: &mut heap, host: &mut host, views: &[], budget: &mut budget };
         let result = run(&mut env, &receiver, &args).map_err(|e| e.message);
-        let shown = |value: &Value| show(&heap, value, [element, argument]);
-        format!("{} {}", result.as_ref().map_or_else(Clone::clone, &shown), shown(&receiver))
+        let displayed = |value: &Value| show(&heap, value, [element, argument]);
+        format!("{} {}", result.as_ref().map_or_else(Clone::clone, &displayed), displayed(&receiver))
     }
 
     #[test]

@@ -50,7 +50,7 @@ pub(crate) const NUMBER_CONSTANTS: &[(&str, f64)] = &[
 ];
 
 /// The number a method is called on.
-fn own(value: &Value) -> f64 {
+fn number_of_this(value: &Value) -> f64 {
     value.to_number()
 }
 
@@ -94,8 +94,8 @@ pub fn to_fixed(x: f64, digits: usize) -> String {
 
 /// A decimal number without its last digit, a 5, which counts as more than half.
 fn without_last(exact: &str) -> String {
-    let kept = exact.strip_suffix('5').unwrap_or(exact);
-    let mut out: Vec<char> = kept.strip_suffix('.').unwrap_or(kept).chars().collect();
+    let digits = exact.strip_suffix('5').unwrap_or(exact);
+    let mut out: Vec<char> = digits.strip_suffix('.').unwrap_or(digits).chars().collect();
     for c in out.iter_mut().rev() {
         match c {
             '9' => *c = '0',
@@ -146,11 +146,11 @@ fn exponential(sign: &str, mantissa: &str, exponent: i32) -> String {
 
 fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let digits = digits(env, args, 0.0)?.unwrap_or(0);
-    env.string(to_fixed(own(x), digits))
+    env.string(to_fixed(number_of_this(x), digits))
 }
 
 fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
-    let x = own(x);
+    let x = number_of_this(x);
     if !x.is_finite() {
         return env.string(convert::to_text(x));
     }
@@ -168,7 +168,7 @@ fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcom
 }
 
 fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
-    let x = own(x);
+    let x = number_of_this(x);
     if !x.is_finite() {
         return env.string(convert::to_text(x));
     }
@@ -197,7 +197,7 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
         let message = format!("base {} is not allowed: the range is 2 to 36", convert::to_text(radix));
         return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
-    let x = own(x);
+    let x = number_of_this(x);
     if radix == 10.0 || !x.is_finite() {
         return env.string(convert::to_text(x));
     }

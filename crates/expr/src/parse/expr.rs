@@ -163,7 +163,7 @@ impl Parser<'_> {
             }
             Tok::Bad => Err(Reported),
             _ => {
-                let message = format!("expected a name after `.`, found {}", self.shown());
+                let message = format!("expected a name after `.`, found {}", self.current_text());
                 let report = Finding::error(rules::MISSING_NAME, span, message).help(format!(
                     "write the field after the point, as `{0}`, and indexes in brackets, as `{0}[2]`",
                     self.words.array
@@ -224,7 +224,7 @@ impl Parser<'_> {
         let then = self.expression(ASSIGNMENT)?;
         if self.eat(":").is_none() {
             let report = Finding::error(rules::HALF_CHOICE, question, "this `?` has no `:`")
-                .why(format!("found {} where the second value is required", self.shown()))
+                .why(format!("found {} where the second value is required", self.current_text()))
                 .help("write a conditional expression as `test ? a : b`");
             return self.refuse(report);
         }
@@ -428,7 +428,7 @@ impl Parser<'_> {
             Tok::Number(x) => (crate::number::to_text(*x), false),
             Tok::Bad => return Err(Reported),
             _ => {
-                let message = format!("expected a key, found {}", self.shown());
+                let message = format!("expected a key, found {}", self.current_text());
                 let report = Finding::error(rules::MISSING_NAME, span, message)
                     .why("braces inside an expression contain a record: keys and their values")
                     .help("write it as `{a: 1, b: 2}`");
@@ -534,7 +534,7 @@ impl Parser<'_> {
         let open = opener.text(self.source);
         Some(
             Finding::error(rules::UNCLOSED, opener, format!("this `{open}` is not closed"))
-                .why(format!("found {} where `{closer}` is required", self.shown()))
+                .why(format!("found {} where `{closer}` is required", self.current_text()))
                 .help(format!("write `{closer}` after `{}`", before.text(self.source)))
                 .guess(before.after(), closer),
         )
@@ -544,7 +544,7 @@ impl Parser<'_> {
     pub(super) fn expected_value<T>(&mut self) -> Attempt<T> {
         let span = self.span();
         let before = self.last_span().text(self.source);
-        let message = format!("expected a value, found {}", self.shown());
+        let message = format!("expected a value, found {}", self.current_text());
         let mut report = Finding::error(rules::MISSING_VALUE, span, message);
         if !before.is_empty() && self.at > 0 {
             report = report.why(format!("`{before}` needs a value after it"));

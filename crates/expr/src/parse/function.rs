@@ -94,7 +94,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(`, found {}", self.shown()),
+                format!("expected `(`, found {}", self.current_text()),
             )
             .help("write the parameters in parentheses, as `function f(x) { … }`");
             return self.refuse(report);
@@ -104,7 +104,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `{{`, found {}", self.shown()),
+                format!("expected `{{`, found {}", self.current_text()),
             )
             .help("write what the function does in braces, as `function f(x) { return 2 * x }`");
             return self.refuse(report);
@@ -208,7 +208,7 @@ impl Parser<'_> {
                 let report = Finding::error(
                     rules::MISSING_NAME,
                     span,
-                    format!("expected a key, found {}", self.shown()),
+                    format!("expected a key, found {}", self.current_text()),
                 )
                 .help(format!("write the keys to take, as `const {}`", self.words.parts));
                 return self.refuse(report);
@@ -242,7 +242,7 @@ impl Parser<'_> {
                 let report = Finding::error(
                     rules::MISSING_NAME,
                     span,
-                    format!("expected {what}, found {}", self.shown()),
+                    format!("expected {what}, found {}", self.current_text()),
                 )
                 .help("write a name, as `angle`");
                 return self.refuse(report);

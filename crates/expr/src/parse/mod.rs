@@ -23,7 +23,7 @@ pub struct Parsed<T> {
     /// Findings in source order.
     pub diagnostics: Vec<Finding>,
     /// There are typographic quotes, of which the host tells itself.
-    pub told: bool,
+    pub reported: bool,
 }
 
 /// Longest source text, in bytes. Real lessons stay below 2,000.
@@ -44,7 +44,7 @@ pub fn parse_expression(source: &str) -> Parsed<Expr> {
 pub(crate) fn expression(source: &str, words: &'static Words, tells: bool) -> Parsed<Expr> {
     let mut parser = Parser::new(source, words, tells);
     let tree = parser.whole_expression();
-    Parsed { tree, diagnostics: in_order(parser.diagnostics), told: parser.told }
+    Parsed { tree, diagnostics: in_order(parser.diagnostics), reported: parser.reported }
 }
 
 /// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
@@ -56,7 +56,7 @@ pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
 pub(crate) fn statements(source: &str, words: &'static Words, tells: bool) -> Parsed<Vec<Stmt>> {
     let mut parser = Parser::new(source, words, tells);
     let tree = parser.statements();
-    Parsed { tree, diagnostics: in_order(parser.diagnostics), told: parser.told }
+    Parsed { tree, diagnostics: in_order(parser.diagnostics), reported: parser.reported }
 }
 
 /// Findings in source order, and not more than anyone reads.
@@ -89,7 +89,7 @@ struct Parser<'s> {
     words: &'static Words,
     /// The host tells of typographic quotes, and whether there are any.
     tells: bool,
-    told: bool,
+    reported: bool,
     tokens: Vec<Token<'s>>,
     at: usize,
     /// Expressions and statements that are being read, one inside the other.
@@ -109,9 +109,9 @@ impl<'s> Parser<'s> {
         } else {
             lex::tokens(source, &mut diagnostics)
         };
-        let told = false;
+        let reported = false;
         let mut parser =
-            Parser { source, words, tells, told, tokens, at: 0, depth: 0, tallest: 0, diagnostics };
+            Parser { source, words, tells, reported, tokens, at: 0, depth: 0, tallest: 0, diagnostics };
         parser.look_at_quotes();
         parser
     }
@@ -120,7 +120,7 @@ impl<'s> Parser<'s> {
     fn look_at_quotes(&mut self) {
         for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, Tok::Number(_))) {
             match token.doubt.take() {
-                Some(_) if self.tells => self.told = true,
+                Some(_) if self.tells => self.reported = true,
                 doubt => self.diagnostics.extend(doubt.map(|finding| *finding)),
             }
         }
@@ -181,7 +181,7 @@ impl<'s> Parser<'s> {
     }
 
     /// The next token as an author sees it.
-    fn shown(&self) -> String {
+    fn current_text(&self) -> String {
         match self.peek() {
             Tok::End => "the end of the text".into(),
             Tok::Template(..) => "a template literal".into(),

@@ -181,7 +181,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` after `{word}`, found {}", self.shown()),
+                format!("expected `(` after `{word}`, found {}", self.current_text()),
             )
             .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
             return self.refuse(report);
@@ -208,7 +208,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_STATEMENT,
                 span,
-                format!("expected a statement after `{word}`, found {}", self.shown()),
+                format!("expected a statement after `{word}`, found {}", self.current_text()),
             )
             .help("write the statement to run, or several statements in braces");
             return self.refuse(report);
@@ -247,7 +247,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` after `for`, found {}", self.shown()),
+                format!("expected `(` after `for`, found {}", self.current_text()),
             )
             .help("write `for (let i = 0; i < n; i++) { … }`");
             return self.refuse(report);
@@ -317,10 +317,13 @@ impl Parser<'_> {
         if self.eat(";").is_some() {
             return Ok(());
         }
-        let report =
-            Finding::error(rules::LOOP_HEAD, self.span(), format!("expected `;`, found {}", self.shown()))
-                .why("the head of a `for` has three parts: start, condition, step")
-                .help("write `for (let i = 0; i < n; i++) { … }`");
+        let report = Finding::error(
+            rules::LOOP_HEAD,
+            self.span(),
+            format!("expected `;`, found {}", self.current_text()),
+        )
+        .why("the head of a `for` has three parts: start, condition, step")
+        .help("write `for (let i = 0; i < n; i++) { … }`");
         self.refuse(report)
     }
 
@@ -446,10 +449,13 @@ impl Parser<'_> {
     fn declarator(&mut self, constant: bool, opener: Span) -> Attempt<Declarator> {
         let span = self.span();
         if !matches!(self.peek(), Tok::Word(_) | Tok::Bad | Tok::Symbol("[" | "{")) {
-            let report =
-                Finding::error(rules::MISSING_NAME, span, format!("expected a name, found {}", self.shown()))
-                    .why(format!("`{}` declares a name", opener.text(self.source)))
-                    .help(format!("write `const angle = {}[0]`", self.words.array));
+            let report = Finding::error(
+                rules::MISSING_NAME,
+                span,
+                format!("expected a name, found {}", self.current_text()),
+            )
+            .why(format!("`{}` declares a name", opener.text(self.source)))
+            .help(format!("write `const angle = {}[0]`", self.words.array));
             return self.refuse(report);
         }
         let target = self.pattern("a name")?;
@@ -488,7 +494,7 @@ impl Parser<'_> {
     /// The finding for whatever stands behind something complete; `None` when it is already reported.
     pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Finding> {
         let span = self.span();
-        let shown = self.shown();
+        let text = self.current_text();
         match self.peek() {
             Tok::Bad => None,
             Tok::Symbol(",") => {
@@ -516,7 +522,7 @@ impl Parser<'_> {
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(
-                    Finding::error(rules::MISSING_OPERATOR, span, format!("{shown} directly follows `{left}` without an operator"))
+                    Finding::error(rules::MISSING_OPERATOR, span, format!("{text} directly follows `{left}` without an operator"))
                         .why("the operation between them is unknown")
                         .help("add the missing part: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
                 )

@@ -64,7 +64,7 @@ fn functions_live_in_ctx() {
     let mut compiler = Compiler::new(&Mock, &mut globals);
     let setup = compiler.statements("let n = 0; ctx.step = (x) => { n++; return n * x }").program.unwrap();
     let run = compiler.statements("ctx.out = ctx.step(10)").program.unwrap();
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     setup.run(&mut world, &mut context, None).unwrap();
     for expected in [10.0, 20.0, 30.0] {
         run.run(&mut world, &mut context, None).unwrap();
@@ -147,7 +147,7 @@ fn limits_have_their_own_errors() {
         let mut globals = Globals::new();
         let compiled = Compiler::new(&Mock, &mut globals).statements(source);
         let program = compiled.program.unwrap_or_else(|| panic!("{:#?}", compiled.diagnostics));
-        program.run(&mut World::new(), &mut Context::of(&globals), None).map_err(|e| e.rule.code)
+        program.run(&mut World::new(), &mut Context::for_globals(&globals), None).map_err(|e| e.rule.code)
     };
     for (source, expected) in [
         ("let n = 0; while (n >= 0) n++", rules::BUDGET),
@@ -165,7 +165,7 @@ fn limits_have_their_own_errors() {
     let mut globals = Globals::new();
     let source = "for (let i = 0; i < 20000; i++) { const a = [i, 'some text']; a.push(a) }";
     let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     for _ in 0..30 {
         program.run(&mut world, &mut context, None).unwrap();
     }

@@ -234,7 +234,7 @@ fn what_a_page_throws_is_thrown() {
     ] {
         let mut globals = Globals::new();
         let program = Compiler::new(&Mock, &mut globals).expression(source).program.unwrap();
-        let thrown = program.run(&mut World::new(), &mut Context::of(&globals), None);
+        let thrown = program.run(&mut World::new(), &mut Context::for_globals(&globals), None);
         assert!(thrown.is_err(), "{source}: {thrown:?}");
     }
     check(&[
@@ -266,7 +266,7 @@ fn half_a_character_is_refused() {
     ] {
         let mut globals = Globals::new();
         let program = Compiler::new(&Mock, &mut globals).expression(source).program.unwrap();
-        let thrown = program.run(&mut World::new(), &mut Context::of(&globals), None);
+        let thrown = program.run(&mut World::new(), &mut Context::for_globals(&globals), None);
         assert!(thrown.is_err_and(|e| e.message.contains("half of a two-unit character")), "{source}");
     }
 }

@@ -40,7 +40,7 @@ pub(crate) struct CodeUnit {
 
 impl Code {
     /// The code of a form. `often`: it will run often enough for formulas within it.
-    pub(crate) fn of(form: Form, often: bool) -> Code {
+    pub(crate) fn from_form(form: Form, often: bool) -> Code {
         let units = form.units.iter().map(|unit| super::emit::unit(unit, often)).collect();
         Code { form, units }
     }

@@ -17,12 +17,13 @@ const MOST: usize = 64;
 
 /// The code of a function.
 pub(super) fn unit(form: &Unit, often: bool) -> CodeUnit {
-    let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
-    let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
+    let (numbers, values) =
+        (File::with_names(form.same.numbers.len()), File::with_names(form.same.values.len()));
+    let (live, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
     let code = CodeUnit { ops, spans, ..CodeUnit::default() };
     let worth = if often { WORTH } else { usize::MAX };
-    let mut emit = Emit { worth, form, code, numbers, values, kept, starts, jumps: Vec::new() };
+    let mut emit = Emit { worth, form, code, numbers, values, live, starts, jumps: Vec::new() };
     emit.count_uses();
     emit.first_registers();
     for block in 0..emit.form.blocks.len() as u32 {
@@ -40,7 +41,7 @@ struct File {
 }
 
 impl File {
-    fn of(names: usize) -> File {
+    fn with_names(names: usize) -> File {
         File { uses: vec![0; names], registers: vec![None; names], count: 1 }
     }
 
@@ -79,7 +80,7 @@ struct Emit<'f> {
     numbers: File,
     values: File,
     /// Operations that something needs.
-    kept: Vec<bool>,
+    live: Vec<bool>,
     /// Where each block begins in the code, if anything leads to it.
     starts: Vec<Option<u32>>,
     /// Jumps, and the blocks that they lead to.
@@ -89,7 +90,7 @@ struct Emit<'f> {
 impl<'f> Emit<'f> {
     /// Counts how often each name is used, from the end on, so that what is needed by nothing needs nothing.
     fn count_uses(&mut self) {
-        let Emit { form, numbers, values, kept, .. } = self;
+        let Emit { form, numbers, values, live: kept, .. } = self;
         for (at, block) in form.blocks.iter().enumerate().rev() {
             let at = at as BlockId;
             let mut used = |at: At| match at {
@@ -135,10 +136,14 @@ impl<'f> Emit<'f> {
                     Use::Reads(n) => numbers.used(form.same.number(*n).0),
                     Use::ReadsValue(v) => values.used(form.same.value(*v).0),
                     Use::ReadsAll(args) => {
-                        args.of(&form.args).iter().for_each(|n| numbers.used(form.same.number(Num(*n)).0));
+                        args.operands_in(&form.args)
+                            .iter()
+                            .for_each(|n| numbers.used(form.same.number(Num(*n)).0));
                     }
                     Use::ReadsValues(args) => {
-                        args.of(&form.args).iter().for_each(|v| values.used(form.same.value(Val(*v)).0));
+                        args.operands_in(&form.args)
+                            .iter()
+                            .for_each(|v| values.used(form.same.value(Val(*v)).0));
                     }
                     Use::Gives(_) | Use::GivesValue(_) => {}
                 });
@@ -200,8 +205,8 @@ impl<'f> Emit<'f> {
         if stop - first.min(stop) < self.worth {
             return false;
         }
-        let kept = (first..stop).filter(|i| self.kept.get(*i) == Some(&true));
-        let ops: Vec<Op> = kept.filter_map(|i| self.form.ops.get(i).copied()).collect();
+        let live = (first..stop).filter(|i| self.live.get(*i) == Some(&true));
+        let ops: Vec<Op> = live.filter_map(|i| self.form.ops.get(i).copied()).collect();
         if ops.len() < self.worth {
             return false;
         }
@@ -224,7 +229,7 @@ impl<'f> Emit<'f> {
             };
             op.each(&mut |u| match u {
                 Use::Reads(n) => use_up(*n),
-                Use::ReadsAll(args) => args.of(&form.args).iter().for_each(|n| use_up(Num(*n))),
+                Use::ReadsAll(args) => args.operands_in(&form.args).iter().for_each(|n| use_up(Num(*n))),
                 _ => {}
             });
         }
@@ -268,7 +273,7 @@ impl<'f> Emit<'f> {
         let mut read: Vec<At> =
             if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
         for i in self.form.range(at).rev() {
-            if self.kept.get(i) != Some(&true) {
+            if self.live.get(i) != Some(&true) {
                 continue;
             }
             let Some(mut op) = self.form.ops.get(i).copied() else { continue };
@@ -316,14 +321,18 @@ impl<'f> Emit<'f> {
         op.each(&mut |u| match u {
             Use::Reads(n) => read.push(At::Number(same.number(*n))),
             Use::ReadsValue(v) => read.push(At::Value(same.value(*v))),
-            Use::ReadsAll(a) => read.extend(a.of(list).iter().map(|n| At::Number(same.number(Num(*n))))),
-            Use::ReadsValues(a) => read.extend(a.of(list).iter().map(|v| At::Value(same.value(Val(*v))))),
+            Use::ReadsAll(a) => {
+                read.extend(a.operands_in(list).iter().map(|n| At::Number(same.number(Num(*n)))))
+            }
+            Use::ReadsValues(a) => {
+                read.extend(a.operands_in(list).iter().map(|v| At::Value(same.value(Val(*v)))))
+            }
             Use::Gives(_) | Use::GivesValue(_) => {}
         });
     }
 
     fn op(&mut self, i: usize) {
-        if self.kept.get(i) != Some(&true) {
+        if self.live.get(i) != Some(&true) {
             return;
         }
         let (Some(mut op), Some(&span)) = (self.form.ops.get(i).copied(), self.form.spans.get(i)) else {
@@ -333,7 +342,7 @@ impl<'f> Emit<'f> {
         // Operands first: the result may take the place of one.
         let mut list = |args: Args, name: &mut dyn FnMut(u32) -> u32| {
             let first = code.args.len() as u32;
-            code.args.extend(args.of(&form.args).iter().map(|a| name(*a)));
+            code.args.extend(args.operands_in(&form.args).iter().map(|a| name(*a)));
             first
         };
         let mut args = None;
@@ -489,10 +498,10 @@ fn in_order(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u32, u32)> {
         }
         // Only circles are left, in which each is read once.
         let Some((&to, _)) = left.first_key_value() else { return done };
-        let aside = *count;
+        let spare = *count;
         *count += 1;
-        done.push((aside, to));
-        left.values_mut().filter(|from| **from == to).for_each(|from| *from = aside);
+        done.push((spare, to));
+        left.values_mut().filter(|from| **from == to).for_each(|from| *from = spare);
         free.push(to);
     }
 }

@@ -231,7 +231,7 @@ impl Machine<'_> {
                 Op::Math(dst, function, args) => {
                     // The arguments behind all registers, where there is room for them.
                     let numbers = &mut self.context.numbers;
-                    let (registers, args) = (numbers.len(), args.of(&unit.args));
+                    let (registers, args) = (numbers.len(), args.operands_in(&unit.args));
                     for a in args {
                         numbers.push(numbers[f.n + *a as usize]);
                     }
@@ -389,7 +389,7 @@ impl Machine<'_> {
             Op::CallHost(dst, function, args) => {
                 self.env(code).spend(HOST_CALL)?;
                 let mut handed = std::mem::take(&mut self.context.handed);
-                handed.extend(args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()));
+                handed.extend(args.operands_in(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()));
                 let before = self.host.work();
                 let result = self.host.call(&mut self.context.heap, function, &handed);
                 handed.clear();

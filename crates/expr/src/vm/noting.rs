@@ -37,7 +37,7 @@ impl Machine<'_> {
             Op::Binary(..) => sides.is_some_and(|(_, a, b)| a.is_nan() || b.is_nan()),
             Op::Unary(_, _, a) => self.num(f, a).is_nan(),
             Op::Math(_, function, args) => {
-                let numbers = args.of(&unit.args);
+                let numbers = args.operands_in(&unit.args);
                 // The extreme of nothing is not a number that anything was measured of.
                 (numbers.is_empty() || numbers.iter().any(|n| self.num(f, Num(*n)).is_nan()))
                     && !function.gives_boolean()
@@ -158,7 +158,7 @@ impl Machine<'_> {
     }
 
     fn any_without_number(&self, args: Args, unit: &CodeUnit, f: Frame) -> bool {
-        args.of(&unit.args).iter().any(|a| self.has_no_number(f, Val(*a)))
+        args.operands_in(&unit.args).iter().any(|a| self.has_no_number(f, Val(*a)))
     }
 
     fn is_empty_list(&self, f: Frame, list: Val) -> bool {
@@ -180,7 +180,7 @@ impl Machine<'_> {
     }
 
     fn method_looks(&self, name: natives::Name, args: Args, unit: &CodeUnit, f: Frame) -> bool {
-        let Some((receiver, args)) = args.of(&unit.args).split_first() else { return false };
+        let Some((receiver, args)) = args.operands_in(&unit.args).split_first() else { return false };
         let nan = self.becomes(name, self.val(f, Val(*receiver)));
         nan.of_elements() && self.has_no_number(f, Val(*receiver))
             || nan.of_arguments() && args.iter().any(|a| self.has_no_number(f, Val(*a)))

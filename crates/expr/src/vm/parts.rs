@@ -185,7 +185,7 @@ impl Machine<'_> {
 
     /// The values of a list of operands.
     fn all(&self, args: Args, unit: &CodeUnit, f: Frame) -> Vec<Value> {
-        args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
+        args.operands_in(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
     }
 
     /// What belongs to the object of a computed name.

@@ -27,7 +27,7 @@ pub struct Models {
     folder: ModelFolder,
     compiled: Mutex<BTreeMap<String, Arc<OnceLock<Loaded>>>>,
     /// What is to be said of each model, until somebody takes it.
-    said: Mutex<BTreeMap<String, Said>>,
+    reported: Mutex<BTreeMap<String, Said>>,
     /// Functions of the embedding program, which labs may call.
     functions: Functions,
     /// How the files are marked; `None` when nobody keeps results.
@@ -48,7 +48,7 @@ type Said = (Vec<Finding>, Vec<SourceFile>);
 struct Loaded {
     model: Option<Arc<Model>>,
     /// Something was found in its files.
-    talks: bool,
+    has_diagnostics: bool,
     parts: Vec<ModelFile>,
 }
 
@@ -96,7 +96,7 @@ impl Models {
     /// Takes what was found in model files since the last call, by the names of the models.
     pub fn take_findings(&mut self) -> Vec<Finding> {
         let mut findings = Vec::new();
-        for (of_model, files) in std::mem::take(&mut *open(&self.said)).into_values() {
+        for (of_model, files) in std::mem::take(&mut *open(&self.reported)).into_values() {
             findings.extend(of_model);
             self.files.extend(files);
         }
@@ -192,7 +192,7 @@ impl Models {
     /// What a model that is in the folder was made of, and whether something is said of it. Nothing is known of models
     /// that are not [`Models::marked`].
     pub fn parts(&self, name: &str) -> Option<(Vec<ModelFile>, bool)> {
-        self.loaded(name, |loaded| (loaded.parts.clone(), loaded.talks))
+        self.loaded(name, |loaded| (loaded.parts.clone(), loaded.has_diagnostics))
     }
 
     /// Every file that was looked at, and the folder.
@@ -230,9 +230,9 @@ impl Models {
         let file = SourceFile::new(format!("models/{name}.xml"), text);
         let Compiled { model, findings, files, parts } =
             compile_source(&file, &FilesOf(models), Some(&format!("{name}.xml")), None);
-        let talks = !findings.is_empty();
-        open(&self.said).insert(name.to_string(), (findings, files));
-        Loaded { model: model.map(Arc::new), talks, parts }
+        let has_diagnostics = !findings.is_empty();
+        open(&self.reported).insert(name.to_string(), (findings, files));
+        Loaded { model: model.map(Arc::new), has_diagnostics, parts }
     }
 
     fn compile(&self, name: &str, path: &Path) -> Loaded {
@@ -256,9 +256,9 @@ impl Models {
                 (None, vec![Finding::error(rules::MODEL_UNREADABLE, 0..0, message).at(&file)], vec![file])
             }
         };
-        let talks = !findings.is_empty();
-        open(&self.said).insert(name.to_string(), (findings, files));
-        Loaded { model, talks, parts: made_of }
+        let has_diagnostics = !findings.is_empty();
+        open(&self.reported).insert(name.to_string(), (findings, files));
+        Loaded { model, has_diagnostics, parts: made_of }
     }
 
     /// Whether a model's files still are what they were.

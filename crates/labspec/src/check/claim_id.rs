@@ -43,7 +43,7 @@ pub(super) fn identify(
 
 /// The quote, closed form or run that stands at a place, and what came out.
 fn result_at(judgement: &Judgement, span: &Range<usize>) -> Option<(String, String)> {
-    let at = |own: &Range<usize>| own == span;
+    let at = |is_span: &Range<usize>| is_span == span;
     let quotes = judgement.quotes.iter().filter(|q| at(&q.span));
     let quotes = quotes.map(|q| (part(Subject::Quote, &q.text), q.reason.clone()));
     let forms = judgement.exact.iter().filter(|form| at(&form.span));

@@ -48,12 +48,12 @@ impl<'a> Owner<'a> {
         &self,
         lesson: &'a Lesson,
     ) -> Option<(&'a Verify, Option<&'a Lab>, Option<&'a Question>)> {
-        let (verify, own, question) = match self {
+        let (verify, lab, question) = match self {
             Owner::Lab(lab) => (lab.verify.as_ref()?, Some(*lab), None),
             Owner::Question(q) => (q.verify.as_ref()?, q.sim(), Some(*q)),
             Owner::Remark(remark) => (&remark.verify, None, None),
         };
-        Some((lesson.whole(verify), own, question))
+        Some((lesson.whole(verify), lab, question))
     }
 
     /// The bytes that it is about, where that is not all of the lesson.
@@ -74,7 +74,7 @@ pub(super) fn owners(lesson: &Lesson) -> Vec<(String, Owner<'_>)> {
     }
     for lab in lesson.all_labs() {
         // Labs that stand inside `verify` objects have no address.
-        if !addressed.iter().any(|(_, known)| std::ptr::eq(*known, lab)) {
+        if !addressed.iter().any(|(_, addressed_lab)| std::ptr::eq(*addressed_lab, lab)) {
             let line = lesson.file.position(lab.span.start).line;
             all.push((format!("lab in line {line}"), Owner::Lab(lab)));
         }
@@ -107,8 +107,8 @@ pub(super) fn unclaimed(question: &Question) -> Option<Answer> {
 pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, findings: &mut Vec<Finding>) {
     let stage = Stage::new(models);
     for (_, owner) in owners(lesson) {
-        if let Some((verify, own, _)) = owner.claim(lesson)
-            && let Some(cast) = resolve_labs(lesson, ready, verify, own, &stage, findings)
+        if let Some((verify, lab, _)) = owner.claim(lesson)
+            && let Some(cast) = resolve_labs(lesson, ready, verify, lab, &stage, findings)
             && let Some(bound) = BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, &stage, findings)
         {
             verify::lint_verify(&bound, verify, findings);
@@ -119,7 +119,7 @@ pub(super) fn bind(lesson: &Lesson, ready: &[PreparedLab<'_>], models: &Models, 
 /// Whether somebody claims something by formulas alone.
 pub(super) fn have_formulas(lesson: &Lesson) -> bool {
     let claims = owners(lesson).into_iter().filter_map(|(_, owner)| owner.claim(lesson));
-    claims.into_iter().any(|(verify, own, _)| verify.lab.is_none() && own.is_none() && verify.is_formulas())
+    claims.into_iter().any(|(verify, lab, _)| verify.lab.is_none() && lab.is_none() && verify.is_formulas())
 }
 
 /// Judges every `verify` object of a lesson; questions without one are listed with an unverified answer.
@@ -129,12 +129,12 @@ pub(super) fn check_claims<'l>(
     models: &Models,
     findings: &mut Vec<Finding>,
 ) -> Vec<Claim> {
-    let shown = ShownText::of_lesson(lesson);
+    let rendered = ShownText::of_lesson(lesson);
     let candidates = partners::observe(lesson, ready);
     let ready = &*ready;
     let partners = Partners::new(lesson, ready, models, candidates);
     let mut court =
-        ClaimChecker { lesson, ready, shown, stage: Stage::new(models), partners, list: Vec::new() };
+        ClaimChecker { lesson, ready, rendered, stage: Stage::new(models), partners, list: Vec::new() };
     for (name, owner) in owners(lesson) {
         match owner {
             Owner::Lab(lab) => court.judge_lab(name, lab, findings),
@@ -148,7 +148,7 @@ pub(super) fn check_claims<'l>(
 struct ClaimChecker<'a> {
     lesson: &'a Lesson,
     ready: &'a [PreparedLab<'a>],
-    shown: ShownText,
+    rendered: ShownText,
     stage: Stage<'a>,
     partners: Partners<'a>,
     list: Vec<Claim>,
@@ -157,7 +157,7 @@ struct ClaimChecker<'a> {
 impl ClaimChecker<'_> {
     fn judge_lab(&mut self, name: String, lab: &Lab, findings: &mut Vec<Finding>) {
         if let Some(verify) = &lab.verify {
-            let judgement = self.judge_as(&name, verify, Some(lab), None, &self.shown, findings);
+            let judgement = self.judge_as(&name, verify, Some(lab), None, &self.rendered, findings);
             self.list.push(Claim { name, span: verify.span.clone(), judgement });
         }
     }
@@ -165,7 +165,7 @@ impl ClaimChecker<'_> {
     fn judge_question(&mut self, name: String, question: &Question, findings: &mut Vec<Finding>) {
         let mut judgement = match &question.verify {
             Some(verify) => {
-                self.judge_as(&name, verify, question.sim(), Some(question), &self.shown, findings)
+                self.judge_as(&name, verify, question.sim(), Some(question), &self.rendered, findings)
             }
             None => Judgement::default(),
         };
@@ -179,8 +179,8 @@ impl ClaimChecker<'_> {
     }
 
     fn judge_remark(&mut self, name: String, remark: &Remark, findings: &mut Vec<Finding>) {
-        let shown = self.shown.within(&remark.over, &remark.verify);
-        let judgement = self.judge_as(&name, &remark.verify, None, None, &shown, findings);
+        let rendered = self.rendered.within(&remark.over, &remark.verify);
+        let judgement = self.judge_as(&name, &remark.verify, None, None, &rendered, findings);
         self.list.push(Claim { name, span: remark.verify.span.clone(), judgement });
     }
 
@@ -189,13 +189,13 @@ impl ClaimChecker<'_> {
         &self,
         name: &str,
         verify: &Verify,
-        own: Option<&Lab>,
+        lab: Option<&Lab>,
         question: Option<&Question>,
-        shown: &ShownText,
+        rendered: &ShownText,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
         let mut found = Vec::new();
-        let mut judgement = self.judge(verify, own, question, shown, &mut found);
+        let mut judgement = self.judge(verify, lab, question, rendered, &mut found);
         // What is left of an object with mistakes may say something else than what was meant.
         let inside = |f: &&Finding| verify.span.start <= f.span.start && f.span.end <= verify.span.end;
         if self.lesson.findings.iter().filter(inside).any(Finding::is_error) {
@@ -209,15 +209,15 @@ impl ClaimChecker<'_> {
     fn judge(
         &self,
         verify: &Verify,
-        own: Option<&Lab>,
+        lab: Option<&Lab>,
         question: Option<&Question>,
-        shown: &ShownText,
+        rendered: &ShownText,
         findings: &mut Vec<Finding>,
     ) -> Judgement {
         let verify = self.lesson.whole(verify);
         let before = findings.len();
         let Some(ResolvedLabs { base, runs }) =
-            resolve_labs(self.lesson, self.ready, verify, own, &self.stage, findings)
+            resolve_labs(self.lesson, self.ready, verify, lab, &self.stage, findings)
         else {
             let reported = findings.len() > before;
             let reason = if reported { "a run cannot be made" } else { "its lab cannot run" };
@@ -231,10 +231,10 @@ impl ClaimChecker<'_> {
         match BoundVerify::new(verify, base.as_ref(), &runs, &self.stage, findings) {
             Some(bound) => {
                 self.stage.take_left_behind();
-                let mut judgement = verify::check_verify(&bound, verify, question, shown, findings);
+                let mut judgement = verify::check_verify(&bound, verify, question, rendered, findings);
                 // Where no partner was left behind, there is nothing to correct, and every run with corrections is the same.
                 if self.stage.take_left_behind() {
-                    self.partners.settle(verify, own, question, shown, &mut judgement, findings);
+                    self.partners.settle(verify, lab, question, rendered, &mut judgement, findings);
                 }
                 judgement
             }

@@ -68,7 +68,8 @@ fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
         reads.iter().zip(&texts).map(one).collect()
     };
     // As they were after the step before, and whether that one changed them.
-    let (mut known, mut changed, mut contacts) = (values(&mut session), vec![true; slots.len()], usize::MAX);
+    let (mut previous, mut changed, mut contacts) =
+        (values(&mut session), vec![true; slots.len()], usize::MAX);
     for _ in 0..steps {
         let fields = session.world.data.fields();
         let (now, time) = (fields.ncon, session.world.data.time());
@@ -78,7 +79,7 @@ fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
         }
         let new = values(&mut session);
         for (i, slot) in slots.iter().enumerate() {
-            let (before, after) = (known.get(i).copied().flatten(), new.get(i).copied().flatten());
+            let (before, after) = (previous.get(i).copied().flatten(), new.get(i).copied().flatten());
             let changes = before.map(f64::to_bits) != after.map(f64::to_bits);
             let quiet = changed.get(i).is_some_and(|c| !c);
             if changes && quiet && now > contacts && time > 0.0 && after == Some(time) {
@@ -88,7 +89,7 @@ fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
                 *c = changes;
             }
         }
-        (known, contacts) = (new, now);
+        (previous, contacts) = (new, now);
     }
     None
 }

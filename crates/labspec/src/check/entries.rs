@@ -229,7 +229,7 @@ fn left_out(c: &Checked, ledger: &mut Vec<Entry>) {
             ledger.push(entry(Subject::Answer, &name, verify.span.clone(), ""));
         }
         let mut add = |subject, text: &Text| ledger.push(entry(subject, &name, text.span(), text.as_str()));
-        verify.says.iter().for_each(|said| add(Subject::Quote, &said.quote));
+        verify.says.iter().for_each(|quoted| add(Subject::Quote, &quoted.quote));
         verify.table.iter().for_each(|column| add(Subject::Quote, &column.column));
         verify.exact.iter().for_each(|exact| add(Subject::ClosedForm, &exact.trace));
         verify.runs.iter().for_each(|run| add(Subject::Run, &run.name));

@@ -32,7 +32,7 @@ pub struct Recording {
     /// By the digest of what was asked.
     pub runs: BTreeMap<String, RecordedRun>,
     /// Lesson (the name of its file), claim and run of everything in it: so that one of another text is known.
-    pub known: BTreeSet<[String; 3]>,
+    pub recorded: BTreeSet<[String; 3]>,
 }
 
 /// What a judge makes of a lesson.
@@ -60,12 +60,12 @@ pub fn hear(
 ) -> CrossCheck {
     let ready = super::of_claims(lesson, models);
     let stage = Stage::new(models);
-    let shown = ShownText::of_lesson(lesson);
+    let rendered = ShownText::of_lesson(lesson);
     let mut hearing = CrossCheck::default();
     for (name, owner) in claims::owners(lesson) {
         let Some((verify, own, question)) = owner.claim(lesson) else { continue };
-        let narrow = owner.block().map(|block| shown.within(block, verify));
-        let shown = narrow.as_ref().unwrap_or(&shown);
+        let narrow = owner.block().map(|block| rendered.within(block, verify));
+        let rendered = narrow.as_ref().unwrap_or(&rendered);
         hearing.left = hearing.left.and(Left::count(verify));
         let Some(bound) = bind_claim(lesson, &ready, verify, own, &stage) else { continue };
         let requests = judge::tasks(&bound, verify).into_iter().map(|one| {
@@ -77,7 +77,7 @@ pub fn hear(
         if let Some(recording) = recording {
             let runs = requests.iter().map(|r| taken(lesson, recording, r, &mut hearing)).collect();
             let witness = Reference { engine: &recording.engine, runs };
-            let judged = judge::judge(&bound, verify, question, shown, &witness, findings);
+            let judged = judge::judge(&bound, verify, question, rendered, &witness, findings);
             hearing.claims.extend(judged.map(|judged| (name.clone(), judged)));
         }
         hearing.requests.extend(requests);
@@ -97,7 +97,7 @@ fn taken<'r>(
         return Ok(taken);
     }
     let key = [file_name(lesson), request.claim.clone(), request.run.clone()];
-    if recording.known.contains(&key) {
+    if recording.recorded.contains(&key) {
         hearing.stale += 1;
         return Err("the lesson or its model has changed since it was recorded".into());
     }

@@ -225,8 +225,8 @@ pub fn join(lesson: Lesson, found: LabOutcome, depth: CheckLevel) -> Checked {
     all.extend(findings);
     let mut allowed = allowed::suppress_allowed(&lesson, &mut all, depth);
     let mut all: Vec<Finding> = all.into_iter().map(|f| f.at(&lesson.file)).collect();
-    for aside in &mut allowed {
-        aside.finding = aside.finding.clone().at(&lesson.file);
+    for suppressed in &mut allowed {
+        suppressed.finding = suppressed.finding.clone().at(&lesson.file);
     }
     finding::sort(&mut all);
     Checked { lesson, findings: all, labs, claims, snapshots, allowed, depth }

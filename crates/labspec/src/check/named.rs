@@ -59,7 +59,7 @@ pub(super) fn check_names(lab: &Lab, model: &Model, programs: &Programs, finding
     let displays: Vec<DisplayedValue<'_>> = labels
         .zip(&programs.probes)
         .take(MOST)
-        .filter_map(|(label, probe)| shown(label, probe.bound.as_ref()?, model, &all))
+        .filter_map(|(label, probe)| displayed(label, probe.bound.as_ref()?, model, &all))
         .collect();
     for trace in lab.plots.iter().flat_map(|p| &p.traces).zip(&programs.probes).take(MOST) {
         findings.extend(a_number(trace.0, trace.1.bound.as_ref(), &all));
@@ -191,10 +191,10 @@ fn beside(
     one: &DisplayedValue<'_>,
     named: &NamedObject,
     body: usize,
-    shown: &[DisplayedValue<'_>],
+    displayed: &[DisplayedValue<'_>],
     all: &[NamedObject],
 ) -> bool {
-    shown.iter().any(|other| {
+    displayed.iter().any(|other| {
         let [name] = other.names.as_slice() else { return false };
         let Some(its) = all.get(*name) else { return false };
         let reads = other.bodies.len() == 1 && other.bodies.iter().all(|b| *b == body || *b == named.body);
@@ -204,7 +204,7 @@ fn beside(
 }
 
 /// A label with what it names and reads; `None` when it is not known of all that is read where it belongs.
-fn shown<'l>(
+fn displayed<'l>(
     label: &'l Text,
     bound: &'l Bound,
     model: &Model,
@@ -235,7 +235,7 @@ fn shown<'l>(
         let same_body = |n: &(usize, usize, usize)| all.get(n.0).is_some_and(|o| o.body == named.body);
         let covered = names.iter().any(|n| within(n) && (n.1, n.2) != (at, to));
         match names.iter_mut().find(|n| n.1 == at && n.2 == to && same_body(n)) {
-            Some(known) if reads.iter().any(|(kind, _)| *kind == named.kind) => known.0 = i,
+            Some(counted) if reads.iter().any(|(kind, _)| *kind == named.kind) => counted.0 = i,
             Some(_) => {}
             None if covered => {}
             None => {

@@ -18,7 +18,7 @@ pub(super) fn check_programs(lab: &Lab, model: &Model, programs: &Programs, find
         let Some((label, ControlProgram::Change(_, action))) = programs.controls.get(index) else { continue };
         let Some(bound) = action.run.as_ref().filter(|b| !action.init && !resets(b)) else { continue };
         let Some(field) = sets(bound, model) else { continue };
-        let Some(shown) = lost(control, index, field, lab, model, programs) else { continue };
+        let Some(lost_value) = lost(control, index, field, lab, model, programs) else { continue };
         findings.push(
             Finding::warning(
                 rules::LOST_AT_RESET,
@@ -26,7 +26,7 @@ pub(super) fn check_programs(lab: &Lab, model: &Model, programs: &Programs, find
                 format!("a reset discards what \"{label}\" sets"),
             )
             .why(format!(
-                "a reset restores data.{}, but the control still displays the chosen value: {shown}",
+                "a reset restores data.{}, but the control still displays the chosen value: {lost_value}",
                 field.info().name
             ))
             .help("add \"init\": true, so that every reset applies it again")

@@ -90,15 +90,15 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
     let labs = labs.collect();
     let stage = Stage::new(models);
     let claims = claims::owners(lesson).into_iter().filter_map(|(name, owner)| {
-        let (verify, own, _) = owner.claim(lesson)?;
+        let (verify, written, _) = owner.claim(lesson)?;
         let span = match &owner {
             Owner::Lab(lab) => &lab.span,
             Owner::Question(question) => &question.span,
             Owner::Remark(remark) => &remark.span,
         };
-        let begun = start_runs(lesson, &ready, verify, own, &stage);
-        let model = begun.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));
-        let runs = begun.map_or(Vec::new(), |begun| begun.runs);
+        let started = start_runs(lesson, &ready, verify, written, &stage);
+        let model = started.as_ref().and_then(|b| b.model.as_ref()).map(|m| mark(&[&m.to_bytes()]));
+        let runs = started.map_or(Vec::new(), |started| started.runs);
         let runs = runs.into_iter().map(|(name, model)| (name, model.map(|m| settings(&m, mark)))).collect();
         Some(ClaimBasis { name, block: block(span), model, runs })
     });
@@ -131,12 +131,13 @@ const TOLD: [&str; 7] = ["timestep", "integrator", "solver", "cone", "iterations
 fn options(model: &Model) -> BTreeMap<&'static str, Vec<f64>> {
     let Some(plain) = Model::from_xml("<mujoco/>").ok() else { return BTreeMap::new() };
     let fields = || reflect::fields().filter(|f| f.info().object == Object::Option);
-    let [own, plain] = [model, &plain].map(|m| numbers(m, fields()));
+    let [written, plain] = [model, &plain].map(|m| numbers(m, fields()));
     let is_reported = |name: &&'static str| TOLD.contains(name);
-    own.into_iter()
+    written
+        .into_iter()
         .zip(plain)
         .filter(|((name, now), (_, default))| now != default && !is_reported(name))
-        .map(|(own, _)| own)
+        .map(|(written, _)| written)
         .collect()
 }
 
@@ -155,10 +156,12 @@ fn contacts(model: &Model) -> BTreeMap<String, BTreeMap<&'static str, Vec<f64>>>
     let mut all: BTreeMap<String, BTreeMap<&'static str, Vec<f64>>> = BTreeMap::new();
     let fields = CONTACT.iter().map(|(_, field, _)| *field);
     for ((key, _, default), (_, values)) in CONTACT.into_iter().zip(numbers(model, fields)) {
-        for (geom, own) in values.chunks(default.len()).enumerate().filter(|(_, own)| *own != default) {
+        for (geom, written) in
+            values.chunks(default.len()).enumerate().filter(|(_, written)| *written != default)
+        {
             let name = names.get(geom).filter(|name| !name.is_empty());
             let name = name.cloned().unwrap_or_else(|| format!("geom {geom}"));
-            all.entry(name).or_default().insert(key, own.to_vec());
+            all.entry(name).or_default().insert(key, written.to_vec());
         }
     }
     all

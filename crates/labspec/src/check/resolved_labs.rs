@@ -20,16 +20,16 @@ pub(super) fn resolve_labs<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
-    own: Option<&'r Lab>,
+    lab: Option<&'r Lab>,
     stage: &Stage<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<ResolvedLabs<'r>> {
     let base = match &verify.lab {
         // Formulas need no lab: they have one in which nothing is.
-        None if own.is_none() && verify.is_formulas() => {
+        None if lab.is_none() && verify.is_formulas() => {
             ready.iter().find(|r| r.lab.is_nothing()).map(PreparedLab::scene)
         }
-        None => own.and_then(|lab| scene_of(ready, lab)),
+        None => lab.and_then(|lab| scene_of(ready, lab)),
         Some(named) => named_scene(lesson, ready, named, findings),
     };
     let mut runs = Vec::new();
@@ -75,10 +75,10 @@ pub(super) fn bind_claim<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
-    own: Option<&'r Lab>,
+    lab: Option<&'r Lab>,
     stage: &'r Stage<'r>,
 ) -> Option<BoundVerify<'r>> {
-    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, lab, stage, &mut Vec::new())?;
     BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())
 }
 
@@ -95,12 +95,12 @@ pub(super) fn start_runs<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
-    own: Option<&'r Lab>,
+    lab: Option<&'r Lab>,
     stage: &'r Stage<'r>,
 ) -> Option<StartedRuns> {
-    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, own, stage, &mut Vec::new())?;
+    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, lab, stage, &mut Vec::new())?;
     let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
-    Some(StartedRuns { runs: bound.begun(), model: base.map(|scene| scene.model) })
+    Some(StartedRuns { runs: bound.started_models(), model: base.map(|scene| scene.model) })
 }
 
 /// What the labs show in the runs of a `verify` object, up to so many; nothing where they have mistakes.
@@ -108,12 +108,12 @@ pub(super) fn record_curves<'r>(
     lesson: &'r Lesson,
     ready: &'r [PreparedLab<'r>],
     verify: &'r Verify,
-    own: Option<&'r Lab>,
+    lab: Option<&'r Lab>,
     stage: &'r Stage<'r>,
     most: usize,
 ) -> Vec<verify::Curves> {
     let ignored = &mut Vec::new();
-    let cast = resolve_labs(lesson, ready, verify, own, stage, ignored);
+    let cast = resolve_labs(lesson, ready, verify, lab, stage, ignored);
     let bound =
         cast.and_then(|cast| BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, stage, ignored));
     bound.map_or(Vec::new(), |bound| bound.curves(most))

@@ -48,7 +48,7 @@ fn written(found: &LabOutcome) -> Value {
         found.findings.iter().map(finding).collect::<Vec<_>>(),
         found.labs.iter().map(lab).collect::<Vec<_>>(),
         found.claims.iter().map(claim).collect::<Vec<_>>(),
-        found.snapshots.iter().map(kept).collect::<Vec<_>>(),
+        found.snapshots.iter().map(snapshot_json).collect::<Vec<_>>(),
     ])
 }
 
@@ -156,7 +156,7 @@ fn read_lab(value: &Value) -> Option<RanLab> {
     })
 }
 
-fn kept(k: &SnapshotResult) -> Value {
+fn snapshot_json(k: &SnapshotResult) -> Value {
     let divergence = |d: &Divergence| {
         json!([d.run, d.trace, bits(d.time), d.stored, d.now, d.tolerance.map(bits), d.line, d.picture])
     };

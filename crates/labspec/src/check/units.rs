@@ -54,14 +54,14 @@ fn at_odds(plot: &Plot, model: &Model) -> Option<Finding> {
         return None;
     }
     plot.traces.iter().find_map(|trace| {
-        let (own, of_trace) = of_label(trace.label.as_str())?;
+        let (label_unit, of_trace) = of_label(trace.label.as_str())?;
         let ratio = of_trace.factor.abs() / of_axis.factor.abs();
         let other = of_trace.agrees(&of_axis) && (ratio - 1.0).abs() > 1e-3;
         other.then(|| {
             Finding::new(
                 rules::LABEL_UNIT,
                 axis.span(),
-                format!("the plot is in {text}, but one of its traces is in {own}"),
+                format!("the plot is in {text}, but one of its traces is in {label_unit}"),
             )
             .why("a student reads the curve on an axis with another unit")
             .related(trace.label.span(), "the trace")

@@ -46,7 +46,7 @@ const MAX_TRIED: usize = 128 << 10;
 
 /// Keeps the repairs that repair: each is made by itself and the text is read again; there must be fewer mistakes
 /// then, and none that was not there before.
-fn try_repairs(text: &str, said: &mut [Problem]) {
+fn try_repairs(text: &str, problems: &mut [Problem]) {
     // What is told once counts once: two brackets may be missing at one place.
     fn to_mistakes(list: &[Problem]) -> Vec<Mistake> {
         let mut all: Vec<&Problem> = Vec::new();
@@ -58,8 +58,8 @@ fn try_repairs(text: &str, said: &mut [Problem]) {
         all.into_iter().map(|p| p.mistake.clone()).collect()
     }
     let count = |list: &[Mistake], mistake: &Mistake| list.iter().filter(|m| m.is(mistake)).count();
-    let before = to_mistakes(said);
-    for (i, problem) in said.iter_mut().enumerate() {
+    let before = to_mistakes(problems);
+    for (i, problem) in problems.iter_mut().enumerate() {
         let Some((span, right)) = &problem.repair else { continue };
         let mut repaired = text.to_string();
         let fits = i < MAX_TRIES && text.len() <= MAX_TRIED && text.get(span.clone()).is_some();

@@ -20,7 +20,7 @@ pub(super) struct Parser<'a> {
     pub(super) brackets: [i64; 4],
     pub(super) broken: bool,
     /// Spans are bytes of `text`.
-    said: Vec<Problem>,
+    problems: Vec<Problem>,
     pub(super) changes: [Vec<Vec<TextChange>>; 3],
     /// Problems whose spans are bytes of the file.
     pub(super) placed: Vec<Problem>,
@@ -41,7 +41,7 @@ impl<'a> Parser<'a> {
             values: 0,
             brackets: count(text),
             broken: false,
-            said: Vec::new(),
+            problems: Vec::new(),
             changes: [Vec::new(), Vec::new(), Vec::new()],
             placed: Vec::new(),
             ended: false,
@@ -101,8 +101,8 @@ impl<'a> Parser<'a> {
     /// A mistake. Its spans are bytes of the text.
     pub(super) fn say(&mut self, problem: Problem) {
         self.broken = true;
-        if self.said.len() < MAX_MISTAKES {
-            self.said.push(problem);
+        if self.problems.len() < MAX_MISTAKES {
+            self.problems.push(problem);
         }
     }
 
@@ -122,7 +122,7 @@ impl<'a> Parser<'a> {
 
     /// What was said, in order; spans are bytes of the text.
     pub(super) fn finish(mut self) -> Vec<Problem> {
-        let mut all = std::mem::take(&mut self.said);
+        let mut all = std::mem::take(&mut self.problems);
         for kind in [RepeatedMistake::Typographic, RepeatedMistake::Single, RepeatedMistake::Invisible] {
             let list = self.changes.get(kind as usize).map_or(&[][..], Vec::as_slice);
             all.extend(problem::together(kind, list, self.text, self.below));

@@ -47,8 +47,8 @@ fn faults(text: &str, plain: bool, work: &mut usize) -> Vec<(Range<usize>, Strin
         };
         let body = inside.get(..length).unwrap_or("");
         let whole = at..at + open.len() + length + close.len();
-        if let Some(said) = unbalanced(body, work) {
-            faults.push((whole.clone(), said));
+        if let Some(message) = unbalanced(body, work) {
+            faults.push((whole.clone(), message));
         }
         at = whole.end;
     }
@@ -171,15 +171,15 @@ fn code(html: &str) -> Vec<Range<usize>> {
     all
 }
 
-fn finding(span: Range<usize>, said: String) -> Finding {
-    Finding::new(rules::FORMULA_UNBALANCED, span, said).help("close it, or write `\\$` for a dollar sign")
+fn finding(span: Range<usize>, message: String) -> Finding {
+    Finding::new(rules::FORMULA_UNBALANCED, span, message).help("close it, or write `\\$` for a dollar sign")
 }
 
 /// Looks into a text of a lab or a quiz.
 pub(super) fn check_formulas(text: &Text, findings: &mut Vec<Finding>) {
     let html = without_code(text.as_str(), code(text.as_str()).into_iter());
     let found = faults(&html, false, &mut 0).into_iter().take(MAX_IN_TEXT);
-    findings.extend(found.map(|(at, said)| finding(text.span_of(at), said)));
+    findings.extend(found.map(|(at, message)| finding(text.span_of(at), message)));
 }
 
 /// Looks into the paragraphs of a lesson.
@@ -196,7 +196,9 @@ pub(super) fn check_prose(lesson: &Lesson, findings: &mut Vec<Finding>) {
         let code_spans = lesson.scan.inline_code.iter().skip(from).take_while(|c| c.end <= range.end);
         let code_spans = code_spans.map(|c| c.start - range.start..c.end - range.start);
         let found = faults(&without_code(paragraph, code_spans), true, &mut 0).into_iter().take(MAX_IN_TEXT);
-        findings.extend(found.map(|(at, said)| finding(range.start + at.start..range.start + at.end, said)));
+        findings.extend(
+            found.map(|(at, message)| finding(range.start + at.start..range.start + at.end, message)),
+        );
     }
 }
 

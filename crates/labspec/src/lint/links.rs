@@ -166,8 +166,8 @@ fn decoded(text: &str) -> Cow<'_, str> {
     percent_decode_str(text).decode_utf8_lossy()
 }
 
-fn finding(link: &Link, said: &str) -> Finding {
+fn finding(link: &Link, message: &str) -> Finding {
     let short_target = crate::json::read::shorten(&link.target);
-    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{short_target}`: {said}"))
+    Finding::new(rules::DEAD_LINK, link.span.clone(), format!("`{short_target}`: {message}"))
         .help("correct the link, or add its target")
 }

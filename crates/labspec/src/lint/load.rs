@@ -128,12 +128,12 @@ fn read_others(lesson: &Lesson, path: &Path, sources: &Sources) -> Vec<Other> {
 const NOT_FROM_HERE: &str = "a lesson must be named by its path from this one";
 
 /// The text of another lesson, whose labs find the same models.
-fn read_other_file(own: &Path, other: &Path, sources: &Sources) -> Result<String, String> {
+fn read_other_file(lesson_path: &Path, other: &Path, sources: &Sources) -> Result<String, String> {
     if !is_lesson(other) {
         return Err("a lab must be in a lesson (.md) or in a JSON file".into());
     }
     let models = |path: &Path| sources.place(Asked::Models, path, || ModelFolder::find_near(path));
-    if models(own) != models(other) {
+    if models(lesson_path) != models(other) {
         return Err("that lesson has another model folder".into());
     }
     sources.text(other, MOST_OF_OTHER, "a lesson")

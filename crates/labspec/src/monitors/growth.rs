@@ -95,7 +95,7 @@ pub enum Source {
 /// What a run is held against: its start, and data of its own so that looking leaves the run alone.
 #[derive(Clone, Debug)]
 pub struct GrowthMonitor {
-    own: Data<Planned>,
+    copied: Data<Planned>,
     start: Option<StartEnergy>,
     /// Roots of the diagonal of M, the largest that were seen, and looks until they are seen again.
     roots: Vec<f64>,
@@ -125,7 +125,7 @@ struct StartEnergy {
 /// A watch over a run that is now at `d`. The only call that allocates.
 pub fn watch<S: Scope>(m: &Model, d: &Data<S>) -> GrowthMonitor {
     let mut w = GrowthMonitor {
-        own: Data::planned(m, Plan::awake()),
+        copied: Data::planned(m, Plan::awake()),
         start: None,
         roots: vec![0.0; m.nv],
         weighed: 0,
@@ -148,16 +148,16 @@ pub fn restart<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) {
     if m.nv == 0 || fed(m, d) {
         return;
     }
-    let (to, from) = (w.own.edit(), d.fields());
+    let (to, from) = (w.copied.edit(), d.fields());
     to.ctrl.copy_from_slice(&from.ctrl);
     to.mocap_pos.copy_from_slice(&from.mocap_pos);
     to.mocap_quat.copy_from_slice(&from.mocap_quat);
     to.eq_active.copy_from_slice(&from.eq_active);
-    take(&mut w.own, d);
-    limit(&mut w.own, work_left(d));
-    if forward(m, &mut w.own).is_ok() && !exhausted(&w.own) {
-        let energy = mechanical_energy(m, &mut w.own).ok().flatten();
-        w.start = energy.map(|energy| start(m, &w.own, energy));
+    take(&mut w.copied, d);
+    limit(&mut w.copied, work_left(d));
+    if forward(m, &mut w.copied).is_ok() && !exhausted(&w.copied) {
+        let energy = mechanical_energy(m, &mut w.copied).ok().flatten();
+        w.start = energy.map(|energy| start(m, &w.copied, energy));
         w.roots.fill(0.0);
         w.weighed = 0;
         w.sudden = sudden(m);
@@ -182,7 +182,7 @@ fn update_inertia_scale(w: &mut GrowthMonitor, m: &Model) {
     for k in 0..w.roots.len() {
         unit.fill(0.0);
         unit[k] = 1.0;
-        if mul_m(m, &w.own, unit, column).is_ok() {
+        if mul_m(m, &w.copied, unit, column).is_ok() {
             w.roots[k] = w.roots[k].max(column[k].max(0.0).sqrt());
         }
     }
@@ -208,19 +208,19 @@ pub fn observe<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>) -> Optio
 
 /// Holds what moves against the start.
 fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: StartEnergy) -> Option<Growth> {
-    let (own, now) = (w.own.fields(), d.fields());
-    let same = own.ctrl == now.ctrl
-        && own.mocap_pos == now.mocap_pos
-        && own.mocap_quat == now.mocap_quat
-        && own.eq_active == now.eq_active
+    let (copied, now) = (w.copied.fields(), d.fields());
+    let same = copied.ctrl == now.ctrl
+        && copied.mocap_pos == now.mocap_pos
+        && copied.mocap_quat == now.mocap_quat
+        && copied.eq_active == now.eq_active
         && !applied(d);
     if !same {
         restart(w, m, d);
         return None;
     }
     let StartEnergy { energy: before, held, lift } = start;
-    take(&mut w.own, d);
-    let now = mechanical_energy(m, &mut w.own).ok().flatten()?;
+    take(&mut w.copied, d);
+    let now = mechanical_energy(m, &mut w.copied).ok().flatten()?;
     update_inertia_scale(w, m);
     let given = before.potential() - now.potential();
     let gain = now.kinetic - before.kinetic - given;
@@ -250,7 +250,7 @@ fn compare<S: Scope>(w: &mut GrowthMonitor, m: &Model, d: &Data<S>, start: Start
             None if turn > TURN => Source::LongSteps(turn),
             None => Source::Steps,
         };
-        let dof = liveliest(m, &w.own);
+        let dof = liveliest(m, &w.copied);
         w.found = Some(Growth { time: w.since, gain, held: held + lift, dof, source });
     }
     w.found
@@ -279,8 +279,8 @@ fn pusher(m: &Model, d: &Fields) -> Option<usize> {
 }
 
 /// The state of a run.
-fn take<S: Scope>(own: &mut Data<Planned>, d: &Data<S>) {
-    let (to, from) = (own.edit(), d.fields());
+fn take<S: Scope>(copied: &mut Data<Planned>, d: &Data<S>) {
+    let (to, from) = (copied.edit(), d.fields());
     to.qpos.copy_from_slice(&from.qpos);
     to.qvel.copy_from_slice(&from.qvel);
     *to.time = from.time;

@@ -42,10 +42,10 @@ pub struct Unsolved {
 /// Looks at the steps in which the solver stopped at its limit.
 #[derive(Clone, Debug, Default)]
 pub struct SolverMonitor {
-    own: Option<Box<SolverScratch>>,
+    scratch: Option<Box<SolverScratch>>,
     left: u32,
     looks: u32,
-    missed: u32,
+    residuals_over: u32,
     since: f64,
 }
 
@@ -79,21 +79,21 @@ pub fn observe<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Optio
 fn compare<S: Scope>(w: &mut SolverMonitor, m: &Model, d: &Data<S>) -> Option<Unsolved> {
     w.looks += 1;
     w.left = if w.looks < 2 * TIMES { FIRST } else { EVERY };
-    let scratch = w.own.get_or_insert_with(|| Box::new(own(m)));
+    let scratch = w.scratch.get_or_insert_with(|| Box::new(scratch(m)));
     let (part, dof) = residual(scratch, m, d)?;
     if part < PART {
-        w.missed = 0;
+        w.residuals_over = 0;
         return None;
     }
-    if w.missed == 0 {
+    if w.residuals_over == 0 {
         w.since = d.time();
     }
-    w.missed += 1;
+    w.residuals_over += 1;
     let iterations = d.fields().solver_niter;
-    (w.missed >= TIMES).then_some(Unsolved { time: w.since, iterations, part, dof })
+    (w.residuals_over >= TIMES).then_some(Unsolved { time: w.since, iterations, part, dof })
 }
 
-fn own(m: &Model) -> SolverScratch {
+fn scratch(m: &Model) -> SolverScratch {
     let mut model = m.clone();
     let opt = model.edit().opt;
     (*opt.iterations, *opt.tolerance) = (ITERATIONS, TOLERANCE);
@@ -104,27 +104,27 @@ fn own(m: &Model) -> SolverScratch {
 }
 
 /// The part that is missing, and where most of it is.
-fn residual<S: Scope>(own: &mut SolverScratch, m: &Model, d: &Data<S>) -> Option<(f64, usize)> {
-    for data in [&mut own.exact, &mut own.data] {
+fn residual<S: Scope>(scratch: &mut SolverScratch, m: &Model, d: &Data<S>) -> Option<(f64, usize)> {
+    for data in [&mut scratch.exact, &mut scratch.data] {
         state::copy(m, d, data, state::INTEGRATION).ok()?;
         limit(data, work_left(d));
     }
-    forward(&own.model, &mut own.exact).ok()?;
-    forward(m, &mut own.data).ok()?;
-    if exhausted(&own.exact) || exhausted(&own.data) {
+    forward(&scratch.model, &mut scratch.exact).ok()?;
+    forward(m, &mut scratch.data).ok()?;
+    if exhausted(&scratch.exact) || exhausted(&scratch.data) {
         return None;
     }
-    let (exact, data) = (own.exact.fields(), own.data.fields());
+    let (exact, data) = (scratch.exact.fields(), scratch.data.fields());
     let mut norm = |from: &[f64], to: &[f64]| {
-        for ((a, x), y) in own.a.iter_mut().zip(from).zip(to) {
+        for ((a, x), y) in scratch.a.iter_mut().zip(from).zip(to) {
             *a = y - x;
         }
-        mul_m(m, &own.data, &own.a, &mut own.product).ok()?;
-        Some(dot_slice(&own.a, &own.product).sqrt())
+        mul_m(m, &scratch.data, &scratch.a, &mut scratch.product).ok()?;
+        Some(dot_slice(&scratch.a, &scratch.product).sqrt())
     };
     let work = norm(&exact.qacc_smooth, &exact.qacc)?;
     let miss = norm(&exact.qacc, &data.qacc)?;
-    let most = |k: &usize| (own.a[*k] * own.product[*k]).abs();
+    let most = |k: &usize| (scratch.a[*k] * scratch.product[*k]).abs();
     let dof = (0..m.nv).max_by(|a, b| most(a).total_cmp(&most(b)))?;
     (work > 0.0).then_some((miss / work, dof))
 }

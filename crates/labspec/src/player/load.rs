@@ -86,9 +86,9 @@ impl Player {
         let demand = AccessSet { reads: FieldSet::ALL, ..programs.demand };
         let mut session = Session::start(Arc::new(programs), &model, lab.keyframe(), &demand);
         session.watch();
-        let (controls, shown) = (control::list(&lab), displayed::list(&lab));
+        let (controls, displayed) = (control::list(&lab), displayed::list(&lab));
         let now = Saved { lab: Arc::clone(&lab), session, cells: Vec::new(), numbers: Vec::new() };
-        let mut player = Player { lab, file: lesson.file.clone(), loaded, controls, shown, now };
+        let mut player = Player { lab, file: lesson.file.clone(), loaded, controls, displayed, now };
         player.observe();
         Ok(player)
     }

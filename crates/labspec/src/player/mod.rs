@@ -30,7 +30,7 @@ pub struct Player {
     /// What was found when it was loaded.
     loaded: Vec<Finding>,
     controls: Vec<Control>,
-    shown: Vec<Shown>,
+    displayed: Vec<Shown>,
     now: Saved,
 }
 
@@ -50,8 +50,8 @@ impl Player {
     }
 
     /// The traces of the plots, then the readouts: what [`Player::values`] and [`Player::numbers`] hold, in their order.
-    pub fn shown(&self) -> &[Shown] {
-        &self.shown
+    pub fn displayed(&self) -> &[Shown] {
+        &self.displayed
     }
 
     /// The lab as it is written: title, camera, plots.

@@ -44,8 +44,8 @@ impl Type {
 fn types(table: &Table) -> Vec<Type> {
     let mut types: Vec<Option<Type>> = vec![None; table.columns.len()];
     for row in &table.rows {
-        for (known, cell) in types.iter_mut().zip(row) {
-            *known = match (*known, Type::of_cell(cell)) {
+        for (column_type, cell) in types.iter_mut().zip(row) {
+            *column_type = match (*column_type, Type::of_cell(cell)) {
                 (Some(a), Some(b)) if a != b => Some(Type::Text),
                 (a, b) => a.or(b),
             };

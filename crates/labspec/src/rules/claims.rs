@@ -7,7 +7,7 @@ pub(crate) struct Claim<'a> {
     /// The object.
     pub(crate) verify: &'a Verify,
     /// The lab that carries it, or the `sim` of its question.
-    pub(crate) own: Option<&'a Lab>,
+    pub(crate) lab: Option<&'a Lab>,
     /// Its question; `None` on a lab.
     pub(crate) question: Option<&'a Question>,
 }
@@ -17,13 +17,13 @@ pub(crate) fn all(lesson: &Lesson) -> impl Iterator<Item = Claim<'_>> {
     let of_labs = lesson
         .all_labs()
         .into_iter()
-        .filter_map(|lab| Some(Claim { verify: lab.verify.as_ref()?, own: Some(lab), question: None }));
+        .filter_map(|lab| Some(Claim { verify: lab.verify.as_ref()?, lab: Some(lab), question: None }));
     let questions = lesson.quizzes.iter().flat_map(|quiz| quiz.numbered());
     let of_questions = questions.filter_map(|(_, question)| {
-        Some(Claim { verify: question.verify.as_ref()?, own: question.sim(), question: Some(question) })
+        Some(Claim { verify: question.verify.as_ref()?, lab: question.sim(), question: Some(question) })
     });
     let remarks = lesson.remarks.iter();
-    let remarks = remarks.map(|remark| Claim { verify: &remark.verify, own: None, question: None });
+    let remarks = remarks.map(|remark| Claim { verify: &remark.verify, lab: None, question: None });
     of_labs.chain(of_questions).chain(remarks)
 }
 
@@ -32,7 +32,7 @@ impl<'a> Claim<'a> {
     pub(crate) fn lab(&self, lesson: &'a Lesson) -> Option<&'a Lab> {
         match &lesson.whole(self.verify).lab {
             Some(named) => lesson.named(named),
-            None => self.own,
+            None => self.lab,
         }
     }
 

@@ -1,5 +1,5 @@
 use super::Check;
-use super::wording::said;
+use super::wording::visible_text;
 use crate::finding::Finding;
 use crate::json::read::named;
 use crate::source::Text;
@@ -28,7 +28,7 @@ fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
     let mut first: HashMap<String, &Text> = HashMap::new();
     for option in options {
-        let words = said(option.as_str());
+        let words = visible_text(option.as_str());
         match first.get(&words) {
             // What is the same to the letter is another rule's.
             Some(before) if before.as_str() != option.as_str() && !words.is_empty() => findings.push(

@@ -24,7 +24,7 @@ pub(super) const CHECK: Check = Check::Lesson(check_lesson);
 fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let without = |c: &claims::Claim<'_>| {
         lesson.whole(c.verify).lab.is_none()
-            && c.own.is_none()
+            && c.lab.is_none()
             && !c.verify.is_formulas()
             && !c.verify.every_run_names_its_lab()
     };

@@ -33,7 +33,7 @@ fn tag(text: &str) -> Option<usize> {
 
 /// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts
 /// but an article before them and a full stop behind.
-pub(super) fn said(html: &str) -> String {
+pub(super) fn visible_text(html: &str) -> String {
     if html.contains("<code") || html.contains('$') || html.contains('`') {
         let text = plain(html);
         let mut text = text.as_str();
@@ -128,10 +128,10 @@ mod tests {
 
     #[test]
     fn texts_say_the_same_whatever_their_marks() {
-        assert_eq!(said("The <b>ball</b>, falls."), said("ball falls"));
-        assert_ne!(said("it rises"), said("it does not rise"));
-        assert_ne!(said("-1"), said("1"));
-        assert_ne!(said("<code>Data</code>"), said("<code>data</code>"));
-        assert_eq!(said("The <code>Data</code>."), said("<code>Data</code>"));
+        assert_eq!(visible_text("The <b>ball</b>, falls."), visible_text("ball falls"));
+        assert_ne!(visible_text("it rises"), visible_text("it does not rise"));
+        assert_ne!(visible_text("-1"), visible_text("1"));
+        assert_ne!(visible_text("<code>Data</code>"), visible_text("<code>data</code>"));
+        assert_eq!(visible_text("The <code>Data</code>."), visible_text("<code>Data</code>"));
     }
 }

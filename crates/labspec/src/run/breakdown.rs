@@ -1,6 +1,6 @@
 //! What went wrong in a run, in a teacher's words: what broke, when, the likely cause, and what to write instead.
 
-use super::cell::shown;
+use super::cell::rounded;
 use crate::monitors::stability::{self, StiffPart, Suspect};
 use crate::rules::Rule;
 use labspec_core::{Model, Obj};
@@ -61,7 +61,7 @@ pub fn time(t: f64) -> String {
 pub fn two_digits(x: f64) -> String {
     let size = x.abs();
     if size == 0.0 || !(1e-6..1e7).contains(&size) {
-        return shown(x, 2);
+        return rounded(x, 2);
     }
     let places = (1.0 - size.log10().floor()).clamp(0.0, 9.0) as usize;
     without_zeros(format!("{x:.places$}"))

@@ -38,9 +38,9 @@ impl Cell {
     }
 
     /// As the page prints it with so many decimals.
-    pub fn shown(&self, digits: u32) -> String {
+    pub fn rounded(&self, digits: u32) -> String {
         match self {
-            Cell::Number(x) => shown(*x, digits),
+            Cell::Number(x) => rounded(*x, digits),
             Cell::Text(t) => t.clone(),
             Cell::Bool(b) => b.to_string(),
             Cell::Nothing => "nan".into(),
@@ -49,7 +49,7 @@ impl Cell {
 }
 
 /// A number as the page prints it: fixed decimals, exponential when small or large.
-pub fn shown(x: f64, digits: u32) -> String {
+pub fn rounded(x: f64, digits: u32) -> String {
     if x.is_nan() {
         return "nan".into();
     }
@@ -69,7 +69,7 @@ pub fn shown(x: f64, digits: u32) -> String {
 pub fn printed(x: f64, digits: u32) -> f64 {
     /// Up to here every whole number of such decimals is a double, and so is the power of ten.
     const DIGITS: u32 = 9;
-    let slow = || shown(x, digits).parse().unwrap_or(x);
+    let slow = || rounded(x, digits).parse().unwrap_or(x);
     if digits > DIGITS || !(1e-3..1e5).contains(&x.abs()) {
         return slow();
     }
@@ -99,7 +99,7 @@ mod tests {
             (f64::NEG_INFINITY, 3, "-inf"),
         ];
         for (x, digits, text) in cases {
-            assert_eq!(shown(x, digits), text);
+            assert_eq!(rounded(x, digits), text);
         }
     }
 
@@ -110,7 +110,7 @@ mod tests {
         ) {
             let tie = f64::from(ties) * 0.5 / 10f64.powi(digits as i32);
             for x in [mantissa * 10f64.powi(exponent), tie, tie.next_up(), tie.next_down(), f64::from(ties) / 64.0, 0.0, -0.0] {
-                let text: f64 = shown(x, digits).parse().unwrap();
+                let text: f64 = rounded(x, digits).parse().unwrap();
                 assert_eq!(printed(x, digits).to_bits(), text.to_bits(), "{x:e} with {digits}");
             }
         }

@@ -21,7 +21,7 @@ mod watched;
 
 pub use breakdown::{Breakdown, Shorter, how_stiff, owner, softer, time, two_digits};
 pub use budget::{Budget, End};
-pub use cell::{Cell, printed, shown};
+pub use cell::{Cell, printed, rounded};
 pub use diagnose::{breakdowns_of, worst_breakdown};
 pub use held::Held;
 pub use integrator::{INTEGRATORS, Integrator};
@@ -184,8 +184,8 @@ pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> Cont
 ///
 /// # Errors
 /// The texts that it shows are too long.
-pub(crate) fn finish(begun: Begun<'_>, made: usize) -> Result<Table, RunError> {
-    let Begun { session, samples, timestep, .. } = begun;
+pub(crate) fn finish(started: Begun<'_>, made: usize) -> Result<Table, RunError> {
+    let Begun { session, samples, timestep, .. } = started;
     if samples.text() > MAX_TEXT {
         return Err(RunError(format!(
             "the texts of the readouts exceed {} MB after {made} steps; display numbers or short texts, or sample less often with --every",
@@ -204,9 +204,9 @@ pub(crate) fn finish(begun: Begun<'_>, made: usize) -> Result<Table, RunError> {
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
-    let mut begun = begin(lab, model, programs, options, &programs.demand)?;
-    let Begun { session, samples, steps, every, presses, .. } = &mut begun;
+    let mut started = begin(lab, model, programs, options, &programs.demand)?;
+    let Begun { session, samples, steps, every, presses, .. } = &mut started;
     let played = Play { steps: *steps, every: *every, presses, watched: true };
     let made = play(session, &played, |session, _| take(samples, session));
-    finish(begun, made)
+    finish(started, made)
 }

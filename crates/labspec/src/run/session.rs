@@ -104,11 +104,11 @@ impl<'p> Session<'p> {
                 model: model.clone(),
                 data,
                 key,
-                own: programs.functions.clone(),
-                shown: Vec::new(),
+                functions: programs.functions.clone(),
+                displayed: Vec::new(),
                 numbers: Vec::new(),
             },
-            context: Context::of(&programs.globals),
+            context: Context::for_globals(&programs.globals),
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
@@ -466,11 +466,11 @@ impl<'p> Session<'p> {
         if self.world.data.fields().warning.iter().map(|w| w.number).sum::<usize>() == 0 {
             return;
         }
-        for (kept, now) in self.warnings.iter_mut().zip(&self.world.data.fields().warning) {
-            if now.number > 0 && kept.number == 0 {
-                *kept = *now;
+        for (stored, now) in self.warnings.iter_mut().zip(&self.world.data.fields().warning) {
+            if now.number > 0 && stored.number == 0 {
+                *stored = *now;
             }
-            kept.number = kept.number.max(now.number);
+            stored.number = stored.number.max(now.number);
         }
     }
 }

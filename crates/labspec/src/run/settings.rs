@@ -68,7 +68,7 @@ pub fn value(control: &Control, given: &Value) -> Result<Value, RunError> {
                 "\"{label}\" is a slider: it needs a number from {} to {}, not {}",
                 number(min.value),
                 number(max.value),
-                shown(other)
+                describe_value(other)
             ))),
         },
     }
@@ -150,14 +150,14 @@ fn option(label: &str, options: &[Choice], given: &Value) -> Result<Value, RunEr
     let mut list: Vec<String> = options
         .iter()
         .take(MOST_LISTED)
-        .map(|o| format!("{} (\"{}\")", shown(&given_by(o)), o.text.value))
+        .map(|o| format!("{} (\"{}\")", describe_value(&given_by(o)), o.text.value))
         .collect();
     if options.len() > MOST_LISTED {
         list.push(format!("and {} more", options.len() - MOST_LISTED));
     }
     Err(RunError(format!(
         "{} is not an option of \"{label}\"; its options are {}",
-        shown(given),
+        describe_value(given),
         list.join(", ")
     )))
 }
@@ -217,7 +217,7 @@ fn same(a: &Value, b: &Value) -> bool {
 }
 
 /// A value as an author writes it.
-fn shown(value: &Value) -> String {
+fn describe_value(value: &Value) -> String {
     match value {
         Value::Number(x) => number(*x),
         Value::String(text) => format!("the text \"{}\"", text.chars().take(60).collect::<String>()),

@@ -149,8 +149,8 @@ fn unsolved(model: &Model, u: Unsolved) -> Breakdown {
 
 /// A geom by its name, or by its body's.
 fn geom(model: &Model, g: usize) -> String {
-    if let Some(own) = model.names.geom.get(g).filter(|n| !n.is_empty()) {
-        return format!("geom \"{own}\"");
+    if let Some(geom_name) = model.names.geom.get(g).filter(|n| !n.is_empty()) {
+        return format!("geom \"{geom_name}\"");
     }
     let body = model.geom_bodyid.get(g).map_or(0, |&b| b as usize);
     match model.names.body.get(body).filter(|n| body > 0 && !n.is_empty()) {
@@ -161,7 +161,7 @@ fn geom(model: &Model, g: usize) -> String {
 
 fn name(list: Option<&String>, what: &str, id: usize) -> String {
     match list.filter(|n| !n.is_empty()) {
-        Some(own) => format!("{what} \"{own}\""),
+        Some(geom_name) => format!("{what} \"{geom_name}\""),
         None => format!("{what} {id}"),
     }
 }

@@ -17,7 +17,7 @@ pub(super) struct Steady {
     /// The `ctx` variables that it reads.
     slots: Vec<u32>,
     /// The elements, then the variables, after the last run; and the work of that.
-    kept: Vec<u64>,
+    last_values: Vec<u64>,
     work: Option<u64>,
 }
 
@@ -50,7 +50,7 @@ impl Steady {
             return None;
         }
         let elements = reads.into_iter().chain(writes).collect();
-        Some(Steady { elements, slots: effects.ctx_reads.clone(), kept: Vec::new(), work: None })
+        Some(Steady { elements, slots: effects.ctx_reads.clone(), last_values: Vec::new(), work: None })
     }
 
     /// The work of the last run, when another one would change nothing.
@@ -58,16 +58,16 @@ impl Steady {
     pub(super) fn holds(&self, world: &World, context: &Context) -> Option<u64> {
         let work = self.work?;
         let now = self.now(world, context);
-        self.kept.iter().copied().map(Some).eq(now).then_some(work)
+        self.last_values.iter().copied().map(Some).eq(now).then_some(work)
     }
 
     /// Keeps how things are after a run that did this work. Without it, another run follows.
     pub(super) fn keep(&mut self, world: &World, context: &Context, work: Option<u64>) {
-        let mut numbers = std::mem::take(&mut self.kept);
+        let mut numbers = std::mem::take(&mut self.last_values);
         numbers.clear();
         numbers.extend(self.now(world, context).map_while(|number| number));
         self.work = work.filter(|_| self.now(world, context).all(|number| number.is_some()));
-        self.kept = numbers;
+        self.last_values = numbers;
     }
 
     /// All that it looks at, as bits; nothing for what is no number.

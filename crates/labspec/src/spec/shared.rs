@@ -68,9 +68,9 @@ fn whole(lesson: &Lesson, verify: &Verify, depth: usize, left: &mut usize) -> Op
 }
 
 /// Puts what is used before what is there, but for what is there by its name.
-fn add<T>(own: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
-    let there: BTreeSet<String> = own.iter().map(|one| name(one).value.clone()).collect();
+fn add<T>(entries: &mut Vec<T>, used: Vec<T>, name: impl Fn(&T) -> &Text) {
+    let there: BTreeSet<String> = entries.iter().map(|one| name(one).value.clone()).collect();
     let mut all: Vec<T> = used.into_iter().filter(|one| !there.contains(&name(one).value)).collect();
-    all.append(own);
-    *own = all;
+    all.append(entries);
+    *entries = all;
 }

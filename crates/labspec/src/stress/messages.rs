@@ -123,11 +123,11 @@ pub fn watched_run(
 ) -> Result<Table, RunError> {
     let base = Interaction::base(lab, programs, &options.set, &options.press)?;
     let case = StressCase::new(lab, model, programs, base.clone());
-    let mut begun = run::begin(lab, model, programs, options, &case.demand)?;
+    let mut started = run::begin(lab, model, programs, options, &case.demand)?;
     let presses: Vec<Action> =
-        begun.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
+        started.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
     let pressed = Interaction { kind: Kind::AsItStands, actions: presses };
-    let Begun { session, samples, steps, every, .. } = &mut begun;
+    let Begun { session, samples, steps, every, .. } = &mut started;
     let (steps, every) = (*steps, *every);
     let mut eyes = case.eyes_of_table(&pressed, session);
     let played = Play { steps, every: 1, presses: &[], watched: true };
@@ -143,11 +143,11 @@ pub fn watched_run(
         eyes.observe(session, made, made == steps);
         taken
     });
-    let timestep = begun.session.world.model.opt.timestep;
-    let (length, faults) = (made as f64 * timestep, eyes.faults(&begun.session));
+    let timestep = started.session.world.model.opt.timestep;
+    let (length, faults) = (made as f64 * timestep, eyes.faults(&started.session));
     let mut left = WORK;
     let (faults, _) = genuine(&case, &base, faults, length, left);
-    let mut table = run::finish(begun, made)?;
+    let mut table = run::finish(started, made)?;
     for breakdown in &mut table.breakdowns {
         *breakdown = with_tried_timestep(&case, &base, length, breakdown.clone(), &mut left);
     }

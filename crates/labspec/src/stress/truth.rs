@@ -128,7 +128,7 @@ fn rows(
             return ControlFlow::Break(());
         }
         if made.is_multiple_of(every) {
-            list.push(shown(case, session));
+            list.push(displayed_numbers(case, session));
         }
         ControlFlow::Continue(())
     });
@@ -136,7 +136,7 @@ fn rows(
     list
 }
 
-fn shown(case: &StressCase<'_>, session: &mut Session<'_>) -> Vec<f64> {
+fn displayed_numbers(case: &StressCase<'_>, session: &mut Session<'_>) -> Vec<f64> {
     let probes = case.programs.probes.iter().filter_map(|p| p.bound.as_ref());
     let values = probes.filter_map(|b| session.evaluate(&b.program, &b.text));
     let numbers: Vec<f64> = values.map(|v| v.to_number()).filter(|x| x.is_finite()).collect();

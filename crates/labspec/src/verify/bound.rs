@@ -178,18 +178,19 @@ impl<'a> BoundVerify<'a> {
 
     /// The place of a lab in the list, to which it is added the first time.
     fn add(&mut self, scene: &BoundLab<'a>) -> usize {
-        if let Some(known) = self.scenes.iter().position(|s| s.scene.is(scene)) {
-            return known;
+        if let Some(existing) = self.scenes.iter().position(|s| s.scene.is(scene)) {
+            return existing;
         }
-        let (globals, shown) = (scene.programs.globals.clone(), reads::labels(&scene.lab));
-        self.scenes.push(BoundScene { scene: scene.clone(), globals, measures: Vec::new(), shown });
+        let (globals, displayed) = (scene.programs.globals.clone(), reads::labels(&scene.lab));
+        self.scenes.push(BoundScene { scene: scene.clone(), globals, measures: Vec::new(), displayed });
         self.scenes.len() - 1
     }
 
     /// Compiles the texts of a run; `None` when they have mistakes.
     fn run(&mut self, run: &'a Run, scene: usize, findings: &mut Vec<Finding>) -> Option<BoundRun<'a>> {
-        let BoundScene { scene: here, globals, shown, .. } = self.scenes.get_mut(scene)?;
-        let names = |scope| ModelNames::new(&here.model, scope).with(&here.programs.functions).showing(shown);
+        let BoundScene { scene: here, globals, displayed, .. } = self.scenes.get_mut(scene)?;
+        let names =
+            |scope| ModelNames::new(&here.model, scope).with(&here.programs.functions).showing(displayed);
         let mut good = true;
         let mut keep = |text: &'a Text, compiled: Compiled| {
             findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, text)));
@@ -329,8 +330,8 @@ impl<'a> BoundVerify<'a> {
     }
 
     /// The model of every run as it begins: after the run's controls and its setup. `None` for a run that cannot be made.
-    pub(crate) fn begun(&self) -> Vec<(String, Option<Model>)> {
-        let begin = |run: &BoundRun<'_>| runner::begun(self.scenes.get(run.scene)?, run);
+    pub(crate) fn started_models(&self) -> Vec<(String, Option<Model>)> {
+        let begin = |run: &BoundRun<'_>| runner::started_models(self.scenes.get(run.scene)?, run);
         self.runs.iter().map(|run| (run.name.to_string(), begin(run))).collect()
     }
 }

@@ -20,7 +20,7 @@ pub(super) struct BoundScene<'a> {
     pub(super) globals: Globals,
     pub(super) measures: Vec<(&'a str, CompiledText<'a>)>,
     /// What it shows under labels, and which of them are asked for.
-    pub(super) shown: Shown,
+    pub(super) displayed: Shown,
 }
 
 /// A run with its own texts compiled.
@@ -59,6 +59,8 @@ impl BoundRun<'_> {
 impl BoundScene<'_> {
     /// The names of a measure, or of what it is compared with.
     pub(super) fn names(&self, scope: Scope) -> ModelNames<'_> {
-        ModelNames::new(&self.scene.model, scope).with(&self.scene.programs.functions).showing(&self.shown)
+        ModelNames::new(&self.scene.model, scope)
+            .with(&self.scene.programs.functions)
+            .showing(&self.displayed)
     }
 }

@@ -20,11 +20,11 @@ pub fn check_verify(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    shown: &ShownText,
+    rendered: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
     match run_all_numerics(bound, verify, findings) {
-        Some(outcomes) => judge(bound, &outcomes, verify, question, shown, findings),
+        Some(outcomes) => judge(bound, &outcomes, verify, question, rendered, findings),
         None => unmade(verify, question, "a run cannot be made"),
     }
 }
@@ -35,13 +35,13 @@ pub(crate) fn check_nominal(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    shown: &ShownText,
+    rendered: &ShownText,
 ) -> Option<Judgement> {
     let findings = &mut Vec::new();
     let nominal = bound.outcome(StepVariant::NOMINAL, findings)?;
     let perturbed = std::array::from_fn(|_| Some(nominal.clone()));
     let outcomes = Outcomes { nominal, perturbed, nudged_back: None };
-    Some(judge(bound, &outcomes, verify, question, shown, findings))
+    Some(judge(bound, &outcomes, verify, question, rendered, findings))
 }
 
 fn judge(
@@ -49,7 +49,7 @@ fn judge(
     outcomes: &Outcomes,
     verify: &Verify,
     question: Option<&Question>,
-    shown: &ShownText,
+    rendered: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> Judgement {
     let mut judgement = Judgement {
@@ -61,7 +61,7 @@ fn judge(
         judgement.answer = answer::check_answer(bound, outcomes, verify, question, findings);
     }
     judgement.quotes = {
-        let checker = QuoteChecker { bound, outcomes, shown };
+        let checker = QuoteChecker { bound, outcomes, rendered };
         says::check_quotes(checker, verify, question, findings)
     };
     judgement.exact =

@@ -22,7 +22,7 @@ pub(super) fn check_column(
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {
     let stage = checker.bound.stage();
-    stage.spend(LOOK * checker.shown.cells() as u64);
+    stage.spend(LOOK * checker.rendered.cells() as u64);
     if stage.left() == 0 {
         let spent = "the work budget ran out before this column";
         let finding = Finding::error(rules::QUOTE_UNCLEAR, claim.column.span(), spent)
@@ -30,7 +30,7 @@ pub(super) fn check_column(
             .help("make the runs shorter, or claim fewer columns in one lesson");
         return vec![refused(&claim.column, finding, findings)];
     }
-    let cells = match quote::cells_of_column(claim, checker.shown) {
+    let cells = match quote::cells_of_column(claim, checker.rendered) {
         Ok(cells) => cells,
         Err([message, help]) => {
             let finding = Finding::new(rules::QUOTE_NOT_FOUND, claim.column.span(), message)

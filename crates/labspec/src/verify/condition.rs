@@ -65,8 +65,9 @@ pub(super) fn evaluate(
 ) -> ConditionMargin {
     let mut decisive: Option<f64> = None;
     let mut any: Option<f64> = None;
-    let nearer =
-        |best: &mut Option<f64>, size: f64| *best = Some(best.map_or(size, |known: f64| known.min(size)));
+    let nearer = |best: &mut Option<f64>, size: f64| {
+        *best = Some(best.map_or(size, |smallest: f64| smallest.min(size)))
+    };
     for (i, comparison) in comparisons.iter().enumerate().take(MOST_TURNED) {
         let size = comparison.margin.abs();
         if !size.is_finite() || !decides(i) {

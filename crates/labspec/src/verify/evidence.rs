@@ -185,14 +185,14 @@ impl JointDraws<'_> {
 
 /// Looks for a value between known ones with which a claim says something else, by the comparisons that it makes.
 fn turns(
-    known: &[(f64, Vec<Comparison>)],
+    comparisons: &[(f64, Vec<Comparison>)],
     now: Outlook,
     says: &mut dyn FnMut(f64) -> Option<(Outlook, Vec<Comparison>)>,
 ) -> bool {
     let difference = |list: &[Comparison], k: usize| list.get(k).map(|c| c.left - c.right);
-    let count = known.iter().map(|(_, list)| list.len()).min().unwrap_or(0).min(8);
+    let count = comparisons.iter().map(|(_, list)| list.len()).min().unwrap_or(0).min(8);
     for k in 0..count {
-        for pair in known.windows(2) {
+        for pair in comparisons.windows(2) {
             let [(a, at_a), (b, at_b)] = pair else { continue };
             let (Some(da), Some(db)) = (difference(at_a, k), difference(at_b, k)) else { continue };
             if da * db >= 0.0 || (da * db).is_nan() {
@@ -210,7 +210,7 @@ fn turns(
             }
         }
         // The smallest distance between the sides, where it lies between two values (golden section).
-        for triple in known.windows(3) {
+        for triple in comparisons.windows(3) {
             let [(a, at_a), (_, at_m), (b, at_b)] = triple else { continue };
             let all = [at_a, at_m, at_b].map(|list| difference(list, k).map(f64::abs));
             let [Some(da), Some(dm), Some(db)] = all else { continue };

@@ -140,7 +140,7 @@ impl BoundVerify<'_> {
                 let run = outcome.runs.get(*run)?;
                 let (name, _) = run.measures.get(*measure)?;
                 let title = format!("{}.{name}", run.title());
-                Some(match run.doubts.iter().find(|(known, _)| known == name) {
+                Some(match run.doubts.iter().find(|(doubted, _)| doubted == name) {
                     Some((_, doubt)) => format!("`{title}` has no value: {doubt}"),
                     None => format!("`{title}` has no value: its event does not happen in the run"),
                 })

@@ -125,11 +125,13 @@ impl Layout {
     /// What the number at a place measures.
     pub(super) fn unit_of(&self, place: usize, units: &RunUnits) -> Measure {
         match self.slots.get(place) {
-            Some(Slot::Measure(run, m)) => {
-                units.get(*run).and_then(|own| own.get(*m)).map_or(Measure::Unknown, |(_, measure)| *measure)
-            }
+            Some(Slot::Measure(run, m)) => units
+                .get(*run)
+                .and_then(|measures| measures.get(*m))
+                .map_or(Measure::Unknown, |(_, measure)| *measure),
             Some(Slot::Swept(run)) => {
-                let of_run = units.get(*run).and_then(|own| own.iter().find(|(name, _)| name == VALUE));
+                let of_run =
+                    units.get(*run).and_then(|measures| measures.iter().find(|(name, _)| name == VALUE));
                 of_run.map_or(Measure::Unknown, |(_, measure)| *measure)
             }
             _ => Measure::Unknown,

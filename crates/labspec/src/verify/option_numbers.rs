@@ -59,7 +59,7 @@ fn contradiction(
     let asked = asked(&parse_expression(&condition.value).tree)?;
     let closed = asked.low.is_finite() && asked.high.is_finite();
     let stated = match option_text(&option.value) {
-        Some(said) => said,
+        Some(claimed) => claimed,
         None if closed && asked.ratio => return no_such_ratio(option, &asked),
         None => return None,
     };

@@ -44,7 +44,7 @@ pub(super) struct Outcome {
 impl Outcome {
     /// What somebody else measured with this expression.
     pub(super) fn measured_elsewhere(&self, text: &str) -> Option<f64> {
-        self.elsewhere.iter().find(|(known, _)| known == text).map(|(_, x)| *x)
+        self.elsewhere.iter().find(|(text_of_run, _)| text_of_run == text).map(|(_, x)| *x)
     }
 
     /// All measures, named as conditions read them.

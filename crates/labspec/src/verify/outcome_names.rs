@@ -77,7 +77,7 @@ impl<'a> OutcomeNames<'a> {
 
     /// The number, or the list of numbers, that a run has under a name.
     fn measured(&self, run: &LayoutRun, name: &str) -> Option<Entry> {
-        let (_, first) = run.at.iter().find(|(known, _)| known == name)?;
+        let (_, first) = run.at.iter().find(|(measure, _)| measure == name)?;
         Some(self.number(format!("{}.{name}", run.name), *first, run.list))
     }
 }

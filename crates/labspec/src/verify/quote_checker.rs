@@ -60,7 +60,7 @@ impl Quote {
 pub(super) struct QuoteChecker<'c, 'b> {
     pub(super) bound: &'c BoundVerify<'b>,
     pub(super) outcomes: &'c Outcomes,
-    pub(super) shown: &'c ShownText,
+    pub(super) rendered: &'c ShownText,
 }
 
 /// The value of an expression in the lesson's own runs, and in others.
@@ -127,7 +127,7 @@ pub(super) fn check_number(
     let unit = &|| units::of_claim(checker.bound, &checker.outcomes.nominal, claim.expr);
     let computed = given.found.value.to_number();
     let value = quote::QuoteValue { computed, timestep: &given.timestep, start: &given.start, unit };
-    let o = quote::check_quote(claim, &part.reading, places, &value, checker.shown, findings);
+    let o = quote::check_quote(claim, &part.reading, places, &value, checker.rendered, findings);
     let text = claim.part.trim().to_string();
     let (state, evidence, reason) = (o.state, given.found.evidence, o.reason);
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }
@@ -149,7 +149,7 @@ pub(super) fn check_words(
         timestep: moved(&given.timestep),
         start: moved(&given.start),
     };
-    let (state, reason) = quote::check_words(claim, at, &condition, checker.shown, findings);
+    let (state, reason) = quote::check_words(claim, at, &condition, checker.rendered, findings);
     let computed = f64::from(u8::from(given.holds()));
     let (text, evidence) = (claim.quote.value.clone(), given.found.evidence);
     Quote { text, span: claim.quote.span(), state, evidence, reason, computed }

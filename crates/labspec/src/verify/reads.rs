@@ -55,7 +55,7 @@ pub(super) fn show(asked: &[usize], lab: &Lab, programs: &Programs, session: &mu
             (Value::Number(x), Some(digits)) if x.is_finite() => Value::Number(printed(*x, digits)),
             _ => value,
         };
-        let displayed = &mut session.world.shown;
+        let displayed = &mut session.world.displayed;
         displayed.resize(displayed.len().max(label + 1), Value::Undefined);
         if let Some(place) = displayed.get_mut(label) {
             *place = printed;

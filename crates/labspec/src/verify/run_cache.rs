@@ -89,7 +89,7 @@ impl<'a> Stage<'a> {
     }
 
     /// What came of a run that was made before.
-    pub(super) fn known(&self, run: &str) -> Option<RunResult> {
+    pub(super) fn cached_run(&self, run: &str) -> Option<RunResult> {
         self.runs.borrow().get(run).cloned()
     }
 

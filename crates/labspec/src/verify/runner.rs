@@ -47,9 +47,9 @@ pub(super) fn perform(
     };
     let asked = &RunRequest { numerics, place: asked.place.clone(), ..*asked };
     let key = key(asked);
-    if let Some(known) = stage.known(&key) {
-        stage.note(known.left_behind);
-        return Some(known);
+    if let Some(cached) = stage.cached_run(&key) {
+        stage.note(cached.left_behind);
+        return Some(cached);
     }
     let made = make(asked, stage, findings)?;
     stage.note(made.left_behind);
@@ -141,12 +141,12 @@ pub(super) fn play<'r>(
     mut sample: impl FnMut(&mut Session<'_>, usize),
 ) {
     let RunRequest { scene: bound, run, .. } = asked;
-    let (lab, programs, shown) = (&*bound.scene.lab, &*bound.scene.programs, bound.shown.asked());
+    let (lab, programs, displayed) = (&*bound.scene.lab, &*bound.scene.programs, bound.displayed.asked());
     let played = Play { steps: ready.count, every: 1, presses: &ready.press, watched: true };
     let mut watch = Some(Box::new(Watch::losses()));
     let mut open = None;
     run::play(&mut ready.session, &played, |session, made| {
-        reads::show(&shown, lab, programs, session);
+        reads::show(&displayed, lab, programs, session);
         sample(session, made);
         let Some(stop) = run.stop.as_ref() else { return ControlFlow::Continue(()) };
         session.context.watch(watch.take());
@@ -218,7 +218,7 @@ fn set(
 }
 
 /// The model of a run as it begins: after its controls and its setup. `None` for one that cannot be made.
-pub(super) fn begun(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
+pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
     let scene = &bound.scene;
     let (key, demand) = (scene.lab.keyframe(), scene.programs.demand);
     let mut session =

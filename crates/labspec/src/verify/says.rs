@@ -15,8 +15,8 @@ pub(super) fn check_quotes(
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {
     let mut all = Vec::new();
-    for said in &verify.says {
-        all.extend(check_line(checker, said, question, findings));
+    for quoted in &verify.says {
+        all.extend(check_line(checker, quoted, question, findings));
     }
     for claim in &verify.table {
         all.extend(column::check_column(checker, claim, findings));
@@ -27,39 +27,39 @@ pub(super) fn check_quotes(
 /// One line: a number, or several, and what its words say.
 fn check_line(
     checker: QuoteChecker<'_, '_>,
-    said: &Said,
+    quoted: &Said,
     question: Option<&Question>,
     findings: &mut Vec<Finding>,
 ) -> Vec<Quote> {
-    let at = quote::places_of_quote(&said.quote, question, checker.shown);
+    let at = quote::places_of_quote(&quoted.quote, question, checker.rendered);
     let mut given = Vec::new();
-    for expr in &said.exprs {
+    for expr in &quoted.exprs {
         match QuotedValue::measure(checker, expr, findings) {
             Ok(found) => given.push((expr, found)),
-            Err(reason) => return vec![Quote::unclear(&said.quote, &reason)],
+            Err(reason) => return vec![Quote::unclear(&quoted.quote, &reason)],
         }
     }
     let numbers = given.iter().filter(|(_, given)| !given.is_condition()).count();
     // Of one expression the number is the one that the quote states; words beside numbers leave none of these unchecked.
-    let parts = match said.exprs.as_slice() {
-        [_] if numbers == 1 => vec![quote::whole(said.quote.as_str())],
-        _ => quote::parts(said.quote.as_str(), numbers),
+    let parts = match quoted.exprs.as_slice() {
+        [_] if numbers == 1 => vec![quote::whole(quoted.quote.as_str())],
+        _ => quote::parts(quoted.quote.as_str(), numbers),
     };
     if parts.len() != numbers {
         let message = format!("the quote has {} numbers, but {numbers} expressions give one", parts.len());
         findings.push(
-            Finding::error(rules::QUOTE_UNCLEAR, said.quote.span(), message.clone())
+            Finding::error(rules::QUOTE_UNCLEAR, quoted.quote.span(), message.clone())
                 .why("nothing was compared, because it is unclear which expression belongs to which number")
                 .help(
                     "give one expression for each number, in order; conditions for words can be between them",
                 ),
         );
-        return vec![Quote::unclear(&said.quote, &message)];
+        return vec![Quote::unclear(&quoted.quote, &message)];
     }
     let mut parts = parts.into_iter();
     let mut all = Vec::new();
     for (expr, given) in given {
-        let claim = |part| quote::QuoteClaim { quote: &said.quote, part, expr };
+        let claim = |part| quote::QuoteClaim { quote: &quoted.quote, part, expr };
         all.push(match given.is_condition() {
             true => {
                 let at: Vec<Range<usize>> = at.iter().map(|place| place.at.clone()).collect();

@@ -52,48 +52,49 @@ pub(super) fn advise(report: &Report) -> Vec<Advice> {
     let rows = &report.rows;
     let usable: Vec<usize> =
         (0..rows.len()).filter(|&i| rows[i].setting.integrator.shared && counts(&rows[i])).collect();
-    let own = rows.iter().position(|r| r.own);
+    let own_row = rows.iter().position(|r| r.is_own);
     let mut list = Vec::new();
-    if let Some(own) = own {
-        list.push(Advice { kind: Kind::Own, row: own, text: about_own(report, own) });
-        list.extend(closer_for_same_work(rows, &usable, own));
+    if let Some(own_row) = own_row {
+        list.push(Advice { kind: Kind::Own, row: own_row, text: about_own(report, own_row) });
+        list.extend(closer_for_same_work(rows, &usable, own_row));
     }
     let correct = usable.iter().copied().filter(|&i| reliable(rows, i) <= 1.0);
     let cheapest = correct.min_by(|&a, &b| rows[a].cost.work.total_cmp(&rows[b].cost.work));
     list.extend(match cheapest {
-        Some(i) => Some(cheapest_correct(report, own, i)),
+        Some(i) => Some(cheapest_correct(report, own_row, i)),
         None => closest(report, &usable),
     });
     list
 }
 
 /// The closest setting that takes no more work than the lab's own, if it is much closer.
-fn closer_for_same_work(rows: &[Row], usable: &[usize], own: usize) -> Option<Advice> {
-    let affordable = usable.iter().copied().filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own].cost.work);
+fn closer_for_same_work(rows: &[Row], usable: &[usize], own_row: usize) -> Option<Advice> {
+    let affordable =
+        usable.iter().copied().filter(|&i| rows[i].cost.work <= NO_LONGER * rows[own_row].cost.work);
     let i = affordable.min_by(|&a, &b| reliable(rows, a).total_cmp(&reliable(rows, b)))?;
-    if !(rows[own].score > 2.0 * reliable(rows, i) && counts(&rows[own])) {
+    if !(rows[own_row].score > 2.0 * reliable(rows, i) && counts(&rows[own_row])) {
         return None;
     }
-    let times = rows[own].score / reliable(rows, i).max(f64::MIN_POSITIVE);
+    let times = rows[own_row].score / reliable(rows, i).max(f64::MIN_POSITIVE);
     let how = if reliable(rows, i) == 0.0 || times > 1e12 {
         "exact except for rounding".to_string()
     } else {
         format!("{} times closer", two_digits(times))
     };
-    let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own]));
+    let text = format!("{} is {how} and takes {}.", name(&rows[i]), beside(&rows[i], &rows[own_row]));
     Some(Advice { kind: Kind::Closer, row: i, text })
 }
 
 /// The cheapest setting that shows every number correctly.
-fn cheapest_correct(report: &Report, own: Option<usize>, i: usize) -> Advice {
+fn cheapest_correct(report: &Report, own_row: Option<usize>, i: usize) -> Advice {
     let (rows, every) = (&report.rows, every(report));
-    let text = match own {
-        Some(own) if i == own => {
+    let text = match own_row {
+        Some(own_row) if i == own_row => {
             format!("It is also the cheapest tested setting that shows {every} correctly.")
         }
-        own => {
-            let time =
-                own.map_or(String::new(), |own| format!(" and takes {}", beside(&rows[i], &rows[own])));
+        own_row => {
+            let time = own_row
+                .map_or(String::new(), |own_row| format!(" and takes {}", beside(&rows[i], &rows[own_row])));
             format!("The cheapest tested setting that shows {every} correctly is {}{time}.", name(&rows[i]))
         }
     };
@@ -143,8 +144,8 @@ fn name(row: &Row) -> String {
 }
 
 /// The work of a run beside another's.
-fn beside(row: &Row, own: &Row) -> String {
-    let ratio = row.cost.work / own.cost.work;
+fn beside(row: &Row, own_row: &Row) -> String {
+    let ratio = row.cost.work / own_row.cost.work;
     match ratio {
         r if !r.is_finite() => "work that was not counted".into(),
         r if (1.0 / NO_LONGER..=NO_LONGER).contains(&r) => "the same work".into(),
@@ -153,8 +154,8 @@ fn beside(row: &Row, own: &Row) -> String {
 }
 
 /// What the lab's own setting is off by.
-fn about_own(report: &Report, own: usize) -> String {
-    let row = &report.rows[own];
+fn about_own(report: &Report, own_row: usize) -> String {
+    let row = &report.rows[own_row];
     let name = name(row);
     if !matches!(row.fate, Fate::Good | Fate::Warned) {
         let why = row.reported.first().map_or(String::new(), |t| format!(": {t}"));

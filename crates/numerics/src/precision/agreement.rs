@@ -69,7 +69,7 @@ pub(super) fn too_long(case: &PrecisionCase<'_>, timestep: f64) -> bool {
 
 /// The moments of two runs, as far as they agree. A passage is as uncertain as the number that passes, too, and all times are as
 /// uncertain as a sum of so many steps.
-pub(super) fn known(
+pub(super) fn agreed(
     case: &PrecisionCase<'_>,
     uncertain: &[Vec<f64>],
     [a, b]: [&[EventTime]; 2],

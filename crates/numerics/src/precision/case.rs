@@ -26,7 +26,7 @@ pub(super) struct ComparedNumber<'a> {
     pub(super) bound: &'a Bound,
     /// Its closed form.
     pub(super) exact: Option<Bound>,
-    pub(super) shown: DisplayPrecision,
+    pub(super) display: DisplayPrecision,
 }
 
 /// How exactly a number is shown.
@@ -128,19 +128,19 @@ impl<'a> PrecisionCase<'a> {
         let readouts = lab.readouts.iter().map(|r| (&r.label.value, DisplayPrecision::Decimals(r.digits())));
         let measured = dimensions(lab, model, programs).probes;
         let probes = programs.probes.iter().zip(measured.into_iter().chain(std::iter::repeat(None)));
-        for ((label, shown), (probe, measured)) in traces.chain(readouts).zip(probes) {
+        for ((label, display), (probe, measured)) in traces.chain(readouts).zip(probes) {
             let Some(bound) = &probe.bound else { continue };
             let unit = unit_of(label, measured.map(|m| m.value));
             let closed = exact
                 .iter()
-                .find(|e| e.trace.value == *label && matches!(shown, DisplayPrecision::Curve { .. }));
+                .find(|e| e.trace.value == *label && matches!(display, DisplayPrecision::Curve { .. }));
             let closed = closed.and_then(|e| {
                 let mut globals = programs.globals.clone();
                 let compiled = Compiler::new(&names, &mut globals).expression(&e.form.value);
                 findings.extend(compiled.diagnostics.iter().map(|d| to_finding(d, &e.form)));
                 compiled.program.map(|program| Bound { text: e.form.clone(), program })
             });
-            case.take((label, unit), shown, bound, closed);
+            case.take((label, unit), display, bound, closed);
         }
         case
     }
@@ -148,7 +148,7 @@ impl<'a> PrecisionCase<'a> {
     fn take(
         &mut self,
         (label, unit): (&str, Option<String>),
-        shown: DisplayPrecision,
+        display: DisplayPrecision,
         bound: &'a Bound,
         exact: Option<Bound>,
     ) {
@@ -158,13 +158,14 @@ impl<'a> PrecisionCase<'a> {
             "it is not a number"
         } else if exact.is_none() && (reads(option::timestep) || reads(option::integrator)) {
             "it depends on the timestep or the integrator, so it has no closed form"
-        } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.shown == shown) {
+        } else if self.targets.iter().any(|t| t.bound.text.value == bound.text.value && t.display == display)
+        {
             AGAIN
         } else {
             if let Some(e) = &exact {
                 include(e.program.effects(), &mut self.demand);
             }
-            self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, shown });
+            self.targets.push(ComparedNumber { label: label.to_string(), unit, bound, exact, display });
             return;
         };
         self.left_out.push(LeftOut { label: label.to_string(), reason });

@@ -39,7 +39,7 @@ pub fn compare(
     let truth = find_reference(&mut case, &ladder)?;
     let settings = ladder.settings(options);
     let Some(truth) = truth else { return without_reference(case, &settings, &ladder) };
-    let mine = Setting { integrator: ladder.integrator, timestep: ladder.own, solver: None };
+    let mine = Setting { integrator: ladder.integrator, timestep: ladder.timestep, solver: None };
     let mine = case.run(&mine, RunRequest::default())?;
     let targets = judge::compared(&case, &truth, &mine);
     let blank = targets.iter().filter(|t| t.blank);
@@ -51,7 +51,7 @@ pub fn compare(
         case: &case,
         ladder: &ladder,
         truth: &truth,
-        kept: Conserved::measure(&truth.run, part),
+        conserved: Conserved::measure(&truth.run, part),
         events: events::events(&case, &truth, &targets),
         targets,
         part,
@@ -60,17 +60,17 @@ pub fn compare(
     orders::observe_orders(&mut rows, &judge.targets, !truth.jumps && horizon.is_none());
     tell("run times");
     measure_run_times(&case, &mut rows);
-    let Comparison { kept, events, targets, .. } = judge;
+    let Comparison { conserved, events, targets, .. } = judge;
     let known_to_end = |x: f64| if horizon.is_none() { x } else { f64::NAN };
     let mut report = Report {
-        nearby: horizon.map(|_| events::nearby(&case, &targets, ladder.own)).transpose()?,
+        nearby: horizon.map(|_| events::nearby(&case, &targets, ladder.timestep)).transpose()?,
         beside: options.beside.as_ref().map(|r| r.judge(&case, &truth, &targets)).transpose()?,
         events,
         length: case.length(),
         samples: case.count,
         left_out: case.left_out,
-        energy: kept.energy,
-        momentum: kept.momentum,
+        energy: conserved.energy,
+        momentum: conserved.momentum,
         penetration: known_to_end(truth.run.penetration),
         penetration_doubt: known_to_end(truth.depth_doubt),
         reference: Some(truth.how),
@@ -88,7 +88,7 @@ pub fn compare(
 fn find_reference(case: &mut PrecisionCase<'_>, ladder: &Ladder) -> Result<Option<Reference>, RunError> {
     for samples in ladder.samplings() {
         (case.interval, case.count) = samples;
-        let reference = reference::reference(case, ladder.own)?;
+        let reference = reference::reference(case, ladder.timestep)?;
         if reference.is_some() || interrupt::requested() {
             return Ok(reference);
         }
@@ -123,12 +123,12 @@ fn prepare(case: &mut PrecisionCase<'_>, options: &Options) -> Result<Ladder, Ru
             labspec::report::printable(&who)
         )));
     }
-    let (own, integrator) = {
+    let (timestep, integrator) = {
         let session = case.start(None)?;
         (session.world.model.opt.timestep, Integrator::of(&session.world.model))
     };
     let length = options.until.or(case.lab.stop_at.as_ref().map(|s| s.value)).unwrap_or(RUN_LENGTH);
-    let ladder = Ladder::new(case.lab, own, integrator, length)?;
+    let ladder = Ladder::new(case.lab, timestep, integrator, length)?;
     // A press between would come at another time in each run.
     let coarse = ladder.coarse();
     for (_, time) in &mut case.presses {
@@ -145,7 +145,7 @@ struct Comparison<'j, 'a> {
     truth: &'j Reference,
     targets: Vec<Compared>,
     events: Vec<Event>,
-    kept: Conserved,
+    conserved: Conserved,
     /// The part of the run before the horizon of the truth.
     part: f64,
 }
@@ -183,11 +183,12 @@ impl Comparison<'_, '_> {
         };
         Ok(Row {
             setting: *setting,
-            own: self.ladder.is_own(setting),
+            is_own: self.ladder.is_own(setting),
             errors,
             events: events::offs(&run, &self.events),
-            energy: self.kept.energy.map(|_| change(&run.energy, self.part)),
-            momentum: [0, 1].map(|k| self.kept.momentum[k].map(|_| self.kept.change(&run, k, self.part))),
+            energy: self.conserved.energy.map(|_| change(&run.energy, self.part)),
+            momentum: [0, 1]
+                .map(|k| self.conserved.momentum[k].map(|_| self.conserved.change(&run, k, self.part))),
             penetration: if self.part < 1.0 { f64::NAN } else { run.penetration },
             cost: RunCost::of_work(run.work),
             fate: run.fate,
@@ -213,7 +214,7 @@ fn without_reference(
         let run = case.run(setting, RunRequest::default())?;
         rows.push(Row {
             setting: *setting,
-            own: ladder.is_own(setting),
+            is_own: ladder.is_own(setting),
             errors: Vec::new(),
             events: Vec::new(),
             energy: None,

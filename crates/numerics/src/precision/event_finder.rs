@@ -299,7 +299,7 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
     let mut at_high = bench.value(from - 1, 0.0, i, evaluate) * side;
     // The step made again has to end where it did.
     let again = bench.value(from, h, i, evaluate) * side;
-    let missed = (again - at_high).abs();
+    let residual = (again - at_high).abs();
     if again > 0.0 {
         return None;
     }
@@ -329,8 +329,8 @@ fn passage(bench: &mut StepReplay<'_>, i: usize, side: f64, evaluate: &Evaluate<
     let delta = 0.02 * h;
     let [a, b] = [(high - delta).max(0.0), (high + delta).min(h)];
     let slope = (bench.value(from, b, i, evaluate) - bench.value(from, a, i, evaluate)).abs() / (b - a);
-    let size = bench.size.max(missed);
-    let rounding = (8.0 * f64::EPSILON * size + missed) / slope.max(f64::MIN_POSITIVE);
+    let size = bench.size.max(residual);
+    let rounding = (8.0 * f64::EPSILON * size + residual) / slope.max(f64::MIN_POSITIVE);
     let doubt = (high - low) + rounding.min(2.0 * h);
     Some(EventTime { at: start + 0.5 * (low + high), doubt, slope, top: false })
 }

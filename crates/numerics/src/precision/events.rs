@@ -37,13 +37,13 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
     let n = case.targets.len();
     let all = targets.iter().filter_map(|t| t.until).reduce(f64::min);
     let contact = if truth.run.touching { "first new contact" } else { "first contact" };
-    let event = |(i, known): (usize, &KnownEvent)| {
+    let event = |(i, exact_event): (usize, &KnownEvent)| {
         let target = i.checked_sub(1).and_then(|k| targets.get(k % n.max(1)));
         let name = match target {
             None => contact.to_string(),
             Some(t) if i <= n => format!("\"{}\" passes through zero", t.label),
             Some(t) => {
-                let which = if known.top { "maximum" } else { "minimum" };
+                let which = if exact_event.top { "maximum" } else { "minimum" };
                 format!("first {which} of \"{}\"", t.label)
             }
         };
@@ -52,8 +52,8 @@ pub(super) fn events(case: &PrecisionCase<'_>, truth: &Reference, targets: &[Com
         let again =
             i.checked_sub(1).map(|k| k % n.max(1)).is_some_and(|k| (0..k).any(|j| text(j) == text(k)));
         let horizon = target.map_or(all, |t| if t.blank { Some(0.0) } else { t.until });
-        match !again && horizon.is_none_or(|until| known.at + known.doubt <= until) {
-            true => Event { name, time: known.at, uncertain: known.doubt },
+        match !again && horizon.is_none_or(|until| exact_event.at + exact_event.doubt <= until) {
+            true => Event { name, time: exact_event.at, uncertain: exact_event.doubt },
             false => Event { name, time: f64::NAN, uncertain: f64::NAN },
         }
     };
@@ -71,8 +71,12 @@ pub(super) fn offs(run: &Run, events: &[Event]) -> Vec<f64> {
 }
 
 /// How long two starts that nobody could tell apart show the same.
-pub(super) fn nearby(case: &PrecisionCase<'_>, targets: &[Compared], own: f64) -> Result<Nearby, RunError> {
-    let setting = Setting { integrator: method(integrator::RKMK8), timestep: own / 2.0, solver: None };
+pub(super) fn nearby(
+    case: &PrecisionCase<'_>,
+    targets: &[Compared],
+    timestep: f64,
+) -> Result<Nearby, RunError> {
+    let setting = Setting { integrator: method(integrator::RKMK8), timestep: timestep / 2.0, solver: None };
     let (one, other) = (
         case.run(&setting, RunRequest::FRESH)?,
         case.run(&setting, RunRequest { perturbation: NUDGE, ..RunRequest::FRESH })?,

@@ -2,7 +2,7 @@
 //! step, and a table of runs with halved steps is extrapolated to a step of nothing (Aitken and Neville; Hairer, Nørsett and Wanner
 //! 1993, *Solving Ordinary Differential Equations I*, section II.9). Steps in which controls jump are cut at the jump.
 
-use super::agreement::{Reference, agree, known, run, so_far, too_long, worst_part};
+use super::agreement::{Reference, agree, agreed, run, so_far, too_long, worst_part};
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::event_time::EventTime;
@@ -57,8 +57,8 @@ impl BestEntry {
 }
 
 /// The reference of a lab with a controller.
-pub(super) fn extrapolated(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
-    let first = (own / 2.0).min(case.interval);
+pub(super) fn extrapolated(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
+    let first = (timestep / 2.0).min(case.interval);
     let ask = RunRequest { cut: true, ..RunRequest::FRESH };
     let Some(look) = run(case, integrator::RKMK8, first, ask)? else { return Ok(None) };
     let sought = EventThresholds::for_values(&look.values);
@@ -127,7 +127,7 @@ fn finish(
         seen.moments.iter().zip(moments).map(one).collect()
     };
     let (fine, rough) = (at(&entry.moments, true), at(&coarse.moments, false));
-    let moments = known(case, &uncertain, [&fine, &rough], case.length() / step);
+    let moments = agreed(case, &uncertain, [&fine, &rough], case.length() / step);
     let how = format!(
         "rkmk8{} with the controller at steps from {} to {} ms, extrapolated to none",
         if other.is_some() { " (and gauss)" } else { "" },

@@ -84,8 +84,8 @@ impl Compared {
 
     /// The most and the least that a student may see of an error at one sample, where the truth is `exact` to within `doubt`; in
     /// times of what nobody sees.
-    fn in_sight(&self, shown: f64, exact: f64, doubt: f64) -> [f64; 2] {
-        let error = (shown - exact).abs();
+    fn in_sight(&self, displayed: f64, exact: f64, doubt: f64) -> [f64; 2] {
+        let error = (displayed - exact).abs();
         let parts = |unit: f64| {
             [error + doubt, error - doubt]
                 .map(|e| if e <= 0.0 { 0.0 } else { e / unit.max(f64::MIN_POSITIVE) })
@@ -96,7 +96,7 @@ impl Compared {
         // Digits: a number that is within its doubt of the next one may show as either.
         let slack = doubt + DIGITS_ROUND * self.size;
         let print = |x: f64| printed(x, self.digits);
-        let (low, now, high) = (print(exact - slack), print(shown), print(exact + slack));
+        let (low, now, high) = (print(exact - slack), print(displayed), print(exact + slack));
         let unit = 2.0 * self.unseen;
         let [most, least] = parts(unit);
         if !(low..=high).contains(&now) {
@@ -119,7 +119,7 @@ const DIGITS_ROUND: f64 = 1e-12;
 const CONSTANT: f64 = 1e-6;
 
 /// What the targets of a case are held against; `own` is the run as the lab has it.
-pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Run) -> Vec<Compared> {
+pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own_run: &Run) -> Vec<Compared> {
     let one = |(i, target): (usize, &ComparedNumber<'_>)| {
         let closed = target.exact.is_some();
         let values = if closed { &reference.run.exact[i] } else { &reference.values[i] };
@@ -128,10 +128,10 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Ru
         // A run that breaks is no measure of what a plot hides; one of a number that should not change is.
         let mut range_of = range(values);
         if range_of <= CONSTANT * whole {
-            let mine = if own.fate == Fate::Good { range(&own.values[i]) } else { 0.0 };
+            let mine = if own_run.fate == Fate::Good { range(&own_run.values[i]) } else { 0.0 };
             range_of = range_of.max(if mine > 0.0 { mine } else { whole });
         }
-        let unseen = target.shown.unseen(range_of);
+        let unseen = target.display.unseen(range_of);
         let enough = (KNOWN * range_of).max(UNSEEN * unseen).max(ROUNDING);
         let certain = uncertain.partition_point(|u| *u <= enough);
         let blank = values.first().is_none_or(|x| !x.is_finite());
@@ -143,7 +143,8 @@ pub(super) fn compared(case: &PrecisionCase<'_>, reference: &Reference, own: &Ru
         let cut = samples < values.len() && !blank;
         let size = values.iter().take(samples).fold(0.0f64, |a, x| a.max(x.abs()));
         let most = if closed || samples == 0 { 0.0 } else { uncertain[samples - 1] };
-        let digits = if let DisplayPrecision::Decimals(digits) = target.shown { Some(digits) } else { None };
+        let digits =
+            if let DisplayPrecision::Decimals(digits) = target.display { Some(digits) } else { None };
         Compared {
             label: target.label.clone(),
             unit: target.unit.clone(),
@@ -180,8 +181,8 @@ pub(super) fn errors(
         let both = run.values[i].iter().zip(truth.iter().step_by(apart)).take(compared);
         let mut e =
             Errors { largest: 0.0, at: 0.0, rms: 0.0, samples: compared, seen: [0.0; 2], ..Errors::NONE };
-        for (k, (&shown, &exact)) in both.enumerate() {
-            let d = (shown - exact).abs();
+        for (k, (&displayed, &exact)) in both.enumerate() {
+            let d = (displayed - exact).abs();
             if d.is_nan() {
                 return Errors::NONE;
             }
@@ -194,7 +195,7 @@ pub(super) fn errors(
                 true => 0.0,
                 false => reference.uncertain[i].get(k * stride).copied().unwrap_or(target.doubt),
             };
-            let [most, least] = target.in_sight(shown, exact, doubt);
+            let [most, least] = target.in_sight(displayed, exact, doubt);
             e.seen = [e.seen[0].max(most), e.seen[1].max(least)];
             e.wrong += usize::from(least > 1.0);
         }

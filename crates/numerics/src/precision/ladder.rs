@@ -18,7 +18,7 @@ const FEWEST: f64 = 8.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ladder {
     /// The lab's own timestep and integrator.
-    pub(super) own: f64,
+    pub(super) timestep: f64,
     pub(super) integrator: Integrator,
     /// The longest of the steps that are always tried, as a multiple of the lab's own; and how many of them the run has.
     longest: f64,
@@ -31,25 +31,30 @@ impl Ladder {
     ///
     /// # Errors
     /// The run is too long, or the runs together are.
-    pub(super) fn new(lab: &Lab, own: f64, integrator: Integrator, length: f64) -> Result<Ladder, RunError> {
-        run::count_steps(lab, Some(length), None, own)?;
-        let fits = |s: &f64| length >= FEWEST * own * s || *s == 1.0;
+    pub(super) fn new(
+        lab: &Lab,
+        timestep: f64,
+        integrator: Integrator,
+        length: f64,
+    ) -> Result<Ladder, RunError> {
+        run::count_steps(lab, Some(length), None, timestep)?;
+        let fits = |s: &f64| length >= FEWEST * timestep * s || *s == 1.0;
         let longest = STEPS.into_iter().find(fits).unwrap_or(1.0);
-        let count = run::count_steps(lab, Some(length), None, own * longest)?.max(1);
+        let count = run::count_steps(lab, Some(length), None, timestep * longest)?.max(1);
         if count as f64 * (longest / STEPS[5]) > run::MAX_STEPS as f64 {
             return Err(RunError("the runs would take too many steps; shorten them with --until".into()));
         }
-        Ok(Ladder { own, integrator, longest, count, length })
+        Ok(Ladder { timestep, integrator, longest, count, length })
     }
 
     /// The longest step that is always tried, s.
     pub(super) fn coarse(&self) -> f64 {
-        self.own * self.longest
+        self.timestep * self.longest
     }
 
     /// Times between samples of the truth, and their numbers.
     pub(super) fn samplings(&self) -> impl Iterator<Item = (f64, usize)> + use<> {
-        samplings(self.count, self.longest, self.own)
+        samplings(self.count, self.longest, self.timestep)
     }
 
     /// The step of twice the length, where a run has enough of them and every press is between two of them.
@@ -61,7 +66,7 @@ impl Ladder {
 
     /// Whether a setting is the lab's own.
     pub(super) fn is_own(&self, setting: &Setting) -> bool {
-        setting.solver.is_none() && setting.integrator == self.integrator && setting.timestep == self.own
+        setting.solver.is_none() && setting.integrator == self.integrator && setting.timestep == self.timestep
     }
 
     /// The settings that are compared: each integrator over the ladder, then the solver at the lab's own.
@@ -70,13 +75,13 @@ impl Ladder {
             [] => INTEGRATORS.into_iter().filter(|i| i.shared).collect(),
             some => some.to_vec(),
         };
-        let (own, longest) = (self.own, self.longest);
+        let (timestep, longest) = (self.timestep, self.longest);
         let steps = |integrator: Integrator| {
             let steps = STEPS.into_iter().filter(move |s| *s <= longest);
-            steps.map(move |s| Setting { integrator, timestep: s * own, solver: None })
+            steps.map(move |s| Setting { integrator, timestep: s * timestep, solver: None })
         };
         let mut list: Vec<Setting> = named.into_iter().flat_map(steps).collect();
-        let mine = Setting { integrator: self.integrator, timestep: own, solver: None };
+        let mine = Setting { integrator: self.integrator, timestep, solver: None };
         if !list.contains(&mine) {
             list.push(mine);
         }
@@ -88,7 +93,7 @@ impl Ladder {
 
 /// Times between samples of the truth, s, and their numbers. First as short as the shortest step, so that each run is compared after
 /// every step of its own; longer ones follow, for labs that last too long for that or whose truth takes too much work.
-fn samplings(count: usize, longest: f64, own: f64) -> impl Iterator<Item = (f64, usize)> {
+fn samplings(count: usize, longest: f64, timestep: f64) -> impl Iterator<Item = (f64, usize)> {
     let number = move |step: f64| count * (longest / step) as usize;
     let few = move |step: &f64| number(*step) <= MOST_SAMPLES || *step == longest;
     let mut steps: Vec<f64> = STEPS.into_iter().rev().filter(|s| *s <= longest).filter(few).collect();
@@ -97,7 +102,7 @@ fn samplings(count: usize, longest: f64, own: f64) -> impl Iterator<Item = (f64,
     steps.truncate(useful);
     steps.into_iter().map(move |step| {
         let stride = number(step).div_ceil(MOST_SAMPLES).max(1);
-        (own * step * stride as f64, number(step).div_ceil(stride))
+        (timestep * step * stride as f64, number(step).div_ceil(stride))
     })
 }
 
@@ -109,13 +114,13 @@ mod tests {
     proptest! {
         /// All steps of a comparison meet all samples of its truth, or all of its samples.
         #[test]
-        fn steps_meet_the_samples(count in 1usize..3_000_000, longest in prop::sample::select(&STEPS[..3]), own in 1e-5..0.1f64) {
+        fn steps_meet_the_samples(count in 1usize..3_000_000, longest in prop::sample::select(&STEPS[..3]), timestep in 1e-5..0.1f64) {
             let mut before = 0.0;
-            for (interval, number) in samplings(count, longest, own) {
+            for (interval, number) in samplings(count, longest, timestep) {
                 prop_assert!(interval > before && (1..=MOST_SAMPLES).contains(&number));
-                prop_assert!(interval * number as f64 >= 0.999_999 * own * longest * count as f64);
+                prop_assert!(interval * number as f64 >= 0.999_999 * timestep * longest * count as f64);
                 for step in STEPS.into_iter().filter(|s| *s <= longest) {
-                    let ratio = (own * step / interval).max(interval / (own * step));
+                    let ratio = (timestep * step / interval).max(interval / (timestep * step));
                     prop_assert!((ratio - ratio.round()).abs() < 1e-9, "{interval} {step}");
                 }
                 before = interval;

@@ -5,7 +5,7 @@
 //! continuous controller with the powers of the step: a table of ever shorter steps is extrapolated to a step of nothing
 //! (`extrapolation.rs`).
 
-use super::agreement::{Reference, UNKNOWN, agree, known, method, run, so_far, too_long, worst_part};
+use super::agreement::{Reference, UNKNOWN, agree, agreed, method, run, so_far, too_long, worst_part};
 use super::case::PrecisionCase;
 use super::event_finder::EventThresholds;
 use super::extrapolation::extrapolated;
@@ -24,8 +24,8 @@ const TRIES: usize = 5;
 ///
 /// # Errors
 /// A control that cannot be set so.
-pub(super) fn reference(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
-    if case.controlled() { extrapolated(case, own) } else { direct(case, own) }
+pub(super) fn reference(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
+    if case.controlled() { extrapolated(case, timestep) } else { direct(case, timestep) }
 }
 
 /// A method and a step.
@@ -37,15 +37,15 @@ struct AgreeingRuns {
     ways: [MethodStep; 2],
 }
 
-fn direct(case: &PrecisionCase<'_>, own: f64) -> Result<Option<Reference>, RunError> {
+fn direct(case: &PrecisionCase<'_>, timestep: f64) -> Result<Option<Reference>, RunError> {
     let mut first = None;
-    for way in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, own / 16.0)] {
+    for way in [(integrator::ADAPTIVE, case.interval), (integrator::GAUSS, timestep / 16.0)] {
         if first.is_none() && !too_long(case, way.1) {
             first = run(case, way.0, way.1, RunRequest::FRESH)?.map(|run| (way, run));
         }
     }
     let mut best: Option<AgreeingRuns> = None;
-    let mut step = own.min(case.interval);
+    let mut step = timestep.min(case.interval);
     for _ in 0..TRIES {
         if too_long(case, step) {
             break;
@@ -105,7 +105,7 @@ fn find_moments(case: &PrecisionCase<'_>, pair: &mut AgreeingRuns) -> Result<(),
     if let [a, b] = found.as_slice() {
         r.run.touching = a.touching;
         let steps = case.length() / pair.ways[0].1.min(pair.ways[1].1);
-        r.moments = known(case, &r.uncertain, [&a.moments, &b.moments], steps);
+        r.moments = agreed(case, &r.uncertain, [&a.moments, &b.moments], steps);
     }
     Ok(())
 }

@@ -33,7 +33,7 @@ pub struct Row {
     /// What was run.
     pub setting: Setting,
     /// Whether it is the lab's own.
-    pub own: bool,
+    pub is_own: bool,
     /// How far each number is from the truth.
     pub errors: Vec<Errors>,
     /// How far each event is from its time, s: never below what that may be off; NaN where it is not known.

@@ -172,7 +172,7 @@ impl<'a> MeasuredLab<'a> {
                 let laps = core::laps(&mut session.world.data);
                 let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;
                 let net = |lap: core::StageTime| (lap.time as f64 - lap.runs as f64 * looking).max(0.0);
-                let stages = plan.decisions().iter().map(|d| net(laps.of(d.stage)));
+                let stages = plan.decisions().iter().map(|d| net(laps.stage_time(d.stage)));
                 // The clock was looked at for the controller, too.
                 let clock = if controlled { programs + 2.0 * look * steps as f64 } else { 0.0 };
                 let between = (net(laps.between) - clock).max(0.0);
@@ -291,7 +291,7 @@ fn look_at(case: &mut MeasuredLab<'_>, plan: &Plan) -> Result<(StepCost, Vec<f64
     let steps = case.steps.max(1) as f64;
     let [in_reach, contacts, rows, iterations] = seen.map(|[sum, most]| [sum / steps, most]);
     let laps = core::laps(&mut session.world.data);
-    let works = plan.decisions().iter().map(|d| laps.of(d.stage).work as f64 / steps);
+    let works = plan.decisions().iter().map(|d| laps.stage_time(d.stage).work as f64 / steps);
     let step = StepCost {
         steps: case.steps,
         work: (core::cost(&session.world.data) - before) as f64 / steps,

@@ -35,10 +35,10 @@ pub(super) struct Runs {
 pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[Stated]) -> Runs {
     let of_question: Vec<Stated> =
         numbers.iter().filter(|n| question.span.contains(&n.span.start) && !n.answer).cloned().collect();
-    let said: Vec<Stated> =
+    let stated: Vec<Stated> =
         of_question.iter().filter(|n| n.span.end <= question.q.span().end).cloned().collect();
     // What the question itself names; what only its options and explanation name says what comes of it.
-    let mut all = trials(lab, &said);
+    let mut all = trials(lab, &stated);
     let base = all.first().cloned();
     for control in &lab.controls {
         if let Some(base) = &base {
@@ -57,7 +57,7 @@ pub(super) fn runs(question: &Question, asked: &str, lab: &Lab, numbers: &[State
             t.until = t.until.or(lab.stop_at.is_none().then_some(ROUTINE));
         }
     }
-    let pairs = pairs(&all, asked, lab, &said);
+    let pairs = pairs(&all, asked, lab, &stated);
     Runs { trials: all, pairs }
 }
 
@@ -87,10 +87,10 @@ fn changed(control: &Control, asked: &str, base: &Trial) -> Option<Trial> {
 }
 
 /// Before and after, in the order in which the question names them; what it does not name is as it stands, before.
-fn pairs(all: &[Trial], asked: &str, lab: &Lab, said: &[Stated]) -> Vec<(usize, usize)> {
+fn pairs(all: &[Trial], asked: &str, lab: &Lab, stated: &[Stated]) -> Vec<(usize, usize)> {
     let place = |t: &Trial| {
         let (x, unit) = t.named?;
-        said.iter().position(|n| n.dimension.agrees(&unit) && (si(n) - x).abs() <= 1e-9 * x.abs())
+        stated.iter().position(|n| n.dimension.agrees(&unit) && (si(n) - x).abs() <= 1e-9 * x.abs())
     };
     let mut list = Vec::new();
     for (i, a) in all.iter().enumerate().skip(1) {

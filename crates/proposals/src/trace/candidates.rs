@@ -191,12 +191,12 @@ fn forces(m: &Model) -> Vec<DisplayedNumber> {
             joint::SLIDE => newton,
             _ => continue,
         };
-        for (what, said) in [
+        for (what, description) in [
             ("bias", "weight gravity load"),
             ("constraint", "limit contact stop"),
             ("actuator", "motor servo"),
         ] {
-            let words = format!("{name} force torque {said}");
+            let words = format!("{name} force torque {description}");
             all.push(DisplayedNumber {
                 text: format!("data.qfrc_{what}[{dof}]"),
                 dimension,
@@ -285,12 +285,12 @@ fn constants(m: &Model, all: &mut Vec<Candidate>) {
 }
 
 /// How deep something lies in the ground at its coordinate 0: a size less a height.
-fn depths(m: &Model, shown: &[DisplayedNumber], all: &mut Vec<Candidate>) {
+fn depths(m: &Model, displayed: &[DisplayedNumber], all: &mut Vec<Candidate>) {
     let Some(metre) = labspec_bind::units::parse("m") else { return };
     let geoms =
         m.names.geom.iter().zip(&m.geom_type).filter(|(name, kind)| simple(name) && **kind == geom::SPHERE);
     for (name, _) in geoms.take(PAIRS) {
-        for x in shown.iter().filter(|x| x.dimension == metre) {
+        for x in displayed.iter().filter(|x| x.dimension == metre) {
             for (how, cost) in [("final", 3.0), ("min", 3.2)] {
                 let text = format!("model.geom('{name}').size[0] - {how}({})", x.text);
                 add(

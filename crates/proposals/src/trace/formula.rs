@@ -371,13 +371,13 @@ mod tests {
     }
 
     fn value(text: &str, number: &str) -> Option<f64> {
-        let known =
+        let bindings =
             [("d", 0.95), ("g", 9.81), ("h", 0.005), ("t", 0.5), ("v_0", 4.3), ("z_0", 1.0), ("r", 0.05)];
-        let known: Vec<Binding> = known
+        let bindings: Vec<Binding> = bindings
             .iter()
             .map(|(name, value)| Binding { name: (*name).into(), value: *value, at: 0 })
             .collect();
-        before(&stated(text, number, 9)?, &known).map(|w| w.value)
+        before(&stated(text, number, 9)?, &bindings).map(|w| w.value)
     }
 
     #[test]

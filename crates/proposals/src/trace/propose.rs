@@ -140,7 +140,7 @@ impl ProposedVerify {
     }
 
     fn is_run(&self, name: &str) -> bool {
-        self.runs.values().any(|(known, _)| known == name)
+        self.runs.values().any(|(run_name, _)| run_name == name)
     }
 
     fn is_measure(&self, value: &str) -> bool {

@@ -323,7 +323,7 @@ impl<'n> NumberContext<'n> {
             // "29 mm at h = 2 ms" is no number of a run at 10 ms.
             let others = || all.iter().filter(|t| t.sets_what(trial)).filter_map(|t| Some(t.named?.0));
             let another = |n: &&Stated| {
-                n.dimension.agrees(&unit) && others().chain(trial.own).any(|other| close(si(n), other))
+                n.dimension.agrees(&unit) && others().chain(trial.nominal).any(|other| close(si(n), other))
             };
             return match () {
                 () if self.beside.iter().any(|n| is(&n)) => 0.0,

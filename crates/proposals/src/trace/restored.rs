@@ -45,12 +45,12 @@ fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     for write in writes {
         let field = FieldId::new(write.field.0 as usize).filter(|f| of_model(Some(*f)));
         let Some(field) = field.filter(|_| !set.contains(&write.field)) else { continue };
-        let (own, now) = (model.field(field)?, session.world.model.field(field)?);
-        let end = write.count.map_or(own.len(), |n| write.first + n).min(own.len());
+        let (initial, now) = (model.field(field)?, session.world.model.field(field)?);
+        let end = write.count.map_or(initial.len(), |n| write.first + n).min(initial.len());
         for i in write.first..end {
-            let (own, now) = (own.get(i)?, now.get(i)?);
-            let statement = format!("{} = {own}", element(field, i));
-            if own != now && own.is_finite() && !all.contains(&statement) {
+            let (initial, now) = (initial.get(i)?, now.get(i)?);
+            let statement = format!("{} = {initial}", element(field, i));
+            if initial != now && initial.is_finite() && !all.contains(&statement) {
                 all.push(statement);
             }
         }

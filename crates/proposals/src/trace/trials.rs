@@ -29,7 +29,7 @@ pub(crate) struct Trial {
     /// What is set, in SI units, to be found in the text.
     pub(crate) named: Option<(f64, Dimension)>,
     /// What the lab has there itself, in SI units.
-    pub(crate) own: Option<f64>,
+    pub(crate) nominal: Option<f64>,
     /// The words of an option or a button, to be found in the text.
     pub(crate) label: String,
 }
@@ -52,7 +52,7 @@ pub(crate) fn trials(lab: &Lab, numbers: &[Stated]) -> Vec<Trial> {
         restored: None,
         until: (lab.stop_at.is_none() && length > RUN_LENGTH).then_some(length),
         named: None,
-        own: None,
+        nominal: None,
         label: String::new(),
     };
     let mut all = vec![base.clone()];
@@ -102,7 +102,7 @@ fn add_control_trials(control: &Control, numbers: &[Stated], base: &Trial, all: 
                         words: format!("with \"{label}\" at {x}"),
                         set: vec![(label.to_string(), scalar)],
                         named: Some((x / unit.factor, unit.times(1.0 / unit.factor))),
-                        own: Some(start.value / unit.factor),
+                        nominal: Some(start.value / unit.factor),
                         ..base.clone()
                     });
                 }

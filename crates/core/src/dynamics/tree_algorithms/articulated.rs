@@ -103,7 +103,7 @@ fn covers(m: &Model, tree: usize) -> bool {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let span = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             // Bodies are numbered depth first: those of a tree follow each other.
@@ -113,7 +113,7 @@ impl Trees {
             let fixed = (root..end).rev().filter(still).map(|b| (b, m.body_parentid[b] as usize));
             Span { dofs, bodies: root..end, fixed: fixed.collect() }
         };
-        let (bodies, joints) = if own.factors.is_empty() { (0, 0) } else { (m.nbody, m.nv) };
+        let (bodies, joints) = if assignment.factors.is_empty() { (0, 0) } else { (m.nbody, m.nv) };
         let link = |k: usize| {
             let body = m.dof_bodyid[k] as usize;
             let first = m.body_dofadr[body] == k as i32;
@@ -121,7 +121,7 @@ impl Trees {
             Link { body, carrier: carrier.filter(|_| first), first }
         };
         Trees {
-            spans: own.factors.iter().map(span).collect(),
+            spans: assignment.factors.iter().map(span).collect(),
             untied: true,
             links: (0..joints).map(link).collect(),
             bodies: vec![[Body::default(); 2]; bodies],
@@ -149,9 +149,9 @@ impl Passes<'_> {
             }
         }
         for &(body, carrier) in &self.span.fixed {
-            let Some((own, up)) = with_carrier(bodies, body, carrier) else { continue };
+            let Some((here, up)) = with_carrier(bodies, body, carrier) else { continue };
             for i in A..B {
-                add_to(&mut up[i].inertia, &own[i].inertia);
+                add_to(&mut up[i].inertia, &here[i].inertia);
             }
         }
         let mut bad = None;
@@ -166,11 +166,11 @@ impl Passes<'_> {
             if X {
                 inward_pass::<A, B>(bodies, link, s, joint);
             }
-            let Some((own, up)) = link.carrier.and_then(|c| with_carrier(bodies, link.body, c)) else {
+            let Some((here, up)) = link.carrier.and_then(|c| with_carrier(bodies, link.body, c)) else {
                 continue;
             };
             for i in A..B {
-                add_to(&mut up[i].inertia, &own[i].inertia);
+                add_to(&mut up[i].inertia, &here[i].inertia);
             }
         }
         bad
@@ -208,10 +208,10 @@ impl Passes<'_> {
                 None if link.first => [[0.0; 8]; 2],
                 None => bodies[link.body].map(|body| body.acceleration),
             };
-            let own = &mut bodies[link.body];
+            let here = &mut bodies[link.body];
             for i in A..B {
                 joint[i].x -= joint[i].inv * dot(joint[i].u, before[i]);
-                own[i].acceleration = add_scaled(before[i], wide(s), joint[i].x);
+                here[i].acceleration = add_scaled(before[i], wide(s), joint[i].x);
             }
         }
     }
@@ -225,18 +225,18 @@ fn inward_pass<const A: usize, const B: usize>(
     s: &Spatial,
     joint: &mut [Joint; 2],
 ) {
-    let own = &mut bodies[link.body];
+    let here = &mut bodies[link.body];
     let mut forces = [[0.0; 8]; 2];
     for i in A..B {
-        joint[i].x = (joint[i].x - dot(wide(s), own[i].force)) * joint[i].inv;
-        forces[i] = add_scaled(own[i].force, joint[i].u, joint[i].x);
+        joint[i].x = (joint[i].x - dot(wide(s), here[i].force)) * joint[i].inv;
+        forces[i] = add_scaled(here[i].force, joint[i].u, joint[i].x);
     }
     match link.carrier {
         Some(carrier) => {
             let up = &mut bodies[carrier];
             (A..B).for_each(|i| up[i].force = add(up[i].force, forces[i]));
         }
-        None => (A..B).for_each(|i| own[i].force = forces[i]),
+        None => (A..B).for_each(|i| here[i].force = forces[i]),
     }
 }
 
@@ -316,9 +316,9 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
             for ((k, (joint, b)), (x, y)) in
                 dofs.clone().zip(numbers).zip(x[dofs.clone()].iter().zip(&y[dofs.clone()]))
             {
-                let own = mass::armature(m, k);
-                (joint[0].diagonal, joint[0].x) = (own, *x);
-                (joint[1].diagonal, joint[1].x) = (own + b, *y);
+                let armature = mass::armature(m, k);
+                (joint[0].diagonal, joint[0].x) = (armature, *x);
+                (joint[1].diagonal, joint[1].x) = (armature + b, *y);
             }
             let tree = Passes { span, links, cdof: rows(&d.cdof) };
             let bad = tree.factor::<0, 2, true>(rows(&d.cinert), bodies, joints);

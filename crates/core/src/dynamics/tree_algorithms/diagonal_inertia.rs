@@ -42,8 +42,8 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
-        let dofs: Vec<_> = own.forces.iter().map(|&tree| m.tree_dofs(tree)).collect();
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
+        let dofs: Vec<_> = assignment.forces.iter().map(|&tree| m.tree_dofs(tree)).collect();
         let mut joints: Vec<usize> =
             dofs.iter().cloned().flatten().map(|dof| m.dof_jntid[dof] as usize).collect();
         joints.dedup();

@@ -45,8 +45,12 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
-        Trees { frames: Frames::new(m), forces: spans(m, &own.forces), factors: spans(m, &own.factors) }
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
+        Trees {
+            frames: Frames::new(m),
+            forces: spans(m, &assignment.forces),
+            factors: spans(m, &assignment.factors),
+        }
     }
 }
 

@@ -200,17 +200,17 @@ fn sort(m: &Model, ways: TreeAlgorithms) -> (Selected, [Assignment; TABLE.len()]
     // The general way is always asked: bodies may be in no tree, and what it computes of bodies may be read.
     let always = TreeAlgorithms::GENERAL.with(TreeAlgorithm(GENERAL as u8));
     let mut taken = Selected { places: always, forces: always, factors: TreeAlgorithms::GENERAL };
-    let mut own = [(); TABLE.len()].map(|()| Assignment::default());
+    let mut assignments = [(); TABLE.len()].map(|()| Assignment::default());
     for tree in (0..m.ntree).filter(|&t| !m.tree_dofs(t).is_empty()) {
         let [places, forces, factors] = taken_by(m, ways, tree).map(|way| usize::from(way.0));
-        own[places].places.push(tree);
-        own[forces].forces.push(tree);
-        own[factors].factors.push(tree);
+        assignments[places].places.push(tree);
+        assignments[forces].forces.push(tree);
+        assignments[factors].factors.push(tree);
         taken.places = taken.places.with(TreeAlgorithm(places as u8));
         taken.forces = taken.forces.with(TreeAlgorithm(forces as u8));
         taken.factors = taken.factors.with(TreeAlgorithm(factors as u8));
     }
-    (taken, own)
+    (taken, assignments)
 }
 
 // What plans ask.

@@ -95,8 +95,8 @@ pub(super) fn is_planar(m: &Model, tree: usize) -> bool {
     if !is_chain(m, tree) {
         return false;
     }
-    let own = Assignment { forces: vec![tree], ..Assignment::default() };
-    Trees::new(m, &own).flat
+    let assignment = Assignment { forces: vec![tree], ..Assignment::default() };
+    Trees::new(m, &assignment).flat
 }
 
 impl Trees {
@@ -104,10 +104,10 @@ impl Trees {
         self.links.is_empty()
     }
 
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
-        let chains = chain::Trees::new(m, own);
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
+        let chains = chain::Trees::new(m, assignment);
         let (mut links, mut spans) = (0, Vec::new());
-        for &tree in &own.forces {
+        for &tree in &assignment.forces {
             let dofs = m.tree_dofs(tree);
             let n = dofs.len();
             spans.push(Span { dofs, links: links..links + n, plane: Default::default() });

@@ -89,9 +89,9 @@ pub(super) fn inward<const A: usize, const B: usize, const X: bool>(
             joint.inv = inv;
             joint.u = [link.sense * moment, link.sense * h[0], link.sense * h[1]];
             // I - U Uᵀ / D: of J and h there remains what the joint's own inertia is of D.
-            let (part, own) = (scale(h, inv), joint.diagonal * inv);
+            let (part, ratio) = (scale(h, inv), joint.diagonal * inv);
             let (xx, xy, yy) = (xx - h[0] * part[0], xy - h[0] * part[1], yy - h[1] * part[1]);
-            let (moment, h) = (moment * own, scale(h, own));
+            let (moment, h) = (moment * ratio, scale(h, ratio));
             let moved = [h[0] + xx * q[0] + xy * q[1], h[1] + xy * q[0] + yy * q[1]];
             body.moment = moment + dot(q, add(h, moved));
             (body.first, body.mass) = (moved, [xx, xy, yy]);

@@ -52,7 +52,7 @@ fn covers(m: &Model, tree: usize) -> bool {
 pub(super) struct Trees {
     slides: Vec<Slide>,
     /// Whether the rows of M that slides keep are those of their masses.
-    known: bool,
+    is_current: bool,
     /// The mass of each body, and of what it carries, itself included.
     masses: Vec<f64>,
     carried: Vec<f64>,
@@ -84,18 +84,18 @@ struct Factored {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let slide = |dof: usize| {
             let joint = m.dof_jntid[dof] as usize;
             let row = vec![0.0; rows_of_mass::row(m, dof).len()];
             Slide { dof, joint, body: m.jnt_bodyid[joint] as usize, row, ..Slide::default() }
         };
-        let slides = own.forces.iter().flat_map(|&tree| m.tree_dofs(tree)).map(slide).collect();
+        let slides = assignment.forces.iter().flat_map(|&tree| m.tree_dofs(tree)).map(slide).collect();
         let tree = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             Factored { rows: rows_of_mass::rows_of(m, dofs.clone()), dofs, ..Factored::default() }
         };
-        let factored = own.factors.iter().map(tree).collect();
+        let factored = assignment.factors.iter().map(tree).collect();
         let mut trees = Trees { slides, factored, ..Trees::default() };
         trees.load(m);
         trees
@@ -115,14 +115,14 @@ impl Trees {
         }
         for slide in &mut self.slides {
             let (mass, armature) = (self.carried[slide.body], rows_of_mass::armature(m, slide.dof));
-            self.known &= (slide.mass, slide.armature) == (mass, armature);
+            self.is_current &= (slide.mass, slide.armature) == (mass, armature);
             (slide.mass, slide.armature) = (mass, armature);
         }
     }
 
     /// Makes the rows of M again where masses or axes are others.
     fn update(&mut self, m: &Model, axes: &[Vec3]) {
-        if self.known && self.slides.iter().all(|slide| same_bits(&slide.axis, &axes[slide.joint])) {
+        if self.is_current && self.slides.iter().all(|slide| same_bits(&slide.axis, &axes[slide.joint])) {
             return;
         }
         for slide in &mut self.slides {
@@ -135,7 +135,7 @@ impl Trees {
                 *diagonal += slide.armature;
             }
         }
-        self.known = true;
+        self.is_current = true;
     }
 }
 

@@ -78,7 +78,7 @@ struct Body {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let body = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             let joint = m.dof_jntid[dofs.start] as usize;
@@ -95,7 +95,7 @@ impl Trees {
             body.load(m);
             body
         };
-        Trees { bodies: own.forces.iter().map(body).collect() }
+        Trees { bodies: assignment.forces.iter().map(body).collect() }
     }
 }
 

@@ -45,12 +45,12 @@ struct Tree {
 }
 
 impl Trees {
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let tree = |&tree: &usize| {
             let dofs = m.tree_dofs(tree);
             Tree { first: dofs.start, size: dofs.len(), row: m.M_rowadr[dofs.start] as usize }
         };
-        Trees { trees: own.factors.iter().map(tree).collect() }
+        Trees { trees: assignment.factors.iter().map(tree).collect() }
     }
 }
 

@@ -26,7 +26,7 @@ pub(crate) struct Work {
     /// That of actuators, dampers and the medium alone.
     forces: Vec<f64>,
     /// Whether `forces` is that of the model as it is, and of these slopes of actuators.
-    known: bool,
+    is_current: bool,
     actuators: Vec<f64>,
     /// The motion of a frame for a unit velocity of each degree of freedom that moves it.
     columns: Vec<Spatial>,
@@ -58,7 +58,7 @@ impl Work {
 
     /// The parameters of the model, or the plan, may be others.
     pub(crate) fn forget(&mut self) {
-        self.known = false;
+        self.is_current = false;
     }
 }
 
@@ -66,7 +66,7 @@ impl Work {
 ///
 /// Where all else is known once and for all, only the slopes of actuators may change: as long as they are the same, it stays.
 pub(crate) fn forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
-    if !(w.known && d.plan.has(PlanFlag::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
+    if !(w.is_current && d.plan.has(PlanFlag::SlopesStay) && !actuator_slope::find(m, d, &mut w.actuators)) {
         make_forces(m, d, w, medium);
     }
     w.whole.copy_from_slice(&w.forces);
@@ -84,7 +84,7 @@ fn make_forces(m: &Model, d: &Fields, w: &mut Work, medium: Medium) {
         let Work { forces, columns, .. } = w;
         add_fluid(m, d, columns, forces, medium);
     }
-    w.known = true;
+    w.is_current = true;
 }
 
 /// Subtracts the derivative of the bias force of all trees.

@@ -106,13 +106,13 @@ pub(crate) fn joint_damping(m: &Model, d: &Fields, i: usize) -> f64 {
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
-fn with_actuators(m: &Model, i: usize, own: Law) -> Law {
+fn with_actuators(m: &Model, i: usize, spring: Law) -> Law {
     let joint = m.dof_jntid[i] as usize;
     // Few joints have a damper of an actuator.
     if m.jnt_actuatorid[joint] == -1 {
-        return own;
+        return spring;
     }
-    own.plus(reflected::damping(m, On::Joint(joint)))
+    spring.plus(reflected::damping(m, On::Joint(joint)))
 }
 
 /// Fills `out` (nv) with a number for the damper and the velocity of each degree of freedom. Dampers of actuators count
@@ -127,11 +127,11 @@ pub(crate) fn of_dampers(
 ) {
     let n = out.len();
     let (linear, growth, v) = (&m.dof_damping[..n], &rows::<2>(&m.dof_dampingpoly)[..n], &qvel[..n]);
-    let own = |k: usize| Law { linear: linear[k], growth: growth[k] };
+    let law = |k: usize| Law { linear: linear[k], growth: growth[k] };
     if actuators {
-        (0..n).for_each(|k| out[k] = number(with_actuators(m, k, own(k)), v[k]));
+        (0..n).for_each(|k| out[k] = number(with_actuators(m, k, law(k)), v[k]));
     } else {
-        each(n, |k| out[k] = number(own(k), v[k]));
+        each(n, |k| out[k] = number(law(k), v[k]));
     }
 }
 

@@ -85,8 +85,8 @@ fn frame([a, b]: [Vec3; 2], shape: &Round) -> [Vec3; 3] {
 /// A direction across a line through the centre of a sphere: any plane through the line is as good. This one is MuJoCo's, as
 /// measured: its normal is across the line and, in the axes of the sphere, (1, 1, 1) without the line's largest component.
 fn across(line: Vec3, mat: &Mat3) -> Vec3 {
-    let own = mat_t_mul_vec(mat, line).map(f64::abs);
-    let largest = (1..3).fold(0, |most, i| if own[i] > own[most] { i } else { most });
+    let components = mat_t_mul_vec(mat, line).map(f64::abs);
+    let largest = (1..3).fold(0, |most, i| if components[i] > components[most] { i } else { most });
     let mut other = [1.0; 3];
     other[largest] = 0.0;
     normalize(cross(cross(line, mat_mul_vec(mat, other)), line)).0

@@ -84,9 +84,9 @@ pub(super) fn cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut V
     }
     add_contact(sub(down, end), height - to_end + to_rim);
     // A third of a turn to either side: cos 120° = -1/2, sin 120° = √3/2.
-    let aside = scale(cross(down, downwards), 0.75f64.sqrt());
+    let sideways = scale(cross(down, downwards), 0.75f64.sqrt());
     let behind = add_scaled(end, down, -0.5);
-    for side in [aside, scale(aside, -1.0)] {
+    for side in [sideways, scale(sideways, -1.0)] {
         add_contact(add(behind, side), height + to_end - 0.5 * to_rim);
     }
 }

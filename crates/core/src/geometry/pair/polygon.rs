@@ -85,7 +85,7 @@ pub(super) fn contacts(
 
 /// What two shapes that overlap along a direction share, when it is more than a point.
 fn patch(a: &Shape, b: &Shape, direction: Vec3) -> Option<Patch> {
-    let (of_a, of_b) = (Feature::of(a, direction), Feature::of(b, scale(direction, -1.0)));
+    let (of_a, of_b) = (Feature::facing(a, direction), Feature::facing(b, scale(direction, -1.0)));
     if let Some((fa, fb)) = facing(a, b, direction, &of_a, &of_b) {
         return Some(Patch {
             face: corners(a, fa.index),
@@ -160,7 +160,7 @@ fn lying_on(feature: &Feature, on: &Shape, other: &Feature) -> Option<(Corners, 
 
 impl Feature {
     /// The feature of a shape that is farthest in a direction.
-    fn of(s: &Shape, direction: Vec3) -> Feature {
+    fn facing(s: &Shape, direction: Vec3) -> Feature {
         let mut at_corner = Feature { dim: 1, faces: List::new(), edges: List::new() };
         let mut body = Convex::new(s);
         let corner = body.support(direction);

@@ -25,7 +25,7 @@ fn assets_scaled(text: &str, by: f64) -> Assets {
     let names: Vec<String> = assets.vert.keys().cloned().collect();
     for name in names {
         let mesh = assets.mesh(&name);
-        let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::of(mesh.vert, &hull));
+        let sides = mesh.hull.map_or_else(HullFaces::default, |hull| HullFaces::from_hull(mesh.vert, &hull));
         assets.sides.insert(name, sides);
     }
     if let Some((head, _)) = &mut assets.field {

@@ -165,8 +165,8 @@ fn solids() -> Vec<Solid> {
             graph: ints(parts[2]),
             sides: HullFaces::default(),
         };
-        let hull = crate::geometry::Hull::of(&solid.graph).unwrap();
-        solid.sides = HullFaces::of(&solid.vert, &hull);
+        let hull = crate::geometry::Hull::from_graph(&solid.graph).unwrap();
+        solid.sides = HullFaces::from_hull(&solid.vert, &hull);
         out.push(solid);
     }
     out
@@ -174,7 +174,7 @@ fn solids() -> Vec<Solid> {
 
 impl Solid {
     fn mesh(&self) -> Mesh<'_> {
-        let hull = crate::geometry::Hull::of(&self.graph);
+        let hull = crate::geometry::Hull::from_graph(&self.graph);
         Mesh { vert: &self.vert, face: &self.face, hull, sides: Some(&self.sides) }
     }
 }

@@ -44,15 +44,15 @@ pub(crate) fn finish(
 /// The range of each control.
 pub(crate) fn controls(a: &ActuatorSpec) -> Vec<RangeSpec> {
     let alike = |n: usize| vec![a.ctrl.clone(); n];
-    let own = |range: [f64; 2]| RangeSpec { flag: i32::from(range[0] < range[1]), range };
+    let with_flag = |range: [f64; 2]| RangeSpec { flag: i32::from(range[0] < range[1]), range };
     match a.gaintype {
         gaintype::SO3 => alike(if a.ctrlspec == inputs::QUAT { 4 } else { 3 }),
         gaintype::PID => listed(
             [inputs::POS, inputs::VEL, inputs::FF].into_iter().filter(|bit| a.ctrlspec & bit != 0).map(
                 |bit| match bit {
                     inputs::POS => a.ctrl.clone(),
-                    inputs::VEL => own(a.velrange),
-                    _ => own(a.ffrange),
+                    inputs::VEL => with_flag(a.velrange),
+                    _ => with_flag(a.ffrange),
                 },
             ),
         ),
@@ -75,13 +75,13 @@ impl Check<'_, '_> {
     /// An error at one of these attributes, or at the element when they stand in its class.
     fn error(&mut self, attribute: &str, message: &str) -> Said<'_> {
         let span = self.node.attribute(attribute).map_or(self.node.span.clone(), |a| a.span.clone());
-        let message = format!("{} {message}", self.node.shown());
+        let message = format!("{} {message}", self.node.describe());
         self.cx.report.error(rules::ACTUATOR, span, message)
     }
 
     fn limit(&mut self, limit: &mut RangeSpec, of: &limits::Limit) {
         let span = self.node.attribute(of.range).map_or(self.node.span.clone(), |a| a.span.clone());
-        let owner = self.node.shown();
+        let owner = self.node.describe();
         let given = limit.range != [0.0; 2];
         let limited = limits::decide(self.cx, limit.flag, given, limit.range, span, &owner, of);
         limit.flag = i32::from(limited);
@@ -94,9 +94,9 @@ impl Check<'_, '_> {
             gaintype::PID => a.ctrlspec == 0 || a.ctrlspec & inputs::POS != 0,
             _ => false,
         };
-        let own = if a.dyntype == dyntype::INTEGRATOR { &a.act } else { &a.ctrl };
+        let input_range = if a.dyntype == dyntype::INTEGRATOR { &a.act } else { &a.ctrl };
         // A range that is given, too, is reported where it is read.
-        let Some(target) = a.transmission.filter(|_| servo && own.range == [0.0; 2]) else { return };
+        let Some(target) = a.transmission.filter(|_| servo && input_range.range == [0.0; 2]) else { return };
         let at = usize::try_from(target.id[0]).unwrap_or(usize::MAX);
         let joints = || bodies.iter().flat_map(|b| &b.joints).nth(at);
         let scalar = |j: &JointSpec| matches!(j.kind, joint::SLIDE | joint::HINGE);
@@ -191,8 +191,8 @@ impl Check<'_, '_> {
             self.error("gainprm", "has an integral gain, but no state for the integral")
                 .help("write `dyntype=\"pid\"`, or use `pid` with `ki`");
         }
-        let known = inputs::POS | inputs::VEL | inputs::FF;
-        if a.ctrlspec & !known != 0 {
+        let supported = inputs::POS | inputs::VEL | inputs::FF;
+        if a.ctrlspec & !supported != 0 {
             self.error("input", "has inputs other than pos, vel and ff");
         }
         if a.dyntype == dyntype::PID && a.ctrlspec != 0 && a.ctrlspec & inputs::POS == 0 {
@@ -251,7 +251,7 @@ impl Check<'_, '_> {
     fn numbers(&mut self, a: &ActuatorSpec) {
         if a.nsample < 0 {
             let message =
-                format!("{} keeps a negative number of samples, so it keeps none", self.node.shown());
+                format!("{} keeps a negative number of samples, so it keeps none", self.node.describe());
             let span = self.node.attribute("nsample").map_or(self.node.span.clone(), |a| a.span.clone());
             self.cx.report.warning(rules::NO_EFFECT, span, message).help("remove `nsample`");
         }

@@ -135,7 +135,7 @@ pub(crate) fn length_ranges(m: &mut Model, list: &[ActuatorSpec], search: &Searc
                 format!("pulled for the maximum time, it still moves between {lower:.4} and {upper:.4}")
             }
         };
-        let message = format!("no length range is found for {}: {wrong}", spec.shown);
+        let message = format!("no length range is found for {}: {wrong}", spec.described);
         report
             .error(rules::ACTUATOR, spec.span.clone(), message)
             .why("the force of a muscle depends on its length within its possible range")

@@ -24,7 +24,7 @@ impl Overlay<'_> {
     pub(crate) fn zero_or_more(&mut self, attribute: &str) -> Option<f64> {
         let x = self.p.real(attribute)?;
         if x < 0.0 {
-            let owner = self.node.shown();
+            let owner = self.node.describe();
             self.error(attribute, format!("`{attribute}` of {owner} is {x}, but it must be zero or more"));
         }
         Some(x)

@@ -40,7 +40,7 @@ pub(crate) fn actuators(
         let mut spec = class.cloned().unwrap_or_else(unset);
         overlay(&mut spec, node, cx.report);
         spec.name = name(node);
-        (spec.span, spec.shown) = (node.span.clone(), node.shown());
+        (spec.span, spec.described) = (node.span.clone(), node.describe());
         spec.transmission = transmission(&spec, refs, node, cx.report);
         check_actuator::finish(&mut spec, cx, node, bodies, tendons);
         list.push(spec);
@@ -54,7 +54,7 @@ fn unset() -> ActuatorSpec {
     let auto = RangeSpec { flag: 2, range: [0.0; 2] };
     ActuatorSpec {
         span: 0..0,
-        shown: String::new(),
+        described: String::new(),
         name: String::new(),
         gaintype: gaintype::FIXED,
         gainprm: first(1.0),
@@ -89,7 +89,7 @@ fn unset() -> ActuatorSpec {
 /// Lays an element over an actuator: the attributes that all share, then what its name stands for.
 fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     let Some(set) = shortcut::find(node.element.name) else { return };
-    let p = Props::own(node);
+    let p = Props::written_props(node);
     a.gaintype = p.word("gaintype").unwrap_or(a.gaintype);
     a.biastype = p.word("biastype").unwrap_or(a.biastype);
     a.dyntype = p.word("dyntype").unwrap_or(a.dyntype);
@@ -141,7 +141,7 @@ fn transmission(
     node: &Node,
     report: &mut Report,
 ) -> Option<TransmissionSpec> {
-    let owner = node.shown();
+    let owner = node.describe();
     let given: Vec<_> = listed(TARGETS.iter().filter(|(name, ..)| node.attribute(name).is_some()));
     if let [.., (first, ..), (last, ..)] = given.as_slice() {
         let message = format!("{owner} has both `{first}` and `{last}`, and acts only on the latter");

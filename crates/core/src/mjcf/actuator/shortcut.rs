@@ -7,7 +7,7 @@ use super::overlay::Overlay;
 use super::shortcut_motor;
 use crate::kinds::{biastype, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
-use crate::mjcf::text::diagnostic::shown;
+use crate::mjcf::text::diagnostic::shorten_name;
 use std::f64::consts::PI;
 
 /// Writes an element's own attributes into an actuator.
@@ -95,7 +95,7 @@ fn servo(a: &mut ActuatorSpec, e: &mut Overlay) {
 fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
     let (kv, ratio) = (e.zero_or_more("kv"), e.zero_or_more("dampratio"));
     if kv.is_some() && ratio.is_some() {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error("dampratio", format!("{owner} has both `kv` and `dampratio`"))
             .why("`dampratio` is another way to give `kv`: 1 is critical damping")
             .help("remove one of them");
@@ -106,7 +106,7 @@ fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
         (None, None) => a.biasprm[2],
     };
     if a.biasprm[2] > 0.0 && a.biasprm[1] > 0.0 && ratio.is_some() {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error("dampratio", format!("{owner} has `dampratio` and a negative `kp`"))
             .why("critical damping belongs to a spring with stiffness `kp`, which cannot be negative")
             .help("write a positive `kp`, or `kv`");
@@ -116,7 +116,7 @@ fn damping(a: &mut ActuatorSpec, e: &mut Overlay) {
 /// A range that is given and taken from the target, too.
 fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay) {
     if inheritrange > 0.0 && range != [0.0; 2] {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error("inheritrange", format!("{owner} has both `{attribute}` and `inheritrange`"))
             .why(format!("`inheritrange` is another way to give `{attribute}`: the range of the target"))
             .help("remove one of them");
@@ -127,7 +127,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
 fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
     a.ctrl.flag = 1;
     if a.ctrl.range.iter().any(|&x| x < 0.0) {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         let [lower, upper] = a.ctrl.range;
         e.error(
             "ctrlrange",
@@ -142,8 +142,8 @@ fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
 fn pid(a: &mut ActuatorSpec, e: &mut Overlay) {
     input(&mut a.ctrlspec, Inputs::Servo, e);
     let stateful = a.dyntype == dyntype::PID;
-    let kept = |x: f64| if stateful { x } else { 0.0 };
-    let [ki, imax, slewmax] = [kept(a.gainprm[0]), kept(a.dynprm[0]), kept(a.dynprm[1])];
+    let if_stateful = |x: f64| if stateful { x } else { 0.0 };
+    let [ki, imax, slewmax] = [if_stateful(a.gainprm[0]), if_stateful(a.dynprm[0]), if_stateful(a.dynprm[1])];
     let ki = e.zero_or_more("ki").unwrap_or(ki);
     let imax = e.zero_or_more("imax").unwrap_or(imax);
     let slewmax = e.zero_or_more("slewmax").unwrap_or(slewmax);
@@ -240,12 +240,12 @@ fn input(spec: &mut i32, allowed: Inputs, e: &mut Overlay) {
     match read {
         Some(n) => *spec = n,
         None => {
-            let owner = e.node.shown();
+            let owner = e.node.describe();
             let help = match allowed {
                 Inputs::Chart => "write `expmap` (a rotation vector) or `quat`",
                 _ => "write some of `pos vel ff voltage`, in this order, or `none`",
             };
-            e.error("input", format!("`input` of {owner} is {}", shown(&text))).help(help);
+            e.error("input", format!("`input` of {owner} is {}", shorten_name(&text))).help(help);
         }
     }
 }

@@ -32,7 +32,7 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
 
     let [force, current, slope] = e.p.reals("saturation", [0.0, 0.0, a.dynprm[1]]);
     if force < 0.0 && current > 0.0 {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error("saturation", format!("`saturation` of {owner} begins with {force}"))
             .why("it is the largest force, which cannot be negative")
             .help("write 0 for a limit that follows from the current");
@@ -46,7 +46,7 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
 
     let [inductance, time] = e.p.reals("inductance", [0.0, a.dynprm[0]]);
     if inductance < 0.0 || time < 0.0 {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error("inductance", format!("`inductance` of {owner} is negative"))
             .why("it gives an inductance (H), or a time constant (s)");
     }
@@ -87,7 +87,7 @@ fn thermal(a: &mut ActuatorSpec, e: &mut Overlay) {
         return;
     }
     if resistance <= 0.0 || capacity <= 0.0 {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error("thermal", format!("`thermal` of {owner} lacks a resistance or a capacity"))
             .why("the temperature depends on the generated, stored and dissipated heat")
             .help("the order is resistance (K/W), capacity (J/K), time constant (s): two of these three give the third");
@@ -107,7 +107,7 @@ fn mean(a: f64, b: f64) -> f64 {
 
 fn positive(e: &mut Overlay, x: f64, attribute: &str, what: &str, why: &str) {
     if x <= 0.0 || !x.is_finite() {
-        let owner = e.node.shown();
+        let owner = e.node.describe();
         e.error(attribute, format!("the {what} of {owner} is not larger than zero")).why(why).help(
             "give `motorconst` and `resistance`, or `nominal` with voltage, stall torque and no-load speed",
         );

@@ -71,14 +71,15 @@ pub(crate) fn meshes(m: &mut Model, assets: &Assets) {
     m.mesh_facenormal = listed(list.iter().flat_map(|x| x.shape.facenormal.as_flattened()).copied());
     // A mesh without texture coordinates has room for them.
     m.mesh_facetexcoord = listed(list.iter().flat_map(|x| {
-        let own = x.shape.facetexcoord.as_flattened().iter().copied();
-        own.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
+        let texture_corners = x.shape.facetexcoord.as_flattened().iter().copied();
+        texture_corners.chain(std::iter::repeat(0)).take(3 * x.shape.face.len())
     }));
     m.mesh_graph = listed(list.iter().filter_map(|x| x.hull.as_ref()).flat_map(|h| h.graph()));
     m.mesh_sides = listed(list.iter().map(|x| {
         // Seen before the vertices lose their precision.
         let graph = x.hull.as_ref().map_or(Vec::new(), Hull::graph);
-        geometry::Hull::of(&graph).map_or_else(HullFaces::default, |hull| HullFaces::of(&x.shape.vert, &hull))
+        geometry::Hull::from_graph(&graph)
+            .map_or_else(HullFaces::default, |hull| HullFaces::from_hull(&x.shape.vert, &hull))
     }));
     flat(&mut m.mesh_scale, &list, |x| x.options.scale);
     flat(&mut m.mesh_pos, &list, |x| x.pos);
@@ -100,8 +101,8 @@ pub(crate) fn hfields(m: &mut Model, assets: &Assets) {
 pub(crate) fn skins(m: &mut Model, assets: &Assets) {
     let list: Vec<&Skin> = listed(assets.skins.iter().filter_map(|a| a.value.as_ref()));
     let bones: Vec<&Bone> = listed(list.iter().flat_map(|s| &s.bones));
-    let materials = Places::of(m.names.material.iter());
-    let bodies = Places::of(m.names.body.iter());
+    let materials = Places::from_names(m.names.material.iter());
+    let bodies = Places::from_names(m.names.body.iter());
     flat(&mut m.skin_matid, &list, |s| [materials.find(s.material.as_ref())]);
     flat(&mut m.skin_group, &list, |s| [s.group]);
     flat(&mut m.skin_rgba, &list, |s| single_each(s.rgba));

@@ -4,7 +4,7 @@ use super::mesh::{Bytes, Problem};
 #[cfg(feature = "pictures")]
 use super::png;
 use crate::mjcf::gather::listed;
-use crate::mjcf::text::diagnostic::shown;
+use crate::mjcf::text::diagnostic::shorten_name;
 
 /// Most samples of a field.
 const MAX_SAMPLES: usize = 4_000_000;
@@ -131,10 +131,10 @@ pub(crate) fn decode(path: &str, content_type: &str, bytes: &[u8]) -> Result<Sam
     };
     match kind {
         PNG => picture(bytes),
-        OWN => own(bytes),
+        OWN => decode_samples(bytes),
         _ => Err(Problem::new(
             "content_type",
-            format!("has a file of the kind {}", shown(kind)),
+            format!("has a file of the kind {}", shorten_name(kind)),
             "heights come from an image or from MuJoCo's own format",
             "write `content_type=\"image/png\"`, or delete it",
         )),
@@ -169,7 +169,7 @@ fn picture(_: &[u8]) -> Result<Samples, Problem> {
 }
 
 /// MuJoCo's own file: numbers of rows and columns, then the elevations in single precision, from the smallest y.
-fn own(bytes: &[u8]) -> Result<Samples, Problem> {
+fn decode_samples(bytes: &[u8]) -> Result<Samples, Problem> {
     if bytes.starts_with(b"\x89PNG") {
         return Err(Problem::file(
             "has a PNG image as its file, but neither its name nor its type says so",

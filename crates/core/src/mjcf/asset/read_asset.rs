@@ -15,7 +15,7 @@ use crate::mjcf::expand::AttachedModel;
 use crate::mjcf::names::{NameTable, WORLD};
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::spec::{BodySpec, PairSpec};
-use crate::mjcf::text::diagnostic::{Report, shown};
+use crate::mjcf::text::diagnostic::{Report, shorten_name};
 use crate::mjcf::text::files::{Files, MAX_FILE};
 use crate::mjcf::text::load;
 use crate::mjcf::text::tree::{Node, Tree, name};
@@ -89,7 +89,7 @@ impl Assets {
                 _ => continue,
             };
             if name.is_empty() {
-                let message = format!("{} has no name", node.shown());
+                let message = format!("{} has no name", node.describe());
                 reader
                     .report
                     .error(rules::MISSING_ATTRIBUTE, node.span.clone(), message)
@@ -133,13 +133,13 @@ impl Assets {
     /// Checks that the bodies that files name as bones are there, once `fusestatic` has had its way: what stands in the
     /// text itself keeps its body.
     pub(crate) fn check_bones(&self, bodies: &[BodySpec], names: &NameTable, report: &mut Report) {
-        let kept: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
+        let used: BTreeSet<&str> = filled(bodies.iter().map(|b| b.name.as_str()));
         for bone in self.skins.iter().filter_map(|a| a.value.as_ref()).flat_map(|s| &s.bones) {
             let Some(span) = bone.file.clone().filter(|_| !report.is_full()) else { continue };
             if names.find("body", &bone.body).is_none() {
                 names.unknown("body", &bone.body, span, report);
-            } else if bone.body != WORLD && !kept.contains(bone.body.as_str()) {
-                let message = format!("the bone {} has become part of its parent", shown(&bone.body));
+            } else if bone.body != WORLD && !used.contains(bone.body.as_str()) {
+                let message = format!("the bone {} has become part of its parent", shorten_name(&bone.body));
                 report
                     .error(rules::SKIN, span, message)
                     .why("`fusestatic` removes bodies without joints unless the text refers to them")
@@ -195,7 +195,7 @@ impl Reader<'_> {
 
     fn wrong<T>(&mut self, problem: Problem, code: &'static Rule, node: &Node, p: &Props) -> Option<T> {
         let span = p.span(problem.attribute).unwrap_or(node.span.clone());
-        say(problem, code, &node.shown(), span, self.report);
+        say(problem, code, &node.describe(), span, self.report);
         None
     }
 
@@ -301,7 +301,7 @@ impl Reader<'_> {
     }
 
     fn hfield(&mut self, node: &Node) -> Option<HField> {
-        let p = Props::own(node);
+        let p = Props::written_props(node);
         let samples = if p.has("file") && p.text("file").is_none() {
             Err(Problem::new("file", "names no file", "", "write the name of a file, or remove `file`"))
         } else if p.text("file").is_some() {
@@ -319,7 +319,7 @@ impl Reader<'_> {
                 if field.nrow < 2 || field.ncol < 2 {
                     let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
                     let (rows, columns) = (count(field.nrow, "row"), count(field.ncol, "column"));
-                    let message = format!("{} has {rows} and {columns}", node.shown());
+                    let message = format!("{} has {rows} and {columns}", node.describe());
                     self.report
                         .warning(rules::NO_EFFECT, node.span.clone(), message)
                         .why("the surface spans neighbouring rows and columns: without two of each there is no surface, and bodies fall through, in MuJoCo too")
@@ -337,18 +337,18 @@ const MAX_GROUP: i32 = 5;
 
 impl Reader<'_> {
     fn skin(&mut self, tree: &Tree, at: usize, node: &Node) -> Option<Skin> {
-        let p = Props::own(node);
+        let p = Props::written_props(node);
         let group = p.int("group").unwrap_or(0);
         if !(0..=MAX_GROUP).contains(&group) {
             let problem =
                 Problem::new("group", format!("is in group {group}"), "", "groups of skins are 0 to 5");
             return self.wrong(problem, rules::VALUE, node, &p);
         }
-        let own: Vec<&Node> = listed(tree.children(at).map(|(_, bone)| bone));
+        let bone_nodes: Vec<&Node> = listed(tree.children(at).map(|(_, bone)| bone));
         let made = if p.text("file").is_some() {
             let (path, bytes) = self.file(node, &p)?;
             let written = ["vertex", "texcoord", "face"].into_iter().find(|a| p.has(a));
-            if written.is_some() || !own.is_empty() {
+            if written.is_some() || !bone_nodes.is_empty() {
                 Err(Problem::new(
                     written.unwrap_or("file"),
                     "has both a file and inline data",
@@ -359,8 +359,8 @@ impl Reader<'_> {
                 skin::decode(&path, &bytes, &p.span("file").unwrap_or(node.span.clone()))
             }
         } else {
-            let bones: Vec<Bone> = listed(own.iter().filter_map(|bone| self.bone(bone)));
-            if bones.len() < own.len() {
+            let bones: Vec<Bone> = listed(bone_nodes.iter().filter_map(|bone| self.bone(bone)));
+            if bones.len() < bone_nodes.len() {
                 return None;
             }
             written(&p).map(|raw| Skin {
@@ -390,14 +390,14 @@ impl Reader<'_> {
 
     /// A bone has all of its attributes.
     fn bone(&mut self, node: &Node) -> Option<Bone> {
-        let p = Props::own(node);
+        let p = Props::written_props(node);
         let missing =
             ["body", "bindpos", "bindquat", "vertid", "vertweight"].into_iter().find(|a| match *a {
                 "body" => p.text(a).is_none(),
                 _ => !p.has(a),
             });
         if let Some(attribute) = missing {
-            let message = format!("{} has no `{attribute}`", node.shown());
+            let message = format!("{} has no `{attribute}`", node.describe());
             self.report.error(rules::MISSING_ATTRIBUTE, node.span.clone(), message).help(format!(
                 "write `{attribute}=\"…\"`: a bone is a body, its pose, and the vertices that it carries with their weights"
             ));

@@ -164,7 +164,7 @@ fn check_triangle(body: &BodySpec, inertia: &mut Inertia, compiler: &Compiler, r
         .error(
             rules::INERTIA,
             body.inertial_span.clone().unwrap_or(body.span.clone()),
-            format!("the principal moments of inertia of {} are {a}, {b}, {c}", shown(body)),
+            format!("the principal moments of inertia of {} are {a}, {b}, {c}", describe_body(body)),
         )
         .why("no moment can exceed the sum of the other two")
         .help("correct `diaginertia`, or write `<compiler balanceinertia=\"true\"/>` to replace them by their mean");
@@ -185,9 +185,9 @@ pub(crate) fn check_moving(list: &[BodySpec], weld: &[usize], inertias: &[Inerti
         }
         let mass = inertias.get(i).map_or(0.0, |x| x.mass);
         let message = if mass < MINVAL {
-            format!("{} can move but has no mass", shown(body))
+            format!("{} can move but has no mass", describe_body(body))
         } else {
-            format!("{} can move but has no inertia", shown(body))
+            format!("{} can move but has no inertia", describe_body(body))
         };
         report
             .error(rules::INERTIA, body.span.clone(), message)
@@ -197,11 +197,11 @@ pub(crate) fn check_moving(list: &[BodySpec], weld: &[usize], inertias: &[Inerti
 }
 
 /// A body in a message.
-pub(crate) fn shown(body: &BodySpec) -> String {
+pub(crate) fn describe_body(body: &BodySpec) -> String {
     if body.name.is_empty() {
         "a body".to_string()
     } else {
-        format!("body {}", crate::mjcf::text::diagnostic::shown(&body.name))
+        format!("body {}", crate::mjcf::text::diagnostic::shorten_name(&body.name))
     }
 }
 

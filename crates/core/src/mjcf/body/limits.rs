@@ -19,7 +19,7 @@ pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (
     let span = p.span(limit.range).unwrap_or(node.span.clone());
     let given = p.has(limit.range) && range != [0.0; 2];
     let flag = p.word(limit.flag).unwrap_or(AUTO);
-    (decide(cx, flag, given, range, span, &node.shown(), limit), range)
+    (decide(cx, flag, given, range, span, &node.describe(), limit), range)
 }
 
 /// A flag that says nothing.

@@ -32,7 +32,7 @@ pub(crate) fn read(p: &Props, compiler: &Compiler, node: &Node, report: &mut Rep
     result.map(quat_normalize).unwrap_or_else(|what| {
         let span = p.span(form).unwrap_or(node.span.clone());
         report
-            .error(rules::ORIENTATION, span, format!("`{form}` of {}: {what}", node.shown()))
+            .error(rules::ORIENTATION, span, format!("`{form}` of {}: {what}", node.describe()))
             .why("it does not describe a rotation");
         IDENTITY
     })
@@ -45,7 +45,7 @@ pub(crate) fn check_forms(tree: &Tree, report: &mut Report) {
         let names: Vec<_> = listed(forms.map(|a| (a.attr.name, a.span.clone())));
         // `composite` and `flexcomp` never reach here: what is refused is left out of the tree.
         let [(first, _), (second, span), ..] = names.as_slice() else { continue };
-        let message = format!("{} has both `{first}` and `{second}`", node.shown());
+        let message = format!("{} has both `{first}` and `{second}`", node.describe());
         report.error(rules::CONFLICT, span.clone(), message).help(
             match *first == "fullinertia" || *second == "fullinertia" {
                 true => "remove the other one: `fullinertia` finds its own axes",

@@ -40,10 +40,10 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
                 ElementSite { body: list.len() - 1, frame: Pose::NONE, childclass }
             }
             ("frame", Some(place)) => {
-                let p = Props::own(node);
+                let p = Props::written_props(node);
                 let (pos, quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
                 ElementSite {
-                    frame: place.frame.of(pos, quat),
+                    frame: place.frame.to_parent(pos, quat),
                     childclass: class_inside(cx, node, place),
                     ..place
                 }
@@ -94,9 +94,9 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
 }
 
 fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec {
-    let p = Props::own(node);
+    let p = Props::written_props(node);
     let written = Pose { pos: p.reals("pos", [0.0; 3]), quat: cx.orientation(&p, node) };
-    let Pose { pos, quat } = place.frame.of(written.pos, written.quat);
+    let Pose { pos, quat } = place.frame.to_parent(written.pos, written.quat);
     BodySpec {
         part: node.model,
         pos,
@@ -172,7 +172,7 @@ fn member(cx: &mut Context, i: usize, node: &Node, place: ElementSite, body: &mu
 
 /// An explicit inertia.
 fn inertial(cx: &mut Context, node: &Node) -> Option<Inertia> {
-    let p = Props::own(node);
+    let p = Props::written_props(node);
     let mut complete = true;
     for (name, why) in
         [("pos", "it is the position of the centre of mass"), ("mass", "a body without mass cannot move")]

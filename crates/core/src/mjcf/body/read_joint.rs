@@ -16,7 +16,7 @@ const SHORTEST_AXIS: f64 = 1e-6;
 pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> JointSpec {
     // A free joint written as its own element takes no defaults: they are meant for the other types.
     let free = node.element.name == "freejoint";
-    let p = if free { Props::own(node) } else { cx.classes.props(node, childclass) };
+    let p = if free { Props::written_props(node) } else { cx.classes.props(node, childclass) };
     let kind = if free { joint::FREE } else { p.word("type").unwrap_or(joint::HINGE) };
 
     let angle = |x: f64| if kind == joint::HINGE { cx.compiler.angle(x) } else { x };
@@ -62,7 +62,7 @@ fn axis(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> [f64; 3] {
     let given = p.reals("axis", z);
     let length = norm(given);
     if length < SHORTEST_AXIS || !length.is_finite() {
-        let message = format!("`axis` of {} has no direction", node.shown());
+        let message = format!("`axis` of {} has no direction", node.describe());
         cx.report
             .error(rules::JOINT, p.span("axis").unwrap_or(node.span.clone()), message)
             .why("the joint turns about it or slides along it")
@@ -84,7 +84,7 @@ fn limits(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> (bool, [f64; 2
     if kind == joint::BALL && lower < upper && lower != 0.0 {
         let span = p.span("range").unwrap_or(node.span.clone());
         cx.report
-            .error(rules::JOINT, span, format!("the range of {} begins at {lower}", node.shown()))
+            .error(rules::JOINT, span, format!("the range of {} begins at {lower}", node.describe()))
             .why("the range of a ball joint limits its rotation angle, which is never negative")
             .help(format!("write `range=\"0 {upper}\"`"));
     }
@@ -108,7 +108,7 @@ fn springdamper(cx: &mut Context, p: &Props, node: &Node) -> Option<[f64; 2]> {
     }
     if given.iter().any(|&x| x <= 0.0) {
         let span = p.span("springdamper").unwrap_or(node.span.clone());
-        let message = format!("`springdamper` of {} is {} {}", node.shown(), given[0], given[1]);
+        let message = format!("`springdamper` of {} is {} {}", node.describe(), given[0], given[1]);
         cx.report
             .error(rules::JOINT, span, message)
             .why("it gives a time constant (s) and a damping ratio, both larger than zero")

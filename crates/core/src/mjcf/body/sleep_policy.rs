@@ -1,6 +1,6 @@
 //! Which trees may sleep.
 
-use super::inertia::shown;
+use super::inertia::describe_body;
 use crate::kinds::trntype;
 use crate::mjcf::layout::Layout;
 use crate::mjcf::rules;
@@ -16,7 +16,11 @@ pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
         if carried || body.joints.is_empty() {
             let what = if carried { "is carried by a moving body" } else { "cannot move" };
             report
-                .error(rules::JOINT, body.span.clone(), format!("{} has `sleep`, but it {what}", shown(body)))
+                .error(
+                    rules::JOINT,
+                    body.span.clone(),
+                    format!("{} has `sleep`, but it {what}", describe_body(body)),
+                )
                 .why("a tree falls asleep as a whole, and its first moving body decides")
                 .help("move `sleep` to that body");
         }

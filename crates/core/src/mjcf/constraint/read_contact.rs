@@ -52,7 +52,7 @@ fn pair(cx: &mut Context, refs: References, node: &Node, body_of: &[i32]) -> Opt
     if !matches!(condim, 1 | 3 | 4 | 6) {
         let span = p.span("condim").unwrap_or(node.span.clone());
         cx.report
-            .error(rules::VALUE, span, format!("`condim` of {} is {condim}", node.shown()))
+            .error(rules::VALUE, span, format!("`condim` of {} is {condim}", node.describe()))
             .help("write 1 (frictionless), 3 (sliding), 4 (and spinning) or 6 (and rolling friction)");
     }
     let mut geoms = [geom1?, geom2?];

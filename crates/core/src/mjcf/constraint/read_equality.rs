@@ -33,7 +33,11 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
     let (objtype, obj1, obj2, data) = tied?;
     if obj1 == obj2 {
         report
-            .error(rules::EQUALITY, node.span.clone(), format!("{} ties an object to itself", node.shown()))
+            .error(
+                rules::EQUALITY,
+                node.span.clone(),
+                format!("{} ties an object to itself", node.describe()),
+            )
             .help("name two different objects; to tie a body to the world, leave out the second");
     }
     Some(EqualitySpec {
@@ -62,7 +66,7 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
                 .error(
                     rules::CONFLICT,
                     node.span.clone(),
-                    format!("{} has sites and `{other}`", node.shown()),
+                    format!("{} has sites and `{other}`", node.describe()),
                 )
                 .why("two sites define the constraint completely")
                 .help(format!("remove `{other}`, or tie bodies instead of sites"));
@@ -79,7 +83,11 @@ fn bodies_or_sites(refs: References, p: &Props, node: &Node, report: &mut Report
     let body2 = if given("body2") { refs.optional("body", node, "body2") } else { Some(0) };
     if connect && !given("anchor") {
         report
-            .error(rules::MISSING_ATTRIBUTE, node.span.clone(), format!("{} has no `anchor`", node.shown()))
+            .error(
+                rules::MISSING_ATTRIBUTE,
+                node.span.clone(),
+                format!("{} has no `anchor`", node.describe()),
+            )
             .why("it is the point, in the frame of `body1`, where both bodies are held together");
     }
     data[..3].copy_from_slice(&p.reals("anchor", [0.0; 3]));
@@ -104,7 +112,7 @@ fn coupled(refs: References, p: &Props, node: &Node, objtype: Obj, report: &mut 
         {
             let span = node.attribute(attribute).map_or(node.span.clone(), |a| a.span.clone());
             report
-                .error(rules::EQUALITY, span, format!("{} ties a free or ball joint", node.shown()))
+                .error(rules::EQUALITY, span, format!("{} ties a free or ball joint", node.describe()))
                 .why("the constraint is an equation between coordinates, and such a joint has several")
                 .help("use slide or hinge joints, or `weld` or `connect` for bodies");
         }

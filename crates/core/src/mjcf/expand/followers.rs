@@ -43,7 +43,7 @@ impl Uses {
         if !nodes.get(at).is_some_and(|node| can_follow(SECTIONS[section], node)) {
             return;
         }
-        let refs = references::of(nodes, at);
+        let refs = references::list_references(nodes, at);
         if refs.is_empty() {
             self.free.push((section, at));
         }
@@ -78,12 +78,12 @@ impl Uses {
     /// what goes with it, and those that refer to nothing.
     pub(super) fn followers(&self, nodes: &[Node], subtree: &Names, other_model: bool) -> Vec<Followers> {
         let mut bound: BTreeSet<(usize, usize)> = BTreeSet::new();
-        let mut known = subtree.clone();
+        let mut followed = subtree.clone();
         let mut new: Vec<(&'static str, String)> = listed(subtree.iter().cloned());
         while let Some(object) = new.pop() {
             for &(section, at) in self.of.get(&object).map_or(&[][..], Vec::as_slice) {
                 if !self.gone.contains(&at) && bound.insert((section, at)) {
-                    new.extend(nodes.get(at).and_then(own_name).filter(|name| known.insert(name.clone())));
+                    new.extend(nodes.get(at).and_then(own_name).filter(|name| followed.insert(name.clone())));
                 }
             }
         }
@@ -100,7 +100,7 @@ impl Uses {
             if bound.contains(&(section, at)) {
                 f.bound.push(at);
             }
-            if references::follows(f.section, &references::of(nodes, at), &copied, other_model) {
+            if references::follows(f.section, &references::list_references(nodes, at), &copied, other_model) {
                 f.elements.push(at);
                 f.names.extend(own_name(node));
                 copied.extend(own_name(node));

@@ -20,7 +20,7 @@ use super::settings::Compiler;
 use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, nearest, shown};
+use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
 use crate::mjcf::text::load::Written;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
@@ -258,7 +258,7 @@ impl Expander {
                 .error(
                     rules::COPY,
                     node.span.clone(),
-                    format!("{} connects a replicated object to one that is not replicated", node.shown()),
+                    format!("{} connects a replicated object to one that is not replicated", node.describe()),
                 )
                 .why("MuJoCo copies it only if all its objects are copied, and otherwise drops it silently")
                 .help("write the copies out instead of using `replicate`");
@@ -275,7 +275,7 @@ impl Expander {
                 let (copy, _) = copy::copy(&self.nodes, at, rename, Some(&copied));
                 let new = self.append(f.section, copy)?;
                 // A copy that refers to nothing is copied by the next step again.
-                if references::of(&self.nodes, new).is_empty() {
+                if references::list_references(&self.nodes, new).is_empty() {
                     f.elements.push(new);
                 }
             }
@@ -337,8 +337,8 @@ impl Expander {
         };
         let span = node.attribute(kind).map_or(node.span.clone(), |a| a.span.clone());
         let Some(&original) = self.names.get(&(kind, name.to_string())) else {
-            let known = self.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
-            unknown(kind, name, known, span, report);
+            let names = self.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
+            unknown(kind, name, names, span, report);
             return None;
         };
         if original > at && original < self.written {
@@ -346,14 +346,14 @@ impl Expander {
                 .error(
                     rules::COPY,
                     span,
-                    format!("{kind} {} comes after the `attach` that copies it", shown(name)),
+                    format!("{kind} {} comes after the `attach` that copies it", shorten_name(name)),
                 )
                 .help("move the `attach` after it");
             return None;
         }
         if self.holds(original, at) {
             report
-                .error(rules::COPY, span, format!("{kind} {} is attached inside itself", shown(name)))
+                .error(rules::COPY, span, format!("{kind} {} is attached inside itself", shorten_name(name)))
                 .why("the copy would contain itself without end");
             return None;
         }
@@ -402,8 +402,8 @@ impl Expander {
             Some((kind, name)) => {
                 let Some(&root) = child.names.get(&(kind, name.to_string())) else {
                     let span = node.attribute(kind).map_or(node.span.clone(), |a| a.span.clone());
-                    let known = child.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
-                    unknown(kind, name, known, span, report);
+                    let names = child.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
+                    unknown(kind, name, names, span, report);
                     return None;
                 };
                 vec![root]
@@ -500,16 +500,16 @@ fn childclass(request: &Node, class: String) -> Option<Attribute> {
 fn unknown<'n>(
     kind: &str,
     name: &str,
-    known: impl Iterator<Item = &'n str>,
+    names: impl Iterator<Item = &'n str>,
     span: std::ops::Range<usize>,
     report: &mut Report,
 ) {
     let error = report.error(
         rules::UNKNOWN_NAME,
         span,
-        format!("there is no {kind} named {} to attach", shown(name)),
+        format!("there is no {kind} named {} to attach", shorten_name(name)),
     );
-    if let Some(near) = nearest(name, known) {
+    if let Some(near) = nearest(name, names) {
         error.help(format!("did you mean `{near}`?"));
     }
 }

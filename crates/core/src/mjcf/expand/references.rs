@@ -55,7 +55,7 @@ fn keyword(n: i32) -> Option<&'static str> {
 }
 
 /// The objects that an element and its children refer to, assets left out.
-pub(super) fn of(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
+pub(super) fn list_references(nodes: &[Node], at: usize) -> Vec<(&'static str, String)> {
     let Some(node) = nodes.get(at) else { return Vec::new() };
     let children = node.children.iter().filter_map(|&c| nodes.get(c));
     let named = |n: &Node| {

@@ -16,7 +16,7 @@ pub(crate) struct Form {
     /// Mesh or height field, -1 if none.
     pub(crate) data: i32,
     /// Where its frame lies in the frame that the author places: that of a mesh is its principal axes.
-    pub(crate) own: Pose,
+    pub(crate) mesh_pose: Pose,
     /// Centre and half lengths of the bounding box.
     pub(crate) aabb: [f64; 6],
     /// Radius of the bounding sphere.
@@ -38,7 +38,7 @@ impl Form {
         Form {
             size,
             data: -1,
-            own: Pose::NONE,
+            mesh_pose: Pose::NONE,
             aabb: [0.0, 0.0, middle, x, y, z],
             rbound: (shape.rbound)(size),
             amount: amount(size),
@@ -57,20 +57,20 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
     }
     let (data, mesh) = cx.assets.mesh(p.text("mesh")?)?;
     if shape.kind == geom::MESH {
-        let own = Pose { pos: mesh.pos, quat: mesh.quat };
+        let mesh_pose = Pose { pos: mesh.pos, quat: mesh.quat };
         let size = mesh.reach();
         let (aabb, rbound, amount, moments) = (mesh.aabb(), norm(size), mesh.amount, mesh.moments());
-        return Some(Form { size, data, own, aabb, rbound, amount, moments });
+        return Some(Form { size, data, mesh_pose, aabb, rbound, amount, moments });
     }
     let bounding = cx.parts.get(node.model).is_some_and(|part| part.compiler.fitaabb);
     let scale = p.real("fitscale").unwrap_or(1.0);
     match mesh.fit(shape.kind, bounding) {
         Some((pos, size)) => {
             let form = Form::primitive(shape, size.map(|x| x * scale), shell);
-            Some(Form { data, own: Pose { pos, quat: mesh.quat }, ..form })
+            Some(Form { data, mesh_pose: Pose { pos, quat: mesh.quat }, ..form })
         }
         None => {
-            let message = format!("{} is a {} with a `mesh`", node.shown(), shape.name);
+            let message = format!("{} is a {} with a `mesh`", node.describe(), shape.name);
             cx.report
                 .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
                 .why("a shape that replaces a mesh must have a volume")
@@ -87,7 +87,7 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
         geom::HFIELD => Some("hfield"),
         _ => None,
     };
-    let owner = node.shown();
+    let owner = node.describe();
     let span = |name: &str| p.span(name).unwrap_or(node.span.clone());
     if let Some(asset) = needs.filter(|asset| p.text(asset).is_none()) {
         cx.report
@@ -96,7 +96,7 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
             .help(format!("write `{asset}=\"…\"` with its name in `asset`"));
         return false;
     }
-    let what = |kind: i32| shapes::of(kind).map_or("shape", |s| s.name);
+    let what = |kind: i32| shapes::for_kind(kind).map_or("shape", |s| s.name);
     if p.text("hfield").is_some() && kind != geom::HFIELD {
         let message = format!("{owner} is a {} with an `hfield`", what(kind));
         cx.report

@@ -19,7 +19,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     if p.has("type") && p.word("type").is_none() {
         return None;
     }
-    let shape = shapes::of(p.word("type").unwrap_or(geom::SPHERE))?;
+    let shape = shapes::for_kind(p.word("type").unwrap_or(geom::SPHERE))?;
     let mut size = p.reals("size", [0.0; 3]);
     let (mut pos, mut quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
     if let Some(span) = fromto(cx, &p, node, shape.name, shape.length) {
@@ -39,7 +39,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         }
         let form = read_form::of_asset(cx, &p, node, shape)?;
         check_fit(cx, &p, node, shape, form.size);
-        Pose { pos, quat } = Pose { pos, quat }.of(form.own.pos, form.own.quat);
+        Pose { pos, quat } = Pose { pos, quat }.to_parent(form.mesh_pose.pos, form.mesh_pose.quat);
         form
     } else {
         check_size(cx, &p, node, shape, size);
@@ -99,7 +99,7 @@ pub(crate) fn fromto(
     let &[ax, ay, az, bx, by, bz] = p.list("fromto")? else { return None };
     let (from, to) = ([ax, ay, az], [bx, by, bz]);
     let (axis, distance) = normalize(sub(from, to));
-    let owner = node.shown();
+    let owner = node.describe();
     let problem = if length.is_none() {
         format!("{owner} has `fromto`, but a {shape} has no length")
     } else if p.reals("pos", [0.0; 3]) != [0.0; 3] {
@@ -136,10 +136,10 @@ fn check_size(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec
     let help = format!("write `size=\"{1}\"` for a {0}", shape.name, shape.example);
     for (k, (rule, &x)) in shape.sizes.iter().zip(&size).enumerate() {
         let what = if k >= given {
-            format!("`size` of {} lacks the {}", node.shown(), rule.name)
+            format!("`size` of {} lacks the {}", node.describe(), rule.name)
         } else if x < 0.0 || x == 0.0 && !rule.zero {
             let bound = if rule.zero { "zero or more" } else { "larger than zero" };
-            format!("`size` of {}: the {} is {x}, but it must be {bound}", node.shown(), rule.name)
+            format!("`size` of {}: the {} is {x}, but it must be {bound}", node.describe(), rule.name)
         } else {
             continue;
         };
@@ -157,7 +157,7 @@ fn form_is_of_asset(p: &Props, shape: &Shape) -> bool {
 fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3) {
     if let Some((rule, _)) = shape.sizes.iter().zip(size).find(|&(_, x)| x <= 0.0) {
         let message =
-            format!("{} replaces its mesh with a {} of zero or negative size", node.shown(), rule.name);
+            format!("{} replaces its mesh with a {} of zero or negative size", node.describe(), rule.name);
         cx.report
             .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
             .why(format!("the mesh is too flat or too long for a {}", shape.name))
@@ -167,7 +167,7 @@ fn check_fit(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, size: Vec3
 
 /// Mass and principal moments: from `mass`, else from `density`.
 fn mass(cx: &mut Context, p: &Props, node: &Node, shape: &Shape, form: &Form) -> (f64, Vec3) {
-    let owner = node.shown();
+    let owner = node.describe();
     let density = checked(p, "density", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(1000.0);
     let given = checked(p, "mass", &owner, |x| x >= 0.0, "zero or more", cx.report);
     if shape.only_static {
@@ -187,7 +187,7 @@ fn condim(cx: &mut Context, p: &Props, node: &Node) -> i32 {
     let condim = p.int("condim").unwrap_or(3);
     let span = p.span("condim").unwrap_or(node.span.clone());
     if !matches!(condim, 1 | 3 | 4 | 6) {
-        let message = format!("`condim` of {} is {condim}", node.shown());
+        let message = format!("`condim` of {} is {condim}", node.describe());
         cx.report
             .error(rules::VALUE, span, message)
             .help("write 1 (no friction), 3 (sliding), 4 (and spinning) or 6 (and rolling friction)");

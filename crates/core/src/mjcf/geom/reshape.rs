@@ -57,7 +57,8 @@ fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Attach
             continue;
         }
         let to = Pose { pos: inertia.pos, quat: inertia.quat };
-        Pose { pos: body.pos, quat: body.quat } = Pose { pos: body.pos, quat: body.quat }.of(to.pos, to.quat);
+        Pose { pos: body.pos, quat: body.quat } =
+            Pose { pos: body.pos, quat: body.quat }.to_parent(to.pos, to.quat);
         let back = quat_conj(to.quat);
         move_members(body, Pose { pos: rotate(scale(to.pos, -1.0), back), quat: back });
         (inertia.pos, inertia.quat) = ([0.0; 3], IDENTITY);
@@ -95,11 +96,11 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
             body.parent = *target;
             pose.place(&mut body.pos, &mut body.quat);
         }
-        let kept = !body.name.is_empty()
+        let is_named = !body.name.is_empty()
             && (meant(body)
                 || i < last_meant && last_meant >= left
                 || body.sites.iter().any(|s| sensed.contains(s.name.as_str())));
-        if kept || !body.joints.is_empty() || body.mocap {
+        if is_named || !body.joints.is_empty() || body.mocap {
             continue;
         }
         let (Some(parent), Some(own)) = (before.get_mut(body.parent), inertias.get_mut(body.parent)) else {
@@ -107,7 +108,7 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
         };
         let pose = Pose { pos: body.pos, quat: body.quat };
         if body.parent > 0 && inertia.mass >= MINVAL {
-            let Pose { pos, quat } = pose.of(inertia.pos, inertia.quat);
+            let Pose { pos, quat } = pose.to_parent(inertia.pos, inertia.quat);
             *own = combined(&[own.clone(), Inertia { pos, quat, ..inertia }]);
         }
         move_members(body, pose);

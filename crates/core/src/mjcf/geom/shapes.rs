@@ -188,7 +188,7 @@ const SHAPES: &[Shape] = &[
 ];
 
 /// The shape of a geom type; `None` when the schema refuses the type.
-pub(crate) fn of(kind: i32) -> Option<&'static Shape> {
+pub(crate) fn for_kind(kind: i32) -> Option<&'static Shape> {
     SHAPES.iter().find(|s| s.kind == kind)
 }
 
@@ -301,7 +301,7 @@ mod tests {
             ),
         ];
         for (kind, size, solid, shell) in cases {
-            let shape = of(kind).unwrap();
+            let shape = for_kind(kind).unwrap();
             for (amount, moments, expected, tolerance) in [
                 (shape.volume, shape.inertia, solid, 1e-15),
                 // The skin of an ellipsoid is a small difference of large numbers.

@@ -45,7 +45,7 @@ enum Rest {
 }
 
 fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
-    let p = Props::own(node);
+    let p = Props::written_props(node);
     let mut list = |name: &str, n: usize, rest: Rest, what: String| {
         let mut given = p.list(name).filter(|list| !list.is_empty())?.to_vec();
         if rest == Rest::Zero && given.len() < n {
@@ -53,7 +53,7 @@ fn key(node: &Node, sizes: &Sizes, report: &mut Report) -> KeySpec {
         }
         if given.len() != n {
             let plural = if given.len() == 1 { "" } else { "s" };
-            let owner = node.shown();
+            let owner = node.describe();
             let message =
                 format!("`{name}` of {owner} has {} number{plural}, but the model needs {n}", given.len());
             report.error(rules::KEYFRAME, p.span(name).unwrap_or(0..0), message).why(what);

@@ -22,7 +22,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     let kind = p.word("type").unwrap_or(geom::SPHERE);
     let mut size = p.reals("size", [0.005; 3]);
     let (mut pos, mut quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
-    let shape = shapes::of(kind);
+    let shape = shapes::for_kind(kind);
     let length = shape.and_then(|s| s.length);
     if let Some(span) = fromto(cx, &p, node, shape.map_or("site", |s| s.name), length) {
         (pos, quat) = (span.pos, span.quat);
@@ -41,7 +41,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     }
     let needed = shape.map_or(0, |s| s.sizes.len());
     if let Some(x) = size.iter().take(needed).find(|&&x| x <= 0.0) {
-        let message = format!("`size` of {} has {x}, but it must be larger than zero", node.shown());
+        let message = format!("`size` of {} has {x}, but it must be larger than zero", node.describe());
         cx.report.error(rules::VALUE, p.span("size").unwrap_or(node.span.clone()), message);
     }
     SiteSpec {
@@ -64,7 +64,7 @@ fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     if kind == geom::MESH {
         return read_form::check(cx, p, node, kind);
     }
-    let message = format!("{} names a mesh but has another type", node.shown());
+    let message = format!("{} names a mesh but has another type", node.describe());
     cx.report
         .error(rules::GEOM, p.span("mesh").unwrap_or(node.span.clone()), message)
         .help("write `type=\"mesh\"`, or delete `mesh`");
@@ -81,17 +81,17 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     };
     let sensorsize = p.reals("sensorsize", [0.0; 2]);
     let metres = |length: &str, pixels: &str, default: [f64; 2]| -> [f64; 2] {
-        let own = p.reals(length, default);
+        let values = p.reals(length, default);
         match p.list(pixels) {
             Some(&[x, y]) => {
                 std::array::from_fn(|i| [x, y][i] * sensorsize[i] / f64::from(resolution[i].max(1)))
             }
-            _ => own,
+            _ => values,
         }
     };
     if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
         let [w, h] = resolution;
-        let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.shown());
+        let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.describe());
         cx.report
             .error(rules::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
             .why("the size of one pixel is the size of the sensor divided by the number of pixels")
@@ -103,7 +103,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     if let Some(name) = given
         && sensorsize.iter().any(|&x| x <= 0.0)
     {
-        let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.shown());
+        let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.describe());
         cx.report
             .error(rules::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
             .why("the field of view depends on both, and MuJoCo refuses one without the other")
@@ -120,7 +120,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         false => p.real("fovy").unwrap_or(45.0),
     };
     if sensorsize[1] <= 0.0 && fovy >= 180.0 {
-        let message = format!("`fovy` of {} is {fovy}, but it must be less than 180", node.shown());
+        let message = format!("`fovy` of {} is {fovy}, but it must be less than 180", node.describe());
         cx.report
             .error(rules::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
             .why("it is an angle in degrees, from the lower to the upper edge of the picture");
@@ -172,7 +172,7 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     if p.list("dir").is_some_and(|dir| dir.iter().all(|&x| x == 0.0)) {
         let span = p.span("dir").unwrap_or(node.span.clone());
         cx.report
-            .error(rules::VALUE, span, format!("`dir` of {} has no length", node.shown()))
+            .error(rules::VALUE, span, format!("`dir` of {} has no length", node.describe()))
             .why("it is the direction in which the light shines")
             .help("write for example `dir=\"0 0 -1\"` for a light from above");
     }
@@ -256,7 +256,7 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
         if node.element.name != "numeric" {
             continue;
         }
-        let p = Props::own(node);
+        let p = Props::written_props(node);
         let mut data = p.list("data").unwrap_or(&[]).to_vec();
         let size = p.int("size").unwrap_or(data.len() as i32);
         let problem = match usize::try_from(size) {
@@ -272,7 +272,7 @@ pub(crate) fn numerics(cx: &mut Context) -> Vec<NumericSpec> {
             cx.report.error(
                 rules::COUNT,
                 span,
-                format!("the size of {} is {size}, but {problem}", node.shown()),
+                format!("the size of {} is {size}, but {problem}", node.describe()),
             );
         }
         all.push(NumericSpec { name: name(node), data });
@@ -291,7 +291,7 @@ pub(crate) fn texts(
             .filter(|(_, node)| node.element.name == "text")
             .inspect(|(_, node)| {
                 if let Some(data) = node.attribute("data").filter(|_| node.text("data").is_none()) {
-                    let message = format!("`data` of {} is empty", node.shown());
+                    let message = format!("`data` of {} is empty", node.describe());
                     report
                         .error(rules::VALUE, data.span.clone(), message)
                         .help("write a text, or remove the element");
@@ -311,7 +311,7 @@ pub(crate) fn tuples(cx: &mut Context, refs: References) -> Vec<TupleSpec> {
         }
         let mut elements = Vec::new();
         for (_, element) in tree.children(at) {
-            let p = Props::own(element);
+            let p = Props::written_props(element);
             if let Some((kind, id)) = element_of(cx, refs.ids, refs.names, &p, element) {
                 elements.push((kind, id, p.real("prm").unwrap_or(0.0)));
             }

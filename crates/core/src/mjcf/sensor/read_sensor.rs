@@ -9,7 +9,7 @@ use crate::mjcf::ids::References;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{List, SensorObjects, SensorSpec, SensorTiming, TendonSpec};
-use crate::mjcf::text::diagnostic::{Report, shown};
+use crate::mjcf::text::diagnostic::{Report, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree, name};
 use crate::model::Obj;
 use crate::sensor::{CONTACT_DATA, Datatype, KINDS, Kind, RAY_DATA, Senses, When, data_size};
@@ -42,7 +42,7 @@ pub(crate) fn sensors(
                 return list;
             }
             let Some(number) = KINDS.iter().position(|k| k.name == node.element.name) else { continue };
-            let mut cx = Context { node, p: Props::own(node), refs, tendons, report };
+            let mut cx = Context { node, p: Props::written_props(node), refs, tendons, report };
             let Some(sensor) = cx.sensor(number, &KINDS[number]) else { continue };
             let samples = 1 + sensor.timing.nsample.max(0) as usize;
             values += samples.saturating_mul(1 + sensor.dim as usize);
@@ -75,7 +75,7 @@ impl Context<'_> {
         let unit = matches!(datatype, Datatype::Axis | Datatype::Quaternion);
         if cutoff > 0.0 && unit && kind.senses != Senses::Pair {
             let what = if datatype == Datatype::Axis { "an axis" } else { "a quaternion" };
-            self.error_at("cutoff", rules::SENSOR, format!("{} has a cutoff", self.node.shown()))
+            self.error_at("cutoff", rules::SENSOR, format!("{} has a cutoff", self.node.describe()))
                 .why(format!("clamping the numbers of {what} would not leave a rotation"))
                 .help("remove `cutoff`");
         }
@@ -106,13 +106,13 @@ impl Context<'_> {
     }
 
     fn not_negative(&mut self, attribute: &str) -> f64 {
-        let owner = self.node.shown();
+        let owner = self.node.describe();
         checked(&self.p, attribute, &owner, |x| x >= 0.0, "zero or more", self.report).unwrap_or(0.0)
     }
 
     /// Delay, period and the samples that are kept for them.
     fn timing(&mut self) -> SensorTiming {
-        let owner = self.node.shown();
+        let owner = self.node.describe();
         let [period, phase] = self.p.reals("interval", [0.0; 2]);
         let timing = SensorTiming {
             nsample: self.p.int("nsample").unwrap_or(0),
@@ -149,7 +149,7 @@ impl Context<'_> {
     /// Reports that an attribute is missing.
     fn missing<T>(&mut self, attributes: &[&str]) -> Option<T> {
         let list: Vec<String> = listed(attributes.iter().map(|a| format!("`{a}`")));
-        let message = format!("{} has no {}", self.node.shown(), list.join(" or "));
+        let message = format!("{} has no {}", self.node.describe(), list.join(" or "));
         self.error_at("", rules::MISSING_ATTRIBUTE, message).why("it is the object that the sensor reads");
         None
     }
@@ -165,7 +165,7 @@ impl Context<'_> {
         let mut given = attributes.iter().enumerate().filter(|(_, (a, _))| self.node.attribute(a).is_some());
         let Some((at, &(attribute, kind))) = given.next() else { return Some(None) };
         if let Some((_, &(other, _))) = given.next() {
-            let message = format!("{} has both `{attribute}` and `{other}`", self.node.shown());
+            let message = format!("{} has both `{attribute}` and `{other}`", self.node.describe());
             self.error_at(other, rules::CONFLICT, message)
                 .why("they are two ways to name the same side")
                 .help("keep one of them");
@@ -179,7 +179,7 @@ impl Context<'_> {
 
     /// What the sensor is attached to.
     fn objects(&mut self, kind: &Kind) -> Option<SensorObjects> {
-        let attached = |obj: Obj, id: i32| SensorObjects::of(obj as i32, id);
+        let attached = |obj: Obj, id: i32| SensorObjects::for_object(obj as i32, id);
         match kind.senses {
             Senses::Nothing | Senses::Tactile | Senses::Plugin => Some(SensorObjects::default()),
             Senses::Site => self.required("site", "site").map(|id| attached(Obj::Site, id)),
@@ -207,7 +207,7 @@ impl Context<'_> {
             Senses::SiteInImage => {
                 let (site, camera) = (self.required("site", "site"), self.required("camera", "camera"));
                 if camera.is_some_and(|camera| self.refs.ids.is_blind(camera)) {
-                    let message = format!("the camera of {} has no resolution", self.node.shown());
+                    let message = format!("the camera of {} has no resolution", self.node.describe());
                     self.error_at("camera", rules::SENSOR, message)
                         .why("the place in the image is counted in pixels")
                         .help("give the camera a `resolution` without zeros");
@@ -256,7 +256,7 @@ impl Context<'_> {
         let objtype = self.p.word(objtype)?;
         let kind = crate::mjcf::ids::keyword(objtype);
         match self.id(objname, kind) {
-            Some(id) => Some(SensorObjects::of(objtype, id)),
+            Some(id) => Some(SensorObjects::for_object(objtype, id)),
             None => {
                 let attribute = self.node.attribute(objname)?;
                 let name = self.node.text(objname).unwrap_or("");
@@ -278,11 +278,11 @@ impl Context<'_> {
             return self.missing(&missing);
         };
         if first == second {
-            let message = format!("both sides of {} are the same", self.node.shown());
+            let message = format!("both sides of {} are the same", self.node.describe());
             self.error_at("geom2", rules::SENSOR, message).help("name two different geoms or bodies");
             return None;
         }
-        Some(SensorObjects::of(first.0, first.1).with_reference(second.0, second.1))
+        Some(SensorObjects::for_object(first.0, first.1).with_reference(second.0, second.1))
     }
 
     /// The geoms, bodies, subtrees or the site that a contact must involve, all optional.
@@ -294,7 +294,7 @@ impl Context<'_> {
         let first = [("geom1", "geom"), ("body1", "body"), ("subtree1", "body"), ("site", "site")];
         let second = [("geom2", "geom"), ("body2", "body"), ("subtree2", "body")];
         let (first, second) = (side(self.one_of(&first)?), side(self.one_of(&second)?));
-        Some(SensorObjects::of(first.0, first.1).with_reference(second.0, second.1))
+        Some(SensorObjects::for_object(first.0, first.1).with_reference(second.0, second.1))
     }
 
     fn check_joint(&mut self, kind: &Kind, id: i32) {
@@ -309,7 +309,7 @@ impl Context<'_> {
             return;
         }
         let is = ["free", "ball", "slide", "hinge"].get(is as usize).copied().unwrap_or("");
-        let joint = shown(self.node.text("joint").unwrap_or(""));
+        let joint = shorten_name(self.node.text("joint").unwrap_or(""));
         self.error_at("joint", rules::SENSOR, format!("`{}` reads joint {joint}, a {is} joint", kind.name))
             .help(format!("use {needs}; `framepos` and `framequat` read the pose of any body"));
     }
@@ -318,7 +318,7 @@ impl Context<'_> {
         let message = format!(
             "`{}` reads {what} {}, which has no limits",
             self.node.element.name,
-            shown(self.node.text(what).unwrap_or(""))
+            shorten_name(self.node.text(what).unwrap_or(""))
         );
         self.error_at(what, rules::SENSOR, message)
             .why("the sensor would always read zero")
@@ -331,7 +331,7 @@ impl Context<'_> {
             Senses::Ray => {
                 let mask = self.data_fields(&RAY_DATA)?;
                 if objects.objtype == Obj::Camera as i32 && self.refs.ids.is_negative(objects.objid) {
-                    let message = format!("the camera of {} has a negative resolution", self.node.shown());
+                    let message = format!("the camera of {} has a negative resolution", self.node.describe());
                     self.error_at("camera", rules::SENSOR, message)
                         .help("write its width and height in pixels");
                     return None;
@@ -343,7 +343,7 @@ impl Context<'_> {
                 let mask = self.data_fields(&CONTACT_DATA)?;
                 let num = self.p.int("num").unwrap_or(1);
                 if num <= 0 {
-                    self.error_at("num", rules::VALUE, format!("`num` of {} is {num}", self.node.shown()))
+                    self.error_at("num", rules::VALUE, format!("`num` of {} is {num}", self.node.describe()))
                         .help("write the number of contacts to report, one or more");
                     return None;
                 }
@@ -356,7 +356,11 @@ impl Context<'_> {
                 }
                 let dim = self.p.int("dim")?;
                 if dim < 0 {
-                    self.error_at("dim", rules::VALUE, format!("`dim` of {} is negative", self.node.shown()));
+                    self.error_at(
+                        "dim",
+                        rules::VALUE,
+                        format!("`dim` of {} is negative", self.node.describe()),
+                    );
                     return None;
                 }
                 Some(([0; 3], dim))
@@ -370,7 +374,7 @@ impl Context<'_> {
     fn dim(&mut self, n: usize, size: usize) -> Option<i32> {
         let dim = n.saturating_mul(size);
         if dim > MAX_VALUES {
-            let message = format!("{} has more than {MAX_VALUES} values", self.node.shown());
+            let message = format!("{} has more than {MAX_VALUES} values", self.node.describe());
             self.error_at("", rules::LIMIT, message).help("lower `num` or the camera's `resolution`");
             return None;
         }
@@ -385,12 +389,12 @@ impl Context<'_> {
         let all = all.join(" ");
         for word in text.split_ascii_whitespace() {
             let Some(at) = fields.iter().position(|(name, _)| *name == word) else {
-                let message = format!("`data` of {} lists {}", self.node.shown(), shown(word));
+                let message = format!("`data` of {} lists {}", self.node.describe(), shorten_name(word));
                 self.error_at("data", rules::KEYWORD, message).help(format!("use only these: {all}"));
                 return None;
             };
             if last.is_some_and(|last| at <= last) {
-                let message = format!("`data` of {} lists its fields out of order", self.node.shown());
+                let message = format!("`data` of {} lists its fields out of order", self.node.describe());
                 self.error_at("data", rules::KEYWORD, message)
                     .why("values always have the same order, and each field appears once")
                     .help(format!("use the order {all}"));
@@ -419,7 +423,8 @@ impl Context<'_> {
             _ => dim,
         };
         if dim != needed {
-            let message = format!("`dim` of {} is {dim}, but its `datatype` has {needed}", self.node.shown());
+            let message =
+                format!("`dim` of {} is {dim}, but its `datatype` has {needed}", self.node.describe());
             self.error_at("dim", rules::CONFLICT, message).help(format!("write `dim=\"{needed}\"`"));
         }
         (datatype, self.p.word("needstage").unwrap_or(When::Acceleration as i32))

@@ -28,13 +28,13 @@ fn tendon(cx: &mut Context, refs: References, i: usize, node: &Node) -> TendonSp
     if actfrclimited && !(actfrcrange[0] <= 0.0 && 0.0 <= actfrcrange[1]) {
         let span = p.span("actuatorfrcrange").unwrap_or(node.span.clone());
         cx.report
-            .error(rules::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.shown()))
+            .error(rules::TENDON, span, format!("the actuatorfrcrange of {} excludes zero", node.describe()))
             .why(
                 "the actuator forces are scaled until their sum is in the range, but a sum of zero cannot be scaled",
             );
     }
     let path = path(cx, refs, i, node);
-    let owner = node.shown();
+    let owner = node.describe();
     let armature = checked(&p, "armature", &owner, |x| x >= 0.0, "zero or more", cx.report).unwrap_or(0.0);
     if armature > 0.0 && wraps_geoms(&path) {
         cx.report
@@ -91,7 +91,7 @@ pub(crate) fn check_rotors(tendons: &[TendonSpec], actuators: &[ActuatorSpec], r
         if let Some(tendon) = tendon.filter(|t| wraps_geoms(&t.path)) {
             let of = if tendon.name.is_empty() { String::new() } else { format!(" `{}`", tendon.name) };
             let message =
-                format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.shown);
+                format!("{} has armature and acts on tendon{of}, which wraps around a geom", a.described);
             report
                 .error(rules::TENDON, a.span.clone(), message)
                 .why(NO_SECOND_DERIVATIVE)
@@ -110,7 +110,11 @@ fn springlength(cx: &mut Context, p: &Props, node: &Node) -> [f64; 2] {
     if lower > upper {
         let span = p.span("springlength").unwrap_or(node.span.clone());
         cx.report
-            .error(rules::TENDON, span, format!("the springlength of {} is {lower} to {upper}", node.shown()))
+            .error(
+                rules::TENDON,
+                span,
+                format!("the springlength of {} is {lower} to {upper}", node.describe()),
+            )
             .why("the spring is relaxed between both lengths, so the first must be the smaller one")
             .help(format!("write `springlength=\"{upper} {lower}\"`"));
     }
@@ -127,7 +131,7 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
             _ => ("sites", "<site site=\"…\"/>"),
         };
         cx.report
-            .error(rules::TENDON, node.span.clone(), format!("{} has no path", node.shown()))
+            .error(rules::TENDON, node.span.clone(), format!("{} has no path", node.describe()))
             .why(format!("its length is measured along its {what}"))
             .help(format!("write `{one}` inside it"));
         return Vec::new();
@@ -144,10 +148,10 @@ fn path(cx: &mut Context, refs: References, i: usize, node: &Node) -> Vec<WrapSp
 
 /// One object, `None` after it was reported.
 fn wrap(refs: References, node: &Node, report: &mut Report) -> Option<WrapSpec> {
-    let p = Props::own(node);
+    let p = Props::written_props(node);
     let number = |name: &str, report: &mut Report| {
         if !p.has(name) {
-            let message = format!("{} has no `{name}`", node.shown());
+            let message = format!("{} has no `{name}`", node.describe());
             report.error(rules::MISSING_ATTRIBUTE, node.span.clone(), message);
         }
         p.real(name)

@@ -254,7 +254,7 @@ fn add(list: &mut Vec<Finding>, finding: Finding) -> Said<'_> {
 }
 
 /// A name as it is shown in a message: quoted, and cut when an author wrote a very long one.
-pub(crate) fn shown(name: &str) -> String {
+pub(crate) fn shorten_name(name: &str) -> String {
     const LONGEST: usize = 60;
     if name.chars().count() <= LONGEST {
         return format!("`{name}`");

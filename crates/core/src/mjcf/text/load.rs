@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{Report, shown};
+use super::diagnostic::{Report, shorten_name};
 use super::files::{FileProblem, Files, clean, folder_of};
 use super::patch::{self, Patch, Refusal};
 use super::scan;
@@ -108,8 +108,14 @@ impl<'f> Loader<'f> {
     }
 
     /// Puts what files hold below the elements that include them. Those files may include others.
-    fn include(&mut self, list: &mut Vec<Element>, own: Option<&str>, folder: &str, report: &mut Report) {
-        let mut included: BTreeSet<String> = filled(own.map(str::to_string));
+    fn include(
+        &mut self,
+        list: &mut Vec<Element>,
+        model_name: Option<&str>,
+        folder: &str,
+        report: &mut Report,
+    ) {
+        let mut included: BTreeSet<String> = filled(model_name.map(str::to_string));
         let mut at = 0;
         while let Some(element) = list.get(at) {
             if element.name == "include" && !report.is_full() {
@@ -151,7 +157,7 @@ impl<'f> Loader<'f> {
         let Some((path, text)) = self.text(&name, folder, &span, report) else { return Vec::new() };
         if !included.insert(path.clone()) {
             report
-                .error(rules::FILE, span, format!("the file {} is included twice", shown(&path)))
+                .error(rules::FILE, span, format!("the file {} is included twice", shorten_name(&path)))
                 .why("its elements would appear twice, or a file would include itself without end")
                 .help("include it once; `replicate` and `attach` make copies");
             return Vec::new();
@@ -160,7 +166,11 @@ impl<'f> Loader<'f> {
         let root = self.parse(&text, base, list, report).and_then(|root| list.get(root));
         let children = root.map_or(Vec::new(), |r| r.children.clone());
         if root.is_some() && children.is_empty() {
-            report.error(rules::FILE, span, format!("the included file {} has no elements", shown(&path)));
+            report.error(
+                rules::FILE,
+                span,
+                format!("the included file {} has no elements", shorten_name(&path)),
+            );
         }
         children
     }
@@ -183,16 +193,16 @@ impl<'f> Loader<'f> {
                     .error(
                         rules::FILE,
                         file.span.clone(),
-                        format!("the model {} contains itself", shown(&path)),
+                        format!("the model {} contains itself", shorten_name(&path)),
                     )
                     .why("a model that attaches itself through another model has no end");
                 continue;
             }
             let Some(model) = self.model(text, Some(&path), report) else { continue };
-            let own = model.tree.nodes.first().and_then(|root| root.text("model"));
-            let name = node.text("name").or(own).unwrap_or("MuJoCo Model").to_string();
+            let child_model = model.tree.nodes.first().and_then(|root| root.text("model"));
+            let name = node.text("name").or(child_model).unwrap_or("MuJoCo Model").to_string();
             if models.contains_key(&name) {
-                let message = format!("a second model has the name {}", shown(&name));
+                let message = format!("a second model has the name {}", shorten_name(&name));
                 report
                     .error(rules::DUPLICATE_NAME, node.span.clone(), message)
                     .help("rename one of them: a model without `name` takes the name in its file");
@@ -221,8 +231,10 @@ impl<'f> Loader<'f> {
             Ok(text) => Some((path, text.into())),
             Err(e) => {
                 let byte = e.utf8_error().valid_up_to();
-                let message =
-                    format!("{} is not UTF-8 text: byte {byte} does not belong to a character", shown(&path));
+                let message = format!(
+                    "{} is not UTF-8 text: byte {byte} does not belong to a character",
+                    shorten_name(&path)
+                );
                 report.error(rules::FILE, span.clone(), message);
                 None
             }
@@ -244,13 +256,13 @@ pub(crate) fn read(
             .error(
                 rules::FILE,
                 span.clone(),
-                format!("{} is not a path relative to the folder of the model", shown(written)),
+                format!("{} is not a path relative to the folder of the model", shorten_name(written)),
             )
             .why("an absolute path is valid on one computer only")
             .help("write the path relative to the folder of the model");
         return None;
     };
-    let name = shown(&path);
+    let name = shorten_name(&path);
     match files.read(&path, limit) {
         Ok(bytes) => return Some((path, bytes)),
         Err(FileProblem::NoFolder) => report

@@ -5,7 +5,7 @@
 use crate::mjcf::gather::listed;
 use std::ops::Range;
 
-use super::diagnostic::{Report, nearest, shown};
+use super::diagnostic::{Report, nearest, shorten_name};
 use super::values::{self, Value};
 use super::xml::Element as Xml;
 use crate::mjcf::MAX_DEPTH;
@@ -75,9 +75,9 @@ impl Node {
     }
 
     /// The element in a message: its name in the XML, and its own name if it has one.
-    pub(crate) fn shown(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         match self.text("name") {
-            Some(name) => format!("{} {}", self.element.name, shown(name)),
+            Some(name) => format!("{} {}", self.element.name, shorten_name(name)),
             None => self.element.name.to_string(),
         }
     }
@@ -108,7 +108,11 @@ pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tr
     if name != ROOT.name {
         let span = list.get(root).map_or(0..0, |r| r.span.clone());
         report
-            .error(rules::UNKNOWN_ELEMENT, span, format!("the root element is {}, not `mujoco`", shown(name)))
+            .error(
+                rules::UNKNOWN_ELEMENT,
+                span,
+                format!("the root element is {}, not `mujoco`", shorten_name(name)),
+            )
             .help("write a model as `<mujoco> … </mujoco>`");
         return None;
     }
@@ -177,31 +181,31 @@ fn children(
             report.error(
                 rules::UNKNOWN_ELEMENT,
                 span,
-                format!("the element {} is in an XML namespace", shown(name)),
+                format!("the element {} is in an XML namespace", shorten_name(name)),
             );
             continue;
         }
-        let Some(known) = element.child(name) else {
+        let Some(known_child) = element.child(name) else {
             unknown_element(name, span, element, report);
             continue;
         };
-        if known.status == Status::Unsupported {
+        if known_child.status == Status::Unsupported {
             report.incomplete = true;
             report
                 .error(rules::NOT_SUPPORTED, span, format!("`{name}` is not supported yet"))
                 .why("ignoring it silently would change what the model computes");
             continue;
         }
-        if known.once && seen.contains(&known.name) {
+        if known_child.once && seen.contains(&known_child.name) {
             report
                 .error(rules::REPEATED_ELEMENT, span, format!("`{}` has a second `{name}`", element.name))
                 .help("merge its attributes into the first");
             continue;
         }
-        if known.once {
-            seen.push(known.name);
+        if known_child.once {
+            seen.push(known_child.name);
         }
-        known_children.push((at, known));
+        known_children.push((at, known_child));
     }
     known_children
 }
@@ -219,7 +223,7 @@ fn unknown_element(name: &str, span: Range<usize>, element: &'static Element, re
     let error = report.error(
         rules::UNKNOWN_ELEMENT,
         span,
-        format!("MJCF has no element {} in `{}`", shown(name), element.name),
+        format!("MJCF has no element {} in `{}`", shorten_name(name), element.name),
     );
     if let Some(near) = nearest(name, element.children.iter().map(|c| c.name)) {
         error.help(format!("did you mean `{near}`?"));
@@ -341,7 +345,7 @@ fn same_as(attr: &Attr, value: &Value, default: &str) -> bool {
 }
 
 fn unknown_attribute(name: &str, span: Range<usize>, element: &'static Element, report: &mut Report) {
-    let message = format!("{} has no attribute {}", element.name, shown(name));
+    let message = format!("{} has no attribute {}", element.name, shorten_name(name));
     let error = report.error(rules::UNKNOWN_ATTRIBUTE, span, message);
     if let Some(near) = nearest(name, element.attributes().map(|a| a.name)) {
         error.help(format!("did you mean `{near}`?"));

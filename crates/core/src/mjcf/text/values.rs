@@ -4,7 +4,7 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::diagnostic::{nearest, shown};
+use super::diagnostic::{nearest, shorten_name};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules::{self, Rule};
 use crate::mjcf::schema::{Kind, Word};
@@ -69,22 +69,24 @@ fn keyword(words: &[Word], text: &str) -> Result<Value, Problem> {
         if word.supported {
             return Ok(Value::Word(word.value));
         }
-        let mut problem =
-            Problem::new(rules::NOT_SUPPORTED, format!("is {}, which is not supported yet", shown(text)));
-        problem.help = Some(format!("supported: {}", known(words)));
+        let mut problem = Problem::new(
+            rules::NOT_SUPPORTED,
+            format!("is {}, which is not supported yet", shorten_name(text)),
+        );
+        problem.help = Some(format!("supported: {}", list_keywords(words)));
         return Err(problem);
     }
     let mut problem =
-        Problem::new(rules::KEYWORD, format!("is {}, which is not an allowed keyword", shown(text)));
+        Problem::new(rules::KEYWORD, format!("is {}, which is not an allowed keyword", shorten_name(text)));
     problem.help = Some(match nearest(text.trim(), words.iter().filter(|w| w.supported).map(|w| w.text)) {
         Some(word) => format!("did you mean `{word}`?"),
-        None => format!("write one of: {}", known(words)),
+        None => format!("write one of: {}", list_keywords(words)),
     });
     Err(problem)
 }
 
 /// The keywords that are supported.
-fn known(words: &[Word]) -> String {
+fn list_keywords(words: &[Word]) -> String {
     listed(words.iter().filter(|w| w.supported).map(|w| w.text)).join(", ")
 }
 
@@ -113,10 +115,14 @@ fn real(word: &str) -> Result<f64, Problem> {
     let plain = word.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E'));
     match word.parse::<f64>() {
         Ok(x) if plain && x.is_finite() => Ok(x),
-        Ok(_) if plain => {
-            Err(Problem::new(rules::NUMBER, format!("has {}, which exceeds a 64-bit number", shown(word))))
-        }
-        Ok(_) => Err(Problem::new(rules::NUMBER, format!("has {}, but numbers must be finite", shown(word)))),
+        Ok(_) if plain => Err(Problem::new(
+            rules::NUMBER,
+            format!("has {}, which exceeds a 64-bit number", shorten_name(word)),
+        )),
+        Ok(_) => Err(Problem::new(
+            rules::NUMBER,
+            format!("has {}, but numbers must be finite", shorten_name(word)),
+        )),
         Err(_) => Err(not_a_number(word, "number")),
     }
 }
@@ -129,15 +135,17 @@ fn integer(word: &str) -> Result<i32, Problem> {
     if !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit()) {
         return Err(Problem::new(
             rules::NUMBER,
-            format!("has {}, which does not fit into a 32-bit integer", shown(word)),
+            format!("has {}, which does not fit into a 32-bit integer", shorten_name(word)),
         ));
     }
     Err(not_a_number(word, "integer"))
 }
 
 fn not_a_number(word: &str, noun: &str) -> Problem {
-    let mut problem =
-        Problem::new(rules::NUMBER, format!("has {}, which is not {} {noun}", shown(word), article(noun)));
+    let mut problem = Problem::new(
+        rules::NUMBER,
+        format!("has {}, which is not {} {noun}", shorten_name(word), article(noun)),
+    );
     if word.contains(',') {
         problem.help = Some("separate numbers by spaces and write decimals with a point".into());
     }

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use roxmltree::{Document, Error, Node, ParsingOptions};
 
-use super::diagnostic::{Report, shown};
+use super::diagnostic::{Report, shorten_name};
 use super::scan::Prepared;
 use crate::mjcf::rules;
 
@@ -162,9 +162,10 @@ fn explain(prepared: &Prepared, base: usize, error: &Error, report: &mut Report)
         Error::NoRootNode => {
             ("the text has no element".into(), "write a model as `<mujoco> … </mujoco>`".into())
         }
-        Error::DuplicatedAttribute(name, _) => {
-            (format!("the attribute {} appears twice in one tag", shown(name)), "keep one of them".into())
-        }
+        Error::DuplicatedAttribute(name, _) => (
+            format!("the attribute {} appears twice in one tag", shorten_name(name)),
+            "keep one of them".into(),
+        ),
         Error::InvalidAttributeValue(_) => (
             "the value of an attribute contains a `<`".into(),
             "close the quotes of the attribute before it".into(),

@@ -1,6 +1,6 @@
 //! Ranges: switched off where they are written, left by a keyframe, or missing where a servo needs one.
 
-use super::{digits, own_name, place, shown};
+use super::{digits, format_name, own_name, place};
 use crate::kinds::joint;
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
@@ -67,10 +67,10 @@ fn keys(tree: &Tree, m: &Model, report: &mut Report) {
             let beyond = (low - x).max(x - high);
             if beyond > SOFT * (high - low) {
                 let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
-                let key = shown("key", own_name(node).unwrap_or(""), k);
+                let key = format_name("key", own_name(node).unwrap_or(""), k);
                 let message = format!(
                     "{key} puts {} at {}, but its range is {} to {}",
-                    shown("joint", name, j),
+                    format_name("joint", name, j),
                     digits(*x),
                     digits(*low),
                     digits(*high)
@@ -102,7 +102,7 @@ fn servos(tree: &Tree, m: &Model, report: &mut Report) {
     let name = m.names.of(Obj::Actuator).get(*first).map_or("", String::as_str);
     let span = nodes.get(*first).map_or_else(|| place(tree, &SERVOS, name), |n| n.span.clone());
     let message = match open.len() {
-        1 => format!("{} has neither `ctrlrange` nor `forcerange`", shown("servo", name, *first)),
+        1 => format!("{} has neither `ctrlrange` nor `forcerange`", format_name("servo", name, *first)),
         n => format!("{n} of {} servos have neither `ctrlrange` nor `forcerange`", all.len()),
     };
     report

@@ -40,10 +40,10 @@ fn own_name(node: &Node) -> Option<&str> {
 }
 
 /// A thing in a message: its kind, and its name or number.
-fn shown(kind: &str, name: &str, number: usize) -> String {
+fn format_name(kind: &str, name: &str, number: usize) -> String {
     match name {
         "" => format!("{kind} {number}"),
-        name => format!("{kind} {}", super::text::diagnostic::shown(name)),
+        name => format!("{kind} {}", super::text::diagnostic::shorten_name(name)),
     }
 }
 

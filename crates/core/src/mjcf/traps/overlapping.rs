@@ -1,6 +1,6 @@
 //! Geoms that are deep inside of each other where the model begins.
 
-use super::{digits, place, shown};
+use super::{digits, format_name, place};
 use crate::kinds::geom;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
@@ -28,9 +28,9 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
     let name = |g: usize| m.names.of(Obj::Geom).get(g).map_or("", String::as_str);
     let message = format!(
         "{} begins {} mm inside {}",
-        shown("geom", name(b), b),
+        format_name("geom", name(b), b),
         digits(1000.0 * depth),
-        shown("geom", name(a), a)
+        format_name("geom", name(a), a)
     );
     report
         .note(rules::OVERLAP, place(tree, &["geom"], name(b)), message)

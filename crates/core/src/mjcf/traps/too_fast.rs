@@ -5,7 +5,7 @@
 //! roots of the characteristic polynomial within the unit circle). The classical Runge-Kutta method is stable for h √(k/m) < 2.78
 //! and h c / m < 2.78 (Hairer and Wanner, Solving Ordinary Differential Equations II, chapter IV.2).
 
-use super::{digits, place, shown};
+use super::{digits, format_name, place};
 use crate::kinds::{biastype, disable, integrator, joint, trntype};
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
@@ -64,8 +64,8 @@ fn acting(m: &Model, j: usize) -> Option<Acting> {
 /// Joints with a spring, a damper or a servo that the timestep makes grow.
 fn joints(tree: &Tree, m: &Model, report: &mut Report) {
     let h = m.opt.timestep;
-    let known = [integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST];
-    if !known.contains(&m.opt.integrator) || h.is_nan() || h <= 0.0 {
+    let supported = [integrator::EULER, integrator::RK4, integrator::IMPLICIT, integrator::IMPLICITFAST];
+    if !supported.contains(&m.opt.integrator) || h.is_nan() || h <= 0.0 {
         return;
     }
     for j in 0..m.njnt {
@@ -95,7 +95,7 @@ fn joints(tree: &Tree, m: &Model, report: &mut Report) {
         let by = if a.servo { ", with its servo," } else { "" };
         let message = format!(
             "{}{by} is {what} with a time constant of {} s, but the timestep is {} s",
-            shown("joint", name, j),
+            format_name("joint", name, j),
             digits(time),
             digits(h)
         );

@@ -2,7 +2,7 @@
 
 use crate::mjcf::rules;
 use crate::mjcf::schema::Kind;
-use crate::mjcf::text::diagnostic::{Report, shown};
+use crate::mjcf::text::diagnostic::{Report, shorten_name};
 use crate::mjcf::text::tree::{Node, Tree};
 use crate::mjcf::text::values::Value;
 use std::collections::{BTreeMap, BTreeSet};
@@ -57,7 +57,11 @@ pub(super) fn tell(tree: &Tree, report: &mut Report) {
             n => format!(", and {} more like it", n - 1),
         };
         report
-            .note(rules::UNUSED, span.clone(), format!("nothing uses the {kind} {}{more}", shown(first)))
+            .note(
+                rules::UNUSED,
+                span.clone(),
+                format!("nothing uses the {kind} {}{more}", shorten_name(first)),
+            )
             .help("use it, or remove it");
     }
 }

@@ -1,6 +1,6 @@
 //! Masses and inertias that are far apart, or next to nothing.
 
-use super::{digits, place, shown};
+use super::{digits, format_name, place};
 use crate::kinds::joint;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
@@ -24,9 +24,9 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
         if parent > 0 && moves(parent) && apart_from(b) && own > 0.0 && below > 0.0 && ratio > APART {
             let message = format!(
                 "{} has {} kg, but its neighbour {} has {} kg",
-                shown("body", body(b), b),
+                format_name("body", body(b), b),
                 digits(own),
-                shown("body", body(parent), parent),
+                format_name("body", body(parent), parent),
                 digits(below)
             );
             report
@@ -43,8 +43,11 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
         let inverse = m.jnt_dofadr.get(j).and_then(|d| m.dof_invweight0.get(usize::try_from(*d).ok()?));
         if let Some(inverse) = inverse.filter(|w| turns && **w > 1.0 / TINY) {
             let name = m.names.of(Obj::Joint).get(j).map_or("", String::as_str);
-            let message =
-                format!("{} turns an inertia of {} kg m²", shown("joint", name, j), digits(1.0 / inverse));
+            let message = format!(
+                "{} turns an inertia of {} kg m²",
+                format_name("joint", name, j),
+                digits(1.0 / inverse)
+            );
             report
                 .note(rules::TINY_INERTIA, place(tree, &["joint"], name), message)
                 .why("the smallest torque makes it faster than any timestep can follow")

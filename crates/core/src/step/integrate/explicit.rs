@@ -84,8 +84,8 @@ pub(super) fn explicit(m: &Model, d: &mut Workspace, method: &Method) {
     let (mut rows, mut end) = (std::mem::take(&mut w.rows), std::mem::take(&mut w.end));
     rows[..n].copy_from_slice(&w.first);
     for (stage, row) in method.rows.iter().enumerate() {
-        let (known, next) = rows.split_at_mut((stage + 1) * n);
-        along(&w.start, h, row, known, &mut end);
+        let (earlier, next) = rows.split_at_mut((stage + 1) * n);
+        along(&w.start, h, row, earlier, &mut end);
         flow::slope(m, d, &w, h * row.iter().sum::<f64>(), &end, &mut next[..n]);
     }
     along(&w.start, h, method.weights, &rows, &mut end);

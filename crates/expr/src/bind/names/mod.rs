@@ -141,7 +141,7 @@ pub(super) struct Walk<'a, 's> {
     /// Which functions are named by which others.
     calls: BTreeSet<(usize, usize)>,
     /// Variables of the lab that the text named so far.
-    kept: BTreeSet<&'a str>,
+    persistent: BTreeSet<&'a str>,
     levels: usize,
 }
 
@@ -158,7 +158,7 @@ pub(super) fn resolve<'a>(
         functions: BTreeMap::new(),
         function: WHOLE,
         calls: BTreeSet::new(),
-        kept: BTreeSet::new(),
+        persistent: BTreeSet::new(),
         levels: 0,
     };
     work(&mut walk);
@@ -191,7 +191,7 @@ impl<'a> Walk<'a, '_> {
             ExprKind::Name(name) => self.name(name, expr.span, used),
             ExprKind::Member { object, name, .. } => {
                 if matches!(&object.kind, ExprKind::Name(n) if n == "ctx") {
-                    self.kept.insert(&name.text);
+                    self.persistent.insert(&name.text);
                 }
                 self.expr(object, Use::Holder);
             }
@@ -422,8 +422,8 @@ impl<'a> Walk<'a, '_> {
         let mut function = self.function;
         while function != home {
             self.names.taken.entry(function).or_default().insert(byte);
-            let Some(known) = self.functions.get(&function) else { return };
-            function = known.around;
+            let Some(entry) = self.functions.get(&function) else { return };
+            function = entry.around;
         }
     }
 
@@ -441,7 +441,7 @@ impl<'a> Walk<'a, '_> {
                         if self.names.taken.entry(function).or_default().insert(byte) {
                             changed.insert(function);
                         }
-                        function = self.functions.get(&function).map_or(WHOLE, |known| known.around);
+                        function = self.functions.get(&function).map_or(WHOLE, |function| function.around);
                     }
                 }
             }
@@ -460,8 +460,8 @@ impl<'a> Walk<'a, '_> {
                 .help("split the text"),
             );
         }
-        let known = Known { function, around: self.function, reach: self.reach.len(), visited: false };
-        self.functions.insert(function.span.start, known);
+        let entry = Known { function, around: self.function, reach: self.reach.len(), visited: false };
+        self.functions.insert(function.span.start, entry);
     }
 
     /// Looks through a function, once.

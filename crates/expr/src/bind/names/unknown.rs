@@ -48,7 +48,7 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
             format!("use a name of the {lab}: {}", words.names),
         ),
         _ if PRINT.contains(&name) => {
-            ("there is no console".into(), format!("show the value in {}", words.shown))
+            ("there is no console".into(), format!("show the value in {}", words.displayed))
         }
         _ if OUTSIDE.contains(&name) => (
             format!("a {lesson} cannot access anything outside itself"),
@@ -101,15 +101,15 @@ impl Walk<'_, '_> {
         match self.meant(name, used) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
-                let own = match used {
+                let members = match used {
                     Use::Callee => "to define your own function, write `const f = (x) => …` first".to_owned(),
                     _ => {
                         format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
                     }
                 };
-                let mut known = self.root_names();
-                known.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report.why(format!("the names here are {}", list(&known))).help(own)
+                let mut names = self.root_names();
+                names.extend(["ctx".to_owned(), "Math".to_owned()]);
+                report.why(format!("the names here are {}", list(&names))).help(members)
             }
         }
     }
@@ -191,7 +191,7 @@ pub(in super::super) fn is_language(name: &str) -> bool {
 /// A list of names for a message, cut when it is long.
 pub(in super::super) fn list(names: &[String]) -> String {
     const SHOWN: usize = 8;
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
+    let quoted: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
     let more = names.len().saturating_sub(SHOWN);
-    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+    if more > 0 { format!("{} and {more} more", quoted.join(", ")) } else { quoted.join(", ") }
 }

@@ -109,8 +109,8 @@ impl<'a> Binder<'a> {
 
     /// Refuses to keep an array of the simulation in `ctx`: it would still change there.
     fn check_kept(&mut self, place: &Place, value: &Ir) -> Attempt<()> {
-        let kept = matches!(place, Place::Global(_) | Place::GlobalNamed(_));
-        if !(kept && value.ty == Type::View) {
+        let is_global = matches!(place, Place::Global(_) | Place::GlobalNamed(_));
+        if !(is_global && value.ty == Type::View) {
             return Ok(());
         }
         let text = self.text(value.span);

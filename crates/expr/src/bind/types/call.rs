@@ -399,7 +399,7 @@ impl<'a> Binder<'a> {
         let message =
             format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
         let report = Finding::error(rules::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
-        let known = ir.known().map(|v| (v.type_of(), v.to_number()));
+        let known = ir.constant_value().map(|v| (v.type_of(), v.to_number()));
         self.refuse(match known {
             Some((Type::String, x)) if !x.is_nan() => {
                 let meant = crate::number::to_text(x);
@@ -429,7 +429,7 @@ impl<'a> Binder<'a> {
             // Each argument reads and writes on its own account.
             let aggregates = std::mem::take(&mut self.aggregates);
             let variables = std::mem::take(&mut self.variables);
-            let known = std::mem::take(&mut self.known);
+            let outer = std::mem::take(&mut self.scopes);
             let alone = Tree { units: vec![Unit::default()], ..Tree::default() };
             let tree = std::mem::replace(&mut self.tree, alone);
             let keys = std::mem::take(&mut self.keys);
@@ -447,7 +447,7 @@ impl<'a> Binder<'a> {
             let tree = std::mem::replace(&mut self.tree, tree);
             self.keys = keys;
             self.variables = variables;
-            self.known = known;
+            self.scopes = outer;
             self.unit = unit;
             match bound {
                 Ok(Some(ir)) => {

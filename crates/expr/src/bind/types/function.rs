@@ -13,14 +13,14 @@ use crate::{Finding, Span};
 impl<'a> Binder<'a> {
     /// A function that the text gives at this place.
     pub(super) fn new_function(&mut self, function: &'a Function) -> Thing {
-        self.known.push(Known {
+        self.scopes.push(Known {
             function,
             key: self.key(function.span.start, What::Result),
             around: self.unit,
             unit: None,
             site: self.site,
         });
-        Thing::Closure(self.known.len() - 1)
+        Thing::Closure(self.scopes.len() - 1)
     }
 
     /// The place of a parameter, by which its type is kept.
@@ -31,7 +31,7 @@ impl<'a> Binder<'a> {
 
     /// The function as code, called with these types.
     fn unit_of(&mut self, at: usize, types: &[Type]) -> Attempt<UnitId> {
-        let Some(known) = self.known.get(at).cloned() else { return Err(Reported) };
+        let Some(known) = self.scopes.get(at).cloned() else { return Err(Reported) };
         let site = std::mem::replace(&mut self.site, known.site);
         for (i, param) in known.function.params.iter().enumerate() {
             let key = self.param_key(param);
@@ -43,20 +43,20 @@ impl<'a> Binder<'a> {
         Ok(unit)
     }
 
-    fn bind_function(&mut self, at: usize, known: &Known<'a>) -> UnitId {
+    fn bind_function(&mut self, at: usize, scope: &Known<'a>) -> UnitId {
         let unit = self.tree.units.len() as UnitId;
         self.tree.units.push(Unit::default());
-        if let Some(known) = self.known.get_mut(at) {
+        if let Some(known) = self.scopes.get_mut(at) {
             known.unit = Some(unit);
         }
-        self.facts.join(known.key);
-        let first = self.known.len();
+        self.facts.join(scope.key);
+        let first = self.scopes.len();
         let outer = (self.unit, self.loops, self.guards);
         (self.unit, self.loops, self.guards) = (unit, 0, 1);
-        let (params, body) = self.body(known.function);
+        let (params, body) = self.body(scope.function);
         self.leave(first);
         (self.unit, self.loops, self.guards) = outer;
-        let result = self.facts.ty(known.key);
+        let result = self.facts.ty(scope.key);
         if let Some(unit) = self.tree.units.get_mut(unit as usize) {
             unit.params = params;
             unit.body = body;
@@ -146,13 +146,13 @@ impl<'a> Binder<'a> {
 
     /// A function that nothing has called yet, as if it were called with anything.
     pub(super) fn bind_with_anything(&mut self, at: usize) {
-        let n = self.known.get(at).map_or(0, |k| k.function.params.len());
+        let n = self.scopes.get(at).map_or(0, |k| k.function.params.len());
         let _ = self.unit_of(at, &vec![Type::Any; n]);
     }
 
     /// A function as a value: it may be called from anywhere, with anything.
     pub(super) fn closure_value(&mut self, at: usize, span: Span) -> Attempt<Ir> {
-        let n = self.known.get(at).map_or(0, |k| k.function.params.len());
+        let n = self.scopes.get(at).map_or(0, |k| k.function.params.len());
         let unit = self.unit_of(at, &vec![Type::Any; n])?;
         self.capture_for(at);
         Ok(Ir::new(Kind::Closure(unit), Type::Function, span))
@@ -160,7 +160,7 @@ impl<'a> Binder<'a> {
 
     /// What a called function uses, its caller must hand in.
     fn capture_for(&mut self, at: usize) {
-        let Some(known) = self.known.get(at) else { return };
+        let Some(known) = self.scopes.get(at) else { return };
         let (Key { site, at, .. }, names) = (known.key, known.site.map_or(self.names, |site| site.names));
         for byte in names.taken(at) {
             let found = self.variables.get(&Key { site, at: byte, what: What::Name }).cloned();
@@ -177,9 +177,9 @@ impl<'a> Binder<'a> {
             let items = self.items(args)?;
             return Ok(self.call_value(callee, items, span));
         }
-        let wanted = self.known.get(at).map_or(0, |k| k.function.params.len());
+        let wanted = self.scopes.get(at).map_or(0, |k| k.function.params.len());
         let needed = self
-            .known
+            .scopes
             .get(at)
             .map_or(0, |k| k.function.params.iter().rposition(|p| p.default.is_none()).map_or(0, |i| i + 1));
         let mut values = Vec::new();
@@ -215,7 +215,7 @@ impl<'a> Binder<'a> {
         let types: Vec<Type> = values.iter().map(|v| v.ty).collect();
         let unit = self.unit_of(at, &types)?;
         self.capture_for(at);
-        let Some(key) = self.known.get(at).map(|k| k.key) else { return Err(Reported) };
+        let Some(key) = self.scopes.get(at).map(|k| k.key) else { return Err(Reported) };
         let call = Ir::new(Kind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
             return Ok(call);

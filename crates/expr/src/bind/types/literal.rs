@@ -214,12 +214,12 @@ impl<'a> Binder<'a> {
             return;
         }
         if let (Pattern::Record { entries, .. }, Thing::Value(ir)) = (pattern, &thing) {
-            let known: Vec<Attempt<Ir>> = entries
+            let entry_types: Vec<Attempt<Ir>> = entries
                 .iter()
                 .filter(|_| ir.ty == Type::Record)
                 .map(|(key, _)| self.record_member(ir.clone(), key, key.span))
                 .collect();
-            if known.iter().any(Result::is_err) {
+            if entry_types.iter().any(Result::is_err) {
                 return self.forget(pattern);
             }
         }

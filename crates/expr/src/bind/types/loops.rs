@@ -22,7 +22,7 @@ impl<'a> Binder<'a> {
         span: Span,
         steps: &mut Vec<Step>,
     ) {
-        let known = self.known.len();
+        let depth = self.scopes.len();
         let mut names: Vec<&Name> = Vec::new();
         if let Some(init) = init {
             if let StmtKind::Declare { declarators, .. } = &init.kind {
@@ -56,7 +56,7 @@ impl<'a> Binder<'a> {
             self.effect_into(update, &mut after);
         }
         steps.push(Step::Loop(Box::new(Loop { test, late: false, body: inside, update: after, span })));
-        self.leave(known);
+        self.leave(depth);
     }
 
     pub(super) fn while_loop(
@@ -72,7 +72,7 @@ impl<'a> Binder<'a> {
         let inside = self.body_of_loop(body);
         self.guards -= 1;
         if let Ok(ir) = bound {
-            if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
+            if ir.constant_value().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
                     Finding::error(rules::BUDGET, test.span, "this loop never ends")
                         .why("its condition is always true, and nothing in it leaves the loop")
@@ -99,7 +99,7 @@ impl<'a> Binder<'a> {
         steps: &mut Vec<Step>,
     ) {
         let list = self.thing(items);
-        let known = self.known.len();
+        let known = self.scopes.len();
         // The list, how long it is and where the loop stands are kept in places without names.
         let at = |me: &mut Self, what: What, ty: Type| {
             let key = me.key(span.start, what);
@@ -123,10 +123,10 @@ impl<'a> Binder<'a> {
                     None => Ir::new(Kind::Length(super::member::view_of(&field)), Type::Number, items.span),
                 };
                 let index = crate::ir::Index::Computed(Box::new(read_counter.clone()));
-                let known = field.len().is_some();
+                let has_length = field.len().is_some();
                 let mut item = self.load(&field, index, items.span);
                 // The counter stays below the length.
-                item.ty = if known { Type::Number } else { item.ty };
+                item.ty = if has_length { Type::Number } else { item.ty };
                 (length, item)
             }
             Ok(thing) => {
@@ -176,11 +176,11 @@ impl<'a> Binder<'a> {
     }
 
     /// A loop over something that is a mistake: its body may hold more of them.
-    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, known: usize) {
+    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, depth: usize) {
         self.hoist_pattern(target, &mut Vec::new());
         self.forget(target);
         self.body_of_loop(body);
-        self.leave(known);
+        self.leave(depth);
     }
 
     fn body_of_loop(&mut self, body: &'a Stmt) -> Vec<Step> {
@@ -269,21 +269,24 @@ impl<'a> Binder<'a> {
             return Ok(());
         }
         if most >= n as f64 {
-            let shown = number::to_text(most);
+            let bound_text = number::to_text(most);
             let text = self.text(index.span);
             let message = format!(
-                "in the last iteration of the loop, `{text}` is {shown}: past the end of `{}`",
+                "in the last iteration of the loop, `{text}` is {bound_text}: past the end of `{}`",
                 field.path
             );
             return self.refuse(past_the_end(field, index.span, message, self.words()));
         }
         if least < 0.0 {
-            let shown = number::to_text(least);
+            let bound_text = number::to_text(least);
             return self.refuse(
                 Finding::error(
                     rules::INDEX_NEGATIVE,
                     index.span,
-                    format!("in the loop, `{}` becomes {shown}, which is negative", self.text(index.span)),
+                    format!(
+                        "in the loop, `{}` becomes {bound_text}, which is negative",
+                        self.text(index.span)
+                    ),
                 )
                 .why("indexes start at 0; JavaScript gives `undefined` here")
                 .help(format!(

@@ -176,7 +176,7 @@ impl<'a> Binder<'a> {
                 let offset = match rest.first() {
                     Some(offset) => {
                         let ir = self.operand(offset)?;
-                        match ir.known() {
+                        match ir.constant_value() {
                             Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => *x as usize,
                             Some(_) => {
                                 let report = Finding::error(

@@ -172,7 +172,7 @@ struct Binder<'a> {
     keys: Vec<Key>,
     variables: BTreeMap<Key, Variable>,
     /// Functions of the text.
-    known: Vec<Known<'a>>,
+    scopes: Vec<Known<'a>>,
     /// The function that is bound.
     unit: UnitId,
     /// The call whose method, written in the language, is bound.
@@ -216,7 +216,7 @@ impl<'a> Binder<'a> {
             tree: Tree { units: vec![Unit::default()], ..Tree::default() },
             keys: Vec::new(),
             variables: BTreeMap::new(),
-            known: Vec::new(),
+            scopes: Vec::new(),
             unit: 0,
             site: None,
             returns: Vec::new(),
@@ -288,7 +288,7 @@ impl<'a> Binder<'a> {
     }
 
     /// A part as it is called in a message.
-    fn shown(&self, span: Span) -> String {
+    fn source_text(&self, span: Span) -> String {
         match self.site {
             Some(site) => format!("the result of the function of `{}`", site.called()),
             None => format!("`{}`", self.text(span)),

@@ -55,7 +55,7 @@ impl<'a> Binder<'a> {
         if let Kind::Call(id, _) = &ir.kind {
             let info = self.schema.function(*id);
             match info.members.iter().find(|(member, _)| *member == name.text) {
-                Some((_, known)) => ty = *known,
+                Some((_, declared)) => ty = *declared,
                 None if info.members.is_empty() => {}
                 None => {
                     let names: Vec<String> = info.members.iter().map(|(n, _)| n.clone()).collect();
@@ -165,8 +165,8 @@ impl<'a> Binder<'a> {
         }
         if of.is_empty() {
             // Any of the objects shows what members there are.
-            let known = names.first().and_then(|n| self.schema.lookup(id, n));
-            let report = match known {
+            let field = names.first().and_then(|n| self.schema.lookup(id, n));
+            let report = match field {
                 Some(object) => self.unknown_member(object, name, span),
                 None => Finding::error(
                     rules::UNKNOWN_FIELD,
@@ -201,9 +201,9 @@ impl<'a> Binder<'a> {
     /// Notes that an array becomes a value.
     pub(super) fn show(&mut self, field: &Field) -> View {
         let view = view_of(field);
-        let shown = crate::ir::Shown { view, elem: field.elem, assignable: field.is_assignable() };
-        if !self.tree.views.contains(&shown) {
-            self.tree.views.push(shown);
+        let displayed = crate::ir::Shown { view, elem: field.elem, assignable: field.is_assignable() };
+        if !self.tree.views.contains(&displayed) {
+            self.tree.views.push(displayed);
         }
         view
     }

@@ -73,20 +73,20 @@ impl<'a> Binder<'a> {
 
     /// Statements with names of their own.
     pub(super) fn block(&mut self, statements: &'a [Stmt]) -> Vec<Step> {
-        let known = self.known.len();
+        let depth = self.scopes.len();
         let mut steps = Vec::new();
         self.hoist(statements, &mut steps);
         for statement in statements {
             self.statement(statement, &mut steps);
         }
-        self.leave(known);
+        self.leave(depth);
         steps
     }
 
     /// The end of a block: functions that nothing called are looked through for mistakes.
-    pub(super) fn leave(&mut self, known: usize) {
-        for i in known..self.known.len() {
-            if self.known.get(i).is_some_and(|k| k.unit.is_none()) {
+    pub(super) fn leave(&mut self, depth: usize) {
+        for i in depth..self.scopes.len() {
+            if self.scopes.get(i).is_some_and(|k| k.unit.is_none()) {
                 self.bind_with_anything(i);
             }
         }
@@ -168,7 +168,7 @@ impl<'a> Binder<'a> {
         };
         variable.ready = true;
         // A name for a known value that never changes is that value.
-        if value.known().is_some() && !changes {
+        if value.constant_value().is_some() && !changes {
             variable.meaning = Meaning::Alias(Thing::Value(value));
             return;
         }
@@ -209,7 +209,7 @@ impl<'a> Binder<'a> {
     pub(super) fn capture(&mut self, variable: &Variable) {
         let mut unit = self.unit;
         while unit != variable.unit {
-            let Some(known) = self.known.iter().find(|k| k.unit == Some(unit)) else { return };
+            let Some(known) = self.scopes.iter().find(|k| k.unit == Some(unit)) else { return };
             if let Some(unit) = self.tree.units.get_mut(unit as usize)
                 && !unit.captures.contains(&variable.id)
             {

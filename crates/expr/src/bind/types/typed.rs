@@ -24,7 +24,7 @@ pub(in super::super) struct Typed {
 pub(in super::super) struct Shape {
     pub(in super::super) ty: Type,
     /// The value, where it is known.
-    pub(in super::super) known: Option<Value>,
+    pub(in super::super) constant: Option<Value>,
     /// The element of a field of the host that it is.
     pub(in super::super) element: Option<(FieldKey, usize)>,
 }
@@ -40,13 +40,13 @@ pub(in super::super) enum Want {
 }
 
 impl Shape {
-    fn of(ir: &Ir) -> Shape {
-        Shape { ty: ir.ty, known: ir.known().cloned(), element: element(ir) }
+    fn from_ir(ir: &Ir) -> Shape {
+        Shape { ty: ir.ty, constant: ir.constant_value().cloned(), element: element(ir) }
     }
 
     /// The value, where it is a known number.
     pub(in super::super) fn number(&self) -> Option<f64> {
-        match self.known {
+        match self.constant {
             Some(Value::Number(x)) => Some(x),
             _ => None,
         }
@@ -85,7 +85,7 @@ impl super::Binder<'_> {
     /// Notes what an expression is.
     pub(super) fn note(&mut self, span: Span, ir: &Ir) {
         if self.site.is_none() {
-            self.typed.shapes.push((span, Shape::of(ir)));
+            self.typed.shapes.push((span, Shape::from_ir(ir)));
         }
     }
 
@@ -99,7 +99,7 @@ impl super::Binder<'_> {
     /// Notes what a value is needed for.
     pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Want) {
         if self.site.is_none() {
-            self.typed.wants.push((span, want, Shape::of(ir)));
+            self.typed.wants.push((span, want, Shape::from_ir(ir)));
         }
     }
 }

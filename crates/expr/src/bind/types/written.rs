@@ -74,7 +74,7 @@ impl<'a> Binder<'a> {
         }
         let things = things.into_iter().collect::<Attempt<Vec<Thing>>>()?;
         let Body::Block(statements) = &function.body else { return Err(Reported) };
-        let known = self.known.len();
+        let depth = self.scopes.len();
         // A text has fewer than 65,536 bytes: a call inside a written method keeps the call around it apart.
         let (id, call) = match self.site {
             Some(outer) => (outer.id << 16 | span.end, outer.call),
@@ -100,7 +100,7 @@ impl<'a> Binder<'a> {
         }
         let result = self.new_local(key, false);
         let ty = self.facts.ty(key);
-        self.leave(known);
+        self.leave(depth);
         (self.site, self.guards) = outer;
         steps.push(Step::Inline(result, body, span));
         let value = Ir::new(Kind::Local(result), ty, span);

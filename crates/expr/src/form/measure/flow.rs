@@ -154,7 +154,7 @@ impl<'f> Work<'f> {
 
     pub(super) fn number(&self, n: Num) -> Measure {
         let n = self.unit.same.number(n);
-        match self.unit.known(n) {
+        match self.unit.constant(n) {
             Some(_) => Measure::Anything,
             None => self.numbers.get(&n.0).copied().unwrap_or_default(),
         }
@@ -171,7 +171,7 @@ impl<'f> Work<'f> {
 
     /// The number that stands for itself.
     pub(super) fn literal(&self, n: Num) -> Option<f64> {
-        self.unit.known(self.unit.same.number(n))
+        self.unit.constant(self.unit.same.number(n))
     }
 
     pub(super) fn access(&self, access: Access) -> Measure {
@@ -184,9 +184,9 @@ impl<'f> Work<'f> {
 
     pub(super) fn variable(&self, slot: u32) -> Measure {
         // A function of the text may run at any time.
-        let known = self.around.given.variables.get(&slot).copied().unwrap_or(Measure::Anything);
-        let own = self.found.variables.get(&slot).filter(|_| self.stack == [0]);
-        own.map_or(known, |own| known.or(*own))
+        let before = self.around.given.variables.get(&slot).copied().unwrap_or(Measure::Anything);
+        let assigned = self.found.variables.get(&slot).filter(|_| self.stack == [0]);
+        assigned.map_or(before, |own| before.or(*own))
     }
 
     pub(super) fn clash(&mut self, span: &Span, a: Measure, b: Measure) {

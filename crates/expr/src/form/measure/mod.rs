@@ -83,8 +83,8 @@ pub(crate) fn measured(form: &Form, schema: &dyn Schema, given: &Given, aggregat
             all.value = found.value;
         }
         for (slot, measure) in found.variables {
-            let known = all.variables.entry(slot).or_insert(Measure::Anything);
-            *known = known.or(measure);
+            let entry = all.variables.entry(slot).or_insert(Measure::Anything);
+            *entry = entry.or(measure);
         }
         all.stores.extend(found.stores);
         all.clashes.extend(found.clashes);

@@ -63,10 +63,10 @@ impl Work<'_> {
                 self.set(number(d), Measure::NUMBER);
             }
             Op::CallHost(d, function, args) => {
-                let args = args.of(&self.unit.args);
+                let args = args.operands_in(&self.unit.args);
                 let first = args.first().and_then(|v| self.unit.known_value(Val(*v)));
                 let gives = self.around.schema.gives(function, first.map(Value::to_number));
-                let m = gives.of(|i| args.get(i).map_or(Measure::Unknown, |v| self.value(Val(*v))));
+                let m = gives.result_of(|i| args.get(i).map_or(Measure::Unknown, |v| self.value(Val(*v))));
                 self.set(value(d), m);
             }
             Op::Aggregate(d, slot) => {
@@ -96,7 +96,7 @@ impl Work<'_> {
         let (number, value) = (At::Number, At::Value);
         match *op {
             Op::List(d, args) => {
-                for v in args.of(&self.unit.args) {
+                for v in args.operands_in(&self.unit.args) {
                     self.join(value(d), self.value(Val(*v)));
                 }
                 self.join(value(d), Measure::Anything);
@@ -118,7 +118,7 @@ impl Work<'_> {
             }
             Op::Method(d, name, args) => {
                 let args: Vec<Measure> =
-                    args.of(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
+                    args.operands_in(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
                 let m = handed::method(name, &args);
                 if let Some(receiver) = self.receiver(op).filter(|_| changes(name)) {
                     args.iter().skip(1).for_each(|m| self.join(value(receiver), *m));
@@ -127,7 +127,7 @@ impl Work<'_> {
             }
             Op::Native(d, function, args) => {
                 let args: Vec<Measure> =
-                    args.of(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
+                    args.operands_in(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
                 self.set(value(d), handed::free(function, &args));
             }
             Op::MethodList(d, name, receiver, list) => {
@@ -141,12 +141,12 @@ impl Work<'_> {
                 self.set(value(d), handed::free(function, &[self.value(list)]));
             }
             Op::Closure(d, unit, args) => {
-                let used = args.of(&self.unit.args).iter().map(|v| Val(*v)).collect();
+                let used = args.operands_in(&self.unit.args).iter().map(|v| Val(*v)).collect();
                 self.closures.insert(self.unit.same.value(d).0, (unit, used));
                 self.set(value(d), Measure::Unknown);
             }
             Op::Invoke(d, function, args) => {
-                let args = args.of(&self.unit.args).iter().map(|v| value(Val(*v))).collect();
+                let args = args.operands_in(&self.unit.args).iter().map(|v| value(Val(*v))).collect();
                 match self.closures.get(&self.unit.same.value(function).0).cloned() {
                     Some((unit, used)) => self.invoke(unit, args, used.into_iter().map(value).collect()),
                     None => {
@@ -211,7 +211,7 @@ impl Work<'_> {
 
     fn receiver(&self, op: &Op) -> Option<Val> {
         match op {
-            Op::Method(_, _, args) => args.of(&self.unit.args).first().map(|v| Val(*v)),
+            Op::Method(_, _, args) => args.operands_in(&self.unit.args).first().map(|v| Val(*v)),
             _ => None,
         }
     }
@@ -273,7 +273,7 @@ impl Work<'_> {
 
     /// What a function of `Math` gives.
     fn math(&mut self, function: math::Function, args: Args, span: &Span) -> Measure {
-        let args: Vec<Num> = args.of(&self.unit.args).iter().map(|n| Num(*n)).collect();
+        let args: Vec<Num> = args.operands_in(&self.unit.args).iter().map(|n| Num(*n)).collect();
         let measures: Vec<Measure> = args.iter().map(|n| self.number(*n)).collect();
         let first = measures.first().copied().unwrap_or_default();
         let mut together = || {

@@ -52,10 +52,10 @@ pub(super) fn midphase(before: &Model, now: &Model) -> Changes {
         (0..now.ngeom).any(|other| body_of(now, other) == body && !visual(other))
     };
     let flags = now.opt.disableflags;
-    let missed = flags & disable::MIDPHASE == 0
+    let unsupported = flags & disable::MIDPHASE == 0
         && flags == before.opt.disableflags
         && (0..now.ngeom).any(|g| visual(g) && switched(g) && has_tree(g));
-    match missed {
+    match unsupported {
         true => vec![(0, PartnerChange::Becomes(f64::from(flags | disable::MIDPHASE)))],
         false => Vec::new(),
     }

@@ -34,8 +34,8 @@ impl Coupled {
             model: now.clone(),
             data: Data::planned(now, Plan::new(now, &AccessSet::ANY)),
             key: None,
-            own: Functions::new(),
-            shown: Vec::new(),
+            functions: Functions::new(),
+            displayed: Vec::new(),
             numbers: Vec::new(),
         };
         if same_objects(before, now)

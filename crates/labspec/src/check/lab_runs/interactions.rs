@@ -50,7 +50,8 @@ fn try_more(tour: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Findi
         };
         *left = left.saturating_sub(attempt.spent);
         // What a simpler setting has shown already is not told again.
-        of_trial.retain(|f| !findings.iter().any(|known| known.code == f.code && known.span == f.span));
+        of_trial
+            .retain(|f| !findings.iter().any(|reported| reported.code == f.code && reported.span == f.span));
         findings.extend(of_trial);
         if attempt.ended.is_some() {
             tour.skip(1);

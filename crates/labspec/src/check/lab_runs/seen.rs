@@ -39,7 +39,7 @@ struct WatchedDisplay<'a> {
 
 /// All that a lab shows.
 pub(super) struct Seen<'a> {
-    shown: Vec<WatchedDisplay<'a>>,
+    displays: Vec<WatchedDisplay<'a>>,
     /// Traces and readouts.
     width: usize,
     /// Slots of `ctx` to which some text stores `NaN` on purpose.
@@ -96,7 +96,7 @@ impl<'a> Seen<'a> {
         let on_purpose = programs.bound().filter(|b| says_gap(&b.text.value));
         let gaps = on_purpose.flat_map(|b| b.program.effects().ctx_writes.iter().copied()).collect();
         Seen {
-            shown: displays.collect(),
+            displays: displays.collect(),
             width: programs.probes.len(),
             gaps,
             found: Vec::new(),
@@ -109,34 +109,34 @@ impl<'a> Seen<'a> {
         let mut row = Vec::with_capacity(self.width + 1);
         row.push(Cell::Number(session.world.data.time()));
         row.resize(self.width + 1, Cell::Nothing);
-        for shown in &mut self.shown {
-            let value = session.evaluate(&shown.bound.program, &shown.bound.text);
+        for display in &mut self.displays {
+            let value = session.evaluate(&display.bound.program, &display.bound.text);
             if session.ended().is_some_and(|e| matches!(e, crate::run::End::Budget { .. })) {
                 return row;
             }
             // What threw is a finding of its own.
             let Some(value) = value else { continue };
-            if let Some(cell) = row.get_mut(shown.column) {
+            if let Some(cell) = row.get_mut(display.column) {
                 *cell = Cell::from(value.clone());
             }
             let kind = match &value {
                 Value::Number(x) if x.is_nan() => DisplayKind::Nan,
-                Value::Number(x) if x.is_infinite() && !shown.says_infinite => DisplayKind::Infinite,
+                Value::Number(x) if x.is_infinite() && !display.says_infinite => DisplayKind::Infinite,
                 Value::Undefined | Value::Null => DisplayKind::Nan,
-                Value::String(_) if shown.trace => DisplayKind::Text,
+                Value::String(_) if display.trace => DisplayKind::Text,
                 _ => {
-                    shown.ever = true;
+                    display.ever = true;
                     continue;
                 }
             };
             let time = session.world.data.time();
-            if kind == DisplayKind::Nan && (shown.says_gap || unset(shown.bound, session, &self.gaps)) {
+            if kind == DisplayKind::Nan && (display.says_gap || unset(display.bound, session, &self.gaps)) {
                 // A gap that is said may be filled by what no run does, unless it is all that the text says.
-                if !shown.says_gap || shown.bound.program.effects().constant() {
-                    shown.gap.get_or_insert_with(|| (time, done.to_owned()));
+                if !display.says_gap || display.bound.program.effects().constant() {
+                    display.gap.get_or_insert_with(|| (time, done.to_owned()));
                 }
-            } else if shown.reported.insert(kind) {
-                self.found.push(shown.finding(kind, &value, time, done));
+            } else if display.reported.insert(kind) {
+                self.found.push(display.finding(kind, &value, time, done));
             }
         }
         row
@@ -149,7 +149,7 @@ impl<'a> Seen<'a> {
 
     /// When all runs are made: what was never anything but a gap.
     pub(super) fn never(&mut self, all: bool) -> Vec<Finding> {
-        let empty = self.shown.iter().filter(|s| all && !s.ever && s.reported.is_empty());
+        let empty = self.displays.iter().filter(|s| all && !s.ever && s.reported.is_empty());
         let gap_finding = |s: &WatchedDisplay<'_>| {
             s.gap.as_ref().map(|_| {
                 Finding::warning(

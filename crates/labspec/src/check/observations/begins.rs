@@ -44,13 +44,13 @@ pub(super) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
         };
         let column =
             || observed.records.iter().flat_map(|r| &r.rows).filter_map(|row| row.get(1 + traces + i));
-        let Some(shown) = column().next().filter(|c| matches!(c, Cell::Number(_))) else { continue };
+        let Some(first_cell) = column().next().filter(|c| matches!(c, Cell::Number(_))) else { continue };
         let at = access.first % ready.model.nq.max(1);
-        if !column().all(|c| same(c, shown)) {
+        if !column().all(|c| same(c, first_cell)) {
             continue;
         }
         let Some((from, to, done)) = moves(observed, at) else { continue };
-        let [shown, from, to] = [shown.number(), from, to].map(|x| digits(x, 4));
+        let [first_cell, from, to] = [first_cell.number(), from, to].map(|x| digits(x, 4));
         findings.push(
             Finding::warning(
                 rules::SHOWS_THE_START,
@@ -60,7 +60,9 @@ pub(super) fn check_beginning(observed: &ObservedLab<'_>, findings: &mut Vec<Fin
                     readout.label.as_str()
                 ),
             )
-            .why(format!("it is {shown} in every run, but {done} `data.qpos[{at}]` goes from {from} to {to}"))
+            .why(format!(
+                "it is {first_cell} in every run, but {done} `data.qpos[{at}]` goes from {from} to {to}"
+            ))
             .help(format!(
                 "read `data.qpos` for the current value: `model.{}` holds the initial one",
                 field.name
@@ -89,7 +91,7 @@ fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
             choices(control).into_iter().map(|v| (of(Some(v.clone())), format!("with \"{label}\" at {v},"))),
         );
     }
-    all.into_iter().find_map(|(done, said)| {
+    all.into_iter().find_map(|(done, description)| {
         let mut session = observed.bench.start();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         run::play(&mut session, &Play { every: 5, ..Play::steps(STEPS) }, |session, step| {
@@ -104,6 +106,6 @@ fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
             (low, high) = (low.min(x), high.max(x));
             ControlFlow::Continue(())
         });
-        (session.ended().is_none() && high - low > MOVED).then_some((low, high, said))
+        (session.ended().is_none() && high - low > MOVED).then_some((low, high, description))
     })
 }

@@ -76,7 +76,7 @@ fn pushes(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> 
             }
         }
     }
-    all.into_iter().find_map(|(done, said)| {
+    all.into_iter().find_map(|(done, description)| {
         let mut session = observed.bench.start();
         let mut most: Option<(usize, f64, f64, f64)> = None;
         run::play(&mut session, &Play::steps(STEPS), |session, step| {
@@ -97,6 +97,6 @@ fn pushes(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> 
             ControlFlow::Continue(())
         });
         let (dof, damping, power, time) = most?;
-        Some((dof, damping, power, time, said))
+        Some((dof, damping, power, time, description))
     })
 }

@@ -107,7 +107,7 @@ fn changed(observed: &ObservedLab<'_>, c: usize, range: f64, a: Option<&Cell>, b
     }
     let lab = observed.bench.ready.lab;
     match c.checked_sub(1 + lab.traces().count()).and_then(|i| lab.readouts.get(i)) {
-        Some(readout) => a.shown(readout.digits()) != b.shown(readout.digits()),
+        Some(readout) => a.rounded(readout.digits()) != b.rounded(readout.digits()),
         None => (a.number() - b.number()).abs() > MOVED * range,
     }
 }

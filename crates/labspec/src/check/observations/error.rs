@@ -32,7 +32,7 @@ pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mu
     else {
         return;
     };
-    let (Some(own), Some(fine)) = (samples(observed, steps, 1), samples(observed, steps, 2)) else {
+    let (Some(nominal), Some(fine)) = (samples(observed, steps, 1), samples(observed, steps, 2)) else {
         return;
     };
     let first = 1 + ready.lab.traces().count();
@@ -42,7 +42,7 @@ pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mu
             let at = |row: &Vec<Cell>| row.get(first + i).map_or(f64::NAN, Cell::number);
             (at(a) - at(b)).abs() / last
         };
-        let mut apart: Vec<f64> = own.iter().zip(&fine).map(|pair| differs(&pair)).collect();
+        let mut apart: Vec<f64> = nominal.iter().zip(&fine).map(|pair| differs(&pair)).collect();
         if apart.iter().any(|x| !x.is_finite()) {
             continue;
         }
@@ -55,9 +55,9 @@ pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mu
         let last_text = |rows: &[Vec<Cell>]| {
             rows.last()
                 .and_then(|row| row.get(first + i))
-                .map_or(String::new(), |c| c.shown(readout.digits()))
+                .map_or(String::new(), |c| c.rounded(readout.digits()))
         };
-        let time = own.last().and_then(|row| row.first()).map_or(0.0, Cell::number);
+        let time = nominal.last().and_then(|row| row.first()).map_or(0.0, Cell::number);
         findings.push(
             Finding::new(
                 rules::TOO_MANY_DIGITS,
@@ -67,7 +67,7 @@ pub(super) fn check_error_readouts(observed: &mut ObservedLab<'_>, findings: &mu
             .why(format!(
                 "at t = {} s it is {}, but {} in the same run at half the timestep",
                 digits(time, 4),
-                last_text(&own),
+                last_text(&nominal),
                 last_text(&fine)
             ))
             .help(format!(

@@ -162,11 +162,11 @@ fn suspicious(
 
 /// A slider is moved once. A button is pressed several times, as it may be the second press that acts; an odd number of times, so
 /// that what it switches on is on.
-fn presses(own: &Move, steps: usize) -> Vec<Move> {
-    let times = if own.value.is_none() { PRESSES } else { 1 };
-    let apart = (steps.saturating_sub(own.step) / (2 * PRESSES)).max(1);
+fn presses(nominal: &Move, steps: usize) -> Vec<Move> {
+    let times = if nominal.value.is_none() { PRESSES } else { 1 };
+    let apart = (steps.saturating_sub(nominal.step) / (2 * PRESSES)).max(1);
     (0..times)
-        .map(|n| Move { step: own.step + n * apart, ..own.clone() })
+        .map(|n| Move { step: nominal.step + n * apart, ..nominal.clone() })
         .filter(|m| m.step <= steps)
         .collect()
 }
@@ -219,8 +219,8 @@ fn idle(bench: &mut ObservationBench<'_>, index: usize, values: &[Option<Value>]
 }
 
 /// What is done to the other controls: nothing, each button, all of them at their ends, both together, each alone.
-pub(super) fn settings(lab: &Lab, own: usize, press: usize) -> Vec<Setting> {
-    let others = || lab.controls.iter().enumerate().filter(move |(i, _)| *i != own);
+pub(super) fn settings(lab: &Lab, nominal: usize, press: usize) -> Vec<Setting> {
+    let others = || lab.controls.iter().enumerate().filter(move |(i, _)| *i != nominal);
     let ends: Vec<(usize, Vec<Value>)> = others()
         .filter_map(|(i, c)| match &c.kind {
             ControlKind::Slider { min, max, .. } => {

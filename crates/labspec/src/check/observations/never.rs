@@ -9,11 +9,12 @@ pub(super) fn check_stop_reached(observed: &ObservedLab<'_>, findings: &mut Vec<
     let Some(stop) = &observed.bench.ready.lab.stop_at else { return };
     let Some((_, timestep)) = observed.bench.steps(observed.length) else { return };
     // As it stands; the run was long enough if time had gone on.
-    let Some(own) = observed.records.first().filter(|r| r.moved.is_none() && observed.length >= stop.value)
+    let Some(nominal) =
+        observed.records.first().filter(|r| r.moved.is_none() && observed.length >= stop.value)
     else {
         return;
     };
-    let times = || own.rows.iter().filter_map(|row| row.first()).map(|cell| cell.number());
+    let times = || nominal.rows.iter().filter_map(|row| row.first()).map(|cell| cell.number());
     let last = times().fold(f64::NEG_INFINITY, f64::max);
     let back = times().zip(times().skip(1)).find(|(a, b)| b < a);
     let (Some((before, after)), true) = (back, last < stop.value - 1.5 * timestep) else { return };

@@ -70,13 +70,13 @@ fn elements(bound: &Bound) -> Option<Vec<Element>> {
 pub(super) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     for (index, control) in ready.lab.controls.iter().enumerate() {
-        let Some((_, ControlProgram::Change(own, action))) = ready.programs.controls.get(index) else {
+        let Some((_, ControlProgram::Change(current, action))) = ready.programs.controls.get(index) else {
             continue;
         };
         let Some(bound) = action.run.as_ref() else { continue };
         let Some(elements) = elements(bound) else { continue };
         let label = &control.label.value;
-        let finding = if let Some(why) = otherwise(observed, index, own, &elements) {
+        let finding = if let Some(why) = otherwise(observed, index, current, &elements) {
             Finding::warning(rules::OVERRULED, bound.text.span(), format!("the lab does not start with the value of \"{label}\""))
                 .why(why)
                 .help("delete the code after the control that overwrites it, in the setup or in another control, or let it use the control's value")
@@ -97,7 +97,12 @@ pub(super) fn check_overruled_controls(observed: &mut ObservedLab<'_>, findings:
 }
 
 /// What the lab begins with where the control says another value, in words.
-fn otherwise(observed: &ObservedLab<'_>, index: usize, own: &Value, elements: &[Element]) -> Option<String> {
+fn otherwise(
+    observed: &ObservedLab<'_>,
+    index: usize,
+    current: &Value,
+    elements: &[Element],
+) -> Option<String> {
     let ready = observed.bench.ready;
     let mut programs = ready.programs.clone();
     if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
@@ -107,9 +112,9 @@ fn otherwise(observed: &ObservedLab<'_>, index: usize, own: &Value, elements: &[
     let mut session = Session::start_within(&programs, &ready.model, key, &programs.demand, budget);
     let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     let begins = now(&session);
-    session.set_control(index, own.clone());
+    session.set_control(index, current.clone());
     let says = now(&session);
-    session.set_control(index, own.clone());
+    session.set_control(index, current.clone());
     // What adds to what is there says nothing of the start.
     if now(&session) != says || session.ended().is_some() {
         return None;
@@ -118,7 +123,7 @@ fn otherwise(observed: &ObservedLab<'_>, index: usize, own: &Value, elements: &[
     let at = begins.iter().zip(&says).position(apart)?;
     let [begins, says] = [begins.get(at)?, says.get(at)?].map(|x| digits(*x, 6));
     Some(format!(
-        "it displays {own}, for which {} is {says}, but the lab starts with {begins}",
+        "it displays {current}, for which {} is {says}, but the lab starts with {begins}",
         elements.get(at)?.name()
     ))
 }

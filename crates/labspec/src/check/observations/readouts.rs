@@ -58,7 +58,7 @@ pub(super) fn check_readouts(observed: &ObservedLab<'_>, findings: &mut Vec<Find
         let many = values.len() >= MANY && rounded;
         let share = (high - low) / low.abs().max(high.abs());
         let printed: BTreeSet<String> =
-            cells().map(|c| c.shown(readout.digits()).trim_start_matches('-').to_string()).collect();
+            cells().map(|c| c.rounded(readout.digits()).trim_start_matches('-').to_string()).collect();
         // One text, or two next to each other, for all that it does.
         let few = readout.digits() == 0
             && (printed.len() == 1 && share > HARDLY || printed.len() == 2 && share > SOME);

@@ -42,14 +42,14 @@ pub(super) fn check_stale_reads(observed: &mut ObservedLab<'_>, findings: &mut V
     for (place, bound, given) in setup.chain(controls) {
         let Some(text) = suspect(bound).then(|| with_forward(&bound.text.value)).flatten() else { continue };
         let Some(amended) = amended(observed, place, bound, &text, given) else { continue };
-        if let Some(said) = shows(observed, place, &amended) {
+        if let Some(description) = shows(observed, place, &amended) {
             findings.push(
                 Finding::warning(
                     rules::STALE_READ,
                     bound.text.span(),
                     "this reads a value that still belongs to the old state",
                 )
-                .why(said)
+                .why(description)
                 .help(format!("call `{FORWARD}` between the write and the read; a test run confirms it")),
             );
         }
@@ -156,7 +156,7 @@ fn trials(lab: &Lab, place: ProgramSite) -> Vec<(Vec<Move>, String)> {
 /// The first difference that can be seen, in words.
 fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs) -> Option<String> {
     let ready = observed.bench.ready;
-    for (moves, said) in trials(ready.lab, place) {
+    for (moves, description) in trials(ready.lab, place) {
         let with_move = observed.bench.run(&moves, STEPS)?;
         let mut other = ObservationBench { ready, programs: amended, left: observed.bench.left, runs: 0 };
         let anew = other.run(&moves, STEPS)?;
@@ -175,7 +175,7 @@ fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs)
             let readout = c.checked_sub(ready.lab.traces().count()).and_then(|i| ready.lab.readouts.get(i));
             let apart = |a: &Cell, b: &Cell| match readout {
                 Some(r) => {
-                    a.shown(r.digits()) != b.shown(r.digits())
+                    a.rounded(r.digits()) != b.rounded(r.digits())
                         && (a.number() - b.number()).abs() > 1e-9 * high.abs().max(low.abs())
                 }
                 None => (a.number() - b.number()).abs() > VISIBLE * (high - low),
@@ -184,7 +184,7 @@ fn shows(observed: &mut ObservedLab<'_>, place: ProgramSite, amended: &Programs)
                 let name = probe.name.splitn(3, '/').last().unwrap_or("");
                 let [a, b] = [a, b].map(|x| setconst::digits(x.number(), 5));
                 return Some(format!(
-                    "{said}, \"{name}\" is {a} at t = {} s, but {b} with `{FORWARD}` after the write",
+                    "{description}, \"{name}\" is {a} at t = {} s, but {b} with `{FORWARD}` after the write",
                     setconst::digits(time.number(), 4)
                 ));
             }

@@ -71,9 +71,9 @@ enum TestedNumerics {
 #[derive(Clone, Copy)]
 struct ClaimOwner<'c> {
     verify: &'c Verify,
-    own: Option<&'c Lab>,
+    lab: Option<&'c Lab>,
     question: Option<&'c Question>,
-    shown: &'c ShownText,
+    rendered: &'c ShownText,
 }
 
 /// The programs of all labs that write a parameter which others belong to.
@@ -144,13 +144,13 @@ impl<'a> Partners<'a> {
     pub(super) fn settle(
         &self,
         verify: &Verify,
-        own: Option<&Lab>,
+        lab: Option<&Lab>,
         question: Option<&Question>,
-        shown: &ShownText,
+        rendered: &ShownText,
         judgement: &mut Judgement,
         findings: &mut Vec<Finding>,
     ) {
-        let case = ClaimOwner { verify, own, question, shown };
+        let case = ClaimOwner { verify, lab, question, rendered };
         let candidates = self.involved(case);
         if candidates.is_empty() {
             return;
@@ -186,12 +186,12 @@ impl<'a> Partners<'a> {
 
     /// The programs of the labs of an object, and the setups of its runs.
     fn involved(&self, case: ClaimOwner<'_>) -> Vec<PartnerCandidate<'a>> {
-        let ClaimOwner { verify, own, .. } = case;
-        let base = verify.lab.as_ref().map_or(own, |named| self.lesson.named(named));
+        let ClaimOwner { verify, lab, .. } = case;
+        let base = verify.lab.as_ref().map_or(lab, |named| self.lesson.named(named));
         let of_run = |run| lab_of(self.lesson, base, run);
         let labs: Vec<&Lab> = base.into_iter().chain(verify.runs.iter().filter_map(of_run)).collect();
         let of = |c: &&PartnerCandidate<'_>| {
-            labs.iter().any(|lab| c.lab.is_some_and(|own| std::ptr::eq(own, *lab)))
+            labs.iter().any(|lab| c.lab.is_some_and(|of_claim| std::ptr::eq(of_claim, *lab)))
         };
         let mut all: Vec<PartnerCandidate<'a>> = self.candidates.iter().filter(of).cloned().collect();
         for text in changes(verify) {
@@ -237,12 +237,14 @@ impl<'a> Partners<'a> {
         numerics: TestedNumerics,
     ) -> Option<Judgement> {
         let mut ignored = Vec::new();
-        let ClaimOwner { verify, own, question, shown } = case;
-        let ResolvedLabs { base, runs } = resolve_labs(self.lesson, labs, verify, own, stage, &mut ignored)?;
+        let ClaimOwner { verify, lab, question, rendered } = case;
+        let ResolvedLabs { base, runs } = resolve_labs(self.lesson, labs, verify, lab, stage, &mut ignored)?;
         let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut ignored)?;
         match numerics {
-            TestedNumerics::Nominal => verify::check_nominal(&bound, verify, question, shown),
-            TestedNumerics::All => Some(verify::check_verify(&bound, verify, question, shown, &mut ignored)),
+            TestedNumerics::Nominal => verify::check_nominal(&bound, verify, question, rendered),
+            TestedNumerics::All => {
+                Some(verify::check_verify(&bound, verify, question, rendered, &mut ignored))
+            }
         }
     }
 
@@ -250,8 +252,8 @@ impl<'a> Partners<'a> {
     fn contrasted(&self, case: ClaimOwner<'_>, first: &Judgement, second: &Judgement) -> bool {
         let [as_is, corrected] = [self.labs, self.corrected()].map(|labs| {
             let stage = Stage::new(self.models);
-            let begun = start_runs(self.lesson, labs, case.verify, case.own, &stage);
-            begun.map_or(Vec::new(), |begun| begun.runs)
+            let started = start_runs(self.lesson, labs, case.verify, case.lab, &stage);
+            started.map_or(Vec::new(), |started| started.runs)
         });
         let changed = |run: &str| {
             let of_run = |m: &Measured| m.name.split_once('.').is_some_and(|(name, _)| name == run);
@@ -398,9 +400,9 @@ mod tests {
     #[test]
     fn a_run_that_leaves_nothing_behind_is_the_corrected_one() {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let own = (root.join("specs/lessons"), root.join("specs/models"));
+        let ours = (root.join("specs/lessons"), root.join("specs/models"));
         let corpus = root.join("../shared/corpus");
-        let folders = [own, (corpus.join("labs"), corpus.join("models"))];
+        let folders = [ours, (corpus.join("labs"), corpus.join("models"))];
         let (mut clean, mut left) = (0, 0);
         for (folder, models) in folders {
             if folder.starts_with(&corpus) && !corpus.is_dir() {

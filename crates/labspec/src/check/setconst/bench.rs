@@ -105,25 +105,25 @@ impl<'a> SetConstBench<'a> {
         };
         match s.place {
             ProgramSite::Run(run) => return vec![self.as_asked(run)],
-            ProgramSite::Control(own) => {
-                let Some(control) = self.lab.controls.get(own) else { return all };
+            ProgramSite::Control(nominal) => {
+                let Some(control) = self.lab.controls.get(nominal) else { return all };
                 let values = choices(control);
                 if let ControlKind::Button { .. } = control.kind {
-                    add(0, own, None);
-                    add(half, own, None);
+                    add(0, nominal, None);
+                    add(half, nominal, None);
                 }
                 for value in &values {
-                    add(0, own, Some(value.clone()));
+                    add(0, nominal, Some(value.clone()));
                 }
                 if let ControlKind::Slider { min, max, .. } = &control.kind {
                     let step = control.step().unwrap_or(0.0);
                     let middle = min.value + (0.5 * (max.value - min.value) / step).round() * step;
                     if middle.is_finite() {
-                        add(0, own, Some(Value::Number(middle)));
+                        add(0, nominal, Some(Value::Number(middle)));
                     }
                 }
                 for value in &values {
-                    add(half, own, Some(value.clone()));
+                    add(half, nominal, Some(value.clone()));
                 }
             }
             // What other controls choose may be what it writes.
@@ -156,8 +156,8 @@ impl<'a> SetConstBench<'a> {
 
     /// Runs with another control at its ends besides: a ball may roll only when a ramp is tilted.
     pub(super) fn combined(&self, s: &Suspect<'_>) -> Vec<BenchTrial> {
-        let ProgramSite::Control(own) = s.place else { return Vec::new() };
-        let Some(control) = self.lab.controls.get(own) else { return Vec::new() };
+        let ProgramSite::Control(nominal) = s.place else { return Vec::new() };
+        let Some(control) = self.lab.controls.get(nominal) else { return Vec::new() };
         let moves = |index: usize, control: &Control| -> Vec<(Move, String)> {
             let label = control.label.as_str();
             match control.kind {
@@ -171,10 +171,10 @@ impl<'a> SetConstBench<'a> {
             }
         };
         let mut all = Vec::new();
-        for (index, other) in self.lab.controls.iter().enumerate().filter(|(i, _)| *i != own) {
+        for (index, other) in self.lab.controls.iter().enumerate().filter(|(i, _)| *i != nominal) {
             for (theirs, how) in moves(index, other) {
-                for (ours, said) in moves(own, control) {
-                    let description = format!("{said} and {}", how.trim_start_matches("with "));
+                for (ours, description) in moves(nominal, control) {
+                    let description = format!("{description} and {}", how.trim_start_matches("with "));
                     all.push(BenchTrial { moves: vec![(0, theirs.clone()), (0, ours)], description });
                 }
             }
@@ -307,11 +307,11 @@ impl<'a> SetConstBench<'a> {
     /// Whether another run of the same object is what this one would be when it is corrected: then the
     /// author shows the difference on purpose.
     pub(super) fn contrasted(&mut self, s: &Suspect<'_>, verify: &Verify, anew: &Amended) -> bool {
-        let ProgramSite::Run(own) = s.place else { return false };
+        let ProgramSite::Run(nominal) = s.place else { return false };
         let Ok(steps) = self.steps(s) else { return false };
-        let trial = self.as_asked(own);
+        let trial = self.as_asked(nominal);
         let Ok(anew) = self.record(s, Some(anew), &trial, steps) else { return false };
-        verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
+        verify.runs.iter().filter(|run| run.name != nominal.name).any(|run| {
             let setup = run.setup.as_ref().map(|text| self.compile(text, &text.value, None));
             let Some(setup) = setup.map_or(Some(None), |bound| bound.map(Some)) else { return false };
             let trial = self.as_asked(run);
@@ -324,20 +324,20 @@ impl<'a> SetConstBench<'a> {
     /// Whether another run of the same object begins with the parameters and the partners that this one has when it is corrected:
     /// then the author shows the difference on purpose.
     pub(super) fn paired(&self, s: &Suspect<'_>, verify: &Verify) -> bool {
-        let ProgramSite::Run(own) = s.place else { return false };
+        let ProgramSite::Run(nominal) = s.place else { return false };
         let right = self.corrected(s, s.pairs);
-        let right = self.begun(&right.programs, Some(&right.bound), own);
-        if coupled::agree(&self.begun(self.programs, Some(s.bound), own), &right) {
+        let right = self.start_model(&right.programs, Some(&right.bound), nominal);
+        if coupled::agree(&self.start_model(self.programs, Some(s.bound), nominal), &right) {
             return false;
         }
-        verify.runs.iter().filter(|run| run.name != own.name).any(|run| {
+        verify.runs.iter().filter(|run| run.name != nominal.name).any(|run| {
             let setup = run.setup.as_ref().and_then(|text| self.compile(text, &text.value, None));
-            coupled::agree(&self.begun(self.programs, setup.as_ref(), run), &right)
+            coupled::agree(&self.start_model(self.programs, setup.as_ref(), run), &right)
         })
     }
 
     /// The model as a run begins.
-    fn begun(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
+    fn start_model(&self, programs: &Programs, setup: Option<&Bound>, run: &Run) -> Model {
         let mut demand = programs.demand;
         setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
         let mut session = Session::start(programs, self.model, self.lab.keyframe(), &demand);

@@ -26,7 +26,7 @@ impl Difference {
                 let printed = |n| (digits(*x, n), digits(*y, n));
                 (4..17).map(printed).find(|(a, b)| a != b).unwrap_or_else(|| printed(17))
             }
-            (x, y) => (x.shown(4), y.shown(4)),
+            (x, y) => (x.rounded(4), y.rounded(4)),
         };
         format!("{trial}, {} is {x} at t = {} s, but {y} with {anew}", self.name, digits(self.time, 6))
     }
@@ -150,7 +150,7 @@ impl Columns<'_> {
         let printed = || {
             let readout = column.checked_sub(1 + self.lab.traces().count());
             let readout = readout.and_then(|i| self.lab.readouts.get(i));
-            readout.is_some_and(|r| run::shown(*p, r.digits()) != run::shown(*q, r.digits()))
+            readout.is_some_and(|r| run::rounded(*p, r.digits()) != run::rounded(*q, r.digits()))
         };
         let seen = apart > VISIBLE * range || printed();
         (seen && apart > ROUNDING * largest).then_some(apart / range)

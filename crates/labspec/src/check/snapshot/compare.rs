@@ -3,7 +3,7 @@
 use super::digits;
 use super::file::{OPEN, StoredLab, StoredRun, plain};
 use super::picture::picture;
-use super::runs::Taken;
+use super::runs::SnapshotRun;
 use crate::printable::printable;
 use crate::run::Cell;
 use crate::verify::significant;
@@ -40,9 +40,9 @@ pub(super) struct Difference {
     pub(super) rows: usize,
 }
 
-pub(super) fn compare(stored: &StoredLab, now: &[&Taken]) -> Difference {
+pub(super) fn compare(stored: &StoredLab, now: &[&SnapshotRun]) -> Difference {
     let mut all = Difference::default();
-    let called = |run: &Taken| printable(&run.name).into_owned();
+    let called = |run: &SnapshotRun| printable(&run.name).into_owned();
     for old in &stored.runs {
         match now.iter().find(|run| called(run) == old.name) {
             None => all.changes.push(format!("the run {} is no longer made", old.name)),
@@ -62,7 +62,7 @@ pub(super) fn compare(stored: &StoredLab, now: &[&Taken]) -> Difference {
     all
 }
 
-fn compare_run(old: &StoredRun, run: &Taken, all: &mut Difference) {
+fn compare_run(old: &StoredRun, run: &SnapshotRun, all: &mut Difference) {
     if old.about.len() == run.about.len() {
         let pairs = old.about.iter().zip(&run.about).filter(|(a, b)| a != b);
         all.changes.extend(pairs.map(|(a, b)| format!("{a} is now {b}")));
@@ -96,7 +96,7 @@ fn compare_run(old: &StoredRun, run: &Taken, all: &mut Difference) {
 }
 
 /// Which stored row is which of the run: by name, of several of one name in order. What has no partner changed.
-fn pairs(old: &StoredRun, run: &Taken, moved: bool, all: &mut Difference) -> Vec<(usize, usize)> {
+fn pairs(old: &StoredRun, run: &SnapshotRun, moved: bool, all: &mut Difference) -> Vec<(usize, usize)> {
     let mut free: Vec<usize> = (0..run.rows.len()).collect();
     let (mut pairs, mut lost) = (Vec::new(), Vec::new());
     for (i, row) in old.rows.iter().enumerate() {
@@ -146,7 +146,7 @@ fn agrees(stored: &str, now: &Cell) -> bool {
     }
 }
 
-fn divergence(old: &StoredRun, run: &Taken, i: usize, j: usize, k: usize) -> Option<Divergence> {
+fn divergence(old: &StoredRun, run: &SnapshotRun, i: usize, j: usize, k: usize) -> Option<Divergence> {
     let (row, (name, cells)) = (old.rows.get(i)?, run.rows.get(j)?);
     let (stored, cell) = (row.cells.get(k)?, cells.get(k)?);
     let unit = digits::read(stored).map(|(_, unit)| unit);

@@ -20,7 +20,7 @@ use crate::spec::{Lab, Lesson};
 use crate::verify::{HALVED, NUDGED, NUDGED_BACK, significant};
 use compare::Difference;
 use file::{SnapshotFault, StoredLab};
-use runs::{Taken, TakenLab};
+use runs::{SnapshotRun, TakenLab};
 use std::ops::Range;
 use std::path::Path;
 
@@ -70,7 +70,7 @@ impl SnapshotResult {
     }
 
     /// What is shown below it: the first value that differs, and both curves.
-    pub fn shown(&self) -> Vec<String> {
+    pub fn lines(&self) -> Vec<String> {
         let Some(d) = &self.divergence else { return Vec::new() };
         let within = d.tolerance.map_or(String::new(), |t| format!(" (± {})", significant(t)));
         let head = format!("stored {}{within} in line {}, now {}", d.stored, d.line, d.now);
@@ -94,7 +94,7 @@ pub struct Renewal {
 #[derive(Clone, Debug)]
 pub struct RenewedLab {
     /// What became of it.
-    pub kept: SnapshotResult,
+    pub result: SnapshotResult,
     /// Its lines in the file, if it is there.
     pub old: Option<String>,
     /// Its lines as they would be written now; `None` for a lab that is gone, or cannot run.
@@ -107,7 +107,7 @@ impl Renewal {
         let lines = |lab: &'_ RenewedLab| match &lab.new {
             Some(new) if accepted(lab) => Some(new.clone()),
             // What is gone goes; what cannot run keeps what is stored of it.
-            None if accepted(lab) && lab.kept.state == State::False => None,
+            None if accepted(lab) && lab.result.state == State::False => None,
             _ => lab.old.clone(),
         };
         let labs: Vec<String> = self.labs.iter().filter_map(lines).collect();
@@ -160,10 +160,10 @@ pub(super) fn check_snapshots(
     };
     let taken = runs::take(lesson, ready);
     let mut list: Vec<SnapshotResult> = taken.iter().map(|lab| hold(lab, &labs, lesson, findings)).collect();
-    for kept in gone(&labs, &taken) {
-        let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&kept.lab));
+    for result in gone(&labs, &taken) {
+        let message = format!("the snapshot has the lab {}, but the lesson does not", printable(&result.lab));
         findings.push(outdated(0..0, message, lesson));
-        list.push(kept);
+        list.push(result);
     }
     list
 }
@@ -204,19 +204,19 @@ fn hold(
     lesson: &Lesson,
     findings: &mut Vec<Finding>,
 ) -> SnapshotResult {
-    let mut kept = unchecked(&now.address, now.lab);
+    let mut result = unchecked(&now.address, now.lab);
     if now.runs.is_empty() {
-        (kept.state, kept.reason) = (State::Unchecked, "it cannot run".into());
-        return kept;
+        (result.state, result.reason) = (State::Unchecked, "it cannot run".into());
+        return result;
     }
     let place = now.lab.place();
-    let Some(old) = labs.iter().find(|lab| lab.address == kept.lab) else {
-        (kept.state, kept.changes) = (State::False, vec!["the lab is not in the snapshot".into()]);
-        let message = format!("the lab {} is not in the snapshot", printable(&kept.lab));
+    let Some(old) = labs.iter().find(|lab| lab.address == result.lab) else {
+        (result.state, result.changes) = (State::False, vec!["the lab is not in the snapshot".into()]);
+        let message = format!("the lab {} is not in the snapshot", printable(&result.lab));
         findings.push(outdated(place, message, lesson));
-        return kept;
+        return result;
     };
-    let runs: Vec<&Taken> = now.runs.iter().map(|(_, taken)| taken).collect();
+    let runs: Vec<&SnapshotRun> = now.runs.iter().map(|(_, taken)| taken).collect();
     let Difference { changes, first, rows } = compare::compare(old, &runs);
     let file = lesson.snapshot.as_ref().and_then(|s| s.as_ref().ok()).map_or(String::new(), name_of);
     if let Some((d, probe)) = &first {
@@ -241,9 +241,9 @@ fn hold(
         findings.push(outdated(place, message, lesson));
     }
     let good = first.is_none() && changes.is_empty();
-    kept.state = if good { State::True(Evidence::Simulated) } else { State::False };
-    (kept.changes, kept.divergence, kept.rows) = (changes, first.map(|(d, _)| d), rows);
-    kept
+    result.state = if good { State::True(Evidence::Simulated) } else { State::False };
+    (result.changes, result.divergence, result.rows) = (changes, first.map(|(d, _)| d), rows);
+    result
 }
 
 fn outdated(place: Range<usize>, message: String, lesson: &Lesson) -> Finding {
@@ -270,14 +270,14 @@ pub fn renew(lesson: &Lesson, models: &Models) -> Renewal {
     };
     let taken = runs::take(lesson, &ready);
     let one = |now: &TakenLab<'_, '_>| {
-        let kept = hold(now, &old, lesson, &mut Vec::new());
-        let stored_text = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
-        RenewedLab { kept, old: stored_text, new: fresh(now) }
+        let result = hold(now, &old, lesson, &mut Vec::new());
+        let stored_text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
+        RenewedLab { result, old: stored_text, new: fresh(now) }
     };
     let mut labs: Vec<RenewedLab> = taken.iter().map(one).collect();
-    let lost = gone(&old, &taken).map(|kept| {
-        let text = old.iter().find(|lab| lab.address == kept.lab).map(|lab| lab.text.clone());
-        RenewedLab { kept, old: text, new: None }
+    let lost = gone(&old, &taken).map(|result| {
+        let text = old.iter().find(|lab| lab.address == result.lab).map(|lab| lab.text.clone());
+        RenewedLab { result, old: text, new: None }
     });
     labs.extend(lost);
     let name = Path::new(&**lesson.file.path())
@@ -293,7 +293,7 @@ fn fresh(now: &TakenLab<'_, '_>) -> Option<String> {
         let budget = Budget { left: 3 * Budget::TRIAL.left };
         runs::play(ready, handling, numerics, budget).ok().map(|(taken, _)| taken)
     };
-    let runs: Vec<(Taken, Vec<Taken>)> = now
+    let runs: Vec<(SnapshotRun, Vec<SnapshotRun>)> = now
         .runs
         .iter()
         .map(|(handling, taken)| {

@@ -25,7 +25,7 @@ pub(super) struct SnapshotInput {
 
 /// What was seen in a run.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Taken {
+pub(super) struct SnapshotRun {
     pub(super) name: String,
     /// Its length, its timestep and the like.
     pub(super) about: Vec<String>,
@@ -40,7 +40,7 @@ pub(super) struct TakenLab<'r, 'l> {
     pub(super) lab: &'l Lab,
     /// `None` where it cannot run.
     pub(super) ready: Option<&'r PreparedLab<'l>>,
-    pub(super) runs: Vec<(SnapshotInput, Taken)>,
+    pub(super) runs: Vec<(SnapshotInput, SnapshotRun)>,
 }
 
 /// The runs of all labs of a lesson, within the budget of a file: as it stands each is run in any case.
@@ -104,7 +104,7 @@ pub(super) fn play(
     handling: &SnapshotInput,
     numerics: StepVariant,
     budget: Budget,
-) -> Result<(Taken, u64), RunError> {
+) -> Result<(SnapshotRun, u64), RunError> {
     let (lab, programs) = (ready.lab, &ready.programs);
     let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, budget);
     run::set_controls(&mut session, lab, programs, &handling.set)?;
@@ -133,7 +133,7 @@ pub(super) fn play(
     };
     let rows = programs.probes.iter().enumerate().map(|(i, p)| (p.name.clone(), column(i + 1))).collect();
     let times = looks.iter().map(|&step| step as f64 * timestep).collect();
-    Ok((Taken { name: handling.name.clone(), about, times, rows }, session.spent()))
+    Ok((SnapshotRun { name: handling.name.clone(), about, times, rows }, session.spent()))
 }
 
 /// Its length and its numerics.

@@ -13,7 +13,7 @@ pub(super) struct LessonContext<'a> {
     pub(super) lesson: &'a Lesson,
     pub(super) names: &'a Names,
     pub(super) curves: &'a [Drawn],
-    pub(super) shown: ShownText,
+    pub(super) rendered: ShownText,
     pub(super) basis: Option<&'a Basis>,
     pub(super) entries: BTreeMap<(Subject, usize, usize), Vec<&'a Entry>>,
 }

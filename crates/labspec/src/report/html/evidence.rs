@@ -81,7 +81,7 @@ fn quotes(claim: &Claim, context: &LessonContext<'_>) -> String {
         let (state, word) =
             context.state(Subject::Quote, &q.span, &q.text).unwrap_or((state_of_quote, q.verdict()));
         let mut lines: Vec<usize> =
-            context.shown.places(&q.text).iter().map(|at| context.line(at.start)).collect();
+            context.rendered.places(&q.text).iter().map(|at| context.line(at.start)).collect();
         // A cell of a table stands where it is claimed.
         lines.extend(lines.is_empty().then(|| context.line(q.span.start)));
         lines.dedup();
@@ -129,9 +129,10 @@ fn measures(claim: &Claim) -> String {
 
 fn runs(claim: &Claim, spec: Option<&Verify>, context: &LessonContext<'_>) -> String {
     let judgement = &claim.judgement;
-    let begun = context.runs(&claim.name).filter(|begun| begun.len() == judgement.runs.len()).unwrap_or(&[]);
+    let started =
+        context.runs(&claim.name).filter(|started| started.len() == judgement.runs.len()).unwrap_or(&[]);
     let numerics: Vec<String> =
-        begun.iter().map(|(_, s)| s.as_ref().map_or(String::new(), settings::numerics)).collect();
+        started.iter().map(|(_, s)| s.as_ref().map_or(String::new(), settings::numerics)).collect();
     // What all of them have is said once.
     let same = numerics.first().filter(|first| numerics.iter().all(|other| other == *first));
     let row = |(i, r): (usize, &crate::verify::RunReport)| {

@@ -55,7 +55,7 @@ impl<'a> LessonPage<'a> {
             lesson,
             names,
             curves,
-            shown: ShownText::of_lesson(lesson),
+            rendered: ShownText::of_lesson(lesson),
             basis: page.bases.get(number - 1),
             entries,
         };

@@ -73,7 +73,7 @@ pub(super) fn completions_of(
                 _ => None,
             };
             match inside(&holder, step) {
-                Some(Type::Name(named)) => known(key, ask(named, scope, names), spot),
+                Some(Type::Name(named)) => complete_key(key, ask(named, scope, names), spot),
                 of => values(key, of, scope, spot),
             }
         }
@@ -283,7 +283,7 @@ fn ask(named: Named, scope: &JsonScope, names: &dyn Fn(Asked<'_>) -> Vec<String>
 }
 
 /// Names, for the place of one.
-fn known(key: Option<&'static Key>, names: Vec<String>, spot: &CursorSpot) -> Vec<Completion> {
+fn complete_key(key: Option<&'static Key>, names: Vec<String>, spot: &CursorSpot) -> Vec<Completion> {
     let name = |name: String| Completion {
         is_key: false,
         replace: spot.written.clone(),

@@ -73,7 +73,7 @@ pub(crate) fn judge(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    shown: &ShownText,
+    rendered: &ShownText,
     witness: &Reference<'_>,
     findings: &mut Vec<Finding>,
 ) -> Option<Judged> {
@@ -86,7 +86,7 @@ pub(crate) fn judge(
     }
     // The range of an answer is a matter of many runs, which no judge has made: it is counted as left.
     let verify = &Verify { over: Vec::new(), ..verify.clone() };
-    let [ours, now] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, shown, o));
+    let [ours, now] = [&nominal, &theirs].map(|o| verdicts(bound, verify, question, rendered, o));
     let mut turn = |place: Range<usize>, what: &str, before: &str, after: &str, values: String| {
         judged.turned += 1;
         findings.push(
@@ -144,13 +144,13 @@ fn verdicts(
     bound: &BoundVerify<'_>,
     verify: &Verify,
     question: Option<&Question>,
-    shown: &ShownText,
+    rendered: &ShownText,
     outcome: &Outcome,
 ) -> (Option<Answer>, Vec<Quote>) {
     let outcomes =
         Outcomes { nominal: outcome.clone(), perturbed: [const { None }; CHANGES], nudged_back: None };
     let ignored = &mut Vec::new();
     let answer = question.and_then(|q| answer::check_answer(bound, &outcomes, verify, q, ignored));
-    let checker = QuoteChecker { bound, outcomes: &outcomes, shown };
+    let checker = QuoteChecker { bound, outcomes: &outcomes, rendered };
     (answer, says::check_quotes(checker, verify, question, ignored))
 }

@@ -81,7 +81,7 @@ pub(super) fn compare(
         titled.chain(own_values).collect()
     };
     for (i, ((name, a), (_, b))) in numbers(nominal).into_iter().zip(numbers(theirs)).enumerate() {
-        if judged.unjudged.iter().any(|(known, _)| *known == name) {
+        if judged.unjudged.iter().any(|(unjudged, _)| *unjudged == name) {
             continue;
         }
         judged.compared += 1;

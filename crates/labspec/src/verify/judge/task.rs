@@ -46,7 +46,7 @@ fn task(
     bound: &BoundVerify<'_>,
     run: &BoundRun<'_>,
     scene: &BoundScene<'_>,
-    own: &[&Text],
+    statements: &[&Text],
 ) -> Result<Json, String> {
     let here = &scene.scene;
     let lab = &*here.lab;
@@ -76,7 +76,7 @@ fn task(
         "steps": spec.and_then(|s| s.steps.as_ref()).map(|n| n.value.max(0.0).round()),
         "until": length(spec.and_then(|s| s.until.as_ref()).map(|n| n.value)),
         "measures": measures,
-        "expressions": own.iter().map(|t| t.value.clone()).collect::<Vec<_>>(),
+        "expressions": statements.iter().map(|t| t.value.clone()).collect::<Vec<_>>(),
     }))
 }
 

@@ -30,13 +30,13 @@ impl AnswerUnit {
 
 /// Whether a text is a unit that is known.
 pub(in crate::verify) fn is_unit(text: &str) -> bool {
-    let plain = super::table::shown(text);
+    let plain = super::table::rendered(text);
     !plain.is_empty() && units::read(&plain).is_some_and(|u| u.length == plain.len())
 }
 
 /// Holds the unit of a question to what its value measures.
 pub(in crate::verify) fn answer_unit(text: Option<&str>, found: Option<Dimension>) -> AnswerUnit {
-    let plain = text.map(super::table::shown).unwrap_or_default();
+    let plain = text.map(super::table::rendered).unwrap_or_default();
     let Some(found) = found else { return AnswerUnit::Unknown };
     let Some(read) = units::read(&plain).filter(|u| u.length == plain.len()) else {
         // What is counted has names of any kind: "bounces".

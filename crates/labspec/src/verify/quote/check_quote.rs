@@ -20,7 +20,7 @@ pub(in crate::verify) fn check_quote(
     reading: &Result<Reading, Unread>,
     mut places: Vec<QuotePlace>,
     value: &QuoteValue<'_>,
-    shown: &ShownText,
+    rendered: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> QuoteOutcome {
     let mut outcome = QuoteOutcome {
@@ -40,7 +40,7 @@ pub(in crate::verify) fn check_quote(
     outcome.computed = compared.computed;
     outcome.read = Some(compared.read);
     if outcome.places.is_empty() {
-        let hidden = shown.hidden(claim.quote.as_str());
+        let hidden = rendered.hidden(claim.quote.as_str());
         return unclear(outcome, "no reader sees this text", messages::not_found(claim, hidden), findings);
     }
     if !compared.computed.is_finite() {
@@ -224,11 +224,11 @@ impl<'q> Comparison<'q> {
 pub(in crate::verify) fn places_of_quote(
     quote: &Text,
     question: Option<&Question>,
-    shown: &ShownText,
+    rendered: &ShownText,
 ) -> Vec<QuotePlace> {
     let inside =
         |p: &&QuotePlace| question.is_some_and(|q| q.span.start <= p.at.start && p.at.end <= q.span.end);
-    let (inside, others): (Vec<_>, Vec<_>) = shown.found(quote.as_str()).iter().partition(inside);
+    let (inside, others): (Vec<_>, Vec<_>) = rendered.found(quote.as_str()).iter().partition(inside);
     inside.into_iter().chain(others).cloned().collect()
 }
 

@@ -27,9 +27,9 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
         }
         let c = rest.chars().next().unwrap_or(' ');
         if c == '\\'
-            && let Some((shown, length)) = siunitx::command(rest)
+            && let Some((rendered, length)) = siunitx::command(rest)
         {
-            out.whole(&shown, at..at + length);
+            out.whole(&rendered, at..at + length);
             at += length;
             continue;
         }
@@ -240,10 +240,10 @@ impl Out {
     }
 
     /// What stands for all of a command.
-    fn whole(&mut self, shown: &str, range: Range<usize>) {
+    fn whole(&mut self, rendered: &str, range: Range<usize>) {
         self.settle();
-        self.text.push_str(shown);
-        self.map.push_whole(shown.len(), range);
+        self.text.push_str(rendered);
+        self.map.push_whole(rendered.len(), range);
     }
 
     /// A raised or lowered digit: the first of a row gets the mark.

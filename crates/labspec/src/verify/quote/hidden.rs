@@ -59,8 +59,8 @@ impl Hidden {
     }
 
     /// The parts of a piece of HTML that are shown.
-    pub(super) fn shown(&mut self, html: &str) -> Vec<Range<usize>> {
-        let (mut shown, mut at, mut from) = (Vec::new(), 0, 0);
+    pub(super) fn visible_ranges(&mut self, html: &str) -> Vec<Range<usize>> {
+        let (mut visible_ranges, mut at, mut from) = (Vec::new(), 0, 0);
         while let Some(next) = html.get(at..).and_then(|rest| rest.find('<')).map(|i| at + i) {
             let rest = html.get(next..).unwrap_or("");
             let was = self.is_on();
@@ -72,15 +72,15 @@ impl Hidden {
             self.take_tag(rest.get(..tag_end(rest)).unwrap_or(""));
             at = next + length;
             match (was, self.is_on()) {
-                (false, true) => shown.push(from..next),
+                (false, true) => visible_ranges.push(from..next),
                 (true, false) => from = at,
                 _ => {}
             }
         }
         if !self.is_on() {
-            shown.push(from..html.len());
+            visible_ranges.push(from..html.len());
         }
-        shown
+        visible_ranges
     }
 }
 
@@ -179,7 +179,7 @@ mod tests {
     fn what_is_hidden_is_not_shown() {
         let visible = |html: &str| {
             let mut hidden = Hidden::default();
-            hidden.shown(html).iter().map(|r| html[r.clone()].to_string()).collect::<String>()
+            hidden.visible_ranges(html).iter().map(|r| html[r.clone()].to_string()).collect::<String>()
         };
         assert_eq!(visible("a<div hidden>b<div>c</div>d</div>e"), "ae");
         assert_eq!(visible("a<span style=\"color: red; Display: none\">b</span>c"), "ac");

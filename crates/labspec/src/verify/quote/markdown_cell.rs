@@ -1,7 +1,7 @@
 //! The cell of a Markdown table that a place of the file stands in.
 
 use super::head_unit::unit_of_head;
-use super::table::shown;
+use super::table::rendered;
 use super::unit_text::Unit;
 
 /// A cell of a table of Markdown.
@@ -32,7 +32,7 @@ impl MarkdownCell {
 
 /// The unit over the column of a cell.
 pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
-    unit_of_head(&shown(&MarkdownCell::at(file, at)?.head))
+    unit_of_head(&rendered(&MarkdownCell::at(file, at)?.head))
 }
 
 #[cfg(test)]

@@ -55,8 +55,8 @@ const ELSE: [&str; 14] = [
 
 /// The only quantity with a unit that an option states; `None` where it states several, or where its words say something else of it.
 pub(in crate::verify) fn option_text(option: &str) -> Option<OptionNumber> {
-    let (shown, _) = html::strip(option);
-    let (folded, _) = fold::fold(&shown, false);
+    let (rendered, _) = html::strip(option);
+    let (folded, _) = fold::fold(&rendered, false);
     // Bold and italic marks are no signs of a product.
     let folded = spelled(&folded.replace("**", "").replace("__", ""));
     let chars: Vec<char> = folded.chars().take(2000).collect();
@@ -203,8 +203,8 @@ const TIMES: [(&str, f64); 23] = [
 
 /// The only ratio that an option states; `None` where it states several, or other numbers.
 pub(in crate::verify) fn option_ratio(option: &str) -> Option<OptionRatio> {
-    let (shown, _) = html::strip(option);
-    let (folded, _) = fold::fold(&shown, false);
+    let (rendered, _) = html::strip(option);
+    let (folded, _) = fold::fold(&rendered, false);
     let folded = folded.replace("**", "").replace("__", "");
     let chars: Vec<char> = folded.chars().take(2000).collect();
     let chars = Chars(&chars);
@@ -308,10 +308,10 @@ mod tests {
     fn the_number_of_an_option_is_read() {
         let of = |text: &str| option_text(text).map(|n| (n.text, n.low, n.high));
         let is = |text: &str, low: f64, high: f64| {
-            let (shown, a, b) = of(text).unwrap_or_else(|| panic!("{text}"));
+            let (rendered, a, b) = of(text).unwrap_or_else(|| panic!("{text}"));
             assert!(
                 (a - low).abs() < 1e-9 * low.abs().max(1.0) && (b - high).abs() < 1e-9 * high.abs().max(1.0),
-                "{text}: {shown} {a} {b}"
+                "{text}: {rendered} {a} {b}"
             );
         };
         is("about 7 m", 6.3, 7.7);

@@ -47,8 +47,8 @@ impl Search {
 
     /// Adds a quote; the place of its results.
     pub(super) fn add(&mut self, quote: &str) -> usize {
-        let (shown, _) = html::strip(quote);
-        let folded = fold::fold(&shown, true).0.trim_matches('\n').to_string();
+        let (rendered, _) = html::strip(quote);
+        let folded = fold::fold(&rendered, true).0.trim_matches('\n').to_string();
         let digit = folded.find(is_anchor);
         let number = self.needles.len();
         // Longer ones are not read either.
@@ -73,7 +73,7 @@ impl Search {
         {
             n.ends.push(number as u32);
         }
-        let chars: Vec<char> = fold::fold(&shown, false).0.trim_matches('\n').chars().collect();
+        let chars: Vec<char> = fold::fold(&rendered, false).0.trim_matches('\n').chars().collect();
         let quantities = if digit.is_some() { quantities(Chars(&chars)) } else { Vec::new() };
         self.needles.push(Needle { folded, digit: digit.unwrap_or(0), quantities, found: Vec::new() });
         number
@@ -176,25 +176,25 @@ impl Readable {
 
     /// Whether what stands at a range says what the quote says when it stands alone: the same numbers, with the same signs, factors
     /// and units, and none of them a part of something else.
-    fn says(&self, bytes: &Range<usize>, own: &[Quantity]) -> Option<QuoteMatch> {
+    fn says(&self, bytes: &Range<usize>, quantities: &[Quantity]) -> Option<QuoteMatch> {
         if !whole_words(&self.flat, bytes) {
             return None;
         }
         let at = |byte: usize| self.character.get(byte).map(|i| *i as usize);
         let (start, end) = (at(bytes.start)?, at(bytes.end)?);
-        let among = |all: &[Quantity]| says(all, start..end, own);
+        let among = |all: &[Quantity]| says(all, start..end, quantities);
         let unit = among(&self.quantities).or_else(|| among(&self.apart))?;
         Some(QuoteMatch { bytes: bytes.clone(), unit })
     }
 }
 
 /// Whether the quantities at a range of characters are those of a quote; with the unit that the text has behind the last of them.
-fn says(all: &[Quantity], range: Range<usize>, own: &[Quantity]) -> Option<Option<Unit>> {
+fn says(all: &[Quantity], range: Range<usize>, quantities: &[Quantity]) -> Option<Option<Unit>> {
     let Range { start, end } = range;
     let first = all.partition_point(|q| q.whole.end <= start);
     let mut here = all.get(first..)?.iter().take_while(|q| q.whole.start < end);
     let mut unit = None;
-    for (i, mine) in own.iter().enumerate() {
+    for (i, mine) in quantities.iter().enumerate() {
         let theirs = here.next()?;
         let inside = theirs.digits == start + mine.digits && theirs.number_end == start + mine.number_end;
         // A plus before it changes nothing.
@@ -211,7 +211,7 @@ fn says(all: &[Quantity], range: Range<usize>, own: &[Quantity]) -> Option<Optio
             }
             continue;
         }
-        let last = i + 1 == own.len();
+        let last = i + 1 == quantities.len();
         if mine.unit.is_some() && !mine.unit.as_ref().is_some_and(|u| u.link != Link::Own) || !last {
             return None;
         }

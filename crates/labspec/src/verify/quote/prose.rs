@@ -125,11 +125,11 @@ impl Reader<'_> {
             match event {
                 Event::Start(Tag::CodeBlock(kind)) => {
                     self.close();
-                    let (shown, resume) = self.fence(&kind, &range);
+                    let (rendered, resume) = self.fence(&kind, &range);
                     if resume.is_some() {
                         return resume;
                     }
-                    fence = Some(shown);
+                    fence = Some(rendered);
                 }
                 Event::Start(Tag::MetadataBlock(_)) => fence = Some(false),
                 Event::End(TagEnd::CodeBlock | TagEnd::MetadataBlock(_)) => {
@@ -161,11 +161,11 @@ impl Reader<'_> {
                 }
                 _ if fence == Some(false) || self.unseen > 0 || self.is_taken(&range) => {}
                 Event::Html(part) => {
-                    for shown in self.hidden.shown(&part) {
-                        let bytes = range.start + shown.start..range.start + shown.end;
+                    for rendered in self.hidden.visible_ranges(&part) {
+                        let bytes = range.start + rendered.start..range.start + rendered.end;
                         match self.text.get(range.clone()) == Some(&part) {
-                            true => self.add(part.get(shown).unwrap_or(""), bytes),
-                            false => self.add(part.get(shown).unwrap_or(""), range.clone()),
+                            true => self.add(part.get(rendered).unwrap_or(""), bytes),
+                            false => self.add(part.get(rendered).unwrap_or(""), range.clone()),
                         }
                     }
                 }
@@ -178,7 +178,7 @@ impl Reader<'_> {
                 }
                 Event::InlineHtml(tag) => match read_tag(&tag) {
                     Some((Some(APART), _)) | None => {}
-                    Some((shown, _)) => self.whole(shown, range),
+                    Some((rendered, _)) => self.whole(rendered, range),
                 },
                 Event::SoftBreak | Event::HardBreak => self.whole(Some(' '), range),
                 _ => {}
@@ -262,8 +262,8 @@ impl Reader<'_> {
         self.add(part, inner);
     }
 
-    fn whole(&mut self, shown: Option<char>, range: Range<usize>) {
-        if let Some(c) = shown {
+    fn whole(&mut self, rendered: Option<char>, range: Range<usize>) {
+        if let Some(c) = rendered {
             self.open.value.push(c);
             self.open.map.push_whole(c.len_utf8(), range);
         }

@@ -57,8 +57,8 @@ pub fn quoted(text: &str) -> Result<Quoted, Unread> {
 
 /// The characters of a quote as a reader sees them.
 fn characters(text: &str) -> Vec<char> {
-    let (shown, _) = html::strip(text);
-    let (folded, _) = fold::fold(&shown, false);
+    let (rendered, _) = html::strip(text);
+    let (folded, _) = fold::fold(&rendered, false);
     folded.chars().take(MAX_QUOTE + 1).collect()
 }
 

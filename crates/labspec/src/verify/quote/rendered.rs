@@ -38,16 +38,16 @@ impl ShownText {
         let mut search = Search::new();
         let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
         for verify in lesson.verifies() {
-            for said in &verify.says {
-                let quote = said.quote.as_str();
+            for quoted in &verify.says {
+                let quote = quoted.quote.as_str();
                 numbers.entry(quote).or_insert_with(|| search.add(quote));
             }
         }
         let tabled = lesson.verifies().any(|verify| !verify.table.is_empty());
         let tables = if tabled { prose::tables(lesson) } else { Vec::new() };
-        let mut shown = ShownText { tables, ..ShownText::default() };
+        let mut rendered = ShownText { tables, ..ShownText::default() };
         if numbers.is_empty() {
-            return shown;
+            return rendered;
         }
         let wordy: Vec<&str> = numbers.keys().copied().filter(|q| !has_number(q)).take(MAX_WORDS).collect();
         let (text, map) = join(shown_pieces(lesson), !wordy.is_empty());
@@ -69,13 +69,13 @@ impl ShownText {
             }
             places.sort_by_key(|p| (p.at.start, p.at.end));
             places.dedup();
-            if places.is_empty() && shown.hidden.len() < MAX_HIDDEN {
+            if places.is_empty() && rendered.hidden.len() < MAX_HIDDEN {
                 let place = unseen(quote, file, lesson);
-                shown.hidden.extend(place.map(|place| (quote.to_string(), place)));
+                rendered.hidden.extend(place.map(|place| (quote.to_string(), place)));
             }
-            shown.places.insert(quote.to_string(), places);
+            rendered.places.insert(quote.to_string(), places);
         }
-        shown
+        rendered
     }
 
     /// The bytes of the file at which a quote stands as a number of its own.
@@ -91,8 +91,8 @@ impl ShownText {
     /// What of the quotes and tables of one object stands within some bytes of the file.
     pub fn within(&self, block: &Range<usize>, verify: &Verify) -> ShownText {
         let inside = |r: &&Range<usize>| block.start <= r.start && r.end <= block.end;
-        let places = verify.says.iter().map(|said| {
-            let quote = said.quote.as_str();
+        let places = verify.says.iter().map(|quoted| {
+            let quote = quoted.quote.as_str();
             (quote.to_string(), self.found(quote).iter().filter(|p| inside(&&p.at)).cloned().collect())
         });
         let begins = |t: &&Table| t.head.first().is_some_and(|cell| inside(&&cell.span));
@@ -128,7 +128,7 @@ fn at_sliders<'q>(lesson: &Lesson, quotes: &BTreeMap<&'q str, usize>) -> BTreeMa
     let labs = lesson.addressed().into_iter();
     let displayed = labs.flat_map(|(_, lab)| &lab.controls).filter_map(|control| {
         let ControlKind::Slider { unit, value, .. } = &control.kind else { return None };
-        let number = Cell::Number(value.value).shown(control.digits()?);
+        let number = Cell::Number(value.value).rounded(control.digits()?);
         let text = unit.as_ref().map_or(number.clone(), |unit| format!("{number} {}", unit.as_str()));
         Some((*wanted.get(&folded(&text))?, value.span.clone()))
     });
@@ -187,8 +187,8 @@ fn join(pieces: Vec<ShownPiece>, words: bool) -> (Readable, SourceMap) {
         let mut back = piece.text.map;
         let mut text = piece.text.value;
         if piece.html {
-            let (shown, inner) = html::strip(&text);
-            (text, back) = (shown, inner.then(&back));
+            let (rendered, inner) = html::strip(&text);
+            (text, back) = (rendered, inner.then(&back));
         }
         let (folded, inner) = fold::fold(&text, true);
         let at = back.span(0..0).start;

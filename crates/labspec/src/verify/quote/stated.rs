@@ -55,8 +55,8 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     for piece in shown_pieces(lesson) {
         let mut text = piece.text;
         if piece.html {
-            let (shown, inner) = html::strip(&text.value);
-            text = Text { value: shown, map: inner.then(&text.map) };
+            let (rendered, inner) = html::strip(&text.value);
+            text = Text { value: rendered, map: inner.then(&text.map) };
         }
         if text.value.contains(|c: char| c.is_ascii_digit()) {
             add_numbers(lesson, &text, &mut all);
@@ -92,19 +92,19 @@ pub fn stated(lesson: &Lesson) -> Vec<Stated> {
 
 /// Where the text stands that the lesson quotes itself.
 pub fn claimed(lesson: &Lesson) -> Vec<Range<usize>> {
-    let shown = ShownText::of_lesson(lesson);
+    let rendered = ShownText::of_lesson(lesson);
     let mut all = Vec::new();
     for (verify, block) in lesson.scoped() {
-        let narrow = block.map(|block| shown.within(block, verify));
-        let shown = narrow.as_ref().unwrap_or(&shown);
-        for said in &verify.says {
+        let narrow = block.map(|block| rendered.within(block, verify));
+        let rendered = narrow.as_ref().unwrap_or(&rendered);
+        for quoted in &verify.says {
             // A quote that is one number claims the number that it begins with, and no other end of a range.
-            let number = said.exprs.len() == 1
-                && said.quote.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit());
+            let number = quoted.exprs.len() == 1
+                && quoted.quote.as_str().trim_start().starts_with(|c: char| c.is_ascii_digit());
             let place = |at: Range<usize>| if number { at.start..at.start + 1 } else { at };
-            all.extend(shown.places(said.quote.as_str()).into_iter().map(place));
+            all.extend(rendered.places(quoted.quote.as_str()).into_iter().map(place));
         }
-        let cells = verify.table.iter().filter_map(|claim| cells_of_column(claim, shown).ok());
+        let cells = verify.table.iter().filter_map(|claim| cells_of_column(claim, rendered).ok());
         all.extend(cells.flatten().flatten().map(|cell| cell.span()));
     }
     all

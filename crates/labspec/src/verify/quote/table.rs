@@ -28,13 +28,13 @@ pub(super) struct Table {
 impl Table {
     /// The place of a column.
     pub(super) fn column(&self, heading: &str) -> Option<usize> {
-        let wanted = shown(heading);
+        let wanted = rendered(heading);
         self.head.iter().position(|cell| cell.text == wanted)
     }
 }
 
 /// A text as it is compared: without markup, with one kind of space.
-pub(super) fn shown(text: &str) -> String {
+pub(super) fn rendered(text: &str) -> String {
     plain(&html::strip(text).0)
 }
 
@@ -61,10 +61,10 @@ impl Tables {
     }
 
     /// A cell: what a reader sees in it, and its place with the blanks around it.
-    pub(super) fn cell(&mut self, shown: &str, source: &str, place: Range<usize>) {
+    pub(super) fn cell(&mut self, cell_text: &str, source: &str, place: Range<usize>) {
         let inner = source.trim_matches(|c: char| c.is_whitespace() || c == '|');
         let start = source.find(inner).map_or(place.start, |at| place.start + at);
-        self.row.push(TableCell { text: plain(shown), span: start..start + inner.len() });
+        self.row.push(TableCell { text: plain(cell_text), span: start..start + inner.len() });
     }
 
     pub(super) fn end_head(&mut self) {

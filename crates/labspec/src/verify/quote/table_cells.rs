@@ -12,14 +12,14 @@ use crate::spec::Column;
 /// Why there are none, and what to do.
 pub(in crate::verify) fn cells_of_column(
     claim: &Column,
-    shown: &ShownText,
+    rendered: &ShownText,
 ) -> Result<Vec<[Text; 2]>, [String; 2]> {
     let key = claim.by.as_ref().map(|(heading, _)| heading.as_str());
     let headings: Vec<&str> = [Some(claim.column.as_str()), key].into_iter().flatten().collect();
-    let mut found = shown.tables(&headings);
+    let mut found = rendered.tables(&headings);
     let (Some(table), None) = (found.next(), found.next()) else {
-        let several = shown.tables(&headings).count() > 1;
-        let mut headings_there: Vec<&str> = shown.headings().take(24).collect();
+        let several = rendered.tables(&headings).count() > 1;
+        let mut headings_there: Vec<&str> = rendered.headings().take(24).collect();
         headings_there.dedup();
         return Err(if several {
             [
@@ -44,7 +44,7 @@ pub(in crate::verify) fn cells_of_column(
         value: cell.text.clone(),
         map: SourceMap::whole(cell.text.len(), cell.span.clone()),
     };
-    let wanted = claim.row.as_ref().map(|row| table::shown(row.as_str()));
+    let wanted = claim.row.as_ref().map(|row| table::rendered(row.as_str()));
     let rows = table.rows.iter().filter_map(|row| Some([text(row.get(by)?), text(row.get(column)?)]));
     let cells: Vec<[Text; 2]> =
         rows.filter(|[key, _]| wanted.as_ref().is_none_or(|w| *w == key.value)).collect();
@@ -60,5 +60,5 @@ pub(in crate::verify) fn cells_of_column(
 
 /// Whether a reader sees the same in both.
 pub(in crate::verify) fn reads_the_same(a: &str, b: &str) -> bool {
-    table::shown(a) == table::shown(b)
+    table::rendered(a) == table::rendered(b)
 }

@@ -23,11 +23,11 @@ pub(in crate::verify) fn check_words(
     claim: &QuoteClaim<'_>,
     places: &[Range<usize>],
     condition: &QuotedCondition,
-    shown: &ShownText,
+    rendered: &ShownText,
     findings: &mut Vec<Finding>,
 ) -> (QuoteState, String) {
     let Some(first) = places.first() else {
-        let finding = messages::not_found(claim, shown.hidden(claim.quote.as_str()));
+        let finding = messages::not_found(claim, rendered.hidden(claim.quote.as_str()));
         findings.push(finding);
         return (QuoteState::Unclear, "no reader sees this text".into());
     };

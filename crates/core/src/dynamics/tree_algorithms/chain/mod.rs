@@ -162,13 +162,13 @@ fn covers(m: &Model, tree: usize) -> bool {
 
 impl Trees {
     /// The links of the short chains of a model.
-    pub(super) fn new(m: &Model, own: &Assignment) -> Trees {
+    pub(super) fn new(m: &Model, assignment: &Assignment) -> Trees {
         let mut chains = Trees::default();
         let mut part_of: Vec<Option<usize>> = vec![None; m.nbody];
-        if own.forces.is_empty() {
+        if assignment.forces.is_empty() {
             return chains;
         }
-        let is_own = |dof: usize| own.forces.contains(&(m.dof_treeid[dof] as usize));
+        let is_own = |dof: usize| assignment.forces.contains(&(m.dof_treeid[dof] as usize));
         for b in 1..m.nbody {
             let last = walk::last_dof(m, b);
             let moves = last >= 0;

@@ -98,7 +98,7 @@ pub(crate) fn hull(mesh: &Mesh) -> Result<Hull, Problem> {
 
 /// The convex hull of vertices as they were written.
 fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
-    Hull::of(written, options.maxhullvert).map_err(|flat| {
+    Hull::from_points(written, options.maxhullvert).map_err(|flat| {
         let (what, help) = match flat {
             Flat::Point => ("has all its vertices in one place", "write a small sphere instead"),
             Flat::Line => ("has all its vertices on a line", "write a thin capsule instead"),

@@ -42,7 +42,7 @@ pub(crate) enum Flat {
 
 impl Hull {
     /// The hull of finite points, or of so many of them at most: those that stick out farthest.
-    pub(crate) fn of(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
+    pub(crate) fn from_points(points: &[Vec3], most: Option<usize>) -> Result<Hull, Flat> {
         let mut growing = Growing::new(points)?;
         growing.grow(most.unwrap_or(usize::MAX))?;
         Ok(growing.finish())
@@ -60,8 +60,8 @@ impl Hull {
         let mut rest = edges.as_slice();
         for &v in &self.vertex {
             starts.push(lists.len() as i32);
-            let (own, after) = rest.split_at(rest.partition_point(|e| e.0 <= v as i32));
-            lists.extend(own.iter().map(|e| place(e.1)));
+            let (of_vertex, after) = rest.split_at(rest.partition_point(|e| e.0 <= v as i32));
+            lists.extend(of_vertex.iter().map(|e| place(e.1)));
             lists.push(-1);
             rest = after;
         }
@@ -333,13 +333,13 @@ impl Growing {
         }
         let is_corner = |v: u32| meet.get(v as usize).is_some_and(|&n| n > 2);
         let mut face = Vec::new();
-        for own in 0..sides {
-            let corners = || borders.range((own, 0)..=(own, NONE)).map(|(&(_, v), _)| v);
+        for side in 0..sides {
+            let corners = || borders.range((side, 0)..=(side, NONE)).map(|(&(_, v), _)| v);
             let Some(first) = corners().find(|&v| is_corner(v)) else { continue };
             let mut last = None;
             let mut at = first;
             for _ in 0..corners().count() {
-                at = borders.get(&(own, at)).copied().unwrap_or(first);
+                at = borders.get(&(side, at)).copied().unwrap_or(first);
                 if at == first {
                     break;
                 }
@@ -416,7 +416,7 @@ mod tests {
     fn points_on_sides_and_edges_are_no_corners() {
         for n in 1..6 {
             let points = cube(n);
-            let hull = Hull::of(&points, None).unwrap();
+            let hull = Hull::from_points(&points, None).unwrap();
             assert_eq!((hull.vertex.len(), hull.face.len()), (8, 12), "{n}");
             check(&points, &hull, true);
         }
@@ -424,11 +424,11 @@ mod tests {
 
     #[test]
     fn flat_clouds_are_told() {
-        assert_eq!(Hull::of(&[], None), Err(Flat::Point));
-        assert_eq!(Hull::of(&[[1.0; 3]; 9], None), Err(Flat::Point));
-        assert_eq!(Hull::of(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));
+        assert_eq!(Hull::from_points(&[], None), Err(Flat::Point));
+        assert_eq!(Hull::from_points(&[[1.0; 3]; 9], None), Err(Flat::Point));
+        assert_eq!(Hull::from_points(&[[0.0; 3], [1.0; 3], [2.0; 3], [0.5; 3]], None), Err(Flat::Line));
         let flat: Vec<Vec3> = cube(3).into_iter().map(|[x, y, _]| [x, y, x + 0.5 * y]).collect();
-        assert_eq!(Hull::of(&flat, None), Err(Flat::Plane));
+        assert_eq!(Hull::from_points(&flat, None), Err(Flat::Plane));
     }
 
     #[test]
@@ -440,11 +440,11 @@ mod tests {
                 [r * a.cos(), r * a.sin(), h]
             })
             .collect();
-        let whole = Hull::of(&points, None).unwrap();
+        let whole = Hull::from_points(&points, None).unwrap();
         assert_eq!(whole.vertex.len(), 500);
         check(&points, &whole, true);
         for most in [4, 5, 20, 100] {
-            let hull = Hull::of(&points, Some(most)).unwrap();
+            let hull = Hull::from_points(&points, Some(most)).unwrap();
             assert_eq!(hull.vertex.len(), most);
             check(&points, &hull, false);
         }
@@ -453,7 +453,8 @@ mod tests {
     #[test]
     fn graphs_list_neighbours() {
         let hull =
-            Hull::of(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.1; 3]], None).unwrap();
+            Hull::from_points(&[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.1; 3]], None)
+                .unwrap();
         assert_eq!(
             hull.graph(),
             [
@@ -469,9 +470,9 @@ mod tests {
         #[test]
         fn degenerate_clouds_have_hulls(points in prop::collection::vec(prop::array::uniform3(-3..4_i32), 4..60)) {
             let points: Vec<Vec3> = points.into_iter().map(|p| p.map(|x| f64::from(x) * 0.1)).collect();
-            if let Ok(hull) = Hull::of(&points, None) {
+            if let Ok(hull) = Hull::from_points(&points, None) {
                 check(&points, &hull, true);
-                prop_assert_eq!(&Hull::of(&points, None).unwrap(), &hull);
+                prop_assert_eq!(&Hull::from_points(&points, None).unwrap(), &hull);
             }
         }
 
@@ -482,7 +483,7 @@ mod tests {
         ) {
             let points: Vec<Vec3> =
                 points.into_iter().map(|p| [0, 1, 2].map(|i| f64::from(p[i]) * 2f64.powi(stretch[i]))).collect();
-            if let Ok(hull) = Hull::of(&points, None) {
+            if let Ok(hull) = Hull::from_points(&points, None) {
                 prop_assert_eq!(hull.face.len(), 2 * hull.vertex.len() - 4);
             }
         }

@@ -62,13 +62,13 @@ pub(super) struct SnapshotFault {
 
 #[cfg(test)]
 mod tests {
-    use super::super::runs::Taken;
+    use super::super::runs::SnapshotRun;
     use super::*;
     use crate::run::Cell;
     use crate::source::SourceFile;
 
-    fn taken(name: &str, z: &[f64]) -> Taken {
-        Taken {
+    fn taken(name: &str, z: &[f64]) -> SnapshotRun {
+        SnapshotRun {
             name: name.into(),
             about: vec!["0.2 s".into(), "timestep 0.1 s".into()],
             times: vec![0.0, 0.1, 0.2],

@@ -1,7 +1,7 @@
 //! What labs show, as a text.
 
 use super::super::digits;
-use super::super::runs::Taken;
+use super::super::runs::SnapshotRun;
 use super::{HEAD, LONG, NOTHING, OPEN, SAME, WIDE};
 use crate::printable::{printable, printable_json};
 use crate::run::Cell;
@@ -24,7 +24,11 @@ pub(in crate::check::snapshot) fn whole<'t>(name: &str, labs: impl Iterator<Item
 }
 
 /// The lines of a lab. Each run has its values, and the same under the numerics that digits must survive.
-pub(in crate::check::snapshot) fn lab(address: &str, title: &str, runs: &[(Taken, Vec<Taken>)]) -> String {
+pub(in crate::check::snapshot) fn lab(
+    address: &str,
+    title: &str,
+    runs: &[(SnapshotRun, Vec<SnapshotRun>)],
+) -> String {
     let mut text = format!("lab {} {}\n", quoted(address), quoted(title));
     let mut first = String::new();
     for (run, others) in runs {
@@ -46,7 +50,7 @@ pub(in crate::check::snapshot) fn lab(address: &str, title: &str, runs: &[(Taken
     text
 }
 
-fn times(run: &Taken) -> (String, Vec<String>) {
+fn times(run: &SnapshotRun) -> (String, Vec<String>) {
     ("time".into(), run.times.iter().map(|t| crate::verify::significant(*t)).collect())
 }
 
@@ -86,7 +90,7 @@ fn number(cell: &Cell) -> Option<f64> {
 /// What is no number: a text, a truth value, nothing.
 pub(in crate::check::snapshot) fn plain(cell: &Cell) -> String {
     match cell {
-        Cell::Number(x) => crate::run::shown(*x, 6),
+        Cell::Number(x) => crate::run::rounded(*x, 6),
         Cell::Bool(b) => b.to_string(),
         Cell::Nothing => NOTHING.into(),
         Cell::Text(text) if text.chars().count() <= LONG => quoted(text),
