@@ -213,8 +213,8 @@ fn rooms_of_the_engine_look_down() {
 }
 
 /// The pipeline of a lesson, in order: what a text is, what stands in it, what the rules say of that, what it means to the engine, what
-/// happens when it runs, what is true of that, and how it is shown. Facades and the program come last.
-const PIPELINE: [&str; 34] = [
+/// happens when it runs, what is true of that, and how it is shown. Facades come last.
+const PIPELINE: [&str; 27] = [
     "printable",
     "interrupt",
     "threads",
@@ -234,21 +234,14 @@ const PIPELINE: [&str; 34] = [
     "monitors",
     "run",
     "verify",
-    "precision",
     "stress",
-    "profile",
     "check",
     "repair",
-    "trace",
-    "scaffold",
     "report",
     "error",
     "player",
     "checker",
     "engine",
-    "lsp",
-    "cli",
-    "main",
 ];
 
 /// A module looks at those before it, never at one that comes after.
@@ -272,22 +265,16 @@ fn files_of_the_engine_do_not_use_each_other_in_a_circle() {
     assert_eq!(Room::read("core", "").circle(), None);
 }
 
-/// The folders of labspec in which no two files use each other. Those of the program, the editor's server, the numerics and the
-/// proposals are not among them yet.
-const WITHOUT_CIRCLES: [&str; 12] = [
-    "bind", "check", "json", "lint", "markdown", "monitors", "player", "rules", "run", "source", "spec",
-    "verify",
-];
+/// The crates in which no two files use each other.
+const WITHOUT_CIRCLES: [&str; 8] =
+    ["bind", "cli", "finding", "labspec", "lsp", "numerics", "plot", "proposals"];
 
 #[test]
-fn files_of_labspec_do_not_use_each_other_in_a_circle() {
-    for folder in WITHOUT_CIRCLES {
-        let room = Room::read("labspec", folder);
-        assert!(!room.text.is_empty(), "there is no folder {folder}");
-        assert_eq!(room.circle(), None, "in {folder}");
-    }
-    for krate in ["bind", "finding", "plot"] {
-        assert_eq!(Room::read(krate, "").circle(), None, "in the crate {krate}");
+fn files_of_a_crate_do_not_use_each_other_in_a_circle() {
+    for krate in WITHOUT_CIRCLES {
+        let room = Room::read(krate, "");
+        assert!(!room.text.is_empty(), "there is no crate {krate}");
+        assert_eq!(room.circle(), None, "in the crate {krate}");
     }
 }
 

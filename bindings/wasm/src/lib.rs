@@ -143,7 +143,7 @@ impl Lab {
             DisplayedIn::Plot(plot) => json!({"label": s.label, "unit": s.unit, "plot": plot}),
             DisplayedIn::Readout(digits) => json!({"label": s.label, "unit": s.unit, "digits": digits}),
         };
-        Ok(object(&self.player.shown().iter().map(one).collect())?.unchecked_into())
+        Ok(object(&self.player.displayed().iter().map(one).collect())?.unchecked_into())
     }
 
     /// Time, s.

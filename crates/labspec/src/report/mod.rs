@@ -17,7 +17,6 @@ pub use formats::{concise, github, gitlab, jsonl, junit, page, sarif, statistics
 #[cfg(feature = "report")]
 pub use human::human;
 pub use machine::{SCHEMA_VERSION, json, key, nonfinite, report, set_number, set_numbers, set_place};
-#[cfg(feature = "report")]
 pub use table::number_in_table;
 
 use crate::finding::{Finding, Severity};

@@ -13,7 +13,7 @@ impl Pose {
     pub(crate) const NONE: Pose = Pose { pos: [0.0; 3], quat: IDENTITY };
 
     /// A pose that is given in this frame, seen from the body. What is not moved keeps its bits.
-    pub(crate) fn to_parent(&self, pos: Vec3, quat: Quat) -> Pose {
+    pub(crate) fn in_parent(&self, pos: Vec3, quat: Quat) -> Pose {
         if *self == Pose::NONE {
             return Pose { pos, quat };
         }
@@ -22,7 +22,7 @@ impl Pose {
 
     /// Places what has a pose.
     pub(crate) fn place(&self, pos: &mut Vec3, quat: &mut Quat) {
-        Pose { pos: *pos, quat: *quat } = self.to_parent(*pos, *quat);
+        Pose { pos: *pos, quat: *quat } = self.in_parent(*pos, *quat);
     }
 
     /// A point in this frame, seen from the body.

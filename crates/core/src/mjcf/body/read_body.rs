@@ -43,7 +43,7 @@ pub(crate) fn bodies(cx: &mut Context) -> Vec<BodySpec> {
                 let p = Props::written_props(node);
                 let (pos, quat) = (p.reals("pos", [0.0; 3]), cx.orientation(&p, node));
                 ElementSite {
-                    frame: place.frame.to_parent(pos, quat),
+                    frame: place.frame.in_parent(pos, quat),
                     childclass: class_inside(cx, node, place),
                     ..place
                 }
@@ -96,7 +96,7 @@ fn empty(node: usize, span: std::ops::Range<usize>, name: String, parent: usize)
 fn body(cx: &mut Context, i: usize, node: &Node, place: ElementSite) -> BodySpec {
     let p = Props::written_props(node);
     let written = Pose { pos: p.reals("pos", [0.0; 3]), quat: cx.orientation(&p, node) };
-    let Pose { pos, quat } = place.frame.to_parent(written.pos, written.quat);
+    let Pose { pos, quat } = place.frame.in_parent(written.pos, written.quat);
     BodySpec {
         part: node.model,
         pos,

@@ -39,7 +39,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         }
         let form = read_form::of_asset(cx, &p, node, shape)?;
         check_fit(cx, &p, node, shape, form.size);
-        Pose { pos, quat } = Pose { pos, quat }.to_parent(form.mesh_pose.pos, form.mesh_pose.quat);
+        Pose { pos, quat } = Pose { pos, quat }.in_parent(form.mesh_pose.pos, form.mesh_pose.quat);
         form
     } else {
         check_size(cx, &p, node, shape, size);

@@ -58,7 +58,7 @@ fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Attach
         }
         let to = Pose { pos: inertia.pos, quat: inertia.quat };
         Pose { pos: body.pos, quat: body.quat } =
-            Pose { pos: body.pos, quat: body.quat }.to_parent(to.pos, to.quat);
+            Pose { pos: body.pos, quat: body.quat }.in_parent(to.pos, to.quat);
         let back = quat_conj(to.quat);
         move_members(body, Pose { pos: rotate(scale(to.pos, -1.0), back), quat: back });
         (inertia.pos, inertia.quat) = ([0.0; 3], IDENTITY);
@@ -108,7 +108,7 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
         };
         let pose = Pose { pos: body.pos, quat: body.quat };
         if body.parent > 0 && inertia.mass >= MINVAL {
-            let Pose { pos, quat } = pose.to_parent(inertia.pos, inertia.quat);
+            let Pose { pos, quat } = pose.in_parent(inertia.pos, inertia.quat);
             *own = combined(&[own.clone(), Inertia { pos, quat, ..inertia }]);
         }
         move_members(body, pose);
