@@ -64,8 +64,9 @@ fn describe(mistake: &Mistake) -> MessageParts {
         describe_string,
         describe_quotes,
     ];
-    let words = groups.iter().find_map(|describe| describe(mistake));
-    words.unwrap_or_else(|| message_with_help("this is not JSON", "correct it, or delete it"))
+    let parts = groups.iter().find_map(|describe| describe(mistake));
+    debug_assert!(parts.is_some(), "each mistake belongs to a group: {mistake:?}");
+    parts.unwrap_or_else(|| message_with_help("this is not JSON", "correct it, or delete it"))
 }
 
 /// Nothing to read, too much of it, or a key that stands twice.
