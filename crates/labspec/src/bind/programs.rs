@@ -64,7 +64,7 @@ pub struct Programs {
     pub demand: AccessSet,
     /// Functions of the embedding program, which they may call.
     pub functions: Functions,
-    /// The model that they were compiled for ([`Model::identity`]).
+    /// The model that they were compiled for (`Model::identity`).
     pub model: u64,
     /// What is corrected behind them, where somebody tries that.
     pub(crate) coupled: Option<Coupled>,

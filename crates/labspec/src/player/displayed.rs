@@ -18,7 +18,7 @@ pub struct Shown {
 pub enum DisplayedIn {
     /// A curve of this plot, from 0.
     Plot(usize),
-    /// A readout with so many decimals: see [`Cell::shown`](crate::run::Cell::shown).
+    /// A readout with so many decimals: see [`Cell::rounded`](crate::run::Cell::rounded).
     Readout(u32),
 }
 

@@ -65,7 +65,7 @@ pub fn rounded(x: f64, digits: u32) -> String {
     labspec_expr::to_fixed(x, digits as usize)
 }
 
-/// The number that [`shown`] prints.
+/// The number that [`rounded`] prints.
 pub fn printed(x: f64, digits: u32) -> f64 {
     /// Up to here every whole number of such decimals is a double, and so is the power of ten.
     const DIGITS: u32 = 9;
