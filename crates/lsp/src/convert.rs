@@ -3,7 +3,8 @@
 use labspec::report::uri::RELATIVE_PATH;
 use labspec::source::SourceFile;
 use lsp_types::{Position, Uri};
-use percent_encoding::{AsciiSet, percent_decode_str, utf8_percent_encode};
+use percent_encoding::{AsciiSet, CONTROLS, percent_decode_str, utf8_percent_encode};
+use serde_json::Value;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -73,6 +74,39 @@ pub(super) fn path_of_uri(uri: &Uri) -> Option<PathBuf> {
     // `file:///c:/x` is a path of Windows.
     let drive = path.get(2..3) == Some(":") && cfg!(windows);
     Some(PathBuf::from(if drive { path.get(1..)? } else { &path }))
+}
+
+/// What a URI cannot hold raw. `%` is left: it begins what is encoded.
+const NOT_IN_URIS: &AsciiSet = &CONTROLS
+    .add(b' ')
+    .add(b'"')
+    .add(b'<')
+    .add(b'>')
+    .add(b'[')
+    .add(b'\\')
+    .add(b']')
+    .add(b'^')
+    .add(b'`')
+    .add(b'{')
+    .add(b'|')
+    .add(b'}');
+
+/// Encodes what the URIs of a message hold raw (`file:///a b/ä.md`): some editors write paths as they are.
+pub(super) fn encode_uris(message: &mut Value) {
+    match message {
+        Value::Array(items) => items.iter_mut().for_each(encode_uris),
+        Value::Object(fields) => {
+            for (key, value) in fields {
+                match value {
+                    Value::String(uri) if matches!(key.as_str(), "uri" | "rootUri" | "href") => {
+                        *uri = utf8_percent_encode(uri, NOT_IN_URIS).to_string();
+                    }
+                    value => encode_uris(value),
+                }
+            }
+        }
+        _ => {}
+    }
 }
 
 /// The file itself, whatever links lead to it; it may not be there yet.

@@ -46,26 +46,25 @@ impl Default for EditorSettings {
 }
 
 impl EditorSettings {
-    /// Takes the settings that a message has, and leaves the rest. A message with a value of the wrong type changes nothing.
-    pub(super) fn update(&mut self, message: Value) {
-        let settings = match serde_json::from_value(message) {
-            Ok(SettingsMessage::Section { labspec } | SettingsMessage::Plain(labspec)) => labspec,
-            Err(_) => return,
+    /// Takes the settings that a message has, and leaves the rest.
+    ///
+    /// # Errors
+    /// A value has the wrong type; then nothing changes.
+    pub(super) fn update(&mut self, mut message: Value) -> Result<(), serde_json::Error> {
+        // In a section of the server's name, or alone.
+        let section = message.get_mut("labspec").map(Value::take);
+        let settings = section.unwrap_or(message);
+        let Some(settings) = serde_json::from_value::<Option<ClientSettings>>(settings)? else {
+            return Ok(());
         };
         let units = settings.inlay_hints.and_then(|hints| hints.units);
         self.units = units.unwrap_or(self.units);
         self.run_on_save = settings.run_on_save.unwrap_or(self.run_on_save);
+        Ok(())
     }
 }
 
-/// Settings as editors send them: in a section of the server's name, or alone.
-#[derive(Debug, Deserialize)]
-#[serde(untagged)]
-enum SettingsMessage {
-    Section { labspec: ClientSettings },
-    Plain(ClientSettings),
-}
-
+/// Settings as editors send them.
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
 struct ClientSettings {
@@ -128,7 +127,7 @@ mod tests {
             (json!(null), true, false),
             (json!({"labspec": {"inlayHints": {"units": false}}, "other": 3}), false, false),
         ] {
-            settings.update(message.clone());
+            assert_eq!(settings.update(message.clone()).is_err(), message["runOnSave"] == "yes");
             assert_eq!((settings.units, settings.run_on_save), (units, run_on_save), "{message}");
         }
     }

@@ -1,5 +1,5 @@
 //! What an editor reports: documents that were opened, changed, saved and closed, files and settings that changed. Nothing of this
-//! is answered; what cannot be read is dropped.
+//! is answered; what cannot be read is logged.
 
 use super::convert;
 use super::documents::OpenDocument;
@@ -13,7 +13,7 @@ use lsp_types::notification::{
 use lsp_types::{
     DidChangeConfigurationParams, DidChangeTextDocumentParams, DidChangeWatchedFilesParams,
     DidCloseTextDocumentParams, DidOpenTextDocumentParams, DidSaveTextDocumentParams,
-    PublishDiagnosticsParams,
+    PublishDiagnosticsParams, TextDocumentIdentifier,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -25,26 +25,51 @@ use std::path::PathBuf;
 /// # Errors
 /// What it makes the server send cannot be written.
 pub(super) fn handle(state: &mut ServerState<'_>, notification: Message) -> io::Result<()> {
-    let Message { method, params } = notification;
+    let Message { method, mut params } = notification;
+    convert::encode_uris(&mut params);
     match method.as_str() {
-        DidOpenTextDocument::METHOD => with_params(params, |p| did_open(state, p)),
-        DidChangeTextDocument::METHOD => with_params(params, |p| did_change(state, p)),
-        DidSaveTextDocument::METHOD => with_params(params, |p| did_save(state, &p)),
-        DidCloseTextDocument::METHOD => with_params(params, |p| did_close(state, p)),
-        DidChangeWatchedFiles::METHOD => with_params(params, |p| did_change_files(state, &p)),
-        DidChangeConfiguration::METHOD => with_params(params, |p: DidChangeConfigurationParams| {
-            state.settings.update(p.settings);
-            Ok(())
-        }),
+        DidOpenTextDocument::METHOD => with_params(state, &method, params, did_open),
+        DidChangeTextDocument::METHOD => {
+            let uri = params["textDocument"]["uri"].as_str().unwrap_or_default().to_string();
+            match serde_json::from_value(params) {
+                Ok(params) => did_change(state, params),
+                Err(e) => lose(state, &uri, &e),
+            }
+        }
+        DidSaveTextDocument::METHOD => with_params(state, &method, params, did_save),
+        DidCloseTextDocument::METHOD => with_params(state, &method, params, did_close),
+        DidChangeWatchedFiles::METHOD => with_params(state, &method, params, did_change_files),
+        DidChangeConfiguration::METHOD => {
+            with_params(state, &method, params, |state, p: DidChangeConfigurationParams| {
+                state.update_settings(p.settings)
+            })
+        }
         _ => Ok(()),
     }
 }
 
+/// Reads the parameters for a handler. What cannot be read is logged.
 fn with_params<P: DeserializeOwned>(
+    state: &mut ServerState<'_>,
+    method: &str,
     params: Value,
-    handler: impl FnOnce(P) -> io::Result<()>,
+    handler: impl FnOnce(&mut ServerState<'_>, P) -> io::Result<()>,
 ) -> io::Result<()> {
-    serde_json::from_value(params).map_or(Ok(()), handler)
+    match serde_json::from_value(params) {
+        Ok(params) => handler(state, params),
+        Err(e) => state.log(format!("`{method}` is ignored, because its parameters are invalid: {e}")),
+    }
+}
+
+/// Closes a document of which a change cannot be read: its text here is no longer the editor's, and an edit would damage the lesson.
+fn lose(state: &mut ServerState<'_>, uri: &str, e: &serde_json::Error) -> io::Result<()> {
+    state.log(format!("a change of `{uri}` cannot be read: {e}. Close and open it again to see findings"))?;
+    match uri.parse() {
+        Ok(uri) => {
+            did_close(state, DidCloseTextDocumentParams { text_document: TextDocumentIdentifier { uri } })
+        }
+        Err(_) => Ok(()),
+    }
 }
 
 fn did_open(state: &mut ServerState<'_>, params: DidOpenTextDocumentParams) -> io::Result<()> {
@@ -72,7 +97,7 @@ fn did_change(state: &mut ServerState<'_>, params: DidChangeTextDocumentParams) 
     Ok(())
 }
 
-fn did_save(state: &mut ServerState<'_>, params: &DidSaveTextDocumentParams) -> io::Result<()> {
+fn did_save(state: &mut ServerState<'_>, params: DidSaveTextDocumentParams) -> io::Result<()> {
     state.refresh();
     let uri = params.text_document.uri.as_str();
     match state.documents.get(uri).map(|document| document.kind) {
@@ -93,7 +118,7 @@ fn did_close(state: &mut ServerState<'_>, params: DidCloseTextDocumentParams) ->
 }
 
 /// Files that somebody else changed. Of one that is open, the editor's text counts.
-fn did_change_files(state: &mut ServerState<'_>, params: &DidChangeWatchedFilesParams) -> io::Result<()> {
+fn did_change_files(state: &mut ServerState<'_>, params: DidChangeWatchedFilesParams) -> io::Result<()> {
     state.refresh();
     let paths = params.changes.iter().filter_map(|change| convert::path_of_uri(&change.uri));
     let paths: Vec<PathBuf> = paths.map(|path| convert::resolve_links(&path)).collect();

@@ -82,9 +82,10 @@ fn dispatch(state: &mut ServerState<'_>, method: &str, params: Value) -> Answer<
 fn respond<P: DeserializeOwned, R: Serialize>(
     state: &mut ServerState<'_>,
     method: &str,
-    params: Value,
+    mut params: Value,
     handler: impl FnOnce(&mut ServerState<'_>, P) -> Answer<R>,
 ) -> Answer<Value> {
+    convert::encode_uris(&mut params);
     let params = serde_json::from_value(params).map_err(|e| {
         error(ErrorCode::InvalidParams, format!("the parameters of `{method}` are invalid: {e}"))
     })?;
@@ -97,7 +98,7 @@ fn initialize(state: &mut ServerState<'_>, setup: ClientSetup) -> Answer<Initial
     state.phase = Phase::Running;
     state.open_folders(&setup.roots());
     if let Some(settings) = setup.initialization_options {
-        state.settings.update(settings);
+        state.update_settings(settings).map_err(|e| error(ErrorCode::InternalError, e.to_string()))?;
     }
     Ok(initialize_result())
 }

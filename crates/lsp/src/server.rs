@@ -94,7 +94,12 @@ mod tests {
     fn answers(requests: &[(&str, Value)]) -> (Vec<Value>, bool) {
         let mut input = Vec::new();
         for (id, (method, params)) in requests.iter().enumerate() {
-            wire::write(&mut input, &json!({"id": id, "method": method, "params": params})).unwrap();
+            let mut message = json!({"id": id, "method": method, "params": params});
+            // A notification has no id.
+            if method.contains("/did") {
+                message.as_object_mut().unwrap().remove("id");
+            }
+            wire::write(&mut input, &message).unwrap();
         }
         wire::write(&mut input, &json!({"method": "exit"})).unwrap();
         let (models, mut policy) = (|_: &_| ModelFolder::unknown(), |_: &_, _: &mut _| {});
@@ -117,7 +122,8 @@ mod tests {
             ("initialize", json!({}), ""),
             (hover, json!(null), "the parameters of `textDocument/hover` are invalid"),
             (hover, json!({}), "missing field `textDocument`"),
-            (hover, about("not a URI"), "the parameters of `textDocument/hover` are invalid"),
+            (hover, about("not a URI"), "this document is not open"),
+            (hover, about("file:///%zz"), "the parameters of `textDocument/hover` are invalid"),
             (hover, about("file:///a.md"), "this document is not open"),
             (rename, about("file:///a.md"), "missing field `newName`"),
             ("textDocument/references", about("untitled:1"), "this document is not open"),
@@ -141,5 +147,41 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn paths_as_they_are_and_changes_that_cannot_be_read() {
+        let uri = "file:///no where/ä [1].md";
+        let about = json!({"textDocument": {"uri": uri}, "position": {"line": 0, "character": 0}});
+        let opened = json!({"uri": uri, "languageId": "markdown", "version": 1, "text": "# A"});
+        let changes = json!([{"text": "# B"}, {"text": 3}]);
+        let (found, ended) = answers(&[
+            ("initialize", json!({"rootUri": "file:///no where", "initializationOptions": {"runOnSave": 1}})),
+            ("textDocument/didOpen", json!({"textDocument": opened})),
+            ("textDocument/hover", about.clone()),
+            (
+                "textDocument/didChange",
+                json!({"textDocument": {"uri": uri, "version": 2}, "contentChanges": changes}),
+            ),
+            ("textDocument/hover", about),
+            ("textDocument/didSave", json!({"textDocument": {}})),
+            ("workspace/didChangeConfiguration", json!({"settings": {"labspec": {"runOnSave": "no"}}})),
+            ("shutdown", json!(null)),
+        ]);
+        assert!(ended);
+        let logged = found.iter().filter(|message| message["method"] == "window/logMessage");
+        let logged: Vec<&str> =
+            logged.map(|message| message["params"]["message"].as_str().unwrap()).collect();
+        let wanted = [
+            "settings of labspec are invalid",
+            "cannot be read",
+            "missing field `uri`",
+            "settings of labspec",
+        ];
+        assert_eq!(logged.len(), wanted.len(), "{logged:?}");
+        assert!(logged.iter().zip(wanted).all(|(text, part)| text.contains(part)), "{logged:?}");
+        let answer = |id: usize| found.iter().find(|message| message["id"] == id).unwrap();
+        assert!(answer(0).get("result").is_some() && answer(2).get("result").is_some(), "{found:?}");
+        assert_eq!(answer(4)["error"]["message"], "this document is not open");
     }
 }

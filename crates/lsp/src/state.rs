@@ -12,9 +12,10 @@ use labspec::finding::Finding;
 use labspec::lint::{ModelFolder, links_to};
 use labspec::source::MAX_FILE;
 use labspec::spec::{FileKind, Lesson, Other, kind_of};
-use lsp_types::notification::{Notification, PublishDiagnostics};
-use lsp_types::{PublishDiagnosticsParams, Uri};
+use lsp_types::notification::{LogMessage, Notification, PublishDiagnostics};
+use lsp_types::{LogMessageParams, MessageType, PublishDiagnosticsParams, Uri};
 use serde::Serialize;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -95,6 +96,27 @@ impl<'c> ServerState<'c> {
     pub(super) fn publish_diagnostics(&mut self, params: PublishDiagnosticsParams) -> io::Result<()> {
         let params = serde_json::to_value(params)?;
         self.send(&lsp_server::Notification { method: PublishDiagnostics::METHOD.to_string(), params })
+    }
+
+    /// Tells the person at the editor, in its log, what could not be done.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub(super) fn log(&mut self, message: String) -> io::Result<()> {
+        let params = LogMessageParams { typ: MessageType::WARNING, message };
+        let params = serde_json::to_value(params)?;
+        self.send(&lsp_server::Notification { method: LogMessage::METHOD.to_string(), params })
+    }
+
+    /// Takes settings from the editor. What cannot be read is logged.
+    ///
+    /// # Errors
+    /// The log cannot be written.
+    pub(super) fn update_settings(&mut self, message: Value) -> io::Result<()> {
+        match self.settings.update(message) {
+            Ok(()) => Ok(()),
+            Err(e) => self.log(format!("the settings of labspec are invalid, so nothing changes: {e}")),
+        }
     }
 
     /// The folders that the editor opened.
