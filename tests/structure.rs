@@ -42,8 +42,17 @@ fn imports(code: &str) -> Vec<String> {
     }
     let mut out = Vec::new();
     for part in code.split("use ").skip(1) {
-        let path: String =
-            part.split(';').next().unwrap_or("").chars().filter(|c| !c.is_whitespace()).collect();
+        // `a::b as c` is `a::b`.
+        let mut words = part.split(';').next().unwrap_or("").split_whitespace();
+        let mut path = String::new();
+        while let Some(word) = words.next() {
+            match word {
+                "as" => {
+                    path.extend(words.next().and_then(|name| name.find([',', '}']).map(|at| &name[at..])))
+                }
+                word => path.push_str(word),
+            }
+        }
         written_out("", &path, &mut out);
     }
     // What is named by its whole path where it is used.

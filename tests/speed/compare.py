@@ -253,9 +253,9 @@ Causes of the difference:
 
 ## Tree algorithms
 
-The table shows the cost of a planned step without one specialized tree algorithm (*way*), relative to its cost with all of them, in
+The table shows the cost of a planned step without one specialized tree algorithm , relative to its cost with all of them, in
 instructions. A cell is empty if the scene does not use the algorithm. `dynamics/ways/` documents the algorithms,
-`labspec bench --without WAY` measures a scene, and `tests/tree_algorithms.rs` compares each with the general algorithm.
+`labspec bench --without ALGORITHM` measures a scene, and `tests/tree_algorithms.rs` compares each with the general algorithm.
 
 {ways}
 

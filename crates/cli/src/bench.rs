@@ -31,8 +31,8 @@ pub(super) struct Arguments {
     /// a lab for what it reads
     #[arg(long)]
     full: bool,
-    /// Compute trees without a short way; may be given several times
-    #[arg(long, value_name = "WAY", value_parser = short_way())]
+    /// Compute trees without this specialized algorithm; may be given several times
+    #[arg(long, value_name = "ALGORITHM", value_parser = specialized_algorithm())]
     without: Vec<TreeAlgorithm>,
     /// Start every repetition from the reset state, so that all compute the same motion
     #[arg(long)]
@@ -40,7 +40,7 @@ pub(super) struct Arguments {
 }
 
 /// A short way of computing trees, by its name.
-fn short_way() -> impl TypedValueParser<Value = TreeAlgorithm> {
+fn specialized_algorithm() -> impl TypedValueParser<Value = TreeAlgorithm> {
     PossibleValuesParser::new(TreeAlgorithm::short().map(TreeAlgorithm::name)).try_map(|name| {
         TreeAlgorithm::short().find(|way| way.name() == name).ok_or("this algorithm does not exist")
     })

@@ -9,7 +9,7 @@ use super::stdio::print;
 use super::stdio::{Progress, print_json};
 use clap::ValueEnum;
 use labspec::bind::Programs;
-use labspec::report::{key, printable, set_number};
+use labspec::report::{counted, key, printable, set_number};
 use labspec::run::two_digits;
 use labspec::spec::Lab;
 use labspec::stress::{
@@ -90,8 +90,8 @@ fn human(report: &StressReport, programs: &Programs) -> String {
         report.tried.iter().map(|t| format!("{} {}", t.made + t.cut, t.kind.description())).collect();
     let _ = writeln!(
         text,
-        "{runs} run{} of {} s: {}.",
-        if runs == 1 { "" } else { "s" },
+        "{} of {} s: {}.",
+        counted(runs, "run"),
         labspec::verify::significant(report.length),
         kinds.join(", ")
     );
@@ -322,8 +322,8 @@ fn left_out(report: &StressReport) -> Vec<String> {
     let cut: usize = report.tried.iter().map(|t| t.cut).sum();
     if let Some(shortest) = report.shortest {
         list.push(format!(
-            "the end of {cut} run{}, which need more work than allowed; the shortest covers {} s",
-            if cut == 1 { "" } else { "s" },
+            "the end of {}, which need more work than allowed; the shortest covers {} s",
+            counted(cut, "run"),
             two_digits(shortest)
         ));
     }

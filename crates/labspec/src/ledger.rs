@@ -3,6 +3,7 @@
 //! Summaries, verdicts and exit codes are computed from the ledger and from nothing else. A claim is true only if it was
 //! found true in this run; what could not be checked is not silently true, it stands here with its reason.
 
+use crate::printable::counted;
 use std::fmt::Write;
 use std::ops::Range;
 use std::sync::Arc;
@@ -364,15 +365,11 @@ impl Ledger {
 
 fn tell(parts: &mut Vec<String>, subject: Subject, counts: [(usize, &str); 2]) {
     for (n, word) in counts.into_iter().filter(|(n, _)| *n > 0) {
-        let mut part = plural(n, subject);
+        let mut part = counted(n, subject.as_str());
         let space = if word.is_empty() { "" } else { " " };
         let _ = write!(part, "{space}{word}");
         parts.push(part);
     }
-}
-
-fn plural(n: usize, subject: Subject) -> String {
-    format!("{n} {}{}", subject.as_str(), if n == 1 { "" } else { "s" })
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::claims::{self, Owner};
 use super::{Checked, Claim, RanLab};
 use crate::finding::{Finding, Severity};
 use crate::ledger::{Entry, Evidence, Ledger, State, Subject};
+use crate::printable::counted;
 use crate::source::Text;
 use crate::verify::{Measured, Quote, QuoteState, RunReport, Weight, significant};
 use std::collections::BTreeMap;
@@ -35,7 +36,7 @@ fn file(path: &Arc<str>, faults: usize) -> Entry {
         0 => (State::True(Evidence::Computed), "in order"),
         _ => (State::False, "has faults"),
     };
-    let remark = if faults == 0 { String::new() } else { plural(faults, "finding") };
+    let remark = if faults == 0 { String::new() } else { counted(faults, "finding") };
     Entry {
         subject: Subject::File,
         owner: path.to_string(),
@@ -244,13 +245,13 @@ fn lab(ran: &RanLab) -> (State, &'static str, String) {
     let Some(tried) = ran.tried.as_ref().filter(|_| ran.ran) else {
         return (State::Unchecked, "not run", "it could not run".into());
     };
-    let mut remark = plural(tried.runs, "run");
+    let mut remark = counted(tried.runs, "run");
     let mut missing = tried.ended.iter().cloned().collect::<Vec<_>>();
     if tried.skipped > 0 {
-        missing.push(format!("{} not made", plural(tried.skipped, "run")));
+        missing.push(format!("{} not made", counted(tried.skipped, "run")));
     }
     if ran.mistakes > 0 {
-        missing.push(format!("{} in its code", plural(ran.mistakes, "mistake")));
+        missing.push(format!("{} in its code", counted(ran.mistakes, "mistake")));
     }
     for part in &missing {
         remark.push_str(", ");
@@ -266,10 +267,6 @@ fn lab(ran: &RanLab) -> (State, &'static str, String) {
         (false, false) => (State::Unchecked, "in part", remark),
         (false, true) => (State::True(Evidence::Simulated), "run", remark),
     }
-}
-
-fn plural(n: usize, one: &str) -> String {
-    if n == 1 { format!("1 {one}") } else { format!("{n} {one}s") }
 }
 
 fn quote(q: &Quote) -> (State, &'static str) {

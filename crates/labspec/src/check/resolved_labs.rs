@@ -78,8 +78,20 @@ pub(super) fn bind_claim<'r>(
     lab: Option<&'r Lab>,
     stage: &'r Stage<'r>,
 ) -> Option<BoundVerify<'r>> {
+    bind_with_base(lesson, ready, verify, lab, stage).map(|(_, bound)| bound)
+}
+
+/// The same, beside the lab that it rests on.
+fn bind_with_base<'r>(
+    lesson: &'r Lesson,
+    ready: &'r [PreparedLab<'r>],
+    verify: &'r Verify,
+    lab: Option<&'r Lab>,
+    stage: &'r Stage<'r>,
+) -> Option<(Option<BoundLab<'r>>, BoundVerify<'r>)> {
     let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, lab, stage, &mut Vec::new())?;
-    BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())
+    let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
+    Some((base, bound))
 }
 
 /// What a `verify` object rests on.
@@ -98,8 +110,7 @@ pub(super) fn start_runs<'r>(
     lab: Option<&'r Lab>,
     stage: &'r Stage<'r>,
 ) -> Option<StartedRuns> {
-    let ResolvedLabs { base, runs } = resolve_labs(lesson, ready, verify, lab, stage, &mut Vec::new())?;
-    let bound = BoundVerify::new(verify, base.as_ref(), &runs, stage, &mut Vec::new())?;
+    let (base, bound) = bind_with_base(lesson, ready, verify, lab, stage)?;
     Some(StartedRuns { runs: bound.started_models(), model: base.map(|scene| scene.model) })
 }
 
@@ -112,9 +123,5 @@ pub(super) fn record_curves<'r>(
     stage: &'r Stage<'r>,
     most: usize,
 ) -> Vec<verify::Curves> {
-    let ignored = &mut Vec::new();
-    let cast = resolve_labs(lesson, ready, verify, lab, stage, ignored);
-    let bound =
-        cast.and_then(|cast| BoundVerify::new(verify, cast.base.as_ref(), &cast.runs, stage, ignored));
-    bound.map_or(Vec::new(), |bound| bound.curves(most))
+    bind_claim(lesson, ready, verify, lab, stage).map_or(Vec::new(), |bound| bound.curves(most))
 }

@@ -51,7 +51,7 @@ impl std::fmt::Display for Summary {
         let parts: Vec<String> = [(self.errors, "error"), (self.warnings, "warning"), (self.notes, "note")]
             .into_iter()
             .filter(|(n, _)| *n > 0)
-            .map(|(n, word)| format!("{n} {word}{}", if n == 1 { "" } else { "s" }))
+            .map(|(n, word)| counted(n, word))
             .collect();
         match parts.is_empty() {
             true => f.write_str("no findings"),

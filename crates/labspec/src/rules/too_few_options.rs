@@ -1,5 +1,6 @@
 use super::Check;
 use crate::finding::Finding;
+use crate::printable::counted;
 use crate::spec::{Question, QuestionKind};
 use labspec_finding::{Example, Layer, Rule, Severity};
 
@@ -23,8 +24,7 @@ pub(super) const CHECK: Check = Check::Question(check_question);
 fn check_question(question: &Question, findings: &mut Vec<Finding>) {
     let QuestionKind::Choice { options, .. } = &question.kind else { return };
     if options.len() < 2 {
-        let plural = if options.len() == 1 { "" } else { "s" };
-        let message = format!("this question has {} option{plural}", options.len());
+        let message = format!("this question has {}", counted(options.len(), "option"));
         findings.push(
             Finding::new(TOO_FEW_OPTIONS, question.q.span(), message)
                 .help("add options until there are at least two, or use the kind numeric or open"),

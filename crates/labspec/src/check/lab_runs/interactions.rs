@@ -4,6 +4,7 @@
 
 use super::{LabRunState, Trial, attempt};
 use crate::finding::{Finding, Severity};
+use crate::printable::counted;
 use crate::rules;
 use crate::run::{self, Budget, Session};
 use crate::spec::Lab;
@@ -112,8 +113,7 @@ fn near_its_limit(tour: &LabRunState<'_>) -> Option<Finding> {
 }
 
 fn runs(tour: &LabRunState<'_>) -> String {
-    let n = tour.tried.as_ref().map_or(0, |t| t.runs);
-    format!("{n} run{}", if n == 1 { "" } else { "s" })
+    counted(tour.tried.as_ref().map_or(0, |t| t.runs), "run")
 }
 
 /// What was seen beside that of which runs speak themselves.

@@ -4,6 +4,7 @@ use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::json::Number;
+use crate::printable::counted;
 use crate::rules;
 use crate::run::Cell;
 use labspec_core::reflect::data;
@@ -73,8 +74,8 @@ fn stops_before_change(stop: &Number, steps: usize, timestep: f64, what: &str, t
     let message = "the lab stops before anything that it shows changes";
     Finding::warning(rules::STOPS_EARLY, stop.span.clone(), message)
         .why(format!(
-            "it runs for {steps} step{} of {} s; in a longer run, the first thing that changes is {what}, at t = {} s",
-            if steps == 1 { "" } else { "s" },
+            "it runs for {} of {} s; in a longer run, the first thing that changes is {what}, at t = {} s",
+            counted(steps, "step"),
             digits(timestep, 4),
             digits(time, 3)
         ))
