@@ -1,5 +1,5 @@
-//! Ctrl-C: a flag that long work looks at, so that what is finished can still be printed. And the same for one thread, whose work
-//! somebody no longer wants.
+//! Interrupts: a flag that long work reads, so that finished results can still be printed (Ctrl-C), and one for the work of a single
+//! thread that a newer request replaces.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -14,8 +14,8 @@ thread_local! {
     static HERE: RefCell<Option<Arc<AtomicBool>>> = const { RefCell::new(None) };
 }
 
-/// Whether the person at the terminal wants an end, or somebody that of what this thread does. Never true in a program that calls
-/// neither [`flag`] nor [`until`].
+/// Whether long work on this thread must end: the flag of all threads is set, or that of this thread. It is never true in a program
+/// that calls neither [`flag`] nor [`until`].
 #[inline]
 pub fn requested() -> bool {
     REQUESTED.get().is_some_and(|flag| flag.load(Ordering::Relaxed))
@@ -27,7 +27,7 @@ fn here() -> bool {
     HERE.with(|flag| flag.borrow().as_ref().is_some_and(|flag| flag.load(Ordering::Relaxed)))
 }
 
-/// Does something on this thread that ends early when the flag is set.
+/// Does work on this thread, and ends it early when the flag is set. The work asks [`requested`] between steps.
 pub fn until<T>(flag: Arc<AtomicBool>, work: impl FnOnce() -> T) -> T {
     OWN.store(true, Ordering::Relaxed);
     let before = HERE.with(|here| here.replace(Some(flag)));

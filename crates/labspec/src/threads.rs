@@ -4,15 +4,15 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::thread::Builder;
 
-/// The stack of every thread that checks, in bytes: what is deep is as deep on each.
+/// The stack of every thread that checks, in bytes: recursion reaches the same depth on each.
 const STACK: usize = 8 << 20;
 
-/// A thread to be, with that stack.
+/// The builder of a thread with the stack of all threads that check lessons (8 MiB).
 pub fn checking() -> Builder {
     Builder::new().stack_size(STACK)
 }
 
-/// Does all the work of a program on a thread with that stack; where the system gives none, on this one.
+/// Does all the work of a program on a thread with that stack. If the system cannot start a thread, the work runs on this one.
 pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     std::thread::scope(|scope| match checking().spawn_scoped(scope, &work) {
         Ok(thread) => thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)),
@@ -20,10 +20,10 @@ pub fn run<T: Send>(work: impl Fn() -> T + Sync) -> T {
     })
 }
 
-/// Does something about one lesson.
+/// Does the work of one lesson, and catches its panic.
 ///
 /// # Errors
-/// What the panic said that ended it.
+/// The message of the panic that ended it.
 pub fn apart<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     // What was half done is dropped; caches keep whole entries alone.
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {

@@ -64,7 +64,7 @@ impl Overlay {
         locked(&self.places).clear();
     }
 
-    /// The open texts of a folder, by their names.
+    /// The names of the files of a folder that an editor holds as unsaved texts.
     pub fn names_in(&self, folder: &Path) -> Vec<String> {
         let open = locked(&self.open);
         let inside = open.keys().filter(|path| path.parent() == Some(folder));
