@@ -3,6 +3,10 @@
 //! A call with data of another model, with an id or a length that does not fit, or with results that the plan left out is an
 //! error, and changes nothing.
 
+pub mod save;
+pub mod state;
+mod work;
+
 use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
@@ -13,7 +17,6 @@ use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
-use crate::model::stopwatch::StageTimes;
 use crate::model::{Contact, Obj};
 use crate::query::{self, RayFilter, RayHit};
 use crate::sensor::body_force;
@@ -22,6 +25,7 @@ use crate::step::balance::{self, Energy};
 use crate::step::{self, functions, integrate, reset};
 
 pub use crate::dynamics::jacobian::Jacobian;
+pub use work::*;
 
 fn wanted(what: &'static str, wanted: usize, found: usize) -> Result<(), Error> {
     if wanted == found { Ok(()) } else { Err(Error::Length { what, wanted, found }) }
@@ -467,143 +471,9 @@ pub fn view_mut<'a, S: Scope>(
     Ok(reflect::view_model_mut(m.engine(), field))
 }
 
-/// The work that was done with these data since they were made: about nanoseconds of a fast machine.
-pub fn cost<S: Scope>(d: &Data<S>) -> u64 {
-    functions::cost(&d.inner)
-}
-
-/// What a forward pass costs without pairs and constraints, in the same unit.
-pub fn cost_of_pass<S: Scope>(d: &Data<S>) -> u64 {
-    functions::cost_of_pass(&d.inner)
-}
-
-/// Measures the stages from here on, from nothing, by a clock that the caller brings: it counts up in any unit. Each run of a
-/// stage then costs two looks at the clock more; numbers stay the same.
-pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
-    reset::clock(&mut d.inner, clock);
-}
-
-/// What the stages took since [`clock`], or since this was asked last; nothing without a clock.
-pub fn laps<S: Scope>(d: &mut Data<S>) -> StageTimes {
-    functions::laps(&mut d.inner)
-}
-
 /// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost
 /// one comparison each.
 pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
     d.belongs_to(m)?;
     Ok(functions::pairs_in_reach(m, &d.inner))
-}
-
-/// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].
-pub fn limit<S: Scope>(d: &mut Data<S>, units: u64) {
-    functions::limit(&mut d.inner, units);
-}
-
-/// What is left of the limit.
-pub fn work_left<S: Scope>(d: &Data<S>) -> u64 {
-    functions::work_left(&d.inner)
-}
-
-/// Whether the limit is passed, and results with it are of no use.
-pub fn exhausted<S: Scope>(d: &Data<S>) -> bool {
-    functions::exhausted(&d.inner)
-}
-
-/// Counts work that was done on the data by others.
-pub fn charge<S: Scope>(d: &mut Data<S>, units: u64) {
-    functions::charge(&mut d.inner, units);
-}
-
-/// Saved simulations: state, inputs and everything computed, contacts and warnings included.
-///
-/// ```
-/// # fn main() -> Result<(), labspec_core::Error> {
-/// use labspec_core::{Data, Model, save, step};
-/// let model = Model::from_xml(
-///     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
-/// )?;
-/// let mut data = Data::new(&model);
-/// step(&model, &mut data)?;
-/// let saved = save::save(&model, &data)?;
-/// let then = data.qpos.clone();
-/// step(&model, &mut data)?;
-/// save::restore(&model, &mut data, &saved)?;
-/// assert_eq!(data.qpos, then);
-/// # Ok(())
-/// # }
-/// ```
-pub mod save {
-    use super::{Data, Error, Model, Scope};
-    pub use crate::step::save::RestoreError;
-
-    /// All of a simulation as bytes, for [`restore`].
-    pub fn save<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<u8>, Error> {
-        d.belongs_to(m)?;
-        Ok(crate::step::save::save(m, &d.inner))
-    }
-
-    /// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
-    /// model are not part of it: a run goes on with those that the model has now.
-    pub fn restore<S: Scope>(m: &Model, d: &mut Data<S>, bytes: &[u8]) -> Result<(), Error> {
-        Ok(crate::step::save::restore(m, d.engine_to_write(m)?, bytes)?)
-    }
-}
-
-/// States as lists of numbers (`mj_getState` and its like): a signature says of which parts.
-///
-/// ```
-/// # fn main() -> Result<(), labspec_core::Error> {
-/// use labspec_core::{Data, Model, state, step};
-/// let model = Model::from_xml(
-///     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
-/// )?;
-/// let mut data = Data::new(&model);
-/// let mut start = vec![0.0; state::size(&model, state::PHYSICS)?];
-/// state::get(&model, &data, &mut start, state::PHYSICS)?;
-/// step(&model, &mut data)?;
-/// state::set(&model, &mut data, &start, state::PHYSICS)?;
-/// assert_eq!(data.qpos[0], 0.0);
-/// # Ok(())
-/// # }
-/// ```
-pub mod state {
-    use super::{Data, Error, Model, Scope};
-    use crate::model::state;
-    pub use crate::model::state::{
-        ACT, CTRL, EQ_ACTIVE, FULLPHYSICS, HISTORY, INTEGRATION, MOCAP_POS, MOCAP_QUAT, PHYSICS,
-        QFRC_APPLIED, QPOS, QVEL, StateError, TIME, USER, USERDATA, WARMSTART, XFRC_APPLIED,
-    };
-
-    /// Number of numbers of a state (`mj_stateSize`).
-    pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
-        Ok(state::size(m, sig)?)
-    }
-
-    /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
-    pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Result<(), Error> {
-        d.belongs_to(m)?;
-        Ok(state::get(m, &d.inner, out, sig)?)
-    }
-
-    /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
-    pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
-        Ok(state::set(m, d.engine_to_write(m)?, values, sig)?)
-    }
-
-    /// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
-    pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), Error> {
-        Ok(state::extract(m, from, sig, out, to)?)
-    }
-
-    /// Copies parts of a state (`mj_copyState`).
-    pub fn copy<S: Scope, T: Scope>(
-        m: &Model,
-        from: &Data<S>,
-        to: &mut Data<T>,
-        sig: i32,
-    ) -> Result<(), Error> {
-        from.belongs_to(m)?;
-        Ok(state::copy(m, &from.inner, to.engine_to_write(m)?, sig)?)
-    }
 }

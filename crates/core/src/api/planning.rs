@@ -10,6 +10,7 @@ use crate::model::stage::Stage;
 use crate::model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 use crate::sensor;
 use crate::step::analysis::{self, AccessSet};
+use crate::step::deciding;
 
 /// Which stages run, and why.
 ///
@@ -59,12 +60,12 @@ impl Plan {
 
     /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
     pub fn by_ways(m: &Model, demand: &AccessSet, ways: TreeAlgorithms) -> Plan {
-        Plan::made(m, demand, analysis::never_asked(demand), |d| Inner::new(m, d, ways))
+        Plan::made(m, demand, deciding::never_asked(demand), |d| Inner::new(m, d, ways))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
     pub fn with(m: &Model, demand: &AccessSet, more: Stage) -> Plan {
-        Plan::made(m, demand, analysis::never_asked(demand), |d| {
+        Plan::made(m, demand, deciding::never_asked(demand), |d| {
             Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
         })
     }

@@ -6,8 +6,9 @@
 //! diagonal are kept.
 
 use super::delassus::RowGroup;
-use super::jacobian::{Block, by_rows};
+use super::jacobian::Block;
 use super::primal::Problem;
+use super::row_counts::by_rows;
 use crate::dynamics::mass;
 
 /// Most sweeps over the rows, whatever a model asks for: a step ends, also where nothing limits its work.

@@ -26,6 +26,7 @@ mod noslip;
 mod pgs;
 mod primal;
 mod reference;
+mod row_counts;
 mod rows;
 mod search;
 mod single;

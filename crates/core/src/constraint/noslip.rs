@@ -8,9 +8,10 @@ use super::cone::friction;
 use super::cost::Cost;
 use super::delassus::RowGroup;
 use super::dual::MOST_SWEEPS;
-use super::jacobian::{Block, by_cone_rows};
+use super::jacobian::Block;
 use super::kind;
 use super::primal::Problem;
+use super::row_counts::by_cone_rows;
 use crate::math::dot;
 
 impl Problem<'_> {

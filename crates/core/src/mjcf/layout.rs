@@ -78,7 +78,7 @@ pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
 }
 
 /// Reports joints and mocap bodies where they cannot be.
-pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     within_limits(bodies, layout, report);
     for (i, body) in bodies.iter().enumerate().skip(1) {
         check_joints(body, report);

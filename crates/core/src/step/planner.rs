@@ -4,7 +4,7 @@
 //! parameter that some program writes is treated as if it had any value. A plan never changes a number: the
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
-use super::analysis::{AccessSet, FACTS, ModelAnalysis};
+use super::analysis::{AccessSet, FLAGS, ModelAnalysis};
 use super::pipeline::{STAGES, passes};
 use crate::model::Model;
 use crate::model::plan::{Decision, PlanFlag, PlanTable};
@@ -51,8 +51,8 @@ impl PlanTable {
         let mut plan = PlanTable::default();
         (plan.ways, plan.more) = (ways, more);
         (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
-        for (fact, holds) in FACTS {
-            plan.state(fact, holds(&scene));
+        for (flag, holds) in FLAGS {
+            plan.set_flag(flag, holds(&scene));
         }
         for row in STAGES.iter().rev() {
             let user = STAGES.iter().find(|later| plan.keeps(later.stage) && later.uses(&scene, row.stage));
@@ -65,12 +65,12 @@ impl PlanTable {
         }
         plan.decisions.reverse();
         let forced = plan.keeps(Stage::Passive) || plan.keeps(Stage::Actuation) || scene.applies_forces();
-        plan.state(PlanFlag::Unforced, !forced);
+        plan.set_flag(PlanFlag::Unforced, !forced);
         let ties = plan.has(PlanFlag::General) || plan.keeps(Stage::Solve) || plan.keeps(Stage::Sleep);
-        plan.state(PlanFlag::Ballistic, !forced && !ties);
-        plan.state(PlanFlag::BodyInertias, scene.needs_body_inertias(&plan));
+        plan.set_flag(PlanFlag::Ballistic, !forced && !ties);
+        plan.set_flag(PlanFlag::BodyInertias, scene.needs_body_inertias(&plan));
         let for_rows = scene.mass_for_rows(&plan);
-        plan.state(PlanFlag::MassForRows, for_rows);
+        plan.set_flag(PlanFlag::MassForRows, for_rows);
         plan.arranged()
     }
 
