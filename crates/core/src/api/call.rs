@@ -321,8 +321,11 @@ pub fn apply_ft<S: Scope>(
     d.has(&JACOBIAN_READS)?;
     exists("body", body, m.nbody)?;
     wanted("the force", m.nv, qfrc.len())?;
-    jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).unwrap_or(());
-    Ok(())
+    jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).ok_or(Error::NoId {
+        kind: "body",
+        id: body,
+        count: m.nbody,
+    })
 }
 
 /// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or of the object

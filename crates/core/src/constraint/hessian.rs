@@ -11,7 +11,7 @@ use super::jacobian::{Gram, Jacobian};
 use crate::dynamics::mass;
 use crate::math::lanes::total;
 use crate::math::sort::sort;
-use crate::math::{self, MINVAL};
+use crate::math::{self, MINVAL, broken_invariant};
 use crate::model::Model;
 use std::array::from_fn;
 use std::ops::Range;
@@ -141,7 +141,8 @@ impl Hessian {
         let (mut start, mut work) = (0, 0);
         for i in 0..self.len.div_ceil(4) {
             let rows = self.first.iter().skip(4 * i).take(4);
-            let first = rows.map(|&c| c as usize / 4).min().unwrap_or(0);
+            let first = rows.map(|&c| c as usize / 4).min();
+            let first = first.unwrap_or_else(|| broken_invariant("four rows have a first column"));
             self.blocks.push(BlockRow { first, start });
             let length = i + 1 - first;
             start += length;
@@ -266,7 +267,8 @@ impl Hessian {
             for (number, &place) in rows.iter().zip(places) {
                 values[place as usize] += number;
             }
-            places = places.get(rows.len()..).unwrap_or_default();
+            let left = places.get(rows.len()..);
+            places = left.unwrap_or_else(|| broken_invariant("every number of M has a place"));
         }
     }
 
@@ -321,7 +323,9 @@ impl Hessian {
         let x = x.as_chunks_mut::<4>().0;
         for (i, row) in self.rows() {
             let (before, here) = x.split_at_mut(i);
-            let Some((corner, left)) = row.split_last() else { continue };
+            let Some((corner, left)) = row.split_last() else {
+                return broken_invariant("a row of blocks has its diagonal");
+            };
             let mut sum = f64x4::new(here[0]);
             for (block, x) in left.iter().zip(&before[i - left.len()..]) {
                 for (column, x) in block.iter().zip(x) {
@@ -339,7 +343,9 @@ impl Hessian {
         }
         for (i, row) in self.rows().rev() {
             let (before, here) = x.split_at_mut(i);
-            let Some((corner, left)) = row.split_last() else { continue };
+            let Some((corner, left)) = row.split_last() else {
+                return broken_invariant("a row of blocks has its diagonal");
+            };
             let mut sum = here[0];
             for b in (0..4).rev() {
                 for c in b + 1..4 {

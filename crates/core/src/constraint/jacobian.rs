@@ -6,6 +6,7 @@
 use super::cost::Cost;
 use super::row_counts::{MOST_ROWS, by_rows};
 use crate::math::{FREE_DOFS, SMALL, dot, dot_in_order};
+use crate::model::index::object_index;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 use wide::f64x4;
@@ -299,7 +300,7 @@ impl Jacobian {
         b: &Block,
     ) -> impl Iterator<Item = usize> + Clone + use<'a> {
         let mut last = usize::MAX;
-        let of = |&c: &u32| m.dof_treeid[c as usize].max(0) as usize;
+        let of = |&c: &u32| object_index(m.dof_treeid[c as usize]);
         self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
     }
 

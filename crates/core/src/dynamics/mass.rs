@@ -50,7 +50,9 @@ pub(crate) fn quadratic(m: &Model, mass: &[f64], v: &[f64]) -> f64 {
     let mut sum = 0.0;
     for i in 0..m.nv {
         let row = row(m, i);
-        let Some((diagonal, rest)) = mass[row.clone()].split_last() else { continue };
+        let Some((diagonal, rest)) = mass[row.clone()].split_last() else {
+            return broken_invariant("a row of M has its diagonal");
+        };
         let ancestors = m.M_colind[row].iter().zip(rest).map(|(&k, x)| x * v[k as usize]);
         sum += v[i] * (diagonal * v[i] + 2.0 * ancestors.sum::<f64>());
     }
@@ -337,7 +339,9 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     let (v, out) = (&v[..dofs.end], &mut out[..dofs.end]);
     for i in dofs {
         let row = row(m, i);
-        let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
+        let Some((diagonal, before)) = mass[row.clone()].split_last() else {
+            return broken_invariant("a row of M has its diagonal");
+        };
         if before.is_empty() {
             out[i] = diagonal * v[i];
             continue;

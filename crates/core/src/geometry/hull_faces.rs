@@ -1,6 +1,7 @@
 //! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
 
 use super::Hull;
+use super::shape::vertex;
 use crate::math::sort::sort;
 use crate::math::*;
 
@@ -114,7 +115,7 @@ impl HullFaces {
 }
 
 fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
-    let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
+    let corner = |v: i32| vertex(vert, v as usize);
     let normals: Vec<Vec3> = hull
         .face
         .iter()

@@ -34,6 +34,20 @@ pub(crate) struct Mesh<'a> {
     pub sides: Option<&'a HullFaces>,
 }
 
+impl Mesh<'_> {
+    /// A vertex.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    pub(crate) fn vertex(&self, v: usize) -> Vec3 {
+        vertex(self.vert, v)
+    }
+}
+
+/// The vertex that a triangle, a side or a hull names.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn vertex(vert: &[Vec3], v: usize) -> Vec3 {
+    vert.get(v).copied().unwrap_or_else(|| broken_invariant("a mesh has the vertices that its faces name"))
+}
+
 /// The data of a height field, a grid over its base.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Field<'a> {

@@ -4,12 +4,14 @@
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
 mod elimination;
+mod invariant;
 pub(crate) mod lanes;
 mod ldl;
 mod rotation;
 pub(crate) mod sort;
 
 pub(crate) use elimination::solve_six;
+pub(crate) use invariant::broken_invariant;
 pub(crate) use ldl::Ldl;
 pub use rotation::{
     quat_axis_angle, quat_conj, quat_integrate, quat_mul, quat_normalize, quat_to_mat, quat_to_vel, rotate,

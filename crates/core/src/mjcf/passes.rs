@@ -211,7 +211,7 @@ fn fill_model(
     if !report.is_clean() {
         return None;
     }
-    let mut simple = layout::simple(bodies, inertias);
+    let mut simple = layout::find_simple_bodies(bodies, inertias);
     fill_tendon::demote_simple(&mut simple, bodies, tendons);
     let pattern = layout::pattern(layout, &simple, report)?;
     let whole = layout::whole_pattern(layout, report)?;

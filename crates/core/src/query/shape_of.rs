@@ -3,6 +3,7 @@
 use crate::geometry::{Field, Hull, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
+use crate::model::index::element_range;
 use crate::model::{Fields, Model};
 
 impl<'a> Shape<'a> {
@@ -38,10 +39,7 @@ impl<'a> Shape<'a> {
 impl<'a> Mesh<'a> {
     /// Mesh `id` of a model.
     pub(crate) fn from_model(m: &'a Model, id: usize) -> Mesh<'a> {
-        let range = |adr: &[i32], num: &[i32]| {
-            let first = adr[id].max(0) as usize;
-            first..first + num[id].max(0) as usize
-        };
+        let range = |adr: &[i32], num: &[i32]| element_range(adr[id], num[id]);
         Mesh {
             vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
             face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],

@@ -9,6 +9,7 @@ use super::calls as run;
 use super::clocked::{self, CLOCKED};
 use crate::dynamics::tree_algorithms;
 use crate::kinds::{disable, integrator, trntype, wraptype};
+use crate::math::broken_invariant;
 use crate::model::reflect::{data, model};
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
@@ -455,7 +456,8 @@ impl<const N: usize> Sequence<N> {
 
     /// The bits of the stages before one.
     pub(crate) fn before(&self, stage: Stage) -> u32 {
-        let n = self.stage.iter().position(|s| *s == stage).unwrap_or(0);
+        let n = self.stage.iter().position(|s| *s == stage);
+        let n = n.unwrap_or_else(|| broken_invariant("a stage runs in this part of a pass"));
         (1 << n) - 1
     }
 

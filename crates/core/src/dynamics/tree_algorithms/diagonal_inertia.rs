@@ -102,7 +102,9 @@ pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
 fn bias_of(d: &mut Fields, s: &Joint, gravity: Vec3) {
     let (mass, [a, b, c]) = (s.mass, s.inertia);
     let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
-    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else { return };
+    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else {
+        return broken_invariant("a joint has a velocity and a force");
+    };
     match (s.kind, v, out) {
         (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
             [*fx, *fy, *fz] = scale(gravity, -mass);

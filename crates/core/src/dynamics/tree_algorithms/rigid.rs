@@ -163,7 +163,9 @@ fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     for body in &w.ways.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let (h, axes) = ([hx, hy, hz], &rows::<9>(&d.xmat)[body.body]);
-        let Some(&turn) = d.qvel[body.turn..].first_chunk() else { continue };
+        let Some(&turn) = d.qvel[body.turn..].first_chunk() else {
+            return broken_invariant("a body that turns has three angular velocities");
+        };
         let [x, y, z] = turn;
         let momentum = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
         let torque = sub(cross(turn, momentum), cross(h, mat_t_mul_vec(axes, gravity)));

@@ -97,7 +97,7 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     a.biasprm = p.reals("biasprm", a.biasprm);
     a.dynprm = p.reals("dynprm", a.dynprm);
     a.actdim = p.int("actdim").unwrap_or(a.actdim);
-    a.actearly = p.word("actearly").map_or(a.actearly, |w| w == 1);
+    a.actearly = p.flag("actearly", a.actearly);
     for (limit, flag, range) in [
         (&mut a.ctrl, "ctrllimited", "ctrlrange"),
         (&mut a.force, "forcelimited", "forcerange"),

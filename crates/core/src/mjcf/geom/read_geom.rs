@@ -43,7 +43,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         form
     } else {
         check_size(cx, &p, node, shape, size);
-        Form::primitive(shape, size, p.word("shellinertia") == Some(1))
+        Form::primitive(shape, size, p.flag("shellinertia", false))
     };
     let (mass, moments) = mass(cx, &p, node, shape, &form);
     let material = p.text("material").or_else(|| cx.assets.material(p.text("mesh")?));

@@ -7,7 +7,7 @@
 use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
 
-use crate::kinds::joint;
+use crate::kinds::{choice, joint};
 use crate::math::{IDENTITY, MINVAL, quat_conj, rotate, scale};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::inertia::combined;
@@ -51,7 +51,7 @@ fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Attach
     }
     for ((body, inertia), carries) in bodies.iter_mut().zip(inertias).zip(carries) {
         let by_rule = parts.get(body.part).is_some_and(|p| p.compiler.alignfree);
-        let asked = |align: i32| if align == 2 { by_rule } else { align == 1 };
+        let asked = |align: i32| if align == choice::AUTO { by_rule } else { align == choice::TRUE };
         let free = body.joints.iter().any(|j| j.kind == joint::FREE && asked(j.align));
         if !free || carries {
             continue;

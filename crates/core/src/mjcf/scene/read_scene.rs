@@ -1,6 +1,6 @@
 //! What marks a place or is there to be seen: sites, cameras, lights, materials; and custom data.
 
-use crate::kinds::geom;
+use crate::kinds::{camlight, geom, lighttype, projection};
 use crate::math::normalize;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
@@ -12,6 +12,7 @@ use crate::mjcf::names::NameTable;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{CameraSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::model::Obj;
 
 /// Most numbers of a custom list, as in MuJoCo.
 const MAX_NUMBERS: i32 = 500;
@@ -127,11 +128,11 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
     }
     CameraSpec {
         name: name(node),
-        mode: p.word("mode").unwrap_or(0),
+        mode: p.word("mode").unwrap_or(camlight::FIXED),
         target: node.text("target").map(str::to_string),
         pos: p.reals("pos", [0.0; 3]),
         quat: cx.orientation(&p, node),
-        projection: p.word("projection").unwrap_or(0),
+        projection: p.word("projection").unwrap_or(projection::PERSPECTIVE),
         fovy,
         ipd: p.real("ipd").unwrap_or(0.068),
         resolution,
@@ -165,10 +166,8 @@ fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
 pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) -> LightSpec {
     let p = cx.classes.props(node, childclass);
     let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
-    let kind = match (p.word("type"), p.word("directional")) {
-        (Some(kind), _) => kind,
-        (None, directional) => directional.unwrap_or(0),
-    };
+    let directional = if p.flag("directional", false) { lighttype::DIRECTIONAL } else { lighttype::SPOT };
+    let kind = p.word("type").unwrap_or(directional);
     if p.list("dir").is_some_and(|dir| dir.iter().all(|&x| x == 0.0)) {
         let span = p.span("dir").unwrap_or(node.span.clone());
         cx.report
@@ -178,13 +177,13 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     }
     LightSpec {
         name: name(node),
-        mode: p.word("mode").unwrap_or(0),
+        mode: p.word("mode").unwrap_or(camlight::FIXED),
         target: node.text("target").map(str::to_string),
         texture: node.text("texture").map(str::to_string),
         span: p.span("texture").unwrap_or(node.span.clone()),
         kind,
-        castshadow: p.word("castshadow") != Some(0),
-        active: p.word("active") != Some(0),
+        castshadow: p.flag("castshadow", true),
+        active: p.flag("active", true),
         pos: p.reals("pos", [0.0; 3]),
         dir: normalize(p.reals("dir", [0.0, 0.0, -1.0])).0,
         numbers: [
@@ -226,7 +225,7 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
         MaterialSpec {
             name: name(node),
             textures,
-            texuniform: p.word("texuniform") == Some(1),
+            texuniform: p.flag("texuniform", false),
             texrepeat: p.reals("texrepeat", [1.0; 2]),
             numbers: [
                 number("emission", 0.0),
@@ -323,20 +322,20 @@ pub(crate) fn tuples(cx: &mut Context, refs: References) -> Vec<TupleSpec> {
 
 /// Kind and id of the object that an element of a tuple names.
 fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &Node) -> Option<(i32, i32)> {
-    const KINDS: [(&str, i32); 10] = [
-        ("body", 1),
-        ("xbody", 2),
-        ("joint", 3),
-        ("geom", 5),
-        ("site", 6),
-        ("camera", 7),
-        ("light", 8),
-        ("tendon", 18),
-        ("actuator", 19),
-        ("sensor", 20),
+    const KINDS: [(&str, Obj); 10] = [
+        ("body", Obj::Body),
+        ("xbody", Obj::XBody),
+        ("joint", Obj::Joint),
+        ("geom", Obj::Geom),
+        ("site", Obj::Site),
+        ("camera", Obj::Camera),
+        ("light", Obj::Light),
+        ("tendon", Obj::Tendon),
+        ("actuator", Obj::Actuator),
+        ("sensor", Obj::Sensor),
     ];
     let (kind, object) = (p.text("objtype").unwrap_or(""), p.text("objname").unwrap_or(""));
-    let Some(&(word, number)) = KINDS.iter().find(|(word, _)| *word == kind) else {
+    let Some(&(word, object_kind)) = KINDS.iter().find(|(word, _)| *word == kind) else {
         let span = p.span("objtype").unwrap_or(node.span.clone());
         let message = format!("a tuple cannot contain objects of the kind `{kind}`");
         cx.report
@@ -346,7 +345,7 @@ fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &
     };
     let word = if word == "xbody" { "body" } else { word };
     match ids.find(word, object, names) {
-        Some(id) => Some((number, id)),
+        Some(id) => Some((object_kind as i32, id)),
         None => {
             names.unknown(word, object, p.span("objname").unwrap_or(node.span.clone()), cx.report);
             None
