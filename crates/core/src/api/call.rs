@@ -159,7 +159,7 @@ pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> 
     d.mark_synced(m);
     // A plan that was made while M was constant does not look at it again.
     let plan = &d.inner.plan;
-    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.ways) {
+    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.algorithms) {
         d.plan_again(m);
     }
     Ok(())

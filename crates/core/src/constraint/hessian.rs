@@ -50,9 +50,9 @@ pub(super) struct Hessian {
     /// Where the numbers of M go, those of the island row by row.
     mass: Vec<u32>,
     /// The columns of the blocks of the Jacobian, where they are here, and how many of these blocks have been passed.
-    stands: Vec<ColumnBlocks>,
-    stood: Vec<u32>,
-    quads: Vec<ColumnBlock>,
+    column_blocks: Vec<ColumnBlocks>,
+    listed_columns: Vec<u32>,
+    lanes: Vec<ColumnBlock>,
     passed: usize,
     /// Scratch of a block of the Jacobian: its rows by fours of columns.
     fours: Vec<Four>,
@@ -73,7 +73,7 @@ struct BlockRow {
 #[derive(Clone, Debug, PartialEq)]
 struct ColumnBlocks {
     columns: Range<usize>,
-    quads: Range<usize>,
+    lanes: Range<usize>,
 }
 
 /// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
@@ -208,43 +208,49 @@ impl Hessian {
 
     /// Finds where the columns of blocks of the Jacobian go, by the fours of columns of H that they are among.
     fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
-        self.stands.clear();
-        self.stood.clear();
-        self.quads.clear();
+        self.column_blocks.clear();
+        self.listed_columns.clear();
+        self.lanes.clear();
         for columns in blocks.map(|i| jac.columns(&jac.blocks[i])) {
-            if self.stands.last().is_some_and(|last| self.stood[last.columns.clone()] == *columns) {
+            if self
+                .column_blocks
+                .last()
+                .is_some_and(|last| self.listed_columns[last.columns.clone()] == *columns)
+            {
                 continue;
             }
-            let (column, first) = (self.stood.len(), self.quads.len());
-            self.stood.extend_from_slice(columns);
+            let (column, first) = (self.listed_columns.len(), self.lanes.len());
+            self.listed_columns.extend_from_slice(columns);
             // Ascending in the file, so that those of a tree descend here.
             for (p, &k) in columns.iter().enumerate().rev() {
                 let local = self.local[k as usize];
                 let (block, lane) = (local / 4, local as usize % 4);
-                let mut q = self.quads.len();
-                while q > first && self.quads[q - 1].block > block {
+                let mut q = self.lanes.len();
+                while q > first && self.lanes[q - 1].block > block {
                     q -= 1;
                 }
-                if q == first || self.quads[q - 1].block < block {
-                    self.quads.insert(q, ColumnBlock { block, of: [NONE; 4] });
+                if q == first || self.lanes[q - 1].block < block {
+                    self.lanes.insert(q, ColumnBlock { block, of: [NONE; 4] });
                     q += 1;
                 }
-                self.quads[q - 1].of[lane] = p as u32;
+                self.lanes[q - 1].of[lane] = p as u32;
             }
-            self.stands
-                .push(ColumnBlocks { columns: column..self.stood.len(), quads: first..self.quads.len() });
+            self.column_blocks.push(ColumnBlocks {
+                columns: column..self.listed_columns.len(),
+                lanes: first..self.lanes.len(),
+            });
         }
     }
 
     /// Where the columns of a block of the Jacobian are; blocks come in their order.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn stand(&mut self, columns: &[u32]) -> Range<usize> {
-        let left = &self.stands[self.passed..];
-        let Some(k) = left.iter().position(|s| self.stood[s.columns.clone()] == *columns) else {
+    fn find_lanes(&mut self, columns: &[u32]) -> Range<usize> {
+        let left = &self.column_blocks[self.passed..];
+        let Some(k) = left.iter().position(|s| self.listed_columns[s.columns.clone()] == *columns) else {
             return 0..0;
         };
         self.passed += k;
-        left[k].quads.clone()
+        left[k].lanes.clone()
     }
 
     /// All numbers zero, but for the identity of the rows that fill up.
@@ -332,14 +338,14 @@ impl Hessian {
                     sum -= f64x4::new(*column) * *x;
                 }
             }
-            let mut own = sum.to_array();
+            let mut solved = sum.to_array();
             for b in 0..4 {
-                own[b] *= self.inverse[i][b];
+                solved[b] *= self.inverse[i][b];
                 for c in b + 1..4 {
-                    own[c] -= corner[b][c] * own[b];
+                    solved[c] -= corner[b][c] * solved[b];
                 }
             }
-            here[0] = own;
+            here[0] = solved;
         }
         for (i, row) in self.rows().rev() {
             let (before, here) = x.split_at_mut(i);
@@ -354,10 +360,10 @@ impl Hessian {
                 sum[b] *= self.inverse[i][b];
             }
             here[0] = sum;
-            let own = f64x4::new(sum);
+            let solved = f64x4::new(sum);
             for (block, x) in left.iter().zip(&mut before[i - left.len()..]) {
                 for (column, x) in block.iter().zip(x) {
-                    *x -= total(f64x4::new(*column) * own);
+                    *x -= total(f64x4::new(*column) * solved);
                 }
             }
         }
@@ -393,26 +399,26 @@ impl Gram for Hessian {
         v: &[[f64; R]],
         weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        let stand = self.stand(columns);
-        let Hessian { quads, blocks, values, fours, .. } = self;
-        let quads = &quads[stand];
-        if fours.len() < R * quads.len() {
-            fours.resize(R * quads.len(), [0.0; 4]);
+        let stand = self.find_lanes(columns);
+        let Hessian { lanes, blocks, values, fours, .. } = self;
+        let lanes = &lanes[stand];
+        if fours.len() < R * lanes.len() {
+            fours.resize(R * lanes.len(), [0.0; 4]);
         }
-        let fours = &mut fours.as_chunks_mut::<R>().0[..quads.len()];
-        for (quad, four) in quads.iter().zip(fours.iter_mut()) {
-            let columns = quad.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
+        let fours = &mut fours.as_chunks_mut::<R>().0[..lanes.len()];
+        for (lane_columns, four) in lanes.iter().zip(fours.iter_mut()) {
+            let columns = lane_columns.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
             *four = from_fn(|r| columns.map(|v| v[r]));
         }
-        for (q, quad) in quads.iter().enumerate() {
-            let BlockRow { first, start } = blocks[quad.block as usize];
-            let row = &mut values[start..][..quad.block as usize + 1 - first];
+        for (q, lane_columns) in lanes.iter().enumerate() {
+            let BlockRow { first, start } = blocks[lane_columns.block as usize];
+            let row = &mut values[start..][..lane_columns.block as usize + 1 - first];
             // Beyond the diagonal a row counts as zero, whatever is there.
-            let (quads, fours) = (&quads[..=q], &fours[..=q]);
-            for (lane, p) in quad.of.into_iter().enumerate() {
+            let (lanes, fours) = (&lanes[..=q], &fours[..=q]);
+            for (lane, p) in lane_columns.of.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
                 let w = weigh(v).map(f64x4::splat);
-                for (to, four) in quads.iter().zip(fours) {
+                for (to, four) in lanes.iter().zip(fours) {
                     let mut sums = f64x4::new(four[0]) * w[0];
                     for r in 1..R {
                         sums += f64x4::new(four[r]) * w[r];

@@ -21,7 +21,7 @@ pub(crate) fn cameras(m: &Model, d: &mut Fields) {
 /// The same where camera `c` on body `b` follows or looks at something.
 #[inline(never)] // most are fixed
 fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
-    let stands = stands(m, d, b);
+    let is_static = is_static(m, d, b);
     let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
     let pos = &mut rows_mut::<3>(&mut d.cam_xpos)[c];
     let mat = &mut rows_mut::<9>(&mut d.cam_xmat)[c];
@@ -30,7 +30,7 @@ fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
             *pos = add(xpos[b], rows::<3>(&m.cam_pos0)[c]);
             *mat = rows::<9>(&m.cam_mat0)[c];
         }
-        camlight::TRACKCOM if !stands => {
+        camlight::TRACKCOM if !is_static => {
             *pos = add(com[b], rows::<3>(&m.cam_poscom0)[c]);
             *mat = rows::<9>(&m.cam_mat0)[c];
         }
@@ -59,7 +59,7 @@ pub(crate) fn lights(m: &Model, d: &mut Fields) {
 /// The same where light `l` on body `b` follows or looks at something.
 #[inline(never)] // most are fixed
 fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
-    let stands = stands(m, d, b);
+    let is_static = is_static(m, d, b);
     let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
     let pos = &mut rows_mut::<3>(&mut d.light_xpos)[l];
     let dir = &mut rows_mut::<3>(&mut d.light_xdir)[l];
@@ -68,7 +68,7 @@ fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
             *pos = add(xpos[b], rows::<3>(&m.light_pos0)[l]);
             *dir = rows::<3>(&m.light_dir0)[l];
         }
-        camlight::TRACKCOM if !stands => {
+        camlight::TRACKCOM if !is_static => {
             *pos = add(com[b], rows::<3>(&m.light_poscom0)[l]);
             *dir = rows::<3>(&m.light_dir0)[l];
         }
@@ -80,7 +80,7 @@ fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
 }
 
 /// Whether body `b` cannot move while trees may sleep: nothing that stands is looked at then, and what it tracks moves away.
-fn stands(m: &Model, d: &Fields, b: usize) -> bool {
+fn is_static(m: &Model, d: &Fields, b: usize) -> bool {
     asleep::on(m, d) && d.body_awake[b] == awake::STATIC
 }
 

@@ -3,7 +3,7 @@
 //! M is stored as the rows of its lower triangle over the chain of ancestors of each degree of freedom,
 //! ancestors ascending and the diagonal last. The composite rigid body algorithm and the factorization
 //! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
-//! freedom are factorized by another way (`ways`).
+//! freedom are factorized by articulated bodies (`tree_algorithms`).
 
 use super::path::Path;
 use super::reflected::{self, On};

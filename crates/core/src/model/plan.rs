@@ -34,11 +34,11 @@ macro_rules! plan_flags {
 plan_flags! {
     /// M of some tree depends on the configuration; otherwise it is diagonal and constant.
     General = true,
-    /// Composite inertias are computed: some tree takes the general way, or they are read.
+    /// Composite inertias are computed: some tree is computed by the general algorithm, or they are read.
     Composite = true,
     /// Inertias of bodies about the centre of mass of their tree are computed.
     BodyInertias = true,
-    /// Forces of bodies are computed by recursion: some tree takes the general way.
+    /// Forces of bodies are computed by recursion: some tree is computed by the general algorithm.
     Recursion = true,
     /// M and the rows of its factorization are computed only in steps in which constraints act: nothing else looks at them.
     MassForRows = false,
@@ -97,7 +97,7 @@ pub(crate) struct PlanTable {
     kept_stages: u32,
     flags: u32,
     /// How trees may be computed.
-    pub(crate) ways: TreeAlgorithms,
+    pub(crate) algorithms: TreeAlgorithms,
     /// What is read of sensors.
     pub(crate) sensed: Values,
     /// Every sensor is evaluated, read or not.
@@ -115,7 +115,7 @@ impl Default for PlanTable {
             decisions: Vec::new(),
             kept_stages: 0,
             flags: PlanFlag::UNKNOWN,
-            ways: TreeAlgorithms::ALL,
+            algorithms: TreeAlgorithms::ALL,
             sensed: Values::ALL,
             every_sensor: true,
             more: None,

@@ -16,7 +16,7 @@ impl<'a> Shape<'a> {
         if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
             match shape.kind {
                 geom::MESH => shape.mesh = Some(Mesh::from_model(m, id)),
-                geom::HFIELD => shape.field = Some(Field::of(m, id)),
+                geom::HFIELD => shape.field = Some(Field::from_model(m, id)),
                 _ => {}
             }
         }
@@ -53,7 +53,7 @@ impl<'a> Mesh<'a> {
 
 impl<'a> Field<'a> {
     /// Height field `id` of a model.
-    pub(crate) fn of(m: &'a Model, id: usize) -> Field<'a> {
+    pub(crate) fn from_model(m: &'a Model, id: usize) -> Field<'a> {
         let (nrow, ncol) = (m.hfield_nrow[id].max(0) as usize, m.hfield_ncol[id].max(0) as usize);
         let first = m.hfield_adr[id].max(0) as usize;
         let data = &m.hfield_data[first..first + nrow * ncol];

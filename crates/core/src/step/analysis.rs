@@ -64,12 +64,12 @@ pub(crate) fn changes(plan: &PlanTable) -> collision::Changes {
 /// What is known of a scene before it runs.
 pub(super) struct ModelAnalysis<'a> {
     pub(super) m: &'a Model,
-    pub(super) demand: &'a AccessSet,
+    pub(super) access: &'a AccessSet,
     /// How trees may be computed.
-    pub(super) ways: TreeAlgorithms,
+    pub(super) algorithms: TreeAlgorithms,
     /// M of some tree depends on the configuration.
     pub(super) general: bool,
-    /// M and the bias force of some tree take the general way.
+    /// M and the bias force of some tree are computed by the general algorithm.
     pub(super) large: bool,
     /// Which pairs of geoms may touch can change while it runs.
     pub(super) pairs_change: bool,
@@ -104,13 +104,13 @@ pub(super) struct ModelAnalysis<'a> {
 }
 
 impl<'a> ModelAnalysis<'a> {
-    pub(super) fn new(m: &'a Model, demand: &'a AccessSet, ways: TreeAlgorithms) -> ModelAnalysis<'a> {
-        let mut scene = ModelAnalysis {
+    pub(super) fn new(m: &'a Model, access: &'a AccessSet, algorithms: TreeAlgorithms) -> ModelAnalysis<'a> {
+        let mut analysis = ModelAnalysis {
             m,
-            demand,
-            ways,
-            general: !tree_algorithms::are_constant(m, ways),
-            large: tree_algorithms::need_bodies(m, ways),
+            access,
+            algorithms,
+            general: !tree_algorithms::are_constant(m, algorithms),
+            large: tree_algorithms::need_bodies(m, algorithms),
             pairs_change: false,
             pairs: 0,
             limited: 0,
@@ -131,16 +131,17 @@ impl<'a> ModelAnalysis<'a> {
             energy: false,
             sleeps: false,
         };
-        scene.sleeps = m.ntree > 0 && scene.may_enable(enable::SLEEP);
-        scene.energy = scene.may_enable(enable::ENERGY);
-        scene.find_constraints();
-        scene.find_forces();
-        scene.find_actuation();
+        analysis.sleeps = m.ntree > 0 && analysis.may_enable(enable::SLEEP);
+        analysis.energy = analysis.may_enable(enable::ENERGY);
+        analysis.find_constraints();
+        analysis.find_forces();
+        analysis.find_actuation();
         // A tendon's inertia adds to that of simple bodies, too.
-        scene.general |= scene.tendon_armature;
-        scene.sensors = m.nsensor > 0
-            && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field(data::history));
-        scene
+        analysis.general |= analysis.tendon_armature;
+        analysis.sensors = m.nsensor > 0
+            && (analysis.reads(Stage::Sensors).is_some()
+                || m.nhistory > 0 && analysis.reads_field(data::history));
+        analysis
     }
 
     /// Whether a part of a step is on, or programs may switch it on.
@@ -258,7 +259,7 @@ impl<'a> ModelAnalysis<'a> {
         (!changes).then(|| damping::has_dampers(self.m))
     }
 
-    /// Whether something looks at the inertias of bodies: trees that take the general way, derivatives of the bias force, forces between
+    /// Whether something looks at the inertias of bodies: trees of the general algorithm, derivatives of the bias force, forces between
     /// bodies.
     pub(super) fn needs_body_inertias(&self, plan: &PlanTable) -> bool {
         let m = self.m;
@@ -270,7 +271,7 @@ impl<'a> ModelAnalysis<'a> {
             || [data::cinert, data::crb].into_iter().any(|f| self.reads_field(f))
     }
 
-    /// Whether only constraints look at M: trees take ways that do without its general
+    /// Whether only constraints look at M: trees have algorithms that do without its general
     /// rows, and so does the integrator.
     pub(super) fn mass_for_rows(&self, plan: &PlanTable) -> bool {
         let m = self.m;
@@ -286,7 +287,7 @@ impl<'a> ModelAnalysis<'a> {
             && !plan.keeps(Stage::Energy)
             && !(plan.keeps(Stage::Sensors) && self.sensed(Stage::MassMatrix))
             && !fields.into_iter().any(|f| self.reads_field(f))
-            && tree_algorithms::solve_alone(m, self.ways)
+            && tree_algorithms::solve_alone(m, self.algorithms)
     }
 
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
@@ -353,7 +354,7 @@ impl<'a> ModelAnalysis<'a> {
 
     /// Whether some sensor that is evaluated uses the results of a stage.
     pub(super) fn sensed(&self, stage: Stage) -> bool {
-        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.demand.reads.sensed());
+        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.access.reads.sensed());
         sensor::needs_of(self.m, stage, read)
     }
 
@@ -408,7 +409,7 @@ impl<'a> ModelAnalysis<'a> {
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     pub(super) fn bias_slopes(&self) -> bool {
         let bodies = |&t: &usize| {
-            derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.ways, t)
+            derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.algorithms, t)
         };
         let free = || (0..self.m.ntree).any(|t| bodies(&t));
         let of_free = [integrator::IMPLICITFAST, integrator::DISCRETE];
@@ -418,19 +419,19 @@ impl<'a> ModelAnalysis<'a> {
 
     /// The first field of a stage that is read, as a reason.
     pub(super) fn reads(&self, stage: Stage) -> Option<String> {
-        if self.demand.reads == FieldSet::ALL {
+        if self.access.reads == FieldSet::ALL {
             return Some("its results may be read".into());
         }
         let of_stage = |f: &FieldId| f.info().object == Object::Data && f.info().stage == stage;
-        self.demand.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
+        self.access.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
     }
 
     pub(super) fn reads_field(&self, field: FieldId) -> bool {
-        self.demand.reads.contains(field)
+        self.access.reads.contains(field)
     }
 
     pub(super) fn writes(&self, fields: &[FieldId]) -> bool {
-        fields.iter().any(|f| self.demand.writes.contains(*f))
+        fields.iter().any(|f| self.access.writes.contains(*f))
     }
 
     /// Whether an actuator acts through one of these transmissions.

@@ -104,6 +104,6 @@ pub(crate) fn deciding() -> FieldSet {
 }
 
 /// What is written, and decides nothing: of these fields a plan never asks the value.
-pub(crate) fn never_asked(demand: &AccessSet) -> FieldSet {
-    demand.writes.difference(&deciding())
+pub(crate) fn never_asked(access: &AccessSet) -> FieldSet {
+    access.writes.difference(&deciding())
 }

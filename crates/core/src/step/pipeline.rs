@@ -47,8 +47,10 @@ pub(super) struct Row {
 
 impl Row {
     /// Whether the stage uses the results of another one in a scene.
-    pub(super) fn uses(&self, scene: &ModelAnalysis, of: Stage) -> bool {
-        self.needs.iter().any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(scene, of))
+    pub(super) fn uses(&self, analysis: &ModelAnalysis, of: Stage) -> bool {
+        self.needs
+            .iter()
+            .any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(analysis, of))
     }
 }
 
@@ -263,7 +265,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Tendon], |s, _| s.tendon_armature),
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
-            (&[Stage::Kinematics], |s, _| tree_algorithms::look_at_places(s.m, s.ways)),
+            (&[Stage::Kinematics], |s, _| tree_algorithms::look_at_places(s.m, s.algorithms)),
         ],
         wanted: |s| because(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         left_out: |_| "nothing moves",

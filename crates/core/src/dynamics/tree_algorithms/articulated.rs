@@ -269,7 +269,7 @@ fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
 /// U and 1/D, which solve with M; and with `x`, x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
-    let articulated = &mut w.ways.articulated;
+    let articulated = &mut w.algorithms.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Trees { spans, untied, links, bodies, joints } = articulated;
     let mut bad = None;
@@ -305,7 +305,7 @@ fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>
 
 #[inline(never)]
 fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
-    let articulated = &mut w.ways.articulated;
+    let articulated = &mut w.algorithms.articulated;
     articulated.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let Trees { spans, untied, links, bodies, joints } = articulated;
     let mut bad = None;
@@ -356,7 +356,7 @@ fn get<const I: usize>(joints: &[[Joint; 2]], dofs: Range<usize>, x: &mut [f64])
 /// The rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
 fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let Trees { spans, untied, joints, .. } = &w.ways.articulated;
+    let Trees { spans, untied, joints, .. } = &w.algorithms.articulated;
     if !*untied {
         return;
     }
@@ -374,7 +374,7 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 #[inline(never)]
 fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    let Trees { spans, untied, links, bodies, joints } = &mut w.ways.articulated;
+    let Trees { spans, untied, links, bodies, joints } = &mut w.algorithms.articulated;
     for span in spans.iter() {
         if *untied {
             put::<0>(joints, span.dofs.clone(), x);
@@ -388,7 +388,7 @@ fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
 
 #[inline(never)]
 fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    let Trees { spans, untied, links, bodies, joints } = &mut w.ways.articulated;
+    let Trees { spans, untied, links, bodies, joints } = &mut w.algorithms.articulated;
     for span in spans.iter() {
         let dofs = span.dofs.clone();
         if *untied {

@@ -81,7 +81,7 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
 }
 
 /// Reports what does not go with a mesh or a height field. Whether a geom or site has a form at all.
-pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
+pub(crate) fn check_form(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     let needs = match kind {
         geom::MESH => Some("mesh"),
         geom::HFIELD => Some("hfield"),

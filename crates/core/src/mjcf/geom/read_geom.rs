@@ -34,7 +34,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     }
     let of_asset = form_is_of_asset(&p, shape);
     let form = if of_asset {
-        if !read_form::check(cx, &p, node, shape.kind) {
+        if !read_form::check_form(cx, &p, node, shape.kind) {
             return None;
         }
         let form = read_form::of_asset(cx, &p, node, shape)?;

@@ -103,13 +103,14 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
         if is_named || !body.joints.is_empty() || body.mocap {
             continue;
         }
-        let (Some(parent), Some(own)) = (before.get_mut(body.parent), inertias.get_mut(body.parent)) else {
+        let (Some(parent), Some(merged)) = (before.get_mut(body.parent), inertias.get_mut(body.parent))
+        else {
             continue;
         };
         let pose = Pose { pos: body.pos, quat: body.quat };
         if body.parent > 0 && inertia.mass >= MINVAL {
             let Pose { pos, quat } = pose.in_parent(inertia.pos, inertia.quat);
-            *own = combined(&[own.clone(), Inertia { pos, quat, ..inertia }]);
+            *merged = combined(&[merged.clone(), Inertia { pos, quat, ..inertia }]);
         }
         move_members(body, pose);
         parent.geoms.append(&mut body.geoms);

@@ -63,7 +63,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
 /// Whether a site that names a mesh is one.
 fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     if kind == geom::MESH {
-        return read_form::check(cx, p, node, kind);
+        return read_form::check_form(cx, p, node, kind);
     }
     let message = format!("{} names a mesh but has another type", node.describe());
     cx.report

@@ -3,7 +3,6 @@
 use super::{AWAKE, Scratch, coordinates, rest, update};
 use crate::kinds::eqtype;
 use crate::model::asleep::{on, some};
-use crate::model::index::object_index;
 use crate::model::{Fields, Model};
 
 /// Wakes what was disturbed from outside since the last position stage: moved, pushed, or given a velocity.
@@ -30,12 +29,15 @@ pub(crate) fn wake_by_tendons(m: &Model, d: &mut Fields) {
         return;
     }
     for t in (0..m.ntendon).filter(|&t| m.tendon_treenum[t] == 2) {
-        let trees = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]];
+        // A stored model may count two trees and name fewer: that tendon ties nothing.
+        let [Ok(a), Ok(b)] = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(usize::try_from) else {
+            continue;
+        };
         let length = d.ten_length[t];
         let [lower, upper] = [m.tendon_range[2 * t], m.tendon_range[2 * t + 1]];
         let margin = m.tendon_margin[t];
         if m.tendon_limited[t] && (length < lower + margin || length > upper - margin) {
-            wake_one(d, trees.map(object_index));
+            wake_one(d, [a, b]);
         }
     }
     update(m, d);

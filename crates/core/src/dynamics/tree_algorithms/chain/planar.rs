@@ -41,9 +41,8 @@ const FLAT: f64 = 1e-12;
 /// Finds out whether a chain is planar, and its parameters.
 pub(super) fn load(chain: &mut [Link]) {
     let mut all = [(EYE, [0.0; 3]); MAX_DOFS];
-    let Some(axes) = all.get_mut(..chain.len()) else {
-        return broken_invariant("a chain has at most `MAX_DOFS` links");
-    };
+    // Longer ones are those of `planar_chain`, which has parameters of its own.
+    let Some(axes) = all.get_mut(..chain.len()) else { return };
     let mut above = EYE;
     for (link, (turn, axis)) in chain.iter().zip(axes.iter_mut()) {
         *turn = mat_mul(&above, &link.fixed.turn);
