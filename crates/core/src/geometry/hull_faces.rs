@@ -155,29 +155,31 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
             }
         }
         // The border: edges whose other triangle is in another side, each leading to the next.
-        let mut border: Vec<(i32, i32)> = Vec::new();
-        for &t in &group {
-            let f = hull.face[t];
-            for k in 0..3 {
-                let (a, b) = (f[k], f[(k + 1) % 3]);
-                if across(a, b).is_none_or(|n| side_of[n] != side) {
-                    border.push((a, b));
-                }
-            }
-        }
+        let edges =
+            group.iter().flat_map(|&t| (0..3).map(move |k| (hull.face[t][k], hull.face[t][(k + 1) % 3])));
+        let mut border: Vec<(i32, i32)> =
+            edges.filter(|&(a, b)| across(a, b).is_none_or(|n| side_of[n] != side)).collect();
         sort(&mut border);
         let first = out.vertices.len() as u32;
-        let Some(&(mut at, _)) = border.first() else { continue };
-        for _ in 0..border.len() {
-            out.vertices.push(at as u32);
-            let i = border.partition_point(|&(a, _)| a < at);
-            match border.get(i) {
-                Some(&(a, b)) if a == at => at = b,
-                _ => break,
-            }
+        if border.is_empty() {
+            continue;
         }
+        walk_around(&border, &mut out.vertices);
         let count = out.vertices.len() as u32 - first;
         out.sides.push(Side { normal: normals[start], first, count });
     }
     out
+}
+
+/// The vertices of a border, whose edges are sorted, from the first edge on.
+fn walk_around(border: &[(i32, i32)], vertices: &mut Vec<u32>) {
+    let Some(&(mut at, _)) = border.first() else { return };
+    for _ in 0..border.len() {
+        vertices.push(at as u32);
+        let i = border.partition_point(|&(a, _)| a < at);
+        match border.get(i) {
+            Some(&(a, b)) if a == at => at = b,
+            _ => break,
+        }
+    }
 }

@@ -132,7 +132,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
     }
 }
 
-/// `option`, with MuJoCo's defaults for what is not given.
+/// `option`, with MuJoCo's defaults for what is not given. Long, as there is a line or two for each option.
 pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let p = section(tree, "option");
     let d = Options::default();

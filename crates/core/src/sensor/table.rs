@@ -181,7 +181,6 @@ kinds! {
 }
 
 /// The row of sensor `s`; a number without a row means values of the user, which the engine leaves as they are.
-#[inline]
 pub(super) fn for_sensor(m: &Model, s: usize) -> &'static Kind {
     let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
     KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])

@@ -171,31 +171,6 @@ fn trees(m: &Model) -> bool {
             (q, v) = (q + joint::nq(kind), v + joint::nv(kind));
             good
         });
-    let dofs = (0..m.nv).all(|k| {
-        let j = m.dof_jntid[k] as usize;
-        let first = m.jnt_dofadr[j] as usize;
-        let columns = &m.M_colind[element_range(m.M_rowadr[k], m.M_rownnz[k])];
-        let whole = &m.D_colind[element_range(m.D_rowadr[k], m.D_rownnz[k])];
-        (first..first + joint::nv(m.jnt_type[j])).contains(&k)
-            && m.dof_bodyid[k] == m.jnt_bodyid[j]
-            && columns.last() == Some(&(k as i32))
-            && columns.is_sorted_by(|a, b| a < b)
-            && whole.is_sorted_by(|a, b| a < b)
-            && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
-            // The path to the root is the row, but where M is diagonal.
-            && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
-    });
-    let bodies = (0..m.nbody).all(|b| {
-        let joints = element_range(m.body_jntadr[b], m.body_jntnum[b]);
-        let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
-        joints.clone().all(|j| m.jnt_bodyid[j] as usize == b)
-            && dofs == m.body_dofnum[b] as usize
-            && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
-            && m.body_rootid[b] <= b as i32
-            && m.body_weldid[b] <= b as i32
-            // What has joints is welded to nothing; what has none has no first degree of freedom.
-            && (if dofs == 0 { m.body_dofadr[b] == -1 } else { m.body_weldid[b] == b as i32 })
-    });
     // Each follows the one before it in its body, the first of a body the last of those that carry it.
     let paths = (0..m.nv).all(|k| match m.dof_bodyid[k] as usize {
         b if k as i32 > m.body_dofadr[b] => m.dof_parentid[k] == k as i32 - 1,
@@ -215,14 +190,43 @@ fn trees(m: &Model) -> bool {
         && m.body_parentid.first() == Some(&0)
         && before(&m.body_parentid, 1)
         && before(&m.dof_parentid, 0)
-        && bodies
+        && (0..m.nbody).all(|b| has_joints_in_order(m, b))
         && paths
-        && dofs
+        && (0..m.nv).all(|k| has_rows_of_path(m, k))
         && in_order
         && next as usize == m.nv
         && simple
         // What is called simple has nothing but its diagonal.
         && (0..m.nv).all(|k| m.dof_simplenum[k] == 0 || m.M_rownnz[k] == 1)
+}
+
+/// A degree of freedom is one of its joint, and its rows of M and D end with it and hold it.
+fn has_rows_of_path(m: &Model, k: usize) -> bool {
+    let j = m.dof_jntid[k] as usize;
+    let first = m.jnt_dofadr[j] as usize;
+    let columns = &m.M_colind[element_range(m.M_rowadr[k], m.M_rownnz[k])];
+    let whole = &m.D_colind[element_range(m.D_rowadr[k], m.D_rownnz[k])];
+    (first..first + joint::nv(m.jnt_type[j])).contains(&k)
+        && m.dof_bodyid[k] == m.jnt_bodyid[j]
+        && columns.last() == Some(&(k as i32))
+        && columns.is_sorted_by(|a, b| a < b)
+        && whole.is_sorted_by(|a, b| a < b)
+        && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
+        // The path to the root is the row, but where M is diagonal.
+        && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
+}
+
+/// The joints of a body are its own, and its degrees of freedom theirs.
+fn has_joints_in_order(m: &Model, b: usize) -> bool {
+    let joints = element_range(m.body_jntadr[b], m.body_jntnum[b]);
+    let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
+    joints.clone().all(|j| m.jnt_bodyid[j] as usize == b)
+        && dofs == m.body_dofnum[b] as usize
+        && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
+        && m.body_rootid[b] <= b as i32
+        && m.body_weldid[b] <= b as i32
+        // What has joints is welded to nothing; what has none has no first degree of freedom.
+        && (if dofs == 0 { m.body_dofadr[b] == -1 } else { m.body_weldid[b] == b as i32 })
 }
 
 /// The last degree of freedom of the bodies above a body, -1 where there is none.

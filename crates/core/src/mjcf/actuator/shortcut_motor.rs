@@ -9,7 +9,7 @@ use crate::forces::actuation::slots;
 use crate::kinds::{biastype, choice, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
 
-/// Writes the parameters of a motor into an actuator.
+/// Writes the parameters of a motor into an actuator. Long, as there is a paragraph for each attribute, in the order of the reference.
 pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
     // What a class without a motor has there stands for nothing.
     if a.gaintype != gaintype::DCMOTOR {

@@ -13,7 +13,7 @@ use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{GeomSpec, List, SOLIMP, SOLREF};
 use crate::mjcf::text::tree::{Node, name};
 
-/// A `geom` element; `None` when its type was refused.
+/// A `geom` element; `None` when its type was refused. Long, as there is a line for each attribute.
 pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
     let p = cx.classes.props(node, childclass);
     if p.has("type") && p.word("type").is_none() {

@@ -90,26 +90,7 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
             _ => values,
         }
     };
-    if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
-        let [w, h] = resolution;
-        let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.describe());
-        cx.report
-            .error(rules::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
-            .why("the size of one pixel is the size of the sensor divided by the number of pixels")
-            .help("write the width and height of the image in pixels, such as `resolution=\"640 480\"`, or remove `sensorsize`");
-    }
-    // MuJoCo looks for a focal length or a principal point that is not its default.
-    let lens = ["focal", "focalpixel", "principal", "principalpixel"];
-    let given = lens.iter().find(|name| p.list(name).is_some_and(|list| list.iter().any(|&x| x != 0.0)));
-    if let Some(name) = given
-        && sensorsize.iter().any(|&x| x <= 0.0)
-    {
-        let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.describe());
-        cx.report
-            .error(rules::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
-            .why("the field of view depends on both, and MuJoCo refuses one without the other")
-            .help("write the width and height of the sensor in metres, or write `fovy` instead");
-    }
+    check_lens(cx, &p, node, sensorsize, resolution);
     let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
     let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
     let fovy = match sensorsize[1] > 0.0 {
@@ -140,6 +121,30 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
         sensorsize,
         intrinsic: [fx, fy, px, py],
         user: List::read(&p, "user"),
+    }
+}
+
+/// Reports a sensor without pixels, and a lens without a sensor.
+fn check_lens(cx: &mut Context, p: &Props, node: &Node, sensorsize: [f64; 2], resolution: [i32; 2]) {
+    if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
+        let [w, h] = resolution;
+        let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.describe());
+        cx.report
+            .error(rules::VALUE, p.span("resolution").unwrap_or(node.span.clone()), message)
+            .why("the size of one pixel is the size of the sensor divided by the number of pixels")
+            .help("write the width and height of the image in pixels, such as `resolution=\"640 480\"`, or remove `sensorsize`");
+    }
+    // MuJoCo looks for a focal length or a principal point that is not its default.
+    let lens = ["focal", "focalpixel", "principal", "principalpixel"];
+    let given = lens.iter().find(|name| p.list(name).is_some_and(|list| list.iter().any(|&x| x != 0.0)));
+    if let Some(name) = given
+        && sensorsize.iter().any(|&x| x <= 0.0)
+    {
+        let message = format!("{} has a `{name}`, but no `sensorsize` larger than zero", node.describe());
+        cx.report
+            .error(rules::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
+            .why("the field of view depends on both, and MuJoCo refuses one without the other")
+            .help("write the width and height of the sensor in metres, or write `fovy` instead");
     }
 }
 

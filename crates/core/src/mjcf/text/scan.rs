@@ -113,7 +113,7 @@ fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
         .help("begin a tag with `<`, write a remark as a comment, <!-- … -->, or remove the text");
 }
 
-/// Whether the limits hold. What must change is added to `changes`.
+/// Whether the limits hold. What must change is added to `changes`. Long, as there is an arm for each kind of markup.
 fn within_limits(
     text: &str,
     base: usize,

@@ -357,7 +357,6 @@ impl Growing {
 
 impl Plane {
     /// How far a point is above the plane, in volumes of the grid.
-    #[inline]
     fn height(&self, p: Point) -> i128 {
         (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.at[i])).sum()
     }
