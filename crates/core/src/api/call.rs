@@ -3,8 +3,9 @@
 //! A call with data of another model, with an id or a length that does not fit, or with results that the plan left out is an
 //! error, and changes nothing.
 
-pub mod save;
-pub mod state;
+mod saved_data;
+mod spatial_queries;
+mod state_vectors;
 mod work;
 
 use super::data::{Data, Scope};
@@ -13,18 +14,17 @@ use super::model::{KeyId, Model};
 use super::planning::Plan;
 use crate::dynamics::{jacobian, mass, object, subtree, tree_algorithms};
 use crate::forces::{actuation, energy};
-use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
 use crate::model::{Contact, Obj};
-use crate::query::{self, RayFilter, RayHit};
 use crate::sensor::body_force;
 use crate::setup::setconst;
 use crate::step::balance::{self, Energy};
 use crate::step::{self, functions, integrate, reset};
 
 pub use crate::dynamics::jacobian::Jacobian;
+pub use spatial_queries::*;
 pub use work::*;
 
 fn wanted(what: &'static str, wanted: usize, found: usize) -> Result<(), Error> {
@@ -374,58 +374,6 @@ pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<
     Ok(v)
 }
 
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
-pub fn ray<S: Scope>(
-    m: &Model,
-    d: &Data<S>,
-    from: Vec3,
-    along: Vec3,
-    filter: &RayFilter,
-) -> Result<Option<RayHit>, Error> {
-    d.belongs_to(m)?;
-    d.has(&[data::geom_xpos, data::geom_xmat])?;
-    Ok(query::ray(m, &d.inner, from, along, filter))
-}
-
-/// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
-///
-/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
-pub fn geom_distance<S: Scope>(
-    m: &Model,
-    d: &mut Data<S>,
-    geom1: usize,
-    geom2: usize,
-    most: f64,
-) -> Result<Distance, Error> {
-    d.has(&[data::geom_xpos, data::geom_xmat])?;
-    exists("geom", geom1, m.ngeom)?;
-    exists("geom", geom2, m.ngeom)?;
-    let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
-    found.ok_or(Error::NoConvex { geom1, geom2 })
-}
-
-/// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
-pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -> Result<bool, Error> {
-    d.belongs_to(m)?;
-    d.has(&[data::site_xpos, data::site_xmat])?;
-    exists("site", site, m.nsite)?;
-    Ok(query::inside_site(m, &d.inner, site, point))
-}
-
-/// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
-pub fn can_collide(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
-    exists("geom", geom1, m.ngeom)?;
-    exists("geom", geom2, m.ngeom)?;
-    Ok(crate::collision::can_collide(m, geom1, geom2))
-}
-
-/// Whether two geoms can make contacts: their bits, their bodies and the pairs and exclusions of the model admit it.
-pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
-    exists("geom", geom1, m.ngeom)?;
-    exists("geom", geom2, m.ngeom)?;
-    Ok(crate::collision::may_touch(m, geom1, geom2))
-}
-
 /// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone, or when
 /// there is no such actuator.
 pub fn servo_gains(m: &Model, actuator: usize) -> Option<[f64; 2]> {
@@ -474,9 +422,45 @@ pub fn view_mut<'a, S: Scope>(
     Ok(reflect::view_model_mut(m.engine(), field))
 }
 
-/// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost
-/// one comparison each.
-pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
-    d.belongs_to(m)?;
-    Ok(functions::pairs_in_reach(m, &d.inner))
+/// Saved simulations: state, inputs and everything computed, contacts and warnings included.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, save, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// step(&model, &mut data)?;
+/// let saved = save::save(&model, &data)?;
+/// let then = data.qpos.clone();
+/// step(&model, &mut data)?;
+/// save::restore(&model, &mut data, &saved)?;
+/// assert_eq!(data.qpos, then);
+/// # Ok(())
+/// # }
+/// ```
+pub mod save {
+    pub use super::saved_data::*;
+}
+
+/// States as lists of numbers (`mj_getState` and its like): a signature says of which parts.
+///
+/// ```
+/// # fn main() -> Result<(), labspec_core::Error> {
+/// use labspec_core::{Data, Model, state, step};
+/// let model = Model::from_xml(
+///     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
+/// )?;
+/// let mut data = Data::new(&model);
+/// let mut start = vec![0.0; state::size(&model, state::PHYSICS)?];
+/// state::get(&model, &data, &mut start, state::PHYSICS)?;
+/// step(&model, &mut data)?;
+/// state::set(&model, &mut data, &start, state::PHYSICS)?;
+/// assert_eq!(data.qpos[0], 0.0);
+/// # Ok(())
+/// # }
+/// ```
+pub mod state {
+    pub use super::state_vectors::*;
 }

@@ -1,7 +1,7 @@
 //! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
 
 use super::Hull;
-use super::shape::vertex;
+use super::hull::vertex;
 use crate::math::sort::sort;
 use crate::math::*;
 

@@ -1,5 +1,6 @@
 //! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
 
+use super::hull::vertex;
 use super::{Hull, HullFaces};
 use crate::kinds::geom;
 use crate::math::*;
@@ -40,12 +41,6 @@ impl Mesh<'_> {
     pub(crate) fn vertex(&self, v: usize) -> Vec3 {
         vertex(self.vert, v)
     }
-}
-
-/// The vertex that a triangle, a side or a hull names.
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub(crate) fn vertex(vert: &[Vec3], v: usize) -> Vec3 {
-    vert.get(v).copied().unwrap_or_else(|| broken_invariant("a mesh has the vertices that its faces name"))
 }
 
 /// The data of a height field, a grid over its base.

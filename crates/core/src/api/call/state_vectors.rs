@@ -1,20 +1,4 @@
-//! States as lists of numbers (`mj_getState` and its like): a signature says of which parts.
-//!
-//! ```
-//! # fn main() -> Result<(), labspec_core::Error> {
-//! use labspec_core::{Data, Model, state, step};
-//! let model = Model::from_xml(
-//!     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
-//! )?;
-//! let mut data = Data::new(&model);
-//! let mut start = vec![0.0; state::size(&model, state::PHYSICS)?];
-//! state::get(&model, &data, &mut start, state::PHYSICS)?;
-//! step(&model, &mut data)?;
-//! state::set(&model, &mut data, &start, state::PHYSICS)?;
-//! assert_eq!(data.qpos[0], 0.0);
-//! # Ok(())
-//! # }
-//! ```
+//! States as lists of numbers.
 
 use super::{Data, Error, Model, Scope};
 use crate::model::state;

@@ -1,21 +1,4 @@
-//! Saved simulations: state, inputs and everything computed, contacts and warnings included.
-//!
-//! ```
-//! # fn main() -> Result<(), labspec_core::Error> {
-//! use labspec_core::{Data, Model, save, step};
-//! let model = Model::from_xml(
-//!     "<mujoco><worldbody><body><joint/><geom size='0.1' pos='0 1 0'/></body></worldbody></mujoco>",
-//! )?;
-//! let mut data = Data::new(&model);
-//! step(&model, &mut data)?;
-//! let saved = save::save(&model, &data)?;
-//! let then = data.qpos.clone();
-//! step(&model, &mut data)?;
-//! save::restore(&model, &mut data, &saved)?;
-//! assert_eq!(data.qpos, then);
-//! # Ok(())
-//! # }
-//! ```
+//! Simulations as bytes.
 
 use super::{Data, Error, Model, Scope};
 pub use crate::step::save::RestoreError;
