@@ -43,7 +43,7 @@ impl HullFaces {
         (head.into_iter().chain(places).chain(lists).collect(), floats.collect())
     }
 
-    /// What [`Sides::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
+    /// What [`HullFaces::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
     pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<HullFaces> {
         let (&[a, b, c], mut rest) = integers.split_first_chunk::<3>()?;
         let count = floats.len() / 3;
