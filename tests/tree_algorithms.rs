@@ -26,7 +26,7 @@ type Column = (&'static str, Vec<f64>);
 /// relative to its largest number.
 fn difference(m: &Model, start: impl Fn(&mut Data<Planned>), ways: TreeAlgorithms) -> (f64, &'static str) {
     let run = |ways| {
-        let mut d = Data::planned(m, Plan::by_ways(m, &AccessSet::ANY, ways));
+        let mut d = Data::planned(m, Plan::by_algorithms(m, &AccessSet::ANY, ways));
         start(&mut d);
         core::forward(m, &mut d).unwrap();
         let now: Vec<Column> = FIELDS.iter().map(|name| (*name, numbers(m, &d, name))).collect();

@@ -54,7 +54,7 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
         target.programs.demand
     };
     let ways = a.without.iter().fold(TreeAlgorithms::ALL, |ways, &short| ways.without(short));
-    let plan = Plan::by_ways(&target.model, &demand, ways);
+    let plan = Plan::by_algorithms(&target.model, &demand, ways);
     let data = Data::planned(&target.model, plan);
     let key = target.lab.keyframe();
     let mut session = Session::start_with(&target.programs, &target.model, key, data);

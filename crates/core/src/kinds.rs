@@ -1,4 +1,5 @@
-//! What the integers of a model mean: kinds of joints, geoms, actuators, and bits of options, with MuJoCo's numbers.
+//! What the integers of a model mean: kinds of joints, geoms, actuators, and bits of options, with MuJoCo's numbers; and
+//! those of keywords in MJCF.
 
 /// Values of `opt.integrator`.
 pub mod integrator {
@@ -38,6 +39,22 @@ pub mod solver {
     pub const CG: i32 = 1;
     /// Newton's method.
     pub const NEWTON: i32 = 2;
+}
+
+/// Values of `opt.cone` (mjtCone).
+pub(crate) mod cone {
+    /// A pyramid: two rows for each direction of friction.
+    pub(crate) const PYRAMIDAL: i32 = 0;
+    /// An elliptic cone: a row for the normal, and one for each direction of friction.
+    pub(crate) const ELLIPTIC: i32 = 1;
+}
+
+/// Values of `opt.jacobian` (mjtJacobian).
+pub(crate) mod jacobian {
+    pub(crate) const DENSE: i32 = 0;
+    pub(crate) const SPARSE: i32 = 1;
+    /// Dense for few degrees of freedom.
+    pub(crate) const AUTO: i32 = 2;
 }
 
 /// Bits of `opt.disableflags` (mjtDisableBit).
@@ -179,4 +196,74 @@ pub mod eqtype {
     pub const WELD: i32 = 1;
     pub const JOINT: i32 = 2;
     pub const TENDON: i32 = 3;
+}
+
+/// Values of `cam_mode` and `light_mode` (mjtCamLight): how a camera or light moves.
+pub(crate) mod camlight {
+    /// Fixed to the body.
+    pub(crate) const FIXED: i32 = 0;
+    /// Position follows the body, orientation is that at `qpos0`.
+    pub(crate) const TRACK: i32 = 1;
+    /// Position follows the centre of mass of the body's subtree, orientation is that at `qpos0`.
+    pub(crate) const TRACKCOM: i32 = 2;
+    /// Fixed to the body, turned towards the target body.
+    pub(crate) const TARGETBODY: i32 = 3;
+    /// Fixed to the body, turned towards the centre of mass of the target's subtree.
+    pub(crate) const TARGETBODYCOM: i32 = 4;
+}
+
+/// Values of `cam_projection` (mjtProjection).
+pub(crate) mod projection {
+    pub(crate) const PERSPECTIVE: i32 = 0;
+    pub(crate) const ORTHOGRAPHIC: i32 = 1;
+}
+
+/// Values of `light_type` (mjtLightType).
+pub(crate) mod lighttype {
+    pub(crate) const SPOT: i32 = 0;
+    pub(crate) const DIRECTIONAL: i32 = 1;
+    pub(crate) const POINT: i32 = 2;
+    pub(crate) const IMAGE: i32 = 3;
+}
+
+/// How a delayed sensor or actuator interpolates its past values, the second number of `sensor_history` and `actuator_history`.
+pub(crate) mod interpolation {
+    /// That of the last sample (zero-order hold).
+    pub(crate) const HOLD: i32 = 0;
+    /// Along a line between two samples.
+    pub(crate) const LINEAR: i32 = 1;
+    /// Along a cubic through neighbouring slopes.
+    pub(crate) const CUBIC: i32 = 2;
+}
+
+/// Values of `body_simple`: whether the mass matrix of a body is diagonal whatever its configuration.
+pub(crate) mod simple {
+    pub(crate) const NO: i32 = 0;
+    pub(crate) const DIAGONAL: i32 = 1;
+    /// Diagonal, and the body only slides.
+    pub(crate) const SLIDING: i32 = 2;
+}
+
+/// Values of a contact's `exclude`: why it has no rows.
+pub(crate) mod exclude {
+    /// It has rows.
+    pub(crate) const NO: u8 = 0;
+    /// It is in the gap.
+    pub(crate) const IN_GAP: u8 = 1;
+    /// No degree of freedom opens or closes it.
+    pub(crate) const NO_DOFS: u8 = 3;
+}
+
+/// Keywords of MJCF that leave a choice open (`limited`, `align`, `inertiafromgeom`).
+pub(crate) mod choice {
+    pub(crate) const FALSE: i32 = 0;
+    pub(crate) const TRUE: i32 = 1;
+    /// As other attributes decide.
+    pub(crate) const AUTO: i32 = 2;
+}
+
+/// Values of `compiler/angle`.
+pub(crate) mod angle {
+    pub(crate) const RADIAN: i32 = 0;
+    pub(crate) const DEGREE: i32 = 1;
 }

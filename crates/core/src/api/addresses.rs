@@ -2,6 +2,7 @@
 
 use crate::kinds::joint;
 use crate::model::Model;
+use crate::model::index::{element_range, object_index};
 
 /// Where objects are in the arrays of the data: first place and number.
 #[derive(Debug, Default)]
@@ -15,18 +16,18 @@ pub(super) struct Addresses {
 
 impl Addresses {
     pub(super) fn new(m: &Model) -> Addresses {
-        let at = |x: i32| usize::try_from(x).unwrap_or(usize::MAX / 2);
         let joints = |adr: &[i32], size: fn(i32) -> usize| {
-            adr.iter().zip(&m.jnt_type).map(|(&a, &kind)| [at(a), size(kind)]).collect()
+            adr.iter().zip(&m.jnt_type).map(|(&a, &kind)| [object_index(a), size(kind)]).collect()
         };
         let pairs = |adr: &[i32], n: &[i32]| {
-            adr.iter().zip(n).map(|(&a, &n)| [at(a), usize::try_from(n).unwrap_or(0)]).collect()
+            let range = |(&a, &n): (&i32, &i32)| element_range(a, n);
+            adr.iter().zip(n).map(range).map(|range| [range.start, range.len()]).collect()
         };
         Addresses {
             qpos: joints(&m.jnt_qposadr, joint::nq),
             qvel: joints(&m.jnt_dofadr, joint::nv),
             ctrl: pairs(&m.actuator_ctrladr, &m.actuator_ctrlnum),
-            output: m.actuator_outadr.iter().map(|&a| at(a)).collect(),
+            output: m.actuator_outadr.iter().map(|&a| object_index(a)).collect(),
             sensor: pairs(&m.sensor_adr, &m.sensor_dim),
         }
     }

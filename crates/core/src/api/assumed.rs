@@ -9,7 +9,7 @@
 use super::contents::Contents;
 use super::planning::Plan;
 use crate::model::reflect::FieldSet;
-use crate::step::analysis::never_asked;
+use crate::step::deciding::never_asked;
 
 /// For how many passes values must have stayed before a plan takes them as they are.
 pub(super) const SETTLED: u64 = 256;

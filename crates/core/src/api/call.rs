@@ -3,25 +3,29 @@
 //! A call with data of another model, with an id or a length that does not fit, or with results that the plan left out is an
 //! error, and changes nothing.
 
+mod saved_data;
+mod spatial_queries;
+mod state_vectors;
+mod work;
+
 use super::data::{Data, Scope};
 use super::error::Error;
 use super::model::{KeyId, Model};
 use super::planning::Plan;
 use crate::dynamics::{jacobian, mass, object, subtree, tree_algorithms};
 use crate::forces::{actuation, energy};
-use crate::geometry::Distance;
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
-use crate::model::stopwatch::StageTimes;
 use crate::model::{Contact, Obj};
-use crate::query::{self, RayFilter, RayHit};
 use crate::sensor::body_force;
 use crate::setup::setconst;
 use crate::step::balance::{self, Energy};
 use crate::step::{self, functions, integrate, reset};
 
 pub use crate::dynamics::jacobian::Jacobian;
+pub use spatial_queries::*;
+pub use work::*;
 
 fn wanted(what: &'static str, wanted: usize, found: usize) -> Result<(), Error> {
     if wanted == found { Ok(()) } else { Err(Error::Length { what, wanted, found }) }
@@ -155,7 +159,7 @@ pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> 
     d.mark_synced(m);
     // A plan that was made while M was constant does not look at it again.
     let plan = &d.inner.plan;
-    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.ways) {
+    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.algorithms) {
         d.plan_again(m);
     }
     Ok(())
@@ -317,8 +321,11 @@ pub fn apply_ft<S: Scope>(
     d.has(&JACOBIAN_READS)?;
     exists("body", body, m.nbody)?;
     wanted("the force", m.nv, qfrc.len())?;
-    jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).unwrap_or(());
-    Ok(())
+    jacobian::apply_ft(m, &d.inner, force, torque, point, body, qfrc).ok_or(Error::NoId {
+        kind: "body",
+        id: body,
+        count: m.nbody,
+    })
 }
 
 /// Angular and linear velocity of an object (`mj_objectVelocity`), rad/s and m/s: in the axes of the world, or of the object
@@ -365,58 +372,6 @@ pub fn differentiate_pos(m: &Model, h: f64, from: &[f64], to: &[f64]) -> Result<
     let mut v = vec![0.0; m.nv];
     integrate::differentiate_pos(m, &mut v, h, from, to);
     Ok(v)
-}
-
-/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
-pub fn ray<S: Scope>(
-    m: &Model,
-    d: &Data<S>,
-    from: Vec3,
-    along: Vec3,
-    filter: &RayFilter,
-) -> Result<Option<RayHit>, Error> {
-    d.belongs_to(m)?;
-    d.has(&[data::geom_xpos, data::geom_xmat])?;
-    Ok(query::ray(m, &d.inner, from, along, filter))
-}
-
-/// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
-///
-/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
-pub fn geom_distance<S: Scope>(
-    m: &Model,
-    d: &mut Data<S>,
-    geom1: usize,
-    geom2: usize,
-    most: f64,
-) -> Result<Distance, Error> {
-    d.has(&[data::geom_xpos, data::geom_xmat])?;
-    exists("geom", geom1, m.ngeom)?;
-    exists("geom", geom2, m.ngeom)?;
-    let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
-    found.ok_or(Error::NoConvex { geom1, geom2 })
-}
-
-/// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
-pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -> Result<bool, Error> {
-    d.belongs_to(m)?;
-    d.has(&[data::site_xpos, data::site_xmat])?;
-    exists("site", site, m.nsite)?;
-    Ok(query::inside_site(m, &d.inner, site, point))
-}
-
-/// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
-pub fn can_collide(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
-    exists("geom", geom1, m.ngeom)?;
-    exists("geom", geom2, m.ngeom)?;
-    Ok(crate::collision::can_collide(m, geom1, geom2))
-}
-
-/// Whether two geoms can make contacts: their bits, their bodies and the pairs and exclusions of the model admit it.
-pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
-    exists("geom", geom1, m.ngeom)?;
-    exists("geom", geom2, m.ngeom)?;
-    Ok(crate::collision::may_touch(m, geom1, geom2))
 }
 
 /// `kp` and `kv` of an actuator, along its own length; `None` when these do not follow from its parameters alone, or when
@@ -467,54 +422,6 @@ pub fn view_mut<'a, S: Scope>(
     Ok(reflect::view_model_mut(m.engine(), field))
 }
 
-/// The work that was done with these data since they were made: about nanoseconds of a fast machine.
-pub fn cost<S: Scope>(d: &Data<S>) -> u64 {
-    functions::cost(&d.inner)
-}
-
-/// What a forward pass costs without pairs and constraints, in the same unit.
-pub fn cost_of_pass<S: Scope>(d: &Data<S>) -> u64 {
-    functions::cost_of_pass(&d.inner)
-}
-
-/// Measures the stages from here on, from nothing, by a clock that the caller brings: it counts up in any unit. Each run of a
-/// stage then costs two looks at the clock more; numbers stay the same.
-pub fn clock<S: Scope>(d: &mut Data<S>, clock: fn() -> u64) {
-    reset::clock(&mut d.inner, clock);
-}
-
-/// What the stages took since [`clock`], or since this was asked last; nothing without a clock.
-pub fn laps<S: Scope>(d: &mut Data<S>) -> StageTimes {
-    functions::laps(&mut d.inner)
-}
-
-/// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost
-/// one comparison each.
-pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
-    d.belongs_to(m)?;
-    Ok(functions::pairs_in_reach(m, &d.inner))
-}
-
-/// Lets the engine do so much more work and no more. Beyond that its results are of no use: see [`exhausted`].
-pub fn limit<S: Scope>(d: &mut Data<S>, units: u64) {
-    functions::limit(&mut d.inner, units);
-}
-
-/// What is left of the limit.
-pub fn work_left<S: Scope>(d: &Data<S>) -> u64 {
-    functions::work_left(&d.inner)
-}
-
-/// Whether the limit is passed, and results with it are of no use.
-pub fn exhausted<S: Scope>(d: &Data<S>) -> bool {
-    functions::exhausted(&d.inner)
-}
-
-/// Counts work that was done on the data by others.
-pub fn charge<S: Scope>(d: &mut Data<S>, units: u64) {
-    functions::charge(&mut d.inner, units);
-}
-
 /// Saved simulations: state, inputs and everything computed, contacts and warnings included.
 ///
 /// ```
@@ -534,20 +441,7 @@ pub fn charge<S: Scope>(d: &mut Data<S>, units: u64) {
 /// # }
 /// ```
 pub mod save {
-    use super::{Data, Error, Model, Scope};
-    pub use crate::step::save::RestoreError;
-
-    /// All of a simulation as bytes, for [`restore`].
-    pub fn save<S: Scope>(m: &Model, d: &Data<S>) -> Result<Vec<u8>, Error> {
-        d.belongs_to(m)?;
-        Ok(crate::step::save::save(m, &d.inner))
-    }
-
-    /// Brings a simulation of the same model back to where it was saved, every bit of it; its plan stays. Parameters of the
-    /// model are not part of it: a run goes on with those that the model has now.
-    pub fn restore<S: Scope>(m: &Model, d: &mut Data<S>, bytes: &[u8]) -> Result<(), Error> {
-        Ok(crate::step::save::restore(m, d.engine_to_write(m)?, bytes)?)
-    }
+    pub use super::saved_data::*;
 }
 
 /// States as lists of numbers (`mj_getState` and its like): a signature says of which parts.
@@ -568,42 +462,5 @@ pub mod save {
 /// # }
 /// ```
 pub mod state {
-    use super::{Data, Error, Model, Scope};
-    use crate::model::state;
-    pub use crate::model::state::{
-        ACT, CTRL, EQ_ACTIVE, FULLPHYSICS, HISTORY, INTEGRATION, MOCAP_POS, MOCAP_QUAT, PHYSICS,
-        QFRC_APPLIED, QPOS, QVEL, StateError, TIME, USER, USERDATA, WARMSTART, XFRC_APPLIED,
-    };
-
-    /// Number of numbers of a state (`mj_stateSize`).
-    pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
-        Ok(state::size(m, sig)?)
-    }
-
-    /// Writes a state to `out`, which has `size` numbers (`mj_getState`).
-    pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Result<(), Error> {
-        d.belongs_to(m)?;
-        Ok(state::get(m, &d.inner, out, sig)?)
-    }
-
-    /// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
-    pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
-        Ok(state::set(m, d.engine_to_write(m)?, values, sig)?)
-    }
-
-    /// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
-    pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), Error> {
-        Ok(state::extract(m, from, sig, out, to)?)
-    }
-
-    /// Copies parts of a state (`mj_copyState`).
-    pub fn copy<S: Scope, T: Scope>(
-        m: &Model,
-        from: &Data<S>,
-        to: &mut Data<T>,
-        sig: i32,
-    ) -> Result<(), Error> {
-        from.belongs_to(m)?;
-        Ok(state::copy(m, &from.inner, to.engine_to_write(m)?, sig)?)
-    }
+    pub use super::state_vectors::*;
 }

@@ -10,7 +10,8 @@ use crate::model::plan::{PlanFlag, PlanTable};
 use crate::model::reflect::{self, FieldId, FieldSet, Kind, Object, View, ViewMut, data};
 use crate::model::stage::Stage;
 use crate::model::{Fields, Names};
-use crate::step::analysis::{AccessSet, deciding, never_asked};
+use crate::step::analysis::AccessSet;
+use crate::step::deciding::{deciding, never_asked};
 use crate::step::workspace::Workspace as Inner;
 use crate::step::{functions, reset};
 use std::marker::PhantomData;
@@ -161,7 +162,7 @@ impl<S: Scope> Data<S> {
     /// can be read here.
     pub fn edit(&mut self) -> Edit<'_> {
         self.touched = !S::FULL;
-        Edit::of(&mut self.inner.fields)
+        Edit::from_fields(&mut self.inner.fields)
     }
 
     /// The numbers of a field of the data by its name.
@@ -360,8 +361,8 @@ impl<S: Scope> Data<S> {
 
     /// The same for any value of some fields.
     fn plan_for(&mut self, m: &Model, any: FieldSet) {
-        let PlanTable { ways, more, .. } = *self.inner.plan();
-        let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, ways, more));
+        let PlanTable { algorithms, more, .. } = *self.inner.plan();
+        let plan = Plan::made(m, &self.demand, any, |demand| PlanTable::with(m, demand, algorithms, more));
         reset::set_plan(m, &mut self.inner, plan.inner);
         // What the data hold may be more than the plan takes for granted.
         self.touched = !S::FULL;
@@ -382,7 +383,7 @@ macro_rules! edits {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }
         impl<'a> Edit<'a> {
-            fn of(d: &'a mut Fields) -> Edit<'a> {
+            fn from_fields(d: &'a mut Fields) -> Edit<'a> {
                 Edit { $($name: access!(value $kind d.$name),)* }
             }
         }

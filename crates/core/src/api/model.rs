@@ -126,7 +126,7 @@ impl Model {
     /// What can be written of the model. Data that were planned for other parameters are planned again at their next use.
     pub fn edit(&mut self) -> ModelEdit<'_> {
         self.contents.touch_all();
-        ModelEdit::of(&mut self.inner)
+        ModelEdit::from_model(&mut self.inner)
     }
 
     /// The numbers of a field of the model; `None` for a field of the data.
@@ -152,7 +152,7 @@ impl Model {
 /// How a type of the field table is shown and edited.
 pub trait Cell {
     /// To read.
-    type Look<'a>
+    type Read<'a>
     where
         Self: 'a;
     /// To write: lists keep their length.
@@ -160,7 +160,7 @@ pub trait Cell {
     where
         Self: 'a;
     /// What may be read.
-    fn look(&mut self) -> Self::Look<'_>;
+    fn read(&mut self) -> Self::Read<'_>;
     /// What may be written.
     fn edit(&mut self) -> Self::Edit<'_>;
 }
@@ -168,21 +168,21 @@ pub trait Cell {
 macro_rules! cells {
     ($($t:ty),*) => { $(
         impl Cell for $t {
-            type Look<'a> = &'a $t;
+            type Read<'a> = &'a $t;
             type Edit<'a> = &'a mut $t;
-            fn look(&mut self) -> &$t { self }
+            fn read(&mut self) -> &$t { self }
             fn edit(&mut self) -> &mut $t { self }
         }
         impl<const N: usize> Cell for [$t; N] {
-            type Look<'a> = &'a [$t; N];
+            type Read<'a> = &'a [$t; N];
             type Edit<'a> = &'a mut [$t; N];
-            fn look(&mut self) -> &[$t; N] { self }
+            fn read(&mut self) -> &[$t; N] { self }
             fn edit(&mut self) -> &mut [$t; N] { self }
         }
         impl Cell for Vec<$t> {
-            type Look<'a> = &'a [$t];
+            type Read<'a> = &'a [$t];
             type Edit<'a> = &'a mut [$t];
-            fn look(&mut self) -> &[$t] { self }
+            fn read(&mut self) -> &[$t] { self }
             fn edit(&mut self) -> &mut [$t] { self }
         }
     )* };
@@ -191,11 +191,11 @@ cells!(f64, i32, bool, usize);
 
 /// The type of a field in an edit, and the field itself: what the engine indexes by or computes is shown, not given.
 macro_rules! access {
-    (type $a:lifetime Structure $ty:ty) => { <$ty as Cell>::Look<$a> };
-    (type $a:lifetime Derived $ty:ty) => { <$ty as Cell>::Look<$a> };
+    (type $a:lifetime Structure $ty:ty) => { <$ty as Cell>::Read<$a> };
+    (type $a:lifetime Derived $ty:ty) => { <$ty as Cell>::Read<$a> };
     (type $a:lifetime $kind:ident $ty:ty) => { <$ty as Cell>::Edit<$a> };
-    (value Structure $field:expr) => { Cell::look(&mut $field) };
-    (value Derived $field:expr) => { Cell::look(&mut $field) };
+    (value Structure $field:expr) => { Cell::read(&mut $field) };
+    (value Derived $field:expr) => { Cell::read(&mut $field) };
     (value $kind:ident $field:expr) => { Cell::edit(&mut $field) };
 }
 pub(super) use access;
@@ -212,10 +212,10 @@ macro_rules! edits {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }
         impl<'a> ModelEdit<'a> {
-            fn of(m: &'a mut inner::Model) -> ModelEdit<'a> {
+            fn from_model(m: &'a mut inner::Model) -> ModelEdit<'a> {
                 ModelEdit {
-                    opt: OptionsEdit::of(&mut m.opt),
-                    stat: StatisticEdit::of(&mut m.stat),
+                    opt: OptionsEdit::from_part(&mut m.opt),
+                    stat: StatisticEdit::from_part(&mut m.stat),
                     $($name: access!(value $kind m.$name),)*
                 }
             }
@@ -230,8 +230,8 @@ macro_rules! edits_of {
             $(#[doc = $doc] pub $name: access!(type 'a $kind $ty),)*
         }
         impl<'a> $edit<'a> {
-            fn of(of: &'a mut $of) -> $edit<'a> {
-                $edit { $($name: access!(value $kind of.$name),)* }
+            fn from_part(part: &'a mut $of) -> $edit<'a> {
+                $edit { $($name: access!(value $kind part.$name),)* }
             }
         }
     };

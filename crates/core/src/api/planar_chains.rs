@@ -1,4 +1,4 @@
-//! Long chains in a plane move as the general way moves them, in every integrator, with ties, and when they are written to.
+//! Long chains in a plane move as the general algorithm moves them, in every integrator, with ties, and when they are written to.
 
 use crate::api::{call, data::Data, data::Planned, model::Model, planning::Plan};
 use crate::model::reflect::{self, FieldSet, Object, data};
@@ -34,13 +34,13 @@ fn chain(links: usize, option: &str, more: &str) -> Model {
     Model::from_xml(&text.replacen("{}", if more.is_empty() { "-9" } else { "1.95" }, 1)).unwrap()
 }
 
-fn everything(m: &Model, ways: TreeAlgorithms) -> Data<Planned> {
-    Data::planned(m, Plan::by_ways(m, &AccessSet::ANY, ways))
+fn everything(m: &Model, algorithms: TreeAlgorithms) -> Data<Planned> {
+    Data::planned(m, Plan::by_algorithms(m, &AccessSet::ANY, algorithms))
 }
 
 /// Data whose forces are computed by one way or the other, after some steps.
-fn moved(m: &Model, ways: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> (Model, Data<Planned>) {
-    let (mut m, mut d) = (m.clone(), everything(m, ways));
+fn moved(m: &Model, algorithms: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> (Model, Data<Planned>) {
+    let (mut m, mut d) = (m.clone(), everything(m, algorithms));
     for (i, v) in d.edit().qvel.iter_mut().enumerate() {
         *v = 0.3 * f64::from((7 * i as i32) % 5 - 2);
     }
@@ -54,7 +54,7 @@ fn moved(m: &Model, ways: TreeAlgorithms, change: &dyn Fn(&mut Model)) -> (Model
 
 fn agree(m: &Model, change: &dyn Fn(&mut Model)) {
     let [(_, ours), (m, theirs)] =
-        [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL].map(|ways| moved(m, ways, change));
+        [TreeAlgorithms::ALL, TreeAlgorithms::GENERAL].map(|algorithms| moved(m, algorithms, change));
     for name in
         ["M", "qLD", "qLDiagInv", "qfrc_bias", "qacc_smooth", "qacc", "qfrc_constraint", "qpos", "qvel"]
     {

@@ -10,6 +10,7 @@ use crate::model::stage::Stage;
 use crate::model::tree_algorithm::{TreeAlgorithm, TreeAlgorithms};
 use crate::sensor;
 use crate::step::analysis::{self, AccessSet};
+use crate::step::deciding;
 
 /// Which stages run, and why.
 ///
@@ -54,17 +55,17 @@ impl Plan {
     /// What decides it is taken as the model has it now, also where programs may write it: data that were planned are planned
     /// again when such a value changes.
     pub fn new(m: &Model, demand: &AccessSet) -> Plan {
-        Plan::by_ways(m, demand, TreeAlgorithms::ALL)
+        Plan::by_algorithms(m, demand, TreeAlgorithms::ALL)
     }
 
-    /// The same with trees computed by some ways alone: to measure what each is worth, or to hold it against the general one.
-    pub fn by_ways(m: &Model, demand: &AccessSet, ways: TreeAlgorithms) -> Plan {
-        Plan::made(m, demand, analysis::never_asked(demand), |d| Inner::new(m, d, ways))
+    /// The same with trees computed by some algorithms alone: to measure the gain of each, or to compare it with the general one.
+    pub fn by_algorithms(m: &Model, demand: &AccessSet, algorithms: TreeAlgorithms) -> Plan {
+        Plan::made(m, demand, deciding::never_asked(demand), |d| Inner::new(m, d, algorithms))
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to measure what it would cost. No number changes.
     pub fn with(m: &Model, demand: &AccessSet, more: Stage) -> Plan {
-        Plan::made(m, demand, analysis::never_asked(demand), |d| {
+        Plan::made(m, demand, deciding::never_asked(demand), |d| {
             Inner::with(m, d, TreeAlgorithms::ALL, Some(more))
         })
     }
@@ -117,9 +118,9 @@ impl Plan {
         collision::pair_methods(m, analysis::changes(&self.inner))
     }
 
-    /// The ways that each tree of the model takes: for where its bodies are, for its inertia and forces, for its accelerations.
-    pub fn ways(&self, m: &Model) -> Vec<[TreeAlgorithm; 3]> {
-        (0..m.ntree).map(|tree| tree_algorithms::taken_by(m, self.inner.ways, tree)).collect()
+    /// The algorithms that compute each tree of the model: for where its bodies are, for its inertia and forces, for its accelerations.
+    pub fn tree_algorithms(&self, m: &Model) -> Vec<[TreeAlgorithm; 3]> {
+        (0..m.ntree).map(|tree| tree_algorithms::selected_for(m, self.inner.algorithms, tree)).collect()
     }
 
     /// Whether the values of a sensor are computed. A sensor that nobody reads is left out by itself.

@@ -9,7 +9,7 @@ use crate::model::{Names, Obj};
 /// A name, or an id that a name led to.
 pub trait Which<I> {
     /// The object that is meant.
-    fn of(&self, names: &Names) -> Result<usize, Error>;
+    fn find_in(&self, names: &Names) -> Result<usize, Error>;
 }
 
 /// Rows of a rotation matrix, or three rows of three numbers otherwise.
@@ -24,12 +24,12 @@ macro_rules! objects {
         $($(#[$fdoc:meta])* $field:ident -> $ret:ty = |$s:ident| $value:expr;)*
     })*) => { $(
         impl Which<$id> for str {
-            fn of(&self, names: &Names) -> Result<usize, Error> {
+            fn find_in(&self, names: &Names) -> Result<usize, Error> {
                 find(names, Obj::$kind, self)
             }
         }
         impl Which<$id> for $id {
-            fn of(&self, names: &Names) -> Result<usize, Error> {
+            fn find_in(&self, names: &Names) -> Result<usize, Error> {
                 let count = names.of(Obj::$kind).len();
                 if self.0 < count { Ok(self.0) } else { Err(Error::NoId { kind: $noun, id: self.0, count }) }
             }
@@ -62,7 +62,7 @@ macro_rules! objects {
         impl Data<Full> {
             #[doc = concat!("A ", $noun, " by its name or id.")]
             pub fn $get(&self, which: &(impl Which<$id> + ?Sized)) -> Result<$view<'_>, Error> {
-                Ok($view { data: self, id: which.of(&self.names)? })
+                Ok($view { data: self, id: which.find_in(&self.names)? })
             }
         }
     )* };
@@ -184,7 +184,7 @@ impl<S: super::data::Scope> Data<S> {
         which: &(impl Which<JointId> + ?Sized),
         qpos: &[f64],
     ) -> Result<(), Error> {
-        let [first, n] = self.addresses.qpos.get(which.of(&self.names)?).copied().unwrap_or_default();
+        let [first, n] = self.addresses.qpos.get(which.find_in(&self.names)?).copied().unwrap_or_default();
         set(self.inner.fields.qpos.get_mut(first..first + n), qpos, "the position of this joint")
     }
 
@@ -194,19 +194,19 @@ impl<S: super::data::Scope> Data<S> {
         which: &(impl Which<JointId> + ?Sized),
         qvel: &[f64],
     ) -> Result<(), Error> {
-        let [first, n] = self.addresses.qvel.get(which.of(&self.names)?).copied().unwrap_or_default();
+        let [first, n] = self.addresses.qvel.get(which.find_in(&self.names)?).copied().unwrap_or_default();
         set(self.inner.fields.qvel.get_mut(first..first + n), qvel, "the velocity of this joint")
     }
 
     /// Sets the controls of an actuator: most have one.
     pub fn set_ctrl(&mut self, which: &(impl Which<ActuatorId> + ?Sized), ctrl: &[f64]) -> Result<(), Error> {
-        let [first, n] = self.addresses.ctrl.get(which.of(&self.names)?).copied().unwrap_or_default();
+        let [first, n] = self.addresses.ctrl.get(which.find_in(&self.names)?).copied().unwrap_or_default();
         set(self.inner.fields.ctrl.get_mut(first..first + n), ctrl, "the control of this actuator")
     }
 
     /// Applies a force and a torque at the centre of mass of a body, N and N m, world, until they are set again.
     pub fn set_xfrc(&mut self, which: &(impl Which<BodyId> + ?Sized), force: [f64; 6]) -> Result<(), Error> {
-        let first = 6 * which.of(&self.names)?;
+        let first = 6 * which.find_in(&self.names)?;
         let fields = self.edit();
         set(fields.xfrc_applied.get_mut(first..first + 6), &force, "a force and a torque")
     }

@@ -5,6 +5,7 @@ use super::filter::{Pair, bodies_may_touch, dynamic_pair, explicit_pairs};
 use super::params;
 use crate::math::sort::sort_by;
 use crate::model::Model;
+use crate::model::index::element_range;
 
 /// Most pairs in the list of a scene; scenes with more search for the near ones at every step.
 pub(crate) const MOST_LISTED: usize = 4096;
@@ -25,10 +26,7 @@ pub(crate) struct Changes {
 pub(crate) fn candidate_pairs(m: &Model, change: Changes) -> Vec<Pair> {
     let extents = (!change.places && !change.params).then(|| Extents::new(m));
     let meet = |p: &Pair| !extents.as_ref().is_some_and(|e| e.keep_apart(m, p, params::params(m, p).reach));
-    let geoms = |b: usize| {
-        let first = m.body_geomadr[b].max(0) as usize;
-        first..first + m.body_geomnum[b] as usize
-    };
+    let geoms = |b: usize| element_range(m.body_geomadr[b], m.body_geomnum[b]);
     let with_geoms: Vec<usize> = (0..m.nbody).filter(|&b| m.body_geomnum[b] > 0).collect();
     let mut out: Vec<Pair> = explicit_pairs(m).filter(meet).collect();
     for (i, &b1) in with_geoms.iter().enumerate() {

@@ -11,6 +11,7 @@ use super::filter::Pair;
 use crate::kinds::{geom, joint};
 use crate::math::*;
 use crate::model::Model;
+use crate::model::index::element_range;
 use crate::model::reflect::{FieldId, model as fields_of};
 
 /// What the proof follows from, besides the parameters of contacts.
@@ -89,8 +90,7 @@ impl Extents {
             let quat = quat_normalize(rows::<4>(&m.body_quat)[b]);
             let turned = from.turned.map(|turned| if b > 0 { quat_mul(turned, quat) } else { turned });
             let mut here = Extent { point: [0.0; 3], turned, ..from };
-            let first = m.body_jntadr[b].max(0) as usize;
-            for j in first..first + m.body_jntnum[b] as usize {
+            for j in element_range(m.body_jntadr[b], m.body_jntnum[b]) {
                 here = here.moved(m, j);
             }
             if m.body_mocapid[b] >= 0 {

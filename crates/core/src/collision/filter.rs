@@ -3,6 +3,7 @@
 use crate::geometry::pair::{self, Method};
 use crate::kinds::disable;
 use crate::model::Model;
+use crate::model::index::element_range;
 
 /// Two geoms, ordered so that the first has the smaller type.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,8 +63,7 @@ fn volumes_hold(m: &Model, g1: usize, g2: usize) -> bool {
     let visual = |g: usize| m.visual_geoms.binary_search(&(g as i32)).is_ok();
     let hold = |g: usize| {
         let b = m.geom_bodyid[g] as usize;
-        let first = m.body_geomadr[b].max(0) as usize;
-        (first..first + m.body_geomnum[b] as usize).any(|other| !visual(other))
+        (element_range(m.body_geomadr[b], m.body_geomnum[b])).any(|other| !visual(other))
     };
     m.visual_geoms.is_empty()
         || m.opt.disabled(disable::MIDPHASE)

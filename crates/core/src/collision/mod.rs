@@ -99,7 +99,7 @@ pub(crate) fn collide(m: &Model, d: &mut Fields, w: &mut Scratch) {
         }
     }
     list.spheres.compare(rows(&d.geom_xpos));
-    for word in 0..list.spheres.words() {
+    for word in 0..list.spheres.word_count() {
         let [near, others] = list.spheres.take(word);
         let mut left = near | others;
         while left != 0 {

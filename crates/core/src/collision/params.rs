@@ -2,7 +2,7 @@
 
 use super::filter::Pair;
 use crate::geometry::pair::ContactPoint;
-use crate::kinds::enable;
+use crate::kinds::{enable, exclude};
 use crate::math::*;
 use crate::model::{Contact, Model};
 
@@ -142,7 +142,7 @@ pub(super) fn contact(p: &Params, g1: usize, g2: usize, touch: &ContactPoint, fr
         dim: if apart && sticks { 1 } else { p.dim },
         geom1: g1,
         geom2: g2,
-        exclude: u8::from(apart && !sticks),
+        exclude: if apart && !sticks { exclude::IN_GAP } else { exclude::NO },
         efc_address: None,
     }
 }

@@ -102,7 +102,7 @@ impl Spheres {
 
     /// How many words there are of a bit for each pair of the list.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(super) fn words(&self) -> usize {
+    pub(super) fn word_count(&self) -> usize {
         self.others.len()
     }
 

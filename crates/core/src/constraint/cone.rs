@@ -16,6 +16,7 @@
 //!
 //! where (G_t + λ) p = c and (G_t + λ) q = y_t. Its root is found by Newton's method too.
 
+use crate::math::broken_invariant;
 use crate::math::{Ldl, add_scaled, dot};
 
 /// Part of the trace of G_t that is added to it: rounding, and a direction without friction, or without mass, has a diagonal.
@@ -182,7 +183,9 @@ impl<const N: usize> Disc<N> {
 /// Moves a force to the nearest one of its cone, in the coordinates in which that is circular (Boyd and Vandenberghe, exercise
 /// 8.3).
 pub(super) fn nearest_in_cone(force: &mut [f64], mu: &[f64; 5]) {
-    let Some((normal, tangents)) = force.split_first_mut() else { return };
+    let Some((normal, tangents)) = force.split_first_mut() else {
+        return broken_invariant("a cone has a normal");
+    };
     let size = tangents.iter().zip(mu).map(|(f, mu)| (f / mu) * (f / mu)).sum::<f64>().sqrt();
     if size > *normal {
         let onto = (0.5 * (*normal + size)).max(0.0);

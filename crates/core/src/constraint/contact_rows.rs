@@ -7,19 +7,17 @@ use super::jacobian::Jacobian;
 use super::kind;
 use super::rows::{Rows, inverse_weight, push, regularization};
 use crate::dynamics::jacobian::{self, Columns};
+use crate::kinds::{cone, exclude};
 use crate::math::*;
 use crate::model::{Contact, Fields, Model};
 use wide::f64x4;
-
-/// Value of `opt.cone`.
-const PYRAMIDAL: i32 = 0;
 
 /// Number of rows that the contacts may need.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(super) fn count(m: &Model, d: &Fields) -> usize {
     let rows = |c: &Contact| match c.dim {
         1 => 1,
-        dim if m.opt.cone == PYRAMIDAL => 2 * (dim - 1),
+        dim if m.opt.cone == cone::PYRAMIDAL => 2 * (dim - 1),
         dim => dim,
     };
     d.contact.iter().map(rows).sum()
@@ -34,19 +32,19 @@ pub(super) fn make(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let Scratch { jac, columns, .. } = w;
     for (id, c) in list.iter_mut().enumerate() {
         c.efc_address = None;
-        if c.exclude != 0 {
+        if c.exclude != exclude::NO {
             continue;
         }
         let bodies = [m.geom_bodyid[c.geom1] as usize, m.geom_bodyid[c.geom2] as usize];
         jacobian::point_difference(m, d, bodies, c.pos, &c.frame, columns);
         if columns.dofs().is_empty() && !(super::is_dense(m) && columns.stand_still(m, bodies[0])) {
             // Where nothing moves, nothing asks which contacts have rows.
-            c.exclude = if m.nv > 0 { 3 } else { 0 };
+            c.exclude = if m.nv > 0 { exclude::NO_DOFS } else { exclude::NO };
             continue;
         }
         c.efc_address = Some(d.nefc);
         match (c.dim, m.opt.cone) {
-            (1 | 3, PYRAMIDAL) => common(m, d, jac, id, c, bodies, columns),
+            (1 | 3, cone::PYRAMIDAL) => common(m, d, jac, id, c, bodies, columns),
             _ => other(m, d, jac, id, c, bodies, columns),
         }
     }
@@ -103,8 +101,8 @@ fn other(
     }
     match (c.dim, m.opt.cone) {
         (1, _) => common(m, d, jac, id, c, bodies, columns),
-        (4, PYRAMIDAL) => pyramid::<6>(m, d, jac, id, c, bodies, columns),
-        (_, PYRAMIDAL) => pyramid::<10>(m, d, jac, id, c, bodies, columns),
+        (4, cone::PYRAMIDAL) => pyramid::<6>(m, d, jac, id, c, bodies, columns),
+        (_, cone::PYRAMIDAL) => pyramid::<10>(m, d, jac, id, c, bodies, columns),
         (3, _) => cone::<3>(m, d, jac, id, c, bodies, columns),
         (4, _) => cone::<4>(m, d, jac, id, c, bodies, columns),
         _ => cone::<6>(m, d, jac, id, c, bodies, columns),

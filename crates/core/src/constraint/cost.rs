@@ -325,14 +325,14 @@ mod tests {
             let cost = [Cost::Quadratic, Cost::Unilateral, Cost::DryFriction, Cost::Cone][which];
             if which == 2 {
                 let shape = Shape { cost, stiff: &[d0], loss, contact: None };
-                check(&shape, &[x[0]], &[v[0]])?;
+                check_shape(&shape, &[x[0]], &[v[0]])?;
             } else {
-                check(&Shape { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
+                check_shape(&Shape { cost, stiff: &stiff, loss, contact: Some(&contact) }, &x, &v)?;
             }
         }
     }
 
-    fn check<const R: usize>(s: &Shape<R>, x: &[f64; R], v: &[f64; R]) -> Result<(), TestCaseError> {
+    fn check_shape<const R: usize>(s: &Shape<R>, x: &[f64; R], v: &[f64; R]) -> Result<(), TestCaseError> {
         let at = |alpha: f64| -> [f64; R] { std::array::from_fn(|r| x[r] + alpha * v[r]) };
         let h = 1e-6;
         let (ahead, behind) = (s.value(&at(h)), s.value(&at(-h)));

@@ -6,9 +6,11 @@
 //! diagonal are kept.
 
 use super::delassus::RowGroup;
-use super::jacobian::{Block, by_rows};
+use super::jacobian::Block;
 use super::primal::Problem;
+use super::row_counts::by_rows;
 use crate::dynamics::mass;
+use crate::math::broken_invariant;
 
 /// Most sweeps over the rows, whatever a model asks for: a step ends, also where nothing limits its work.
 pub(super) const MOST_SWEEPS: i32 = 100_000;
@@ -59,7 +61,9 @@ impl Problem<'_> {
     pub(super) fn set_forces<const N: usize>(&mut self, b: &Block, group: RowGroup, force: [f64; N]) {
         let first = group.first as usize;
         let row = b.row as usize + first;
-        let Some(old) = self.d.efc_force[row..].first_chunk_mut::<N>() else { return };
+        let Some(old) = self.d.efc_force[row..].first_chunk_mut::<N>() else {
+            return broken_invariant("every row of a block has a force");
+        };
         let change: [f64; N] = std::array::from_fn(|r| force[r] - old[r]);
         if change == [0.0; N] {
             return;

@@ -12,6 +12,7 @@
 use crate::dynamics::object;
 use crate::kinds::eqtype;
 use crate::math::*;
+use crate::model::index::object_index;
 use crate::model::{Fields, Model, Obj};
 
 /// Numbers of a constraint in `eq_data`.
@@ -69,11 +70,11 @@ pub(crate) fn rows_of(m: &Model, e: usize) -> usize {
 /// Both ends of a connect or weld. `None` for constraints of joints and tendons.
 pub(crate) fn ends(m: &Model, d: &Fields, e: usize) -> Option<[End; 2]> {
     let data = rows::<DATA>(&m.eq_data).get(e)?;
-    let ids = [m.eq_obj1id[e], m.eq_obj2id[e]].map(|id| id.max(0) as usize);
     let weld = m.eq_type[e] == eqtype::WELD;
     if !weld && m.eq_type[e] != eqtype::CONNECT {
         return None;
     }
+    let ids = [m.eq_obj1id[e], m.eq_obj2id[e]].map(object_index);
     if m.eq_objtype[e] == Obj::Site as i32 {
         let end = |id: usize| {
             let f = object::frame(m, d, Obj::Site as i32, id)?;

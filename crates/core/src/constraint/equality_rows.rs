@@ -15,6 +15,7 @@ use crate::dynamics::jacobian::{self, Columns};
 use crate::forces::tendon;
 use crate::kinds::eqtype;
 use crate::math::*;
+use crate::model::index::object_index;
 use crate::model::{Fields, Model, asleep};
 
 /// Number of rows of the active constraints.
@@ -113,7 +114,7 @@ fn coupled(m: &Model, e: usize, first: f64, second: Option<f64>) -> (f64, f64) {
 }
 
 fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
-    let first = m.eq_obj1id[e].max(0) as usize;
+    let first = object_index(m.eq_obj1id[e]);
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     let moved = |j: usize| {
         let q = m.jnt_qposadr[j] as usize;
@@ -133,7 +134,7 @@ fn coupled_joints(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
 }
 
 fn coupled_tendons(m: &Model, d: &mut Fields, jac: &mut Jacobian, e: usize) {
-    let first = m.eq_obj1id[e].max(0) as usize;
+    let first = object_index(m.eq_obj1id[e]);
     let second = usize::try_from(m.eq_obj2id[e]).ok();
     let moved = |t: usize| d.ten_length[t] - m.tendon_length0[t];
     let (pos, ratio) = coupled(m, e, moved(first), second.map(moved));

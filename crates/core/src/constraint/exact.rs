@@ -2,8 +2,8 @@
 
 use super::Scratch;
 use super::contact_rows;
-use super::jacobian::MOST_ROWS;
 use super::kind;
+use super::row_counts::MOST_ROWS;
 use super::rows::{regularization, soften};
 use crate::dynamics::mass;
 use crate::model::{Fields, Model};

@@ -1,5 +1,6 @@
 //! Forces of constraints, as those who look at them want them.
 
+use crate::kinds::cone;
 use crate::model::{Contact, Fields, Model};
 
 /// Force and torque of a contact in the contact's frame: normal, two tangents, then three torques
@@ -7,7 +8,7 @@ use crate::model::{Contact, Fields, Model};
 pub(crate) fn contact_force(m: &Model, d: &Fields, contact: &Contact) -> [f64; 6] {
     let mut out = [0.0; 6];
     let Some(force) = contact.efc_address.and_then(|row| d.efc_force.get(row..)) else { return out };
-    if contact.dim == 1 || m.opt.cone != 0 {
+    if contact.dim == 1 || m.opt.cone != cone::PYRAMIDAL {
         for (out, f) in out.iter_mut().zip(force).take(contact.dim) {
             *out = *f;
         }

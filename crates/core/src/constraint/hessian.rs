@@ -6,15 +6,17 @@
 //! before the bodies that carry them. In large islands, where most pairs of trees do not touch, trees are ordered so that
 //! rows are short: breadth first from an end of the island, reversed (Cuthill and McKee 1969, George 1971).
 
+mod tree_order;
+
 use super::island::Islands;
 use super::jacobian::{Gram, Jacobian};
 use crate::dynamics::mass;
 use crate::math::lanes::total;
-use crate::math::sort::sort;
-use crate::math::{self, MINVAL};
+use crate::math::{self, MINVAL, broken_invariant};
 use crate::model::Model;
 use std::array::from_fn;
 use std::ops::Range;
+use tree_order::Order;
 use wide::f64x4;
 
 /// Degrees of freedom up to which trees stay in the order of the file.
@@ -50,9 +52,9 @@ pub(super) struct Hessian {
     /// Where the numbers of M go, those of the island row by row.
     mass: Vec<u32>,
     /// The columns of the blocks of the Jacobian, where they are here, and how many of these blocks have been passed.
-    stands: Vec<ColumnBlocks>,
-    stood: Vec<u32>,
-    quads: Vec<ColumnBlock>,
+    column_blocks: Vec<ColumnBlocks>,
+    listed_columns: Vec<u32>,
+    lanes: Vec<ColumnBlock>,
     passed: usize,
     /// Scratch of a block of the Jacobian: its rows by fours of columns.
     fours: Vec<Four>,
@@ -73,7 +75,7 @@ struct BlockRow {
 #[derive(Clone, Debug, PartialEq)]
 struct ColumnBlocks {
     columns: Range<usize>,
-    quads: Range<usize>,
+    lanes: Range<usize>,
 }
 
 /// Four columns that a block of H begins with: which column of a block of the Jacobian each is, or [`NONE`].
@@ -85,17 +87,6 @@ struct ColumnBlock {
 
 /// No column.
 const NONE: u32 = u32::MAX;
-
-/// Scratch of the ordering of trees.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Order {
-    /// Pairs of trees that some block ties together, both ways, ascending; and where those of each tree begin.
-    pairs: Vec<[u32; 2]>,
-    begin: Vec<u32>,
-    /// Trees in their order, and whether each is there.
-    list: Vec<u32>,
-    seen: Vec<bool>,
-}
 
 impl Hessian {
     /// The island that it is laid out for.
@@ -141,7 +132,8 @@ impl Hessian {
         let (mut start, mut work) = (0, 0);
         for i in 0..self.len.div_ceil(4) {
             let rows = self.first.iter().skip(4 * i).take(4);
-            let first = rows.map(|&c| c as usize / 4).min().unwrap_or(0);
+            let first = rows.map(|&c| c as usize / 4).min();
+            let first = first.unwrap_or_else(|| broken_invariant("four rows have a first column"));
             self.blocks.push(BlockRow { first, start });
             let length = i + 1 - first;
             start += length;
@@ -207,43 +199,49 @@ impl Hessian {
 
     /// Finds where the columns of blocks of the Jacobian go, by the fours of columns of H that they are among.
     fn place_columns(&mut self, jac: &Jacobian, blocks: impl Iterator<Item = usize>) {
-        self.stands.clear();
-        self.stood.clear();
-        self.quads.clear();
+        self.column_blocks.clear();
+        self.listed_columns.clear();
+        self.lanes.clear();
         for columns in blocks.map(|i| jac.columns(&jac.blocks[i])) {
-            if self.stands.last().is_some_and(|last| self.stood[last.columns.clone()] == *columns) {
+            if self
+                .column_blocks
+                .last()
+                .is_some_and(|last| self.listed_columns[last.columns.clone()] == *columns)
+            {
                 continue;
             }
-            let (column, first) = (self.stood.len(), self.quads.len());
-            self.stood.extend_from_slice(columns);
+            let (column, first) = (self.listed_columns.len(), self.lanes.len());
+            self.listed_columns.extend_from_slice(columns);
             // Ascending in the file, so that those of a tree descend here.
             for (p, &k) in columns.iter().enumerate().rev() {
                 let local = self.local[k as usize];
                 let (block, lane) = (local / 4, local as usize % 4);
-                let mut q = self.quads.len();
-                while q > first && self.quads[q - 1].block > block {
+                let mut q = self.lanes.len();
+                while q > first && self.lanes[q - 1].block > block {
                     q -= 1;
                 }
-                if q == first || self.quads[q - 1].block < block {
-                    self.quads.insert(q, ColumnBlock { block, of: [NONE; 4] });
+                if q == first || self.lanes[q - 1].block < block {
+                    self.lanes.insert(q, ColumnBlock { block, of: [NONE; 4] });
                     q += 1;
                 }
-                self.quads[q - 1].of[lane] = p as u32;
+                self.lanes[q - 1].of[lane] = p as u32;
             }
-            self.stands
-                .push(ColumnBlocks { columns: column..self.stood.len(), quads: first..self.quads.len() });
+            self.column_blocks.push(ColumnBlocks {
+                columns: column..self.listed_columns.len(),
+                lanes: first..self.lanes.len(),
+            });
         }
     }
 
     /// Where the columns of a block of the Jacobian are; blocks come in their order.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    fn stand(&mut self, columns: &[u32]) -> Range<usize> {
-        let left = &self.stands[self.passed..];
-        let Some(k) = left.iter().position(|s| self.stood[s.columns.clone()] == *columns) else {
+    fn find_lanes(&mut self, columns: &[u32]) -> Range<usize> {
+        let left = &self.column_blocks[self.passed..];
+        let Some(k) = left.iter().position(|s| self.listed_columns[s.columns.clone()] == *columns) else {
             return 0..0;
         };
         self.passed += k;
-        left[k].quads.clone()
+        left[k].lanes.clone()
     }
 
     /// All numbers zero, but for the identity of the rows that fill up.
@@ -266,7 +264,8 @@ impl Hessian {
             for (number, &place) in rows.iter().zip(places) {
                 values[place as usize] += number;
             }
-            places = places.get(rows.len()..).unwrap_or_default();
+            let left = places.get(rows.len()..);
+            places = left.unwrap_or_else(|| broken_invariant("every number of M has a place"));
         }
     }
 
@@ -321,25 +320,29 @@ impl Hessian {
         let x = x.as_chunks_mut::<4>().0;
         for (i, row) in self.rows() {
             let (before, here) = x.split_at_mut(i);
-            let Some((corner, left)) = row.split_last() else { continue };
+            let Some((corner, left)) = row.split_last() else {
+                return broken_invariant("a row of blocks has its diagonal");
+            };
             let mut sum = f64x4::new(here[0]);
             for (block, x) in left.iter().zip(&before[i - left.len()..]) {
                 for (column, x) in block.iter().zip(x) {
                     sum -= f64x4::new(*column) * *x;
                 }
             }
-            let mut own = sum.to_array();
+            let mut solved = sum.to_array();
             for b in 0..4 {
-                own[b] *= self.inverse[i][b];
+                solved[b] *= self.inverse[i][b];
                 for c in b + 1..4 {
-                    own[c] -= corner[b][c] * own[b];
+                    solved[c] -= corner[b][c] * solved[b];
                 }
             }
-            here[0] = own;
+            here[0] = solved;
         }
         for (i, row) in self.rows().rev() {
             let (before, here) = x.split_at_mut(i);
-            let Some((corner, left)) = row.split_last() else { continue };
+            let Some((corner, left)) = row.split_last() else {
+                return broken_invariant("a row of blocks has its diagonal");
+            };
             let mut sum = here[0];
             for b in (0..4).rev() {
                 for c in b + 1..4 {
@@ -348,10 +351,10 @@ impl Hessian {
                 sum[b] *= self.inverse[i][b];
             }
             here[0] = sum;
-            let own = f64x4::new(sum);
+            let solved = f64x4::new(sum);
             for (block, x) in left.iter().zip(&mut before[i - left.len()..]) {
                 for (column, x) in block.iter().zip(x) {
-                    *x -= total(f64x4::new(*column) * own);
+                    *x -= total(f64x4::new(*column) * solved);
                 }
             }
         }
@@ -387,26 +390,26 @@ impl Gram for Hessian {
         v: &[[f64; R]],
         weigh: &dyn Fn(&[f64; R]) -> [f64; R],
     ) {
-        let stand = self.stand(columns);
-        let Hessian { quads, blocks, values, fours, .. } = self;
-        let quads = &quads[stand];
-        if fours.len() < R * quads.len() {
-            fours.resize(R * quads.len(), [0.0; 4]);
+        let stand = self.find_lanes(columns);
+        let Hessian { lanes, blocks, values, fours, .. } = self;
+        let lanes = &lanes[stand];
+        if fours.len() < R * lanes.len() {
+            fours.resize(R * lanes.len(), [0.0; 4]);
         }
-        let fours = &mut fours.as_chunks_mut::<R>().0[..quads.len()];
-        for (quad, four) in quads.iter().zip(fours.iter_mut()) {
-            let columns = quad.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
+        let fours = &mut fours.as_chunks_mut::<R>().0[..lanes.len()];
+        for (lane_columns, four) in lanes.iter().zip(fours.iter_mut()) {
+            let columns = lane_columns.of.map(|p| v.get(p as usize).unwrap_or(&[0.0; R]));
             *four = from_fn(|r| columns.map(|v| v[r]));
         }
-        for (q, quad) in quads.iter().enumerate() {
-            let BlockRow { first, start } = blocks[quad.block as usize];
-            let row = &mut values[start..][..quad.block as usize + 1 - first];
+        for (q, lane_columns) in lanes.iter().enumerate() {
+            let BlockRow { first, start } = blocks[lane_columns.block as usize];
+            let row = &mut values[start..][..lane_columns.block as usize + 1 - first];
             // Beyond the diagonal a row counts as zero, whatever is there.
-            let (quads, fours) = (&quads[..=q], &fours[..=q]);
-            for (lane, p) in quad.of.into_iter().enumerate() {
+            let (lanes, fours) = (&lanes[..=q], &fours[..=q]);
+            for (lane, p) in lane_columns.of.into_iter().enumerate() {
                 let Some(v) = v.get(p as usize) else { continue };
                 let w = weigh(v).map(f64x4::splat);
-                for (to, four) in quads.iter().zip(fours) {
+                for (to, four) in lanes.iter().zip(fours) {
                     let mut sums = f64x4::new(four[0]) * w[0];
                     for r in 1..R {
                         sums += f64x4::new(four[r]) * w[r];
@@ -424,236 +427,6 @@ fn transposed(rows: Tile) -> [f64x4; 4] {
     from_fn(|c| f64x4::new(rows.map(|row| row[c])))
 }
 
-impl Order {
-    /// The trees of an island, breadth first from one that is far from the others, reversed.
-    fn sort(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
-        self.tie(m, jac, islands, island);
-        let trees = || islands.trees_of(island);
-        let degree = |begin: &[u32], t: usize| begin[t + 1] - begin[t];
-        let Some(start) = trees().min_by_key(|&t| degree(&self.begin, t)) else { return };
-        self.walk(start);
-        // Twice from the last that was reached: there is an end of the island.
-        for _ in 0..2 {
-            let Some(&end) = self.list.last() else { break };
-            self.walk(end as usize);
-        }
-        // What nothing ties together is one island only when islands are switched off.
-        for t in trees() {
-            if !self.seen[t] {
-                self.reach(t);
-            }
-        }
-        self.list.reverse();
-    }
-
-    /// Lists the pairs of trees that blocks tie together.
-    fn tie(&mut self, m: &Model, jac: &Jacobian, islands: &Islands, island: usize) {
-        self.pairs.clear();
-        for i in islands.blocks.members(island) {
-            let trees = jac.trees(m, &jac.blocks[i]);
-            for a in trees.clone() {
-                self.pairs.extend(trees.clone().filter(|&b| b != a).map(|b| [a as u32, b as u32]));
-            }
-        }
-        sort(&mut self.pairs);
-        self.pairs.dedup();
-        self.begin.clear();
-        self.begin.resize(m.ntree + 1, 0);
-        for [a, _] in &self.pairs {
-            self.begin[*a as usize + 1] += 1;
-        }
-        for t in 0..m.ntree {
-            self.begin[t + 1] += self.begin[t];
-        }
-    }
-
-    fn walk(&mut self, start: usize) {
-        self.list.clear();
-        self.seen.clear();
-        self.seen.resize(self.begin.len(), false);
-        self.reach(start);
-    }
-
-    /// Appends a tree and all that can be reached from it, the nearest first.
-    fn reach(&mut self, start: usize) {
-        let mut at = self.list.len();
-        self.list.push(start as u32);
-        self.seen[start] = true;
-        while let Some(&t) = self.list.get(at) {
-            at += 1;
-            for [_, b] in &self.pairs[self.begin[t as usize] as usize..self.begin[t as usize + 1] as usize] {
-                if !std::mem::replace(&mut self.seen[*b as usize], true) {
-                    self.list.push(*b);
-                }
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)] // a test that fails says why
-mod tests {
-    use crate::constraint::jacobian::{Gram, add_entries};
-    use crate::constraint::six::Six;
-    use crate::math::dot;
-    use crate::mjcf;
-    use crate::model::Model;
-    use crate::step::forward::forward;
-    use crate::step::step;
-    use crate::step::workspace::Workspace;
-    use std::array::from_fn;
-    use std::fmt::Write;
-
-    /// Two hundred balls in one place, each of which touches each: no room is made for the Hessian, and the step is done.
-    #[test]
-    fn an_island_that_is_too_large_is_solved_without_its_hessian() {
-        let ball = |i: usize| {
-            let at = 1e-3 * i as f64;
-            format!("<body pos='{at} {} 0'><freejoint/><geom size='0.3'/></body>", at * at)
-        };
-        let text: String = (0..200).map(ball).collect();
-        let m = mjcf::compile(&format!("<mujoco><worldbody>{text}</worldbody></mujoco>")).unwrap();
-        let mut d = Workspace::new(&m);
-        step(&m, &mut d);
-        assert_eq!((d.ncon, d.nisland), (200 * 199 / 2, 1));
-        assert_eq!(d.work.constraint.solver.hessian.block_count(), 0);
-        assert!(d.solver_niter > 0 && d.qacc.iter().all(|a| a.is_finite()));
-    }
-
-    /// Free boxes at these places, by name, on a floor.
-    fn boxes(list: impl Iterator<Item = (usize, [f64; 3], [f64; 3])>) -> Model {
-        let mut text = String::from("<mujoco><worldbody><geom type=\"plane\" size=\"9 9 1\"/>");
-        for (i, [x, y, z], [a, b, c]) in list {
-            let _ = write!(
-                text,
-                "<body name=\"b{i}\" pos=\"{x} {y} {z}\"><freejoint/><geom type=\"box\" size=\"{a} {b} {c}\"/></body>"
-            );
-        }
-        mjcf::compile(&(text + "</worldbody></mujoco>")).unwrap()
-    }
-
-    fn kept(m: &Model) -> (usize, Workspace) {
-        let mut d = Workspace::new(m);
-        forward(m, &mut d);
-        let hessian = &d.work.constraint.solver.hessian;
-        (hessian.block_count(), d)
-    }
-
-    const SMALL_BOX: [f64; 3] = [0.1; 3];
-
-    fn row(i: usize) -> (usize, [f64; 3], [f64; 3]) {
-        (i, [0.1995 * i as f64, 0.0, 0.0995], SMALL_BOX)
-    }
-
-    /// What a small module adds entry by entry has the bits of what is added by fours, in both matrices.
-    #[test]
-    fn products_are_the_same_entry_by_entry() {
-        let (_, d) = kept(&boxes((0..3).map(row)));
-        let (jac, mut fours) = (&d.work.constraint.jac, d.work.constraint.solver.hessian.clone());
-        fours.clear();
-        let mut entries = fours.clone();
-        let none = vec![0.0; d.M.len()];
-        let free = mjcf::compile(
-            "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>",
-        );
-        let six = || Six::new(free.as_ref().unwrap(), &none, 0);
-        let (mut six_fours, mut six_entries) = (six(), six());
-        // Not the same from left and from right.
-        let w: [[f64; 4]; 4] = from_fn(|i| from_fn(|j| 0.1 + (5 * i + j) as f64 / 7.0));
-        let weigh = |v: &[f64; 4]| w.map(|w| dot(w, *v));
-        let mut wide = 0;
-        for b in &jac.blocks {
-            let (columns, v) = (jac.columns(b), jac.values(b));
-            let by_slice = |v: &[f64], to: &mut [f64]| to.copy_from_slice(&weigh(v.first_chunk().unwrap()));
-            fours.add_gram(columns, v.as_chunks().0, &weigh);
-            add_entries(&mut entries, columns, v, &by_slice);
-            if columns.iter().all(|&c| c < 6) {
-                six_fours.add_gram(columns, v.as_chunks().0, &weigh);
-                add_entries(&mut six_entries, columns, v, &by_slice);
-            }
-            wide += usize::from(columns.len() == 12);
-        }
-        assert!(jac.blocks.len() > wide && wide > 0);
-        let same = |a: &mut dyn Gram, b: &mut dyn Gram, n: usize| {
-            let mut filled = 0;
-            for (i, j) in (0..n).flat_map(|i| (0..=i).map(move |j| (i, j))) {
-                let [a, b] = [a.entry(i, j).copied(), b.entry(i, j).copied()];
-                assert_eq!(a.map(f64::to_bits), b.map(f64::to_bits), "{i} {j}");
-                filled += usize::from(a.is_some_and(|a| a != 0.0));
-            }
-            filled
-        };
-        assert!(same(&mut fours, &mut entries, 18) > 100 && same(&mut six_fours, &mut six_entries, 6) > 15);
-    }
-
-    #[test]
-    fn a_row_of_boxes_takes_a_band() {
-        let (kept, d) = kept(&boxes((0..100).map(row)));
-        assert_eq!(d.nisland, 1);
-        // Twelve columns and what fills up blocks of four.
-        assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
-    }
-
-    #[test]
-    fn a_plate_under_all_others_does_not_fill_the_matrix() {
-        let plate = (0, [10.0, 0.0, 0.0495], [12.0, 1.0, 0.05]);
-        let upon = (1..100).map(|i| (i, [0.25 * i as f64, 0.0, 0.1985], SMALL_BOX));
-        let (kept, d) = kept(&boxes(std::iter::once(plate).chain(upon)));
-        assert_eq!(d.nisland, 1);
-        assert!(kept <= 600 * 16, "{kept} numbers of {}", 600 * 601 / 2);
-    }
-
-    /// Four hundred twigs on one stem, which a constraint holds: the twigs do not meet, and only the stem meets all.
-    #[test]
-    fn branches_meet_in_the_body_that_carries_them() {
-        let twigs = "<body><joint/><geom size='0.1'/></body>".repeat(400);
-        let m = mjcf::compile(&format!(
-            "<mujoco><option><flag contact='disable'/></option><worldbody><body name='stem'><freejoint/><geom size='1'/>{twigs}</body>\
-             </worldbody><equality><weld body1='stem'/></equality></mujoco>"
-        ));
-        let (kept, d) = kept(&m.unwrap());
-        assert_eq!((d.nisland, d.nefc), (1, 6));
-        // A block on the diagonal for each four twigs, and whole rows for the stem's two.
-        assert!(kept <= 16 * (100 + 2 * 102), "{kept} numbers of {}", 203 * 407);
-    }
-
-    #[test]
-    fn pairs_apart_take_a_matrix_each() {
-        let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
-        let (kept, d) = kept(&boxes((0..300).map(pair)));
-        // Three rows of blocks: one block of four by four, then two, then three.
-        assert_eq!((d.nisland, kept), (150, 96));
-    }
-
-    /// Islands are laid out when they are found, not in every step.
-    #[test]
-    fn islands_keep_their_layouts() {
-        let pair = |i: usize| (i, [0.5 * (i / 2) as f64 + 0.1995 * (i % 2) as f64, 0.0, 0.0995], SMALL_BOX);
-        let mut m = boxes((0..6).map(pair));
-        m.opt.disableflags |= crate::kinds::disable::WARMSTART;
-        let mut d = Workspace::new(&m);
-        let mut directions = 0;
-        for _ in 0..50 {
-            step(&m, &mut d);
-            directions += d.solver_niter;
-        }
-        let solver = &d.work.constraint.solver;
-        let all = solver.apart.iter().chain([&solver.hessian]);
-        let (laid_out, found) =
-            (all.map(|h| h.laid_out).sum::<usize>(), d.work.constraint.islands.found as usize);
-        assert!(d.nisland == 3 && directions >= 150 && found < 25, "{directions} directions, found {found}");
-        assert!(laid_out <= 3 * found, "{laid_out} layouts of islands that were found {found} times");
-    }
-
-    #[test]
-    fn the_order_in_the_file_changes_rounding_alone() {
-        // By steps of 37 through a hundred: neighbours stand far from each other in the file.
-        let (near, far) = (boxes((0..100).map(row)), boxes((0..100).map(|i| row(i * 37 % 100))));
-        let ((_, a), (kept, b)) = (kept(&near), kept(&far));
-        assert!(kept <= 600 * 16, "{kept}");
-        for i in 0..600 {
-            let there = 6 * (i / 6 * 73 % 100) + i % 6;
-            assert!((a.qacc[i] - b.qacc[there]).abs() < 1e-9, "{i}: {} and {}", a.qacc[i], b.qacc[there]);
-        }
-    }
-}
+mod tests;

@@ -4,64 +4,12 @@
 //! frictional contact fill vector registers.
 
 use super::cost::Cost;
+use super::row_counts::{MOST_ROWS, by_rows};
 use crate::math::{FREE_DOFS, SMALL, dot, dot_in_order};
+use crate::model::index::object_index;
 use crate::model::{Fields, Model};
 use std::ops::Range;
 use wide::f64x4;
-
-/// Rows of the largest block.
-pub(super) const MOST_ROWS: usize = 10;
-
-/// Runs an expression with the constant `$rows` equal to the number of rows of a block: 1 for what is a number, 3 for a
-/// point, 4 and 6 for pyramids and cones with friction, 6 for a frame, 10 for the pyramid with all friction.
-macro_rules! by_rows {
-    ($n:expr, $rows:ident => $run:expr) => {
-        match $n {
-            1 => {
-                const $rows: usize = 1;
-                $run
-            }
-            3 => {
-                const $rows: usize = 3;
-                $run
-            }
-            4 => {
-                const $rows: usize = 4;
-                $run
-            }
-            6 => {
-                const $rows: usize = 6;
-                $run
-            }
-            _ => {
-                const $rows: usize = $crate::constraint::jacobian::MOST_ROWS;
-                $run
-            }
-        }
-    };
-}
-pub(super) use by_rows;
-
-/// The same for an elliptic cone: a normal, and two, three or five directions of friction.
-macro_rules! by_cone_rows {
-    ($n:expr, $rows:ident => $run:expr) => {
-        match $n {
-            3 => {
-                const $rows: usize = 3;
-                $run
-            }
-            4 => {
-                const $rows: usize = 4;
-                $run
-            }
-            _ => {
-                const $rows: usize = 6;
-                $run
-            }
-        }
-    };
-}
-pub(super) use by_cone_rows;
 
 /// A matrix over the degrees of freedom of an island, to which second derivatives of costs are added.
 pub(super) trait Gram {
@@ -352,7 +300,7 @@ impl Jacobian {
         b: &Block,
     ) -> impl Iterator<Item = usize> + Clone + use<'a> {
         let mut last = usize::MAX;
-        let of = |&c: &u32| m.dof_treeid[c as usize].max(0) as usize;
+        let of = |&c: &u32| object_index(m.dof_treeid[c as usize]);
         self.columns(b).iter().map(of).filter(move |&t| std::mem::replace(&mut last, t) != t)
     }
 

@@ -26,6 +26,7 @@ mod noslip;
 mod pgs;
 mod primal;
 mod reference;
+mod row_counts;
 mod rows;
 mod search;
 mod single;
@@ -41,6 +42,7 @@ pub(crate) use single::tendon_force;
 pub(crate) use solver::{inverse, solve, unconstrained_residual};
 
 use crate::dynamics::jacobian::Columns;
+use crate::kinds;
 use crate::model::Model;
 pub(crate) use island::Islands;
 use iterate::Iterate;
@@ -65,9 +67,15 @@ impl Scratch {
     }
 }
 
+/// Degrees of freedom below which matrices are dense where the choice is left open.
+const MOST_DENSE: usize = 60;
+
 /// Whether the library works with dense matrices: it asks whether values are zero, with sparse ones whether there are columns.
 fn is_dense(m: &Model) -> bool {
-    m.opt.jacobian == 0 || m.opt.jacobian == 2 && m.nv < 60
+    match m.opt.jacobian {
+        kinds::jacobian::AUTO => m.nv < MOST_DENSE,
+        kind => kind == kinds::jacobian::DENSE,
+    }
 }
 
 /// Values of `efc_type` (mjtConstraint).

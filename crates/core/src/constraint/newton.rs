@@ -5,8 +5,9 @@
 
 use super::cost::{Cost, Curvature, push_curvature};
 use super::iterate::Reached;
-use super::jacobian::{Block, Gram, Jacobian, add_entries, by_rows};
+use super::jacobian::{Block, Gram, Jacobian, add_entries};
 use super::primal::{Direction, Problem, shape};
+use super::row_counts::by_rows;
 use super::six::Six;
 use crate::math::{FREE_DOFS, SMALL, dot};
 use crate::model::Fields;

@@ -8,9 +8,11 @@ use super::cone::friction;
 use super::cost::Cost;
 use super::delassus::RowGroup;
 use super::dual::MOST_SWEEPS;
-use super::jacobian::{Block, by_cone_rows};
+use super::jacobian::Block;
 use super::kind;
 use super::primal::Problem;
+use super::row_counts::by_cone_rows;
+use crate::math::broken_invariant;
 use crate::math::dot;
 
 impl Problem<'_> {
@@ -57,8 +59,12 @@ impl Problem<'_> {
     /// The friction of an elliptic cone under its normal force.
     fn rigid_cone<const N: usize>(&mut self, b: &Block, group: RowGroup) -> f64 {
         let row = b.row as usize;
-        let Some(&force) = self.d.efc_force[row..].first_chunk::<N>() else { return 0.0 };
-        let Some(contact) = self.d.contact.get(self.d.efc_id[row] as usize) else { return 0.0 };
+        let Some(&force) = self.d.efc_force[row..].first_chunk::<N>() else {
+            return broken_invariant("every row of a block has a force");
+        };
+        let Some(contact) = self.d.contact.get(self.d.efc_id[row] as usize) else {
+            return broken_invariant("the rows of a cone are those of a contact");
+        };
         let mu = contact.friction;
         let a = self.s.dual.delassus::<N>(b, group);
         let slope = self.residual::<N>(b, group);

@@ -14,8 +14,9 @@ use super::cone::{cone_force, nearest_in_cone};
 use super::cost::Cost;
 use super::delassus::RowGroup;
 use super::dual::MOST_SWEEPS;
-use super::jacobian::{Block, by_cone_rows, by_rows};
+use super::jacobian::Block;
 use super::primal::Problem;
+use super::row_counts::{by_cone_rows, by_rows};
 use crate::math::{Ldl, dot};
 
 impl Problem<'_> {

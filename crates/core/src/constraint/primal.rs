@@ -4,7 +4,8 @@
 use super::cost::{Cost, Shape, push_along, pushed};
 use super::island::Islands;
 use super::iterate::{Iterate, Reached};
-use super::jacobian::{Block, Jacobian, by_rows};
+use super::jacobian::{Block, Jacobian};
+use super::row_counts::by_rows;
 use super::search::{Point, minimize};
 use crate::dynamics::{Scratch as Trees, mass, tree_algorithms};
 use crate::kinds::{disable, solver};

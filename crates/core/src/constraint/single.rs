@@ -170,6 +170,7 @@ pub(crate) fn tendon_force(m: &Model, d: &Fields, t: usize) -> f64 {
                 sum += if tied[1] { force * equality_rows::ratio(m, d, id) } else { 0.0 };
             }
             kind::FRICTION_TENDON if id == t => sum += force,
+            // The range may have been written since: a row that it does not explain counts as that of its lower end.
             kind::LIMIT_TENDON if id == t => sum += force * signs.next().unwrap_or(1.0),
             _ => {}
         }

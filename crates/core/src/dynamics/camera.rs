@@ -1,22 +1,9 @@
 //! Poses of cameras and lights, which may follow a body or look at one.
 
+use crate::kinds::camlight;
 use crate::math::*;
 use crate::model::asleep::{self, awake};
 use crate::model::{Fields, Model};
-
-/// How a camera or light moves (mjtCamLight).
-mod mode {
-    /// Fixed to the body.
-    pub(super) const FIXED: i32 = 0;
-    /// Position follows the body, orientation is that at `qpos0`.
-    pub(super) const TRACK: i32 = 1;
-    /// Position follows the centre of mass of the body's subtree, orientation is that at `qpos0`.
-    pub(super) const TRACKCOM: i32 = 2;
-    /// Fixed to the body, turned towards the target body.
-    pub(super) const TARGETBODY: i32 = 3;
-    /// Fixed to the body, turned towards the centre of mass of the target's subtree.
-    pub(super) const TARGETBODYCOM: i32 = 4;
-}
 
 /// `cam_xpos`, `cam_xmat`.
 pub(crate) fn cameras(m: &Model, d: &mut Fields) {
@@ -25,7 +12,7 @@ pub(crate) fn cameras(m: &Model, d: &mut Fields) {
         let (at, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
         rows_mut::<3>(&mut d.cam_xpos)[c] = add(rotate(rows::<3>(&m.cam_pos)[c], turn), at);
         rows_mut::<9>(&mut d.cam_xmat)[c] = quat_to_mat(quat_mul(turn, rows::<4>(&m.cam_quat)[c]));
-        if m.cam_mode[c] != mode::FIXED {
+        if m.cam_mode[c] != camlight::FIXED {
             move_camera(m, d, c, b);
         }
     }
@@ -34,16 +21,16 @@ pub(crate) fn cameras(m: &Model, d: &mut Fields) {
 /// The same where camera `c` on body `b` follows or looks at something.
 #[inline(never)] // most are fixed
 fn move_camera(m: &Model, d: &mut Fields, c: usize, b: usize) {
-    let stands = stands(m, d, b);
+    let is_static = is_static(m, d, b);
     let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
     let pos = &mut rows_mut::<3>(&mut d.cam_xpos)[c];
     let mat = &mut rows_mut::<9>(&mut d.cam_xmat)[c];
     match m.cam_mode[c] {
-        mode::TRACK => {
+        camlight::TRACK => {
             *pos = add(xpos[b], rows::<3>(&m.cam_pos0)[c]);
             *mat = rows::<9>(&m.cam_mat0)[c];
         }
-        mode::TRACKCOM if !stands => {
+        camlight::TRACKCOM if !is_static => {
             *pos = add(com[b], rows::<3>(&m.cam_poscom0)[c]);
             *mat = rows::<9>(&m.cam_mat0)[c];
         }
@@ -61,7 +48,7 @@ pub(crate) fn lights(m: &Model, d: &mut Fields) {
         let (at, turn) = (rows::<3>(&d.xpos)[b], rows::<4>(&d.xquat)[b]);
         rows_mut::<3>(&mut d.light_xpos)[l] = add(rotate(rows::<3>(&m.light_pos)[l], turn), at);
         rows_mut::<3>(&mut d.light_xdir)[l] = rotate(rows::<3>(&m.light_dir)[l], turn);
-        if m.light_mode[l] != mode::FIXED {
+        if m.light_mode[l] != camlight::FIXED {
             move_light(m, d, l, b);
         }
         let dir = &mut rows_mut::<3>(&mut d.light_xdir)[l];
@@ -72,16 +59,16 @@ pub(crate) fn lights(m: &Model, d: &mut Fields) {
 /// The same where light `l` on body `b` follows or looks at something.
 #[inline(never)] // most are fixed
 fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
-    let stands = stands(m, d, b);
+    let is_static = is_static(m, d, b);
     let (xpos, com) = (rows::<3>(&d.xpos), rows::<3>(&d.subtree_com));
     let pos = &mut rows_mut::<3>(&mut d.light_xpos)[l];
     let dir = &mut rows_mut::<3>(&mut d.light_xdir)[l];
     match m.light_mode[l] {
-        mode::TRACK => {
+        camlight::TRACK => {
             *pos = add(xpos[b], rows::<3>(&m.light_pos0)[l]);
             *dir = rows::<3>(&m.light_dir0)[l];
         }
-        mode::TRACKCOM if !stands => {
+        camlight::TRACKCOM if !is_static => {
             *pos = add(com[b], rows::<3>(&m.light_poscom0)[l]);
             *dir = rows::<3>(&m.light_dir0)[l];
         }
@@ -93,7 +80,7 @@ fn move_light(m: &Model, d: &mut Fields, l: usize, b: usize) {
 }
 
 /// Whether body `b` cannot move while trees may sleep: nothing that stands is looked at then, and what it tracks moves away.
-fn stands(m: &Model, d: &Fields, b: usize) -> bool {
+fn is_static(m: &Model, d: &Fields, b: usize) -> bool {
     asleep::on(m, d) && d.body_awake[b] == awake::STATIC
 }
 
@@ -101,8 +88,8 @@ fn stands(m: &Model, d: &Fields, b: usize) -> bool {
 fn target(kind: i32, body: i32, xpos: &[Vec3], com: &[Vec3]) -> Option<Vec3> {
     let body = usize::try_from(body).ok()?;
     match kind {
-        mode::TARGETBODY => xpos.get(body).copied(),
-        mode::TARGETBODYCOM => com.get(body).copied(),
+        camlight::TARGETBODY => xpos.get(body).copied(),
+        camlight::TARGETBODYCOM => com.get(body).copied(),
         _ => None,
     }
 }

@@ -5,6 +5,7 @@
 use crate::kinds::joint;
 use crate::math::lanes::{Axes, Lane3, along, axes, lane3, matrix, product, turned, vec3};
 use crate::math::*;
+use crate::model::index::element_range;
 use crate::model::reflect::{FieldId, model as fields_of};
 use crate::model::{Fields, Model};
 use std::ops::Range;
@@ -97,11 +98,10 @@ impl Frames {
     /// The frames of a model.
     pub(crate) fn new(m: &Model) -> Frames {
         let body = |i: usize| {
-            let first = m.body_jntadr[i].max(0) as usize;
-            let joints = first..first + m.body_jntnum[i] as usize;
+            let joints = element_range(m.body_jntadr[i], m.body_jntnum[i]);
             Frame {
                 parent: m.body_parentid[i] as usize,
-                free: joints.len() == 1 && m.jnt_type[first] == joint::FREE,
+                free: joints.len() == 1 && m.jnt_type[joints.start] == joint::FREE,
                 joints,
                 mocap: usize::try_from(m.body_mocapid[i]).ok(),
                 ..Frame::default()

@@ -3,7 +3,7 @@
 //! M is stored as the rows of its lower triangle over the chain of ancestors of each degree of freedom,
 //! ancestors ascending and the diagonal last. The composite rigid body algorithm and the factorization
 //! M = Lᵀ D L, which creates no fill-in on this pattern, are in Featherstone 2008, chapter 6. Trees of many degrees of
-//! freedom are factorized by another way (`ways`).
+//! freedom are factorized by articulated bodies (`tree_algorithms`).
 
 use super::path::Path;
 use super::reflected::{self, On};
@@ -50,7 +50,9 @@ pub(crate) fn quadratic(m: &Model, mass: &[f64], v: &[f64]) -> f64 {
     let mut sum = 0.0;
     for i in 0..m.nv {
         let row = row(m, i);
-        let Some((diagonal, rest)) = mass[row.clone()].split_last() else { continue };
+        let Some((diagonal, rest)) = mass[row.clone()].split_last() else {
+            return broken_invariant("a row of M has its diagonal");
+        };
         let ancestors = m.M_colind[row].iter().zip(rest).map(|(&k, x)| x * v[k as usize]);
         sum += v[i] * (diagonal * v[i] + 2.0 * ancestors.sum::<f64>());
     }
@@ -125,43 +127,52 @@ pub(crate) fn factor(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], dofs: Rang
             }
             continue;
         }
-        let first = end - n;
-        let (above, block) = ld.split_at_mut(m.M_rowadr[first] as usize);
-        for k in (first..end).rev() {
-            let (before, row) = block.split_at_mut(m.M_rowadr[k] as usize - m.M_rowadr[first] as usize);
-            let diag = m.M_rownnz[k] as usize - 1;
-            if row[diag] < MINVAL {
-                row[diag] = MINVAL;
-                bad = Some(k);
-            }
-            let inv = 1.0 / row[diag];
-            diag_inv[k] = inv;
-            // The other rows of the block; the chain of an ancestor is a prefix of this row's columns.
-            for i in (first..k).rev() {
-                let at = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
-                let len = m.M_rownnz[i] as usize;
-                let factor = row[len - 1] * inv;
-                subtract(&mut before[at..at + len], &row[..len], factor);
-            }
+        bad = eliminate_four(m, ld, diag_inv, end - n).or(bad);
+        end -= n;
+    }
+    bad
+}
+
+/// Eliminates the four rows of a serial chain from `first` on from each other, then together from those of their common ancestors;
+/// the first row whose D is not positive.
+#[cfg_attr(not(feature = "small"), inline(always))]
+fn eliminate_four(m: &Model, ld: &mut [f64], diag_inv: &mut [f64], first: usize) -> Option<usize> {
+    let mut bad = None;
+    let end = first + 4;
+    let (above, block) = ld.split_at_mut(m.M_rowadr[first] as usize);
+    for k in (first..end).rev() {
+        let (before, row) = block.split_at_mut(m.M_rowadr[k] as usize - m.M_rowadr[first] as usize);
+        let diag = m.M_rownnz[k] as usize - 1;
+        if row[diag] < MINVAL {
+            row[diag] = MINVAL;
+            bad = Some(k);
         }
-        let depth = m.M_rownnz[first] as usize - 1;
-        let ancestors = &m.M_colind[m.M_rowadr[first] as usize..][..depth];
-        let [r0, r1, r2, r3] = four_rows(block, depth + 1);
-        for (a, &i) in ancestors.iter().enumerate().rev() {
-            let target = &mut above[m.M_rowadr[i as usize] as usize..][..a + 1];
-            let inv = &diag_inv[first..first + 4];
-            let factors = [r3[a] * inv[3], r2[a] * inv[2], r1[a] * inv[1], r0[a] * inv[0]];
-            subtract_four(target, [r3, r2, r1, r0], factors);
+        let inv = 1.0 / row[diag];
+        diag_inv[k] = inv;
+        // The other rows of the block; the chain of an ancestor is a prefix of this row's columns.
+        for i in (first..k).rev() {
+            let at = (m.M_rowadr[i] - m.M_rowadr[first]) as usize;
+            let len = m.M_rownnz[i] as usize;
+            let factor = row[len - 1] * inv;
+            subtract(&mut before[at..at + len], &row[..len], factor);
         }
-        let mut rest = block;
-        for k in first..end {
-            let (row, after) = rest.split_at_mut(m.M_rownnz[k] as usize);
-            for x in row.iter_mut().rev().skip(1) {
-                *x *= diag_inv[k];
-            }
-            rest = after;
+    }
+    let depth = m.M_rownnz[first] as usize - 1;
+    let ancestors = &m.M_colind[m.M_rowadr[first] as usize..][..depth];
+    let [r0, r1, r2, r3] = four_rows(block, depth + 1);
+    for (a, &i) in ancestors.iter().enumerate().rev() {
+        let target = &mut above[m.M_rowadr[i as usize] as usize..][..a + 1];
+        let inv = &diag_inv[first..first + 4];
+        let factors = [r3[a] * inv[3], r2[a] * inv[2], r1[a] * inv[1], r0[a] * inv[0]];
+        subtract_four(target, [r3, r2, r1, r0], factors);
+    }
+    let mut rest = block;
+    for k in first..end {
+        let (row, after) = rest.split_at_mut(m.M_rownnz[k] as usize);
+        for x in row.iter_mut().rev().skip(1) {
+            *x *= diag_inv[k];
         }
-        end = first;
+        rest = after;
     }
     bad
 }
@@ -337,7 +348,9 @@ pub(crate) fn mul(m: &Model, mass: &[f64], v: &[f64], out: &mut [f64], dofs: Ran
     let (v, out) = (&v[..dofs.end], &mut out[..dofs.end]);
     for i in dofs {
         let row = row(m, i);
-        let Some((diagonal, before)) = mass[row.clone()].split_last() else { continue };
+        let Some((diagonal, before)) = mass[row.clone()].split_last() else {
+            return broken_invariant("a row of M has its diagonal");
+        };
         if before.is_empty() {
             out[i] = diagonal * v[i];
             continue;

@@ -1,6 +1,6 @@
 //! Trees of bodies: where they are, how they move, M, its factorization and the bias force.
 //!
-//! `ways` is the table of how: each tree takes the shortest way that its structure allows. The general one gives poses from
+//! `tree_algorithms` is the table of algorithms: each tree takes the first that its structure allows. The general one gives poses from
 //! `qpos` (`kinematics`, `camera`), the centres of mass and the axes along which degrees of freedom move (`com`), M and its
 //! factorization (`mass`, `triangle`), and the force of gravity, Coriolis and centrifugal terms (`rne`). Points of bodies move as
 //! their Jacobians say (`jacobian`, `object`, `path`).
@@ -22,13 +22,13 @@ pub(crate) mod walk;
 use crate::model::tree_algorithm::TreeAlgorithms;
 use crate::model::{Fields, Model};
 use path::Path;
-use tree_algorithms::Kept;
+use tree_algorithms::AlgorithmStates;
 
 /// What these stages keep from one to the next, so that they do not allocate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Scratch {
-    /// What each way of computing trees knows of its own.
-    ways: Kept,
+    /// What each tree algorithm keeps of its trees.
+    algorithms: AlgorithmStates,
     /// Whether `qLD` and `qLDiagInv` are still to be made of what a factorization has left.
     rows_due: bool,
     /// Whether somebody looks at the rows of M now.
@@ -44,9 +44,9 @@ pub(crate) struct Scratch {
 }
 
 impl Scratch {
-    pub(crate) fn new(m: &Model, ways: TreeAlgorithms) -> Scratch {
+    pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> Scratch {
         Scratch {
-            ways: Kept::new(m, ways),
+            algorithms: AlgorithmStates::new(m, algorithms),
             rows_due: false,
             rows_wanted: true,
             path: Path::new(m),

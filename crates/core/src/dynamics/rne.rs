@@ -3,6 +3,7 @@
 use crate::dynamics::Scratch;
 use crate::kinds::disable;
 use crate::math::{lanes, *};
+use crate::model::index::element_range;
 use crate::model::{Fields, Model};
 
 /// `qfrc_bias` of all bodies.
@@ -53,9 +54,7 @@ fn recursion(
     cfrc[0] = [0.0; 6];
     for i in 1..m.nbody {
         let mut a = [0.0; 6];
-        // Without degrees of freedom the address is -1.
-        let first = m.body_dofadr[i].max(0) as usize;
-        let dofs = first..first + m.body_dofnum[i] as usize;
+        let dofs = element_range(m.body_dofadr[i], m.body_dofnum[i]);
         for (s, &v) in cdof_dot[dofs.clone()].iter().zip(&d.qvel[dofs.clone()]) {
             a = add_scaled(a, *s, v);
         }

@@ -4,6 +4,7 @@
 //! sample, n times, n times `dim` values. It is a part of the state, so that programs may write anything into it:
 //! the place is taken modulo n, whatever it holds.
 
+use crate::kinds::interpolation;
 use crate::math::MINVAL;
 
 /// Number of numbers of a buffer of `n` samples.
@@ -104,14 +105,14 @@ pub(crate) fn insert(buf: &mut [f64], n: usize, dim: usize, time: f64) -> &mut [
     &mut values[place(i) * dim..(place(i) + 1) * dim]
 }
 
-/// The value at a time: 0 that of the last sample, 1 between two samples along a line, 2 along a cubic through
-/// neighbouring slopes (Catmull and Rom 1974). Before the first and after the last sample it is theirs.
+/// The value at a time: that of the last sample, between two samples along a line, or along a cubic through neighbouring
+/// slopes (Catmull and Rom 1974), as `interp` says. Before the first and after the last sample it is theirs.
 pub(crate) fn read(buf: &[f64], n: usize, dim: usize, time: f64, interp: i32, out: &mut [f64]) {
     let Some(ring) = Ring::from_buffer(buf, n, dim) else { return };
     let i = ring.first_from(time);
     // A delay of whole steps finds its sample in spite of rounding.
     let exact = i < n && ring.time(i) - time < MINVAL;
-    if exact || i == 0 || i == n || interp == 0 {
+    if exact || i == 0 || i == n || interp == interpolation::HOLD {
         let last = if exact || i == 0 { i } else { i - 1 };
         out.copy_from_slice(ring.value(last));
         return;
@@ -121,7 +122,7 @@ pub(crate) fn read(buf: &[f64], n: usize, dim: usize, time: f64, interp: i32, ou
     let s = (time - ring.time(before)) / h;
     for (k, x) in out.iter_mut().enumerate() {
         let (a, b) = (ring.value(before)[k], ring.value(after)[k]);
-        *x = if interp == 1 {
+        *x = if interp == interpolation::LINEAR {
             a + s * (b - a)
         } else {
             let (s2, s3) = (s * s, s * s * s);

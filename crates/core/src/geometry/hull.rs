@@ -1,5 +1,7 @@
 //! The convex hull of a mesh, as the model stores it.
 
+use crate::math::{Vec3, broken_invariant};
+
 /// The graph of a convex hull (`mesh_graph`).
 #[derive(Clone, Copy, Debug)]
 pub struct Hull<'a> {
@@ -34,4 +36,10 @@ impl<'a> Hull<'a> {
         let (face, _) = rest.split_at_checked(3 * f)?;
         (n > 0).then_some(Hull { first_edge, vertex, edges, face: face.as_chunks().0 })
     }
+}
+
+/// The vertex that a triangle, a side or a hull names.
+#[cfg_attr(not(feature = "small"), inline(always))]
+pub(crate) fn vertex(vert: &[Vec3], v: usize) -> Vec3 {
+    vert.get(v).copied().unwrap_or_else(|| broken_invariant("a mesh has the vertices that its faces name"))
 }

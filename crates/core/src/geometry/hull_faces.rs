@@ -1,6 +1,7 @@
 //! The flat sides of a convex hull: its triangles, merged where they lie in one plane.
 
 use super::Hull;
+use super::hull::vertex;
 use crate::math::sort::sort;
 use crate::math::*;
 
@@ -42,7 +43,7 @@ impl HullFaces {
         (head.into_iter().chain(places).chain(lists).collect(), floats.collect())
     }
 
-    /// What [`Sides::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
+    /// What [`HullFaces::numbers`] gave, for a hull of so many vertices; `None` for what no hull has.
     pub(crate) fn from_numbers(integers: &[u32], floats: &[f64], vertices: usize) -> Option<HullFaces> {
         let (&[a, b, c], mut rest) = integers.split_first_chunk::<3>()?;
         let count = floats.len() / 3;
@@ -114,7 +115,7 @@ impl HullFaces {
 }
 
 fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
-    let corner = |v: i32| vert.get(v as usize).copied().unwrap_or_default();
+    let corner = |v: i32| vertex(vert, v as usize);
     let normals: Vec<Vec3> = hull
         .face
         .iter()
@@ -154,29 +155,31 @@ fn merge(vert: &[Vec3], hull: &Hull) -> HullFaces {
             }
         }
         // The border: edges whose other triangle is in another side, each leading to the next.
-        let mut border: Vec<(i32, i32)> = Vec::new();
-        for &t in &group {
-            let f = hull.face[t];
-            for k in 0..3 {
-                let (a, b) = (f[k], f[(k + 1) % 3]);
-                if across(a, b).is_none_or(|n| side_of[n] != side) {
-                    border.push((a, b));
-                }
-            }
-        }
+        let edges =
+            group.iter().flat_map(|&t| (0..3).map(move |k| (hull.face[t][k], hull.face[t][(k + 1) % 3])));
+        let mut border: Vec<(i32, i32)> =
+            edges.filter(|&(a, b)| across(a, b).is_none_or(|n| side_of[n] != side)).collect();
         sort(&mut border);
         let first = out.vertices.len() as u32;
-        let Some(&(mut at, _)) = border.first() else { continue };
-        for _ in 0..border.len() {
-            out.vertices.push(at as u32);
-            let i = border.partition_point(|&(a, _)| a < at);
-            match border.get(i) {
-                Some(&(a, b)) if a == at => at = b,
-                _ => break,
-            }
+        if border.is_empty() {
+            continue;
         }
+        walk_around(&border, &mut out.vertices);
         let count = out.vertices.len() as u32 - first;
         out.sides.push(Side { normal: normals[start], first, count });
     }
     out
+}
+
+/// The vertices of a border, whose edges are sorted, from the first edge on.
+fn walk_around(border: &[(i32, i32)], vertices: &mut Vec<u32>) {
+    let Some(&(mut at, _)) = border.first() else { return };
+    for _ in 0..border.len() {
+        vertices.push(at as u32);
+        let i = border.partition_point(|&(a, _)| a < at);
+        match border.get(i) {
+            Some(&(a, b)) if a == at => at = b,
+            _ => break,
+        }
+    }
 }

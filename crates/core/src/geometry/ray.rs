@@ -77,7 +77,6 @@ pub(super) fn slab(p: f64, v: f64, half: f64) -> Interval {
 }
 
 /// Where |p + x v| ≤ 1 over the first N coordinates: a x² + 2 b x + c ≤ 0. Nowhere when both ends are one to rounding.
-#[inline]
 fn unit_ball<const N: usize>(ray: &Ray) -> Option<Interval> {
     let product = |u: Vec3, w: Vec3| (0..N).map(|i| u[i] * w[i]).sum::<f64>();
     let Ray { from: p, along: v } = *ray;

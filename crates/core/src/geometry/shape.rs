@@ -1,5 +1,6 @@
 //! A shape in the world: type, sizes, pose; for meshes and height fields a view of their data.
 
+use super::hull::vertex;
 use super::{Hull, HullFaces};
 use crate::kinds::geom;
 use crate::math::*;
@@ -32,6 +33,14 @@ pub(crate) struct Mesh<'a> {
     pub hull: Option<Hull<'a>>,
     /// The flat sides of the hull, when contacts may lie on them.
     pub sides: Option<&'a HullFaces>,
+}
+
+impl Mesh<'_> {
+    /// A vertex.
+    #[cfg_attr(not(feature = "small"), inline(always))]
+    pub(crate) fn vertex(&self, v: usize) -> Vec3 {
+        vertex(self.vert, v)
+    }
 }
 
 /// The data of a height field, a grid over its base.

@@ -158,7 +158,7 @@ impl<'a> Body<'a> {
                 geom::CYLINDER => consider(s.axis(2)),
                 geom::MESH => {
                     let vertex = self.mesh_vertex(&s.mesh(), mat_t_mul_vec(&s.mat, dir));
-                    let at = |v: usize| s.mesh().vert.get(v).copied().unwrap_or_default();
+                    let at = |v: usize| s.mesh().vertex(v);
                     let Some(sides) = s.mesh().sides else { return List::new() };
                     for (side, place) in sides.around(vertex) {
                         let list = sides.vertices(side);
@@ -205,7 +205,7 @@ impl<'a> Body<'a> {
             geom::MESH => {
                 let v = self.mesh_vertex(&s.mesh(), dir);
                 self.corner = v as i32;
-                s.mesh().vert.get(v).copied().unwrap_or_default()
+                s.mesh().vertex(v)
             }
             _ => [0.0; 3],
         }

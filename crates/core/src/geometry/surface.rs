@@ -73,7 +73,7 @@ pub(super) fn mesh(mesh: &Mesh, size: Vec3, ray: &Ray, work: &mut u64) -> Option
     *work += TRIANGLE * mesh.face.len() as u64;
     let mut best = None;
     for face in mesh.face {
-        let corners = face.map(|v| mesh.vert.get(v as usize).copied().unwrap_or_default());
+        let corners = face.map(|v| mesh.vertex(v as usize));
         if let Some((x, normal)) = sight.triangle(corners) {
             nearer(&mut best, x, || unit_vector(normal).0);
         }

@@ -140,7 +140,7 @@ impl Report {
     }
 
     /// Fails where the cases beyond the bound are not those that are known; other recordings are printed alone.
-    fn finish(self, print: bool, known: &[Known]) {
+    fn finish(self, print: bool, allowed: &[Known]) {
         let (mut text, mut wrong) = (String::new(), String::new());
         for (name, r) in &self.0 {
             let (number, worst) = (r.number, r.worst);
@@ -149,12 +149,12 @@ impl Report {
                 r.beyond.len()
             );
             for (case, apart, line) in &r.beyond {
-                if !known.iter().any(|(of, cases, _)| of == name && cases.contains(case)) {
+                if !allowed.iter().any(|(of, cases, _)| of == name && cases.contains(case)) {
                     wrong += &format!("{name}, case {case}: {apart:.1e} apart\n    {line}\n");
                 }
             }
         }
-        for (name, cases, _) in known {
+        for (name, cases, _) in allowed {
             for case in *cases {
                 if !self.0.get(*name).is_some_and(|r| r.beyond.iter().any(|(k, ..)| k == case)) {
                     wrong += &format!("{name}, case {case}: is listed, and is within the bound\n");
@@ -289,17 +289,17 @@ fn distances_are_those_of_mujoco() {
         let name = |end| format!("{} {end}", kinds(&a, &b));
         figures.distance(&kinds(least, other), want[0], got[0]);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
-        let shown = format!("{line}\n    got {got:?}");
+        let rendered = format!("{line}\n    got {got:?}");
         let exact = !searched || cornered(&a) && cornered(&b);
         let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
         let apart = difference(&got[..1], &want[..1]);
         if searched && apart > depth * scale && truth::is_true(&a, &b) {
             continue; // The library's search stopped before it was there.
         }
-        report.note(name("dist"), case, apart, depth * scale, &shown);
+        report.note(name("dist"), case, apart, depth * scale, &rendered);
         // Where bodies hardly touch, the points are anywhere along the slit.
         if !searched || got[0].abs() > CLOSE {
-            report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &shown);
+            report.note(name("fromto"), case, difference(&got[1..], &want[1..]), point * scale, &rendered);
         }
     }
     keep("distances.md", &figures.distance_table());
@@ -358,13 +358,13 @@ fn contacts_are_those_of_mujoco() {
         }
         figures.contacts(&kinds, &want, &got);
         let scale = 1.0 + norm(a.size).min(norm(b.size));
-        let shown = format!("{line}\n    got {got:?}");
+        let rendered = format!("{line}\n    got {got:?}");
         if !searched {
-            report.note(kinds, case, difference(&got, &want), 1e-10 * scale, &shown);
+            report.note(kinds, case, difference(&got, &want), 1e-10 * scale, &rendered);
             continue;
         }
         let number = (got.len().abs_diff(want.len()) / 10) as f64;
-        report.note(format!("{kinds} number"), case, number, 0.5, &shown);
+        report.note(format!("{kinds} number"), case, number, 0.5, &rendered);
         // The library's search from inside a prism of the ground ends too early where the other shape has corners: it takes
         // every corner of the prism for the same one.
         let ends_early = a.kind == geom::HFIELD && matches!(b.kind, geom::BOX | geom::MESH);
@@ -380,8 +380,8 @@ fn contacts_are_those_of_mujoco() {
             }
             let exact = margin == 0.0 && cornered(&a) && cornered(&b);
             let (depth, point) = if exact { (1e-10, 1e-7) } else { (DEPTH, POINT) };
-            report.note(format!("{kinds} dist"), case, most(&dist), depth * scale, &shown);
-            report.note(format!("{kinds} place"), case, most(&rest), point * scale, &shown);
+            report.note(format!("{kinds} dist"), case, most(&dist), depth * scale, &rendered);
+            report.note(format!("{kinds} place"), case, most(&rest), point * scale, &rendered);
         }
     }
     keep("contacts.md", &figures.contact_table());

@@ -3,11 +3,19 @@
 //! Conventions: quaternions are `w x y z`, matrices row-major, spatial vectors angular part first
 //! (Featherstone, *Rigid Body Dynamics Algorithms*, 2008, chapter 2). `rows` looks at a flat array as rows.
 
+mod elimination;
+mod invariant;
 pub(crate) mod lanes;
 mod ldl;
+mod rotation;
 pub(crate) mod sort;
 
+pub(crate) use elimination::solve_six;
+pub(crate) use invariant::broken_invariant;
 pub(crate) use ldl::Ldl;
+pub use rotation::{
+    quat_axis_angle, quat_conj, quat_integrate, quat_mul, quat_normalize, quat_to_mat, quat_to_vel, rotate,
+};
 
 use std::ops::{Add, Mul, Sub};
 
@@ -272,105 +280,6 @@ pub fn unit_vector(a: Vec3) -> (Vec3, f64) {
     if n > 0.0 || n.is_nan() { (scale(a, 1.0 / n), n) } else { ([1.0, 0.0, 0.0], n) }
 }
 
-/// The unit quaternion nearest to q. A zero quaternion becomes the identity; one whose norm is 1 to
-/// rounding is returned as it is, bit for bit.
-#[inline]
-pub fn quat_normalize(q: Quat) -> Quat {
-    let n = dot(q, q).sqrt();
-    if n < MINVAL {
-        IDENTITY
-    } else if (n - 1.0).abs() > MINVAL {
-        scale(q, 1.0 / n)
-    } else {
-        q
-    }
-}
-
-/// Hamilton product.
-#[inline]
-pub fn quat_mul(a: Quat, b: Quat) -> Quat {
-    [
-        a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-        a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-        a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-        a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
-    ]
-}
-
-/// The inverse rotation.
-#[inline]
-pub fn quat_conj(q: Quat) -> Quat {
-    [q[0], -q[1], -q[2], -q[3]]
-}
-
-/// Rotation by `angle` (rad) about the unit vector `axis`.
-#[inline]
-pub fn quat_axis_angle(axis: Vec3, angle: f64) -> Quat {
-    if angle == 0.0 {
-        return IDENTITY;
-    }
-    let (s, c) = libm::sincos(0.5 * angle);
-    [c, axis[0] * s, axis[1] * s, axis[2] * s]
-}
-
-/// v rotated by q: v + 2 w (u × v) + 2 u × (u × v).
-#[inline]
-pub fn rotate(v: Vec3, q: Quat) -> Vec3 {
-    if q == IDENTITY {
-        return v;
-    }
-    let u = [q[1], q[2], q[3]];
-    let t = cross(u, v);
-    let w = q[0];
-    let t = [w * v[0] + t[0], w * v[1] + t[1], w * v[2] + t[2]];
-    let c = cross(u, t);
-    [v[0] + 2.0 * c[0], v[1] + 2.0 * c[1], v[2] + 2.0 * c[2]]
-}
-
-/// The rotation matrix of a unit quaternion.
-#[inline]
-pub fn quat_to_mat(q: Quat) -> Mat3 {
-    if q == IDENTITY {
-        return EYE;
-    }
-    let [w, x, y, z] = q;
-    let (ww, xx, yy, zz) = (w * w, x * x, y * y, z * z);
-    let (wx, wy, wz, xy, xz, yz) = (w * x, w * y, w * z, x * y, x * z, y * z);
-    [
-        ww + xx - yy - zz,
-        2.0 * (xy - wz),
-        2.0 * (xz + wy),
-        2.0 * (xy + wz),
-        ww - xx + yy - zz,
-        2.0 * (yz - wx),
-        2.0 * (xz - wy),
-        2.0 * (yz + wx),
-        ww - xx - yy + zz,
-    ]
-}
-
-/// The rotation vector (axis times angle, rad, angle in (-π, π]) of a unit quaternion.
-#[inline]
-pub fn quat_to_vel(q: Quat) -> Vec3 {
-    let (axis, s) = normalize([q[1], q[2], q[3]]);
-    let mut angle = 2.0 * libm::atan2(s, q[0]);
-    if angle > std::f64::consts::PI {
-        angle -= 2.0 * std::f64::consts::PI;
-    }
-    scale(axis, angle)
-}
-
-/// q rotated for a time h by the angular velocity w, given in the rotating frame (rad/s).
-#[cfg_attr(not(feature = "small"), inline(always))]
-pub fn quat_integrate(q: Quat, w: Vec3, h: f64) -> Quat {
-    if w == [0.0; 3] {
-        return quat_normalize(q);
-    }
-    let (axis, speed) = normalize(w);
-    let angle = h * speed;
-    if angle == 0.0 { quat_normalize(q) } else { quat_mul(quat_normalize(q), quat_axis_angle(axis, angle)) }
-}
-
 /// a b
 #[inline]
 pub fn mat_mul(a: &Mat3, b: &Mat3) -> Mat3 {
@@ -512,66 +421,6 @@ pub(crate) fn spatial(w: Vec3, v: Vec3) -> Spatial {
     [w[0], w[1], w[2], v[0], v[1], v[2]]
 }
 
-/// x ← a⁻¹ x by Gauss' elimination with the largest pivots; `false` for a singular matrix. Forces that do not turn and torques
-/// that do not push are found by themselves.
-pub(crate) fn solve_six(a: &mut [Spatial; 6], x: &mut Spatial) -> bool {
-    let [_, _, _, d, e, f] = &a;
-    let apart = a[..3].iter().all(|r| r[3..] == [0.0; 3]) && [d, e, f].iter().all(|r| r[..3] == [0.0; 3]);
-    if !apart {
-        return eliminate(a, x);
-    }
-    [0, 3].iter().all(|&first| {
-        let mut part: [Vec3; 3] = std::array::from_fn(|r| std::array::from_fn(|c| a[first + r][first + c]));
-        let mut y = [x[first], x[first + 1], x[first + 2]];
-        let solved = solve_three(&mut part, &mut y);
-        x[first..first + 3].copy_from_slice(&y);
-        solved
-    })
-}
-
-/// The same for three rows, of which each may stand alone: that costs divisions which do not wait for each other.
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn solve_three(a: &mut [Vec3; 3], x: &mut Vec3) -> bool {
-    let [[d0, a01, a02], [a10, d1, a12], [a20, a21, d2]] = *a;
-    if [a01, a02, a10, a12, a20, a21] != [0.0; 6] {
-        return eliminate(a, x);
-    }
-    *x = [x[0] / d0, x[1] / d1, x[2] / d2];
-    [d0, d1, d2].iter().all(|d| d.abs() >= MINVAL)
-}
-
-/// The same for any number of rows.
-#[cfg_attr(not(feature = "small"), inline(always))]
-fn eliminate<const N: usize>(a: &mut [[f64; N]; N], x: &mut [f64; N]) -> bool {
-    for k in 0..N {
-        let mut best = k;
-        for r in k + 1..N {
-            if a[r][k].abs() > a[best][k].abs() {
-                best = r;
-            }
-        }
-        a.swap(k, best);
-        x.swap(k, best);
-        if a[k][k].abs() < MINVAL {
-            return false;
-        }
-        for r in k + 1..N {
-            let factor = a[r][k] / a[k][k];
-            for c in k + 1..N {
-                a[r][c] -= factor * a[k][c];
-            }
-            x[r] -= factor * x[k];
-        }
-    }
-    for k in (0..N).rev() {
-        for c in k + 1..N {
-            x[k] -= a[k][c] * x[c];
-        }
-        x[k] /= a[k][k];
-    }
-    true
-}
-
 /// Whether two slices hold the same numbers, bit by bit.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn same_bits(a: &[f64], b: &[f64]) -> bool {
@@ -579,46 +428,4 @@ pub(crate) fn same_bits(a: &[f64], b: &[f64]) -> bool {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    fn unit_quat() -> impl Strategy<Value = Quat> {
-        prop::array::uniform4(-1.0f64..1.0)
-            .prop_filter("not short", |q| dot(*q, *q) > 0.01)
-            .prop_map(quat_normalize)
-    }
-
-    fn close(a: &[f64], b: &[f64]) -> bool {
-        a.iter().zip(b).all(|(x, y)| (x - y).abs() < 1e-12 * (1.0 + x.abs()))
-    }
-
-    proptest! {
-        #[test]
-        fn rotating_by_quaternion_and_by_matrix_agree(q in unit_quat(), v in prop::array::uniform3(-2.0f64..2.0)) {
-            prop_assert!(close(&rotate(v, q), &mat_mul_vec(&quat_to_mat(q), v)));
-            prop_assert!(close(&mat_t_mul_vec(&quat_to_mat(q), rotate(v, q)), &v));
-        }
-
-        #[test]
-        fn product_of_quaternions_is_composition(a in unit_quat(), b in unit_quat(), v in prop::array::uniform3(-2.0f64..2.0)) {
-            prop_assert!(close(&rotate(v, quat_mul(a, b)), &rotate(rotate(v, b), a)));
-        }
-
-        #[test]
-        fn integration_inverts_the_rotation_vector(q in unit_quat(), w in prop::array::uniform3(-1.0f64..1.0)) {
-            let r = quat_to_vel(quat_mul(quat_conj(q), quat_integrate(q, w, 1.0)));
-            prop_assert!(close(&r, &w));
-        }
-
-        #[test]
-        fn momentum_is_power_dual(m in prop::array::uniform3(0.1f64..2.0), q in unit_quat(), d in prop::array::uniform3(-1.0f64..1.0),
-                                  mass in 0.1f64..5.0, a in prop::array::uniform6(-1.0f64..1.0), b in prop::array::uniform6(-1.0f64..1.0)) {
-            // Symmetry of the inertia, and the derivative of a scalar product is zero: (v×a)·f + a·(v×*f) = 0.
-            let i = inertia_about(m, &quat_to_mat(q), d, mass);
-            prop_assert!((dot(a, inertia_mul(&i, &b)) - dot(b, inertia_mul(&i, &a))).abs() < 1e-12);
-            let f = inertia_mul(&i, &b);
-            prop_assert!((dot(cross_motion(&b, &a), f) + dot(a, cross_force(&b, &f))).abs() < 1e-11);
-        }
-    }
-}
+mod tests;

@@ -3,6 +3,7 @@
 //! One rule for all: a class starts as its parent, and every attribute overlays what stands below it. A list
 //! overlays number by number from the front, so `friction="0.5"` keeps the class's other two coefficients.
 
+use crate::kinds::choice;
 use crate::mjcf::gather::listed;
 use std::cell::Cell;
 use std::collections::BTreeMap;
@@ -127,6 +128,11 @@ impl Props {
             Some(Value::Word(n)) => Some(*n),
             _ => None,
         }
+    }
+
+    /// Whether a keyword of `false` and `true` is the latter; `default` when it is absent.
+    pub(crate) fn flag(&self, name: &str, default: bool) -> bool {
+        self.word(name).map_or(default, |word| word == choice::TRUE)
     }
 
     /// A text, `None` when it is absent or empty.

@@ -63,101 +63,107 @@ pub(crate) struct Parts<'a> {
     pub(crate) keys: &'a [KeySpec],
 }
 
-/// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
-pub(crate) fn model(m: &mut Model, parts: Parts) {
-    let Parts { bodies: list, inertias, layout, simple, sensors: sensor_list, keys: key_list, .. } = parts;
-    let Parts {
-        tendons,
-        actuators,
-        counts,
-        equalities,
-        pairs,
-        excludes,
-        users,
-        pattern,
-        whole,
-        scene,
-        assets,
-        ..
-    } = parts;
-    let joints: Vec<(usize, &JointSpec)> = members(list, |b| &b.joints);
-    let geoms: Vec<(usize, &GeomSpec)> = members(list, |b| &b.geoms);
-    let sites: Vec<(usize, &SiteSpec)> = members(list, |b| &b.sites);
+/// Joints, geoms and sites in id order, each with its body.
+struct Members<'a> {
+    joints: Vec<(usize, &'a JointSpec)>,
+    geoms: Vec<(usize, &'a GeomSpec)>,
+    sites: Vec<(usize, &'a SiteSpec)>,
+}
 
-    m.nq = layout.nq;
-    m.nv = layout.dofs.len();
-    m.nbody = list.len();
-    m.ntree = layout.ntree;
-    m.njnt = joints.len();
-    m.ngeom = geoms.len();
-    m.nsite = sites.len();
-    m.ncam = list.iter().map(|b| b.cameras.len()).sum();
-    m.nlight = list.iter().map(|b| b.lights.len()).sum();
-    m.nmocap = layout.nmocap;
-    m.nsensor = sensor_list.len();
-    m.nsensordata = sensor_list.iter().map(|s| s.dim as usize).sum();
-    m.nuser_sensor = users.sensor;
-    m.nuserdata = users.data;
-    m.nhistory += sensor_list.iter().map(SensorSpec::history).sum::<usize>();
-    m.nkey = key_list.len();
-    m.nC = pattern.colind.len();
-    m.nD = whole.pattern.colind.len();
-    fill_tendon::count(m, tendons);
-    m.nactuator = actuators.len();
-    (m.nu, m.nout, m.na) = (counts.nu, counts.nout, counts.na);
-    m.nhistory += counts.nhistory;
-    (m.neq, m.npair, m.nexclude) = (equalities.len(), pairs.len(), excludes.len());
-    (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
-    (m.nuser_geom, m.nuser_site, m.nuser_cam) = (users.geom, users.site, users.camera);
-    fill_scene::count(m, scene);
-    fill_asset::count(m, assets);
-    m.nuser_actuator = users.actuator;
+/// Fills the model. Options, statistics and what `mj_setConst` computes are not touched.
+pub(crate) fn fill_arrays(m: &mut Model, parts: Parts) {
+    let list = parts.bodies;
+    let members = Members {
+        joints: members(list, |b| &b.joints),
+        geoms: members(list, |b| &b.geoms),
+        sites: members(list, |b| &b.sites),
+    };
+    set_sizes(m, &parts, &members);
     reflect::allocate_model(m);
     // Found by `mj_setConst`.
     m.jnt_actuatorid.fill(-1);
     m.tendon_actuatorid.fill(-1);
+    m.names = names(std::mem::take(&mut m.names.model), &parts, &members);
 
-    bodies(m, list, inertias, layout, simple);
-    joints_and_dofs(m, list, &joints, layout, simple);
-    (m.M_rownnz, m.M_rowadr, m.M_colind) = (pattern.rownnz, pattern.rowadr, pattern.colind);
-    let Pattern { rownnz, rowadr, colind } = whole.pattern;
-    (m.D_rownnz, m.D_rowadr, m.D_colind, m.D_diag) = (rownnz, rowadr, colind, whole.diag);
-    fill_scene::geoms(m, &geoms, scene);
+    let Parts { layout, simple, scene, assets, .. } = parts;
+    bodies(m, list, parts.inertias, layout, simple);
+    joints(m, list, &members.joints);
+    dofs(m, &members.joints, &layout.dofs, simple);
+    let Pattern { rownnz, rowadr, colind } = parts.pattern;
+    (m.M_rownnz, m.M_rowadr, m.M_colind) = (rownnz, rowadr, colind);
+    let Pattern { rownnz, rowadr, colind } = parts.whole.pattern;
+    (m.D_rownnz, m.D_rowadr, m.D_colind, m.D_diag) = (rownnz, rowadr, colind, parts.whole.diag);
+    fill_scene::geoms(m, &members.geoms, scene);
     bodies_from_geoms(m);
-    fill_scene::sites(m, &sites, scene);
+    fill_scene::sites(m, &members.sites, scene);
     let body_names: Vec<String> = listed(list.iter().map(|b| b.name.clone()));
-    fill_scene::cameras(m, &members(list, |b| &b.cameras), &body_names);
-    fill_scene::lights(m, &members(list, |b| &b.lights), &body_names, &scene.textures);
-    fill_tendon::tendons(m, tendons);
-    fill_actuator::actuators(m, actuators);
-    fill_constraint::equalities(m, equalities);
-    fill_constraint::contacts(m, pairs, excludes);
-    fill_sensors(m, sensor_list);
-    fill_keys(m, list, key_list);
-
-    let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<Vec<String>>();
-    m.names = Names {
-        model: std::mem::take(&mut m.names.model),
-        body: names(&mut list.iter().map(|b| &b.name)),
-        joint: names(&mut joints.iter().map(|(_, j)| &j.name)),
-        geom: names(&mut geoms.iter().map(|(_, g)| &g.name)),
-        site: names(&mut sites.iter().map(|(_, s)| &s.name)),
-        camera: names(&mut list.iter().flat_map(|b| &b.cameras).map(|c| &c.name)),
-        light: names(&mut list.iter().flat_map(|b| &b.lights).map(|l| &l.name)),
-        pair: names(&mut pairs.iter().map(|p| &p.name)),
-        exclude: names(&mut excludes.iter().map(|e| &e.name)),
-        equality: names(&mut equalities.iter().map(|e| &e.name)),
-        tendon: names(&mut tendons.iter().map(|t| &t.name)),
-        actuator: names(&mut actuators.iter().map(|a| &a.name)),
-        sensor: names(&mut sensor_list.iter().map(|s| &s.name)),
-        key: names(&mut key_list.iter().map(|k| &k.name)),
-        ..Names::default()
-    };
+    fill_scene::cameras(m, &self::members(list, |b| &b.cameras), &body_names);
+    fill_scene::lights(m, &self::members(list, |b| &b.lights), &body_names, &scene.textures);
+    fill_tendon::tendons(m, parts.tendons);
+    fill_actuator::actuators(m, parts.actuators);
+    fill_constraint::equalities(m, parts.equalities);
+    fill_constraint::contacts(m, parts.pairs, parts.excludes);
+    fill_sensors(m, parts.sensors);
+    fill_keys(m, list, parts.keys);
     fill_asset::meshes(m, assets);
     fill_asset::hfields(m, assets);
     fill_scene::materials(m, scene);
     fill_asset::skins(m, assets);
     fill_scene::custom(m, scene);
+}
+
+/// The sizes of all arrays.
+fn set_sizes(m: &mut Model, parts: &Parts, members: &Members) {
+    let Parts { bodies: list, layout, sensors, counts, users, .. } = parts;
+    m.nq = layout.nq;
+    m.nv = layout.dofs.len();
+    m.nbody = list.len();
+    m.ntree = layout.ntree;
+    m.njnt = members.joints.len();
+    m.ngeom = members.geoms.len();
+    m.nsite = members.sites.len();
+    m.ncam = list.iter().map(|b| b.cameras.len()).sum();
+    m.nlight = list.iter().map(|b| b.lights.len()).sum();
+    m.nmocap = layout.nmocap;
+    m.nsensor = sensors.len();
+    m.nsensordata = sensors.iter().map(|s| s.dim as usize).sum();
+    m.nhistory += sensors.iter().map(SensorSpec::history).sum::<usize>();
+    m.nkey = parts.keys.len();
+    m.nC = parts.pattern.colind.len();
+    m.nD = parts.whole.pattern.colind.len();
+    fill_tendon::count(m, parts.tendons);
+    m.nactuator = parts.actuators.len();
+    (m.nu, m.nout, m.na) = (counts.nu, counts.nout, counts.na);
+    m.nhistory += counts.nhistory;
+    (m.neq, m.npair, m.nexclude) = (parts.equalities.len(), parts.pairs.len(), parts.excludes.len());
+    (m.nuser_body, m.nuser_jnt, m.nuser_tendon) = (users.body, users.joint, users.tendon);
+    (m.nuser_geom, m.nuser_site, m.nuser_cam) = (users.geom, users.site, users.camera);
+    (m.nuser_sensor, m.nuser_actuator, m.nuserdata) = (users.sensor, users.actuator, users.data);
+    fill_scene::count(m, parts.scene);
+    fill_asset::count(m, parts.assets);
+}
+
+/// The names of all objects but those of assets and custom data, which are filled with them.
+fn names(model: String, parts: &Parts, members: &Members) -> Names {
+    let Parts { bodies: list, .. } = parts;
+    let names = |of: &mut dyn Iterator<Item = &String>| of.cloned().collect::<Vec<String>>();
+    Names {
+        model,
+        body: names(&mut list.iter().map(|b| &b.name)),
+        joint: names(&mut members.joints.iter().map(|(_, j)| &j.name)),
+        geom: names(&mut members.geoms.iter().map(|(_, g)| &g.name)),
+        site: names(&mut members.sites.iter().map(|(_, s)| &s.name)),
+        camera: names(&mut list.iter().flat_map(|b| &b.cameras).map(|c| &c.name)),
+        light: names(&mut list.iter().flat_map(|b| &b.lights).map(|l| &l.name)),
+        pair: names(&mut parts.pairs.iter().map(|p| &p.name)),
+        exclude: names(&mut parts.excludes.iter().map(|e| &e.name)),
+        equality: names(&mut parts.equalities.iter().map(|e| &e.name)),
+        tendon: names(&mut parts.tendons.iter().map(|t| &t.name)),
+        actuator: names(&mut parts.actuators.iter().map(|a| &a.name)),
+        sensor: names(&mut parts.sensors.iter().map(|s| &s.name)),
+        key: names(&mut parts.keys.iter().map(|k| &k.name)),
+        ..Names::default()
+    }
 }
 
 /// The members of all bodies in id order, each with its body.
@@ -198,13 +204,7 @@ fn bodies(m: &mut Model, list: &[BodySpec], inertias: &[Inertia], layout: &Layou
     padded(&mut m.body_user, list.iter().map(|b| &b.user), m.nuser_body);
 }
 
-fn joints_and_dofs(
-    m: &mut Model,
-    list: &[BodySpec],
-    joints: &[(usize, &JointSpec)],
-    layout: &Layout,
-    simple: &[i32],
-) {
+fn joints(m: &mut Model, list: &[BodySpec], joints: &[(usize, &JointSpec)]) {
     let (mut qpos, mut dof) = (0, 0);
     m.jnt_qposadr.clear();
     m.jnt_dofadr.clear();
@@ -248,8 +248,9 @@ fn joints_and_dofs(
     padded(&mut m.jnt_user, joints.iter().map(|(_, j)| &j.user), m.nuser_jnt);
     flat(&mut m.jnt_range, joints, |(_, j)| j.range);
     flat(&mut m.jnt_margin, joints, |(_, j)| [j.margin]);
+}
 
-    let dofs = &layout.dofs;
+fn dofs(m: &mut Model, joints: &[(usize, &JointSpec)], dofs: &[Dof], simple: &[i32]) {
     flat(&mut m.dof_bodyid, dofs, |d| [d.body as i32]);
     flat(&mut m.dof_jntid, dofs, |d| [d.joint as i32]);
     flat(&mut m.dof_parentid, dofs, |d| [d.parent.map_or(-1, |p| p as i32)]);

@@ -2,7 +2,7 @@
 //! the pattern of the mass matrix.
 
 use super::spec::{BodySpec, Inertia};
-use crate::kinds::joint;
+use crate::kinds::{joint, simple};
 use crate::math::{Quat, Vec3};
 use crate::mjcf::body::inertia::describe_body;
 use crate::mjcf::gather::listed;
@@ -78,7 +78,7 @@ pub(crate) fn number(bodies: &[BodySpec]) -> Layout {
 }
 
 /// Reports joints and mocap bodies where they cannot be.
-pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+pub(crate) fn check_sizes(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     within_limits(bodies, layout, report);
     for (i, body) in bodies.iter().enumerate().skip(1) {
         check_joints(body, report);
@@ -185,9 +185,9 @@ fn is_unturned([w, x, y, z]: Quat) -> bool {
     (w.abs() - 1.0).abs() < SAME_FRAME && is_origin([x, y, z])
 }
 
-/// Whether the mass matrix of a body is diagonal whatever its configuration: 0 no, 1 yes, 2 yes and it only
-/// slides. Then its rows of the pattern hold the diagonal alone.
-pub(crate) fn simple(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
+/// Whether the mass matrix of a body is diagonal whatever its configuration. Then its rows of the
+/// pattern hold the diagonal alone.
+pub(crate) fn find_simple_bodies(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
     let mut leaf = vec![true; bodies.len()];
     for body in bodies.iter().skip(1) {
         if let Some(l) = leaf.get_mut(body.parent) {
@@ -196,25 +196,25 @@ pub(crate) fn simple(bodies: &[BodySpec], inertias: &[Inertia]) -> Vec<i32> {
     }
     // The world, or a body fixed to it directly.
     let base = |i: usize| i == 0 || bodies.get(i).is_some_and(|b| b.parent == 0 && b.joints.is_empty());
-    let simple = |(i, (body, inertia)): (usize, (&BodySpec, &Inertia))| {
+    let kind = |(i, (body, inertia)): (usize, (&BodySpec, &Inertia))| {
         if i == 0 {
-            return 1; // by convention
+            return simple::DIAGONAL; // by convention
         }
         let centred = is_origin(inertia.pos) && is_unturned(inertia.quat);
         if !body.simple || !centred || !base(body.parent) || leaf.get(i) != Some(&true) {
-            return 0;
+            return simple::NO;
         }
         let mut turned = false;
         for j in &body.joints {
             let along_one_axis = j.axis.iter().filter(|x| x.abs() > SAME_AXIS).count() == 1;
             if turned || !is_origin(j.pos) || !along_one_axis {
-                return 0;
+                return simple::NO;
             }
             turned = j.kind != joint::SLIDE;
         }
-        if turned || body.joints.is_empty() { 1 } else { 2 }
+        if turned || body.joints.is_empty() { simple::DIAGONAL } else { simple::SLIDING }
     };
-    listed(bodies.iter().zip(inertias).enumerate().map(simple))
+    listed(bodies.iter().zip(inertias).enumerate().map(kind))
 }
 
 /// The pattern of the lower triangle of the mass matrix, row by row.
@@ -233,7 +233,7 @@ pub(crate) fn pattern(layout: &Layout, simple: &[i32], report: &mut Report) -> O
         let start = p.colind.len();
         p.rowadr.push(start as i32);
         p.colind.push(i as i32);
-        let mut up = if simple.get(dof.body).is_some_and(|&s| s != 0) { None } else { dof.parent };
+        let mut up = if simple.get(dof.body).is_some_and(|&s| s != simple::NO) { None } else { dof.parent };
         while let Some(j) = up {
             p.colind.push(j as i32);
             up = layout.dofs.get(j).and_then(|d| d.parent);

@@ -135,7 +135,7 @@ fn built(
     report: &mut Report,
 ) -> Option<(text::tree::Tree, Model)> {
     let (tree, model) = passes::build(xml, files, path, patches, report)?;
-    unsimulated::check(&tree, &model, report);
+    unsimulated::report_unsimulated(&tree, &model, report);
     report.is_clean().then_some((tree, model))
 }
 

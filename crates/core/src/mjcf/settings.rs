@@ -2,7 +2,7 @@
 
 use super::classes::Props;
 use super::spec::List;
-use crate::kinds::{disable, enable};
+use crate::kinds::{angle, choice, disable, enable};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::{Report, shorten_name};
@@ -77,12 +77,12 @@ impl Compiler {
         let p = section(tree, "compiler");
         let groups = p.ints("inertiagrouprange").unwrap_or(&[0, 5]);
         Compiler {
-            degrees: p.word("angle") != Some(0),
-            autolimits: p.word("autolimits") != Some(0),
+            degrees: p.word("angle") != Some(angle::RADIAN),
+            autolimits: p.flag("autolimits", true),
             eulerseq: eulerseq(&p, report),
             inertiafromgeom: match p.word("inertiafromgeom") {
-                Some(0) => InertiaFromGeom::Never,
-                Some(1) => InertiaFromGeom::Always,
+                Some(choice::FALSE) => InertiaFromGeom::Never,
+                Some(choice::TRUE) => InertiaFromGeom::Always,
                 _ => InertiaFromGeom::Auto,
             },
             inertiagrouprange: [groups.first().copied().unwrap_or(0), groups.get(1).copied().unwrap_or(5)],
@@ -90,14 +90,14 @@ impl Compiler {
                 .unwrap_or(0.0),
             boundinertia: checked(&p, "boundinertia", "compiler", |x| x >= 0.0, "zero or more", report)
                 .unwrap_or(0.0),
-            balanceinertia: p.word("balanceinertia") == Some(1),
+            balanceinertia: p.flag("balanceinertia", false),
             settotalmass: p.real("settotalmass").unwrap_or(-1.0),
-            fusestatic: p.word("fusestatic") == Some(1),
-            discardvisual: p.word("discardvisual") == Some(1),
-            alignfree: p.word("alignfree") == Some(1),
-            fitaabb: p.word("fitaabb") == Some(1),
+            fusestatic: p.flag("fusestatic", false),
+            discardvisual: p.flag("discardvisual", false),
+            alignfree: p.flag("alignfree", false),
+            fitaabb: p.flag("fitaabb", false),
             meshdir: p.text("meshdir").or(p.text("assetdir")).unwrap_or("").to_string(),
-            strippath: p.word("strippath") == Some(1),
+            strippath: p.flag("strippath", false),
         }
     }
 
@@ -132,7 +132,7 @@ fn eulerseq(p: &Props, report: &mut Report) -> [(usize, bool); 3] {
     }
 }
 
-/// `option`, with MuJoCo's defaults for what is not given.
+/// `option`, with MuJoCo's defaults for what is not given. Long, as there is a line or two for each option.
 pub(crate) fn options(tree: &Tree, report: &mut Report) -> Options {
     let p = section(tree, "option");
     let d = Options::default();
@@ -235,7 +235,6 @@ pub(crate) fn length_range(tree: &Tree) -> Search {
         }
     }
     let d = Search::default();
-    let flag = |name: &str, default: bool| p.word(name).map_or(default, |w| w == 1);
     let real = |name: &str, default: f64| p.real(name).unwrap_or(default);
     Search {
         mode: match p.word("mode") {
@@ -244,8 +243,8 @@ pub(crate) fn length_range(tree: &Tree) -> Search {
             // There are no actuators of programs.
             _ => Mode::Muscles,
         },
-        useexisting: flag("useexisting", d.useexisting),
-        uselimit: flag("uselimit", d.uselimit),
+        useexisting: p.flag("useexisting", d.useexisting),
+        uselimit: p.flag("uselimit", d.uselimit),
         accel: real("accel", d.accel),
         maxforce: real("maxforce", d.maxforce),
         timeconst: real("timeconst", d.timeconst),

@@ -386,7 +386,7 @@ pub(crate) struct ExcludeSpec {
     pub(crate) signature: i32,
 }
 
-/// A range with a flag: 0 free, 1 limited, 2 limited when the range is given.
+/// A range with a flag, a [`choice`](crate::kinds::choice): limited, free, or limited when the range is given.
 #[derive(Clone, Debug)]
 pub(crate) struct RangeSpec {
     pub(crate) flag: i32,

@@ -9,7 +9,7 @@ use crate::model::{Model, Obj};
 use crate::step::workspace::Workspace;
 
 /// Reports what the model asks for and does not get.
-pub(crate) fn check(tree: &Tree, m: &Model, report: &mut Report) {
+pub(crate) fn report_unsimulated(tree: &Tree, m: &Model, report: &mut Report) {
     if m.opt.enabled(enable::SLEEP) {
         asleep(tree, m, report);
     }

@@ -3,6 +3,7 @@
 
 use super::stage::Stage;
 use crate::kinds::{enable, eqtype, trntype};
+use crate::model::index::object_index;
 use crate::model::{Fields, Model, Obj};
 
 /// Values of `tree_sleep_policy`.
@@ -106,7 +107,7 @@ fn tendon_state(m: &Model, d: &Fields, t: usize) -> i32 {
 #[inline(never)]
 fn actuator_state(m: &Model, d: &Fields, i: usize) -> i32 {
     let [id, reference] = [m.actuator_trnid[2 * i], m.actuator_trnid[2 * i + 1]];
-    let body = |list: &[i32], id: i32| d.body_awake[list[id.max(0) as usize] as usize];
+    let body = |list: &[i32], id: i32| d.body_awake[list[object_index(id)] as usize];
     let one_of_sites = || {
         let moves = |id: i32| body(&m.site_bodyid, id) == awake::YES;
         i32::from(moves(id) || moves(reference))
@@ -114,9 +115,9 @@ fn actuator_state(m: &Model, d: &Fields, i: usize) -> i32 {
     match m.actuator_trntype[i] {
         trntype::SLIDERCRANK => one_of_sites(),
         trntype::SO3 if reference >= 0 => one_of_sites(),
-        trntype::TENDON => tendon_state(m, d, id.max(0) as usize),
+        trntype::TENDON => tendon_state(m, d, object_index(id)),
         trntype::SITE => body(&m.site_bodyid, id),
-        trntype::BODY => d.body_awake[id.max(0) as usize],
+        trntype::BODY => d.body_awake[object_index(id)],
         _ => body(&m.jnt_bodyid, id),
     }
 }

@@ -57,7 +57,7 @@ pub struct Contact {
     pub geom1: usize,
     /// The other geom.
     pub geom2: usize,
-    /// 0 included, 1 in the gap, 3 no degree of freedom affected.
+    /// Why it has no rows: 0 it has, 1 it is in the gap, 3 no degree of freedom opens or closes it.
     pub exclude: u8,
     /// First row in the constraint arrays, `None` when not included.
     pub efc_address: Option<usize>,

@@ -2,7 +2,8 @@
 //!
 //! Each row is declared once: name, Rust type, shape, kind, the stage that computes it, unit and one line
 //! of documentation. From it come the structs (`model.rs`, `data.rs`), the reflection that the language
-//! binds to (`reflect.rs`) and the reference pages. A field that is not here does not exist.
+//! binds to (`reflect/`) and the reference pages. A field that is not here does not exist. The file is longer than others, as it is
+//! one table: a line for each field.
 //!
 //! Names and layouts are MuJoCo's: arrays are flat and row-major, quaternions are `w x y z`, angles are
 //! radians, everything is SI. Spatial vectors list the angular part first.

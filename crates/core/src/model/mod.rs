@@ -4,6 +4,7 @@ pub(crate) mod asleep;
 pub(crate) mod bytes;
 pub(crate) mod data_fields;
 pub(crate) mod fields;
+pub(crate) mod index;
 pub(crate) mod meter;
 pub(crate) mod plan;
 pub mod reflect;
@@ -18,7 +19,7 @@ pub use data_fields::{Contact, Warning, WarningStat};
 pub use plan::Decision;
 pub(crate) use plan::PlanTable;
 
-use crate::kinds::integrator;
+use crate::kinds::{cone, integrator, jacobian, solver};
 use crate::model::fields::{model_fields, option_fields, statistic_fields};
 use std::ops::Range;
 
@@ -110,14 +111,15 @@ impl Default for Options {
             o_solimp: [0.9, 0.95, 0.001, 0.5, 2.0],
             o_friction: [1.0, 1.0, 0.005, 0.0001, 0.0001],
             integrator: integrator::EULER,
-            jacobian: 2,
-            solver: 2,
+            cone: cone::PYRAMIDAL,
+            jacobian: jacobian::AUTO,
+            solver: solver::NEWTON,
             iterations: 100,
             ls_iterations: 50,
             ccd_iterations: 35,
             sdf_initpoints: 40,
             sdf_iterations: 10,
-            // The rest is zero: no wind, a vacuum, the pyramidal cone, no flags.
+            // The rest is zero: no wind, a vacuum, no flags.
             ..Options::zero()
         }
     }

@@ -15,75 +15,89 @@ pub struct Decision {
     pub reason: String,
 }
 
-/// What is known of a scene once and for all, where stages would otherwise look again at every step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum PlanFlag {
+/// The flags of a plan, each with its value when nothing is known of the model: the one for which a stage assumes nothing and
+/// looks.
+macro_rules! plan_flags {
+    ($($(#[doc = $doc:literal])+ $flag:ident = $unknown:literal,)+) => {
+        /// What is known of a model once and for all, where stages would otherwise look again at every step.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(crate) enum PlanFlag {
+            $($(#[doc = $doc])+ $flag,)+
+        }
+
+        impl PlanFlag {
+            /// A bit for each flag that holds when nothing is known.
+            const UNKNOWN: u32 = $((($unknown as u32) << PlanFlag::$flag as u32))|+;
+        }
+    };
+}
+plan_flags! {
     /// M of some tree depends on the configuration; otherwise it is diagonal and constant.
-    General,
-    /// Composite inertias are computed: some tree takes the general way, or they are read.
-    Composite,
+    General = true,
+    /// Composite inertias are computed: some tree is computed by the general algorithm, or they are read.
+    Composite = true,
     /// Inertias of bodies about the centre of mass of their tree are computed.
-    BodyInertias,
-    /// Forces of bodies are computed by recursion: some tree takes the general way.
-    Recursion,
+    BodyInertias = true,
+    /// Forces of bodies are computed by recursion: some tree is computed by the general algorithm.
+    Recursion = true,
     /// M and the rows of its factorization are computed only in steps in which constraints act: nothing else looks at them.
-    MassForRows,
+    MassForRows = false,
     /// There can be equality constraints.
-    Equalities,
+    Equalities = true,
     /// There can be dry friction.
-    FrictionLoss,
+    FrictionLoss = true,
     /// Joints or tendons can be limited.
-    Limits,
+    Limits = true,
     /// Contacts pull.
-    Adhesion,
+    Adhesion = true,
     /// Surfaces move by themselves.
-    Surfaces,
+    Surfaces = true,
     /// Whether joints have dampers is known once and for all.
-    DampersStay,
+    DampersStay = false,
     /// Then: they do.
-    JointDampers,
+    JointDampers = true,
     /// Springs are looked at.
-    Springs,
+    Springs = true,
     /// Dampers are looked at.
-    Dampers,
+    Dampers = true,
     /// Some dampers of joints belong to actuators.
-    ActuatorDampers,
+    ActuatorDampers = true,
     /// All actuators are motors of slides and hinges: each makes a force in proportion to its control.
-    Motors,
+    Motors = false,
     /// All actuators are motors or servos of slides, hinges and tendons: their forces follow from a control, a length and a
     /// velocity.
-    Servos,
+    Servos = false,
     /// How forces change with velocities follows from the model alone, but for how much each actuator's force does.
-    SlopesStay,
+    SlopesStay = false,
     /// Forces of actuators are limited, one by one or by joint.
-    ForceLimits,
+    ForceLimits = true,
     /// The solver says more than forces: `efc_b` and `efc_state`.
-    SolverDetails,
+    SolverDetails = true,
     /// Bodies feel a medium or gravity compensation.
-    BodyForces,
+    BodyForces = true,
     /// Forces applied to bodies are looked at.
-    AppliedForces,
+    AppliedForces = true,
     /// Nothing but gravity and motion makes forces where no constraint acts: no springs, no actuators, none applied.
-    Unforced,
+    Unforced = false,
     /// The same, M is diagonal, nothing can touch and no tree sleeps.
-    Ballistic,
+    Ballistic = false,
     /// Which pairs of geoms may touch can change while it runs.
-    PairsChange,
+    PairsChange = true,
     /// The parameters of contacts may change.
-    ContactParamsChange,
+    ContactParamsChange = true,
     /// Where bodies, joints and geoms are in the model may change.
-    PlacesChange,
+    PlacesChange = true,
 }
 
 /// Which stages run.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlanTable {
     pub(crate) decisions: Vec<Decision>,
-    /// A bit for each stage that runs, and for each fact that holds.
+    /// A bit for each stage that runs, and for each flag that holds.
     kept_stages: u32,
-    facts: u32,
+    flags: u32,
     /// How trees may be computed.
-    pub(crate) ways: TreeAlgorithms,
+    pub(crate) algorithms: TreeAlgorithms,
     /// What is read of sensors.
     pub(crate) sensed: Values,
     /// Every sensor is evaluated, read or not.
@@ -97,29 +111,16 @@ pub(crate) struct PlanTable {
 impl Default for PlanTable {
     /// No stage, and nothing is known.
     fn default() -> PlanTable {
-        let mut plan = PlanTable {
+        PlanTable {
             decisions: Vec::new(),
             kept_stages: 0,
-            facts: u32::MAX,
-            ways: TreeAlgorithms::ALL,
+            flags: PlanFlag::UNKNOWN,
+            algorithms: TreeAlgorithms::ALL,
             sensed: Values::ALL,
             every_sensor: true,
             more: None,
             passes: [[0; 3]; 2],
-        };
-        let flags = [
-            PlanFlag::MassForRows,
-            PlanFlag::DampersStay,
-            PlanFlag::Motors,
-            PlanFlag::Servos,
-            PlanFlag::SlopesStay,
-            PlanFlag::Unforced,
-            PlanFlag::Ballistic,
-        ];
-        for flag in flags {
-            plan.state(flag, false);
         }
-        plan
     }
 }
 
@@ -130,10 +131,10 @@ impl PlanTable {
         self.kept_stages & (1 << stage as u32) != 0
     }
 
-    /// Whether something is known to hold of the scene.
+    /// Whether a flag holds.
     #[cfg_attr(not(feature = "small"), inline(always))]
-    pub(crate) fn has(&self, fact: PlanFlag) -> bool {
-        self.facts & (1 << fact as u32) != 0
+    pub(crate) fn has(&self, flag: PlanFlag) -> bool {
+        self.flags & (1 << flag as u32) != 0
     }
 
     /// Every stage with the reason to keep it or leave it out, in the order of the pipeline.
@@ -146,8 +147,8 @@ impl PlanTable {
         self.kept_stages = if keep { self.kept_stages | bit } else { self.kept_stages & !bit };
     }
 
-    pub(crate) fn state(&mut self, fact: PlanFlag, holds: bool) {
-        let bit = 1 << fact as u32;
-        self.facts = if holds { self.facts | bit } else { self.facts & !bit };
+    pub(crate) fn set_flag(&mut self, flag: PlanFlag, holds: bool) {
+        let bit = 1 << flag as u32;
+        self.flags = if holds { self.flags | bit } else { self.flags & !bit };
     }
 }

@@ -3,6 +3,7 @@
 use crate::geometry::{Field, Hull, Mesh, Shape};
 use crate::kinds::geom;
 use crate::math::*;
+use crate::model::index::element_range;
 use crate::model::{Fields, Model};
 
 impl<'a> Shape<'a> {
@@ -15,7 +16,7 @@ impl<'a> Shape<'a> {
         if let Ok(id) = usize::try_from(m.geom_dataid[g]) {
             match shape.kind {
                 geom::MESH => shape.mesh = Some(Mesh::from_model(m, id)),
-                geom::HFIELD => shape.field = Some(Field::of(m, id)),
+                geom::HFIELD => shape.field = Some(Field::from_model(m, id)),
                 _ => {}
             }
         }
@@ -38,10 +39,7 @@ impl<'a> Shape<'a> {
 impl<'a> Mesh<'a> {
     /// Mesh `id` of a model.
     pub(crate) fn from_model(m: &'a Model, id: usize) -> Mesh<'a> {
-        let range = |adr: &[i32], num: &[i32]| {
-            let first = adr[id].max(0) as usize;
-            first..first + num[id].max(0) as usize
-        };
+        let range = |adr: &[i32], num: &[i32]| element_range(adr[id], num[id]);
         Mesh {
             vert: &rows::<3>(&m.mesh_vert)[range(&m.mesh_vertadr, &m.mesh_vertnum)],
             face: &m.mesh_face.as_chunks().0[range(&m.mesh_faceadr, &m.mesh_facenum)],
@@ -55,7 +53,7 @@ impl<'a> Mesh<'a> {
 
 impl<'a> Field<'a> {
     /// Height field `id` of a model.
-    pub(crate) fn of(m: &'a Model, id: usize) -> Field<'a> {
+    pub(crate) fn from_model(m: &'a Model, id: usize) -> Field<'a> {
         let (nrow, ncol) = (m.hfield_nrow[id].max(0) as usize, m.hfield_ncol[id].max(0) as usize);
         let first = m.hfield_adr[id].max(0) as usize;
         let data = &m.hfield_data[first..first + nrow * ncol];

@@ -8,13 +8,14 @@ use crate::constraint::contact_force;
 use crate::geometry::{Shape, ray_shape};
 use crate::math::sort::sort_by;
 use crate::math::*;
+use crate::model::index::object_index;
 use crate::model::{Contact, Fields, Model, Obj};
 use crate::query::inside_site;
 
 /// The sum of the normal forces on the body of a site, of all contacts whose normal, from the contact into the
 /// other body, meets the volume of the site: it lies around the contact or behind it.
 pub(super) fn touch(m: &Model, d: &mut Fields, s: usize, out: &mut [f64]) {
-    let site = m.sensor_objid[s].max(0) as usize;
+    let site = object_index(m.sensor_objid[s]);
     let body = m.site_bodyid[site];
     d.meter.add(10 * d.contact.len() as u64);
     let zone = Shape::site(m, d, site);

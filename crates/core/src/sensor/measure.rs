@@ -6,11 +6,12 @@ use crate::constraint;
 use crate::forces::energy;
 use crate::kinds::trntype;
 use crate::math::*;
+use crate::model::index::object_index;
 use crate::model::{Fields, Model};
 
 /// The sensed object of sensor `s`.
 fn object(m: &Model, s: usize) -> usize {
-    m.sensor_objid[s].max(0) as usize
+    object_index(m.sensor_objid[s])
 }
 
 /// A sensor that measures nothing: its values stay zero.

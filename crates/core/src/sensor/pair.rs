@@ -6,6 +6,7 @@ use super::{Scratch, put};
 use crate::geometry::Shape;
 use crate::kinds::geom;
 use crate::math::*;
+use crate::model::index::{element_range, object_index};
 use crate::model::{Fields, Model, Obj};
 use crate::query::geom_distance;
 
@@ -16,12 +17,11 @@ const ROUNDING: f64 = 1e-9;
 
 /// The geoms of a body, or one geom.
 pub(super) fn geoms(m: &Model, objtype: i32, id: i32) -> std::ops::Range<usize> {
-    let id = id.max(0) as usize;
+    let id = object_index(id);
     if objtype != Obj::Body as i32 {
         return id..id + 1;
     }
-    let first = m.body_geomadr[id].max(0) as usize;
-    first..first + m.body_geomnum[id] as usize
+    element_range(m.body_geomadr[id], m.body_geomnum[id])
 }
 
 /// The nearest pair among the geoms of both sides: signed distance, and the segment from the first to the

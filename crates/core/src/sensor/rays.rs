@@ -8,6 +8,7 @@ use super::data_layout;
 use super::data_layout::RAY_DATA;
 use super::put;
 use crate::dynamics::object::{self, Frame};
+use crate::kinds::projection;
 use crate::math::*;
 use crate::model::{Fields, Model, Obj};
 use crate::query::{self, RayFilter};
@@ -74,6 +75,7 @@ impl Camera {
     fn from_model(m: &Model, id: usize) -> Camera {
         let size = rows::<2>(&m.cam_sensorsize)[id];
         let [fx, fy, px, py] = rows::<4>(&m.cam_intrinsic)[id];
+        // An image with a negative size has no pixels.
         let resolution = [m.cam_resolution[2 * id], m.cam_resolution[2 * id + 1]].map(|n| n.max(0) as usize);
         let [width, height] = resolution.map(|n| n as f64);
         // Lengths on the sensor to pixels, in the single precision that MuJoCo stores optics with.
@@ -91,7 +93,7 @@ impl Camera {
             focal,
             principal,
             shift,
-            extent: (m.cam_projection[id] == 1).then_some(m.cam_fovy[id]),
+            extent: (m.cam_projection[id] == projection::ORTHOGRAPHIC).then_some(m.cam_fovy[id]),
         }
     }
 

@@ -180,8 +180,7 @@ kinds! {
     USER "user" User 0 Real "" Acceleration [] Of measure::nothing;
 }
 
-/// The row of sensor `s`.
-#[inline]
+/// The row of sensor `s`; a number without a row means values of the user, which the engine leaves as they are.
 pub(super) fn for_sensor(m: &Model, s: usize) -> &'static Kind {
     let number = usize::try_from(m.sensor_type[s]).unwrap_or(usize::MAX);
     KINDS.get(number).unwrap_or(&KINDS[Number::USER as usize])

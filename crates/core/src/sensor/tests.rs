@@ -57,7 +57,7 @@ const OPTICS: [&str; 15] = [
 ];
 
 /// Compares all constants and all states of a model; results that are not computed here are left out.
-fn check(xml: &str, recorded: &str, tolerance: f64) {
+fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
     let mut m = compile(xml);
     let mut d = Workspace::new(&m);
     let mut wrong = Vec::new();
@@ -132,7 +132,7 @@ macro_rules! golden {
     ($($name:ident $tolerance:literal;)*) => { $(
         #[test]
         fn $name() {
-            check(
+            check_recorded(
                 include_str!(concat!("golden/", stringify!($name), ".xml")),
                 include_str!(concat!("golden/", stringify!($name), ".txt")),
                 $tolerance,

@@ -4,7 +4,7 @@ use crate::constraint::ends;
 use crate::dynamics::kinematics::sameframe;
 use crate::dynamics::{self, camera, com, mass, tree_algorithms, walk};
 use crate::forces::{tendon, transmission};
-use crate::kinds::{geom, joint};
+use crate::kinds::{geom, joint, simple};
 use crate::math::*;
 use crate::model::Model;
 use crate::model::plan::PlanTable;
@@ -152,7 +152,7 @@ fn inverse_weights(m: &mut Model, d: &Workspace) {
             rows_mut::<2>(&mut m.body_invweight0)[b] = [0.0; 2];
             continue;
         }
-        if m.body_simple[b] == 2 {
+        if m.body_simple[b] == simple::SLIDING {
             rows_mut::<2>(&mut m.body_invweight0)[b] = [1.0 / m.body_mass[b].max(MINVAL), 0.0];
             continue;
         }
@@ -187,7 +187,7 @@ fn inverse_weights(m: &mut Model, d: &Workspace) {
             let mean = group.iter().sum::<f64>() / group.len() as f64;
             group.fill(mean);
         }
-        if m.body_simple[m.jnt_bodyid[j] as usize] == 2 {
+        if m.body_simple[m.jnt_bodyid[j] as usize] == simple::SLIDING {
             m.dof_invweight0[first] = 1.0 / m.body_mass[m.jnt_bodyid[j] as usize].max(MINVAL);
         }
     }

@@ -2,6 +2,11 @@
 
 pub use super::access::AccessSet;
 
+use super::deciding::{
+    ACTUATOR_ARMATURE, ACTUATOR_DAMPING, ADHESION, CONTACT_PARAMS, ELLIPSOIDS, FRICTION_LOSS, GRAVCOMP,
+    JOINT_FORCES, Numbers, OVERRIDES, SURFACES, TENDON_ARMATURE, TENDON_FORCES,
+};
+
 use crate::dynamics::tree_algorithms;
 use crate::forces::{actuation, derivative, tendon};
 use crate::kinds::{biastype, disable, dyntype, enable, eqtype, gaintype, integrator, joint, trntype};
@@ -12,113 +17,12 @@ use crate::model::{Model, PlanTable};
 use crate::step::{damping, idle};
 use crate::{collision, sensor};
 
-/// What the parameters of a contact are mixed from.
-const CONTACT_PARAMS: [FieldId; 18] = [
-    model::geom_rbound,
-    model::geom_condim,
-    model::geom_priority,
-    model::geom_solmix,
-    model::geom_solref,
-    model::geom_solimp,
-    model::geom_friction,
-    model::geom_margin,
-    model::geom_gap,
-    model::geom_adhesion,
-    model::pair_dim,
-    model::pair_friction,
-    model::pair_solref,
-    model::pair_solreffriction,
-    model::pair_solimp,
-    model::pair_margin,
-    model::pair_gap,
-    model::pair_adhesion,
-];
-/// A field, and its numbers.
-type Numbers = (FieldId, fn(&Model) -> &[f64]);
-/// What makes passive forces of joints.
-const JOINT_FORCES: [Numbers; 4] = [
-    (model::dof_damping, |m| &m.dof_damping),
-    (model::dof_dampingpoly, |m| &m.dof_dampingpoly),
-    (model::jnt_stiffness, |m| &m.jnt_stiffness),
-    (model::jnt_stiffnesspoly, |m| &m.jnt_stiffnesspoly),
-];
-/// What makes passive forces of tendons, springs first.
-const TENDON_FORCES: [Numbers; 4] = [
-    (model::tendon_stiffness, |m| &m.tendon_stiffness),
-    (model::tendon_stiffnesspoly, |m| &m.tendon_stiffnesspoly),
-    (model::tendon_damping, |m| &m.tendon_damping),
-    (model::tendon_dampingpoly, |m| &m.tendon_dampingpoly),
-];
-/// Damping of actuators, which joints and tendons have.
-const ACTUATOR_DAMPING: [Numbers; 2] = [
-    (model::actuator_damping, |m| &m.actuator_damping),
-    (model::actuator_dampingpoly, |m| &m.actuator_dampingpoly),
-];
-/// Dry friction.
-const FRICTION_LOSS: [Numbers; 2] = [
-    (model::dof_frictionloss, |m| &m.dof_frictionloss),
-    (model::tendon_frictionloss, |m| &m.tendon_frictionloss),
-];
-const ACTUATOR_ARMATURE: Numbers = (model::actuator_armature, |m| &m.actuator_armature);
-const TENDON_ARMATURE: Numbers = (model::tendon_armature, |m| &m.tendon_armature);
-/// Geoms on which the medium acts one by one.
-const ELLIPSOIDS: Numbers = (model::geom_fluid, |m| &m.geom_fluid);
-/// Contacts that pull, and surfaces that move by themselves.
-const ADHESION: [Numbers; 2] =
-    [(model::geom_adhesion, |m| &m.geom_adhesion), (model::pair_adhesion, |m| &m.pair_adhesion)];
-const SURFACES: Numbers = (model::geom_surfacevel, |m| &m.geom_surfacevel);
-const GRAVCOMP: Numbers = (model::body_gravcomp, |m| &m.body_gravcomp);
-const OVERRIDES: [FieldId; 5] =
-    [option::o_margin, option::o_solref, option::o_solimp, option::o_friction, option::enableflags];
-
-/// Limits, gains and bits of contact: what else is looked at.
-const OTHERS: [FieldId; 12] = [
-    model::geom_contype,
-    model::geom_conaffinity,
-    model::body_contype,
-    model::body_conaffinity,
-    model::jnt_limited,
-    model::tendon_limited,
-    model::actuator_group,
-    option::density,
-    option::viscosity,
-    option::integrator,
-    option::disableflags,
-    option::disableactuator,
-];
-
-/// The fields of the model whose values decide what a plan keeps. Where one of them is written, a plan is made for the value that
-/// it has, or for any: see `api/assumed`. Of all others the values are not looked at.
-pub(crate) fn deciding() -> FieldSet {
-    let mut set = FieldSet::EMPTY;
-    let numbers = [
-        &JOINT_FORCES[..],
-        &TENDON_FORCES,
-        &ACTUATOR_DAMPING,
-        &FRICTION_LOSS,
-        &ADHESION,
-        &[ACTUATOR_ARMATURE, TENDON_ARMATURE, ELLIPSOIDS, SURFACES, GRAVCOMP],
-    ];
-    numbers.into_iter().flatten().for_each(|(field, _)| set.insert(*field));
-    [&OTHERS[..], &CONTACT_PARAMS, &OVERRIDES, &collision::PLACES, &idle::ACTUATORS, &idle::EQUALITIES]
-        .into_iter()
-        .flatten()
-        .for_each(|field| set.insert(*field));
-    tree_algorithms::copied().for_each(|field| set.insert(field));
-    set
-}
-
-/// What is written, and decides nothing: of these fields a plan never asks the value.
-pub(crate) fn never_asked(demand: &AccessSet) -> FieldSet {
-    demand.writes.difference(&deciding())
-}
-
-/// When a fact holds.
+/// When a flag holds.
 type Test = fn(&ModelAnalysis) -> bool;
 
-/// Each fact, and when it holds. That of M being computed for constraints alone follows from the plan: see
-/// [`Scene::mass_for_rows`].
-pub(super) const FACTS: [(PlanFlag, Test); 23] = [
+/// The flags that follow from the analysis, each with when it holds. Four others follow from the stages that a plan keeps:
+/// [`PlanFlag::Unforced`], [`PlanFlag::Ballistic`], [`PlanFlag::BodyInertias`] and [`PlanFlag::MassForRows`].
+pub(super) const FLAGS: [(PlanFlag, Test); 23] = [
     (PlanFlag::General, |s| s.general),
     (PlanFlag::Composite, |s| s.large || s.reads_field(data::crb)),
     (PlanFlag::Recursion, |s| s.large),
@@ -160,12 +64,12 @@ pub(crate) fn changes(plan: &PlanTable) -> collision::Changes {
 /// What is known of a scene before it runs.
 pub(super) struct ModelAnalysis<'a> {
     pub(super) m: &'a Model,
-    pub(super) demand: &'a AccessSet,
+    pub(super) access: &'a AccessSet,
     /// How trees may be computed.
-    pub(super) ways: TreeAlgorithms,
+    pub(super) algorithms: TreeAlgorithms,
     /// M of some tree depends on the configuration.
     pub(super) general: bool,
-    /// M and the bias force of some tree take the general way.
+    /// M and the bias force of some tree are computed by the general algorithm.
     pub(super) large: bool,
     /// Which pairs of geoms may touch can change while it runs.
     pub(super) pairs_change: bool,
@@ -200,17 +104,17 @@ pub(super) struct ModelAnalysis<'a> {
 }
 
 impl<'a> ModelAnalysis<'a> {
-    pub(super) fn new(m: &'a Model, demand: &'a AccessSet, ways: TreeAlgorithms) -> ModelAnalysis<'a> {
-        let mut scene = ModelAnalysis {
+    pub(super) fn new(m: &'a Model, access: &'a AccessSet, algorithms: TreeAlgorithms) -> ModelAnalysis<'a> {
+        let mut analysis = ModelAnalysis {
             m,
-            demand,
-            ways,
-            general: !tree_algorithms::are_constant(m, ways),
-            large: tree_algorithms::need_bodies(m, ways),
+            access,
+            algorithms,
+            general: !tree_algorithms::are_constant(m, algorithms),
+            large: tree_algorithms::need_bodies(m, algorithms),
             pairs_change: false,
             pairs: 0,
-            limited: m.jnt_limited.iter().filter(|&&l| l).count(),
-            limited_tendons: m.tendon_limited.iter().filter(|&&l| l).count(),
+            limited: 0,
+            limited_tendons: 0,
             friction: 0,
             equalities: 0,
             joint_forces: false,
@@ -218,73 +122,107 @@ impl<'a> ModelAnalysis<'a> {
             tendon_dampers: false,
             gravcomp: false,
             adhesion: false,
-            fluid: m.opt.density > 0.0 || m.opt.viscosity > 0.0,
+            fluid: false,
             tendon_armature: false,
-            actuated: m.nactuator > 0 && !m.opt.disabled(disable::ACTUATION),
+            actuated: false,
             idle: false,
             sensors: false,
             every_sensor: m.nhistory > 0 || sensor::measures_energy(m),
-            energy: m.opt.enabled(enable::ENERGY),
+            energy: false,
             sleeps: false,
         };
-        scene.sleeps = m.ntree > 0 && (m.opt.enabled(enable::SLEEP) || scene.writes(&[option::enableflags]));
-        let bits = [
+        analysis.sleeps = m.ntree > 0 && analysis.may_enable(enable::SLEEP);
+        analysis.energy = analysis.may_enable(enable::ENERGY);
+        analysis.find_constraints();
+        analysis.find_forces();
+        analysis.find_actuation();
+        // A tendon's inertia adds to that of simple bodies, too.
+        analysis.general |= analysis.tendon_armature;
+        analysis.sensors = m.nsensor > 0
+            && (analysis.reads(Stage::Sensors).is_some()
+                || m.nhistory > 0 && analysis.reads_field(data::history));
+        analysis
+    }
+
+    /// Whether a part of a step is on, or programs may switch it on.
+    fn may_enable(&self, bit: i32) -> bool {
+        self.m.opt.enabled(bit) || self.writes(&[option::enableflags])
+    }
+
+    /// What can touch, is limited, has dry friction or is tied together.
+    fn find_constraints(&mut self) {
+        let m = self.m;
+        self.pairs_change = self.writes(&[
             model::geom_contype,
             model::geom_conaffinity,
             model::body_contype,
             model::body_conaffinity,
             option::disableflags,
-        ];
-        scene.pairs_change = scene.writes(&bits);
+        ]);
         // What a flag switches off counts only if the flag may be cleared.
-        let off = |bit: i32| {
-            (m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
-                && !scene.writes(&[option::disableflags])
+        let may_act = |bit: i32| {
+            self.writes(&[option::disableflags])
+                || !(m.opt.disabled(disable::CONSTRAINT) || m.opt.disabled(bit))
         };
-        let [no_contacts, no_limits, no_friction, no_equalities] =
-            [disable::CONTACT, disable::LIMIT, disable::FRICTIONLOSS, disable::EQUALITY].map(off);
-        if !no_contacts {
-            scene.pairs = collision::candidate_pairs(m, scene.changes()).len();
+        let [contacts, limits, friction, equalities] =
+            [disable::CONTACT, disable::LIMIT, disable::FRICTIONLOSS, disable::EQUALITY].map(may_act);
+        if contacts {
+            self.pairs = collision::candidate_pairs(m, self.changes()).len();
         }
-        if scene.writes(&[model::jnt_limited]) {
-            scene.limited = m.njnt;
+        if limits {
+            self.limited = self.limits(model::jnt_limited, &m.jnt_limited);
+            self.limited_tendons = self.limits(model::tendon_limited, &m.tendon_limited);
         }
-        if scene.writes(&[model::tendon_limited]) {
-            scene.limited_tendons = m.ntendon;
+        if friction {
+            self.friction = FRICTION_LOSS.iter().map(|f| self.others_than_zero(f)).sum();
         }
-        scene.friction = FRICTION_LOSS.iter().map(|f| scene.others_than_zero(f)).sum();
-        if no_limits {
-            (scene.limited, scene.limited_tendons) = (0, 0);
+        let stay_off = !self.may_differ(data::eq_active)
+            && !self.writes(&idle::EQUALITIES)
+            && !m.eq_active0.contains(&true);
+        if equalities && !stay_off {
+            self.equalities = m.neq;
         }
-        if no_friction {
-            scene.friction = 0;
+    }
+
+    /// How many of these are limited; all where programs may change that.
+    fn limits(&self, field: FieldId, limited: &[bool]) -> usize {
+        match self.writes(&[field]) {
+            true => limited.len(),
+            false => limited.iter().filter(|&&l| l).count(),
         }
-        let [ctrl, eq_active] = idle::INPUTS.map(|input| scene.sleeps || scene.writes(&[input]));
-        let stay_off = !eq_active && !scene.writes(&idle::EQUALITIES) && !m.eq_active0.contains(&true);
-        scene.equalities = if no_equalities || stay_off { 0 } else { m.neq };
-        scene.fluid |= scene.writes(&[option::density, option::viscosity]);
-        scene.gravcomp = scene.some(&[GRAVCOMP]);
-        scene.adhesion = scene.pairs > 0 && scene.some(&ADHESION);
-        scene.joint_forces = scene.some(&JOINT_FORCES);
-        scene.tendon_springs = scene.some(&TENDON_FORCES[..2]);
-        scene.tendon_dampers = scene.some(&TENDON_FORCES[2..]);
-        scene.tendon_armature = scene.some(&[TENDON_ARMATURE]);
-        let damping = scene.some(&ACTUATOR_DAMPING);
-        scene.joint_forces |= damping && scene.transmits(&[trntype::JOINT, trntype::JOINTINPARENT]);
-        let on_tendons = scene.transmits(&[trntype::TENDON]);
-        scene.tendon_dampers |= on_tendons && damping;
-        scene.tendon_armature |= on_tendons && scene.some(&[ACTUATOR_ARMATURE]);
-        // A tendon's inertia adds to that of simple bodies, too.
-        scene.general |= scene.tendon_armature;
-        scene.actuated |= m.nactuator > 0 && scene.writes(&[option::disableflags]);
-        scene.idle = scene.actuated
-            && !(ctrl || scene.writes(&idle::ACTUATORS))
-            && idle::actuators_are_idle(m, |i| scene.is_servo(i));
-        scene.actuated &= !scene.idle;
-        scene.sensors = m.nsensor > 0
-            && (scene.reads(Stage::Sensors).is_some() || m.nhistory > 0 && scene.reads_field(data::history));
-        scene.energy |= scene.writes(&[option::enableflags]);
-        scene
+    }
+
+    /// Whether an input may differ from what it is after a reset.
+    fn may_differ(&self, input: FieldId) -> bool {
+        self.sleeps || self.writes(&[input])
+    }
+
+    /// What makes forces and inertia but for actuators.
+    fn find_forces(&mut self) {
+        let m = self.m;
+        self.fluid = m.opt.density > 0.0
+            || m.opt.viscosity > 0.0
+            || self.writes(&[option::density, option::viscosity]);
+        self.gravcomp = self.some(&[GRAVCOMP]);
+        self.adhesion = self.pairs > 0 && self.some(&ADHESION);
+        let damping = self.some(&ACTUATOR_DAMPING);
+        let on_joints = self.transmits(&[trntype::JOINT, trntype::JOINTINPARENT]);
+        let on_tendons = self.transmits(&[trntype::TENDON]);
+        self.joint_forces = self.some(&JOINT_FORCES) || on_joints && damping;
+        self.tendon_springs = self.some(&TENDON_FORCES[..2]);
+        self.tendon_dampers = self.some(&TENDON_FORCES[2..]) || on_tendons && damping;
+        self.tendon_armature = self.some(&[TENDON_ARMATURE]) || on_tendons && self.some(&[ACTUATOR_ARMATURE]);
+    }
+
+    /// Whether actuators make forces, or would if one of them were driven.
+    fn find_actuation(&mut self) {
+        let m = self.m;
+        let on = !m.opt.disabled(disable::ACTUATION) || self.writes(&[option::disableflags]);
+        let any = m.nactuator > 0 && on;
+        self.idle = any
+            && !(self.may_differ(data::ctrl) || self.writes(&idle::ACTUATORS))
+            && idle::actuators_are_idle(m, |i| self.is_servo(i));
+        self.actuated = any && !self.idle;
     }
 
     /// What may change of what pairs of geoms are chosen by.
@@ -321,7 +259,7 @@ impl<'a> ModelAnalysis<'a> {
         (!changes).then(|| damping::has_dampers(self.m))
     }
 
-    /// Whether something looks at the inertias of bodies: trees that take the general way, derivatives of the bias force, forces between
+    /// Whether something looks at the inertias of bodies: trees of the general algorithm, derivatives of the bias force, forces between
     /// bodies.
     pub(super) fn needs_body_inertias(&self, plan: &PlanTable) -> bool {
         let m = self.m;
@@ -333,7 +271,7 @@ impl<'a> ModelAnalysis<'a> {
             || [data::cinert, data::crb].into_iter().any(|f| self.reads_field(f))
     }
 
-    /// Whether only constraints look at M: trees take ways that do without its general
+    /// Whether only constraints look at M: trees have algorithms that do without its general
     /// rows, and so does the integrator.
     pub(super) fn mass_for_rows(&self, plan: &PlanTable) -> bool {
         let m = self.m;
@@ -349,7 +287,7 @@ impl<'a> ModelAnalysis<'a> {
             && !plan.keeps(Stage::Energy)
             && !(plan.keeps(Stage::Sensors) && self.sensed(Stage::MassMatrix))
             && !fields.into_iter().any(|f| self.reads_field(f))
-            && tree_algorithms::solve_alone(m, self.ways)
+            && tree_algorithms::solve_alone(m, self.algorithms)
     }
 
     /// Whether forces of actuators depend on their lengths or velocities, or their moments on the configuration.
@@ -416,7 +354,7 @@ impl<'a> ModelAnalysis<'a> {
 
     /// Whether some sensor that is evaluated uses the results of a stage.
     pub(super) fn sensed(&self, stage: Stage) -> bool {
-        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.demand.reads.sensed());
+        let read = |s: usize| self.every_sensor || sensor::is_read(self.m, s, self.access.reads.sensed());
         sensor::needs_of(self.m, stage, read)
     }
 
@@ -471,7 +409,7 @@ impl<'a> ModelAnalysis<'a> {
     /// Whether an integrator asks how the bias force changes with velocities: that is found from composite bodies.
     pub(super) fn bias_slopes(&self) -> bool {
         let bodies = |&t: &usize| {
-            derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.ways, t)
+            derivative::is_free_rigid(self.m, t) && !tree_algorithms::turns_alone(self.m, self.algorithms, t)
         };
         let free = || (0..self.m.ntree).any(|t| bodies(&t));
         let of_free = [integrator::IMPLICITFAST, integrator::DISCRETE];
@@ -481,19 +419,19 @@ impl<'a> ModelAnalysis<'a> {
 
     /// The first field of a stage that is read, as a reason.
     pub(super) fn reads(&self, stage: Stage) -> Option<String> {
-        if self.demand.reads == FieldSet::ALL {
+        if self.access.reads == FieldSet::ALL {
             return Some("its results may be read".into());
         }
         let of_stage = |f: &FieldId| f.info().object == Object::Data && f.info().stage == stage;
-        self.demand.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
+        self.access.reads.iter().find(of_stage).map(|f| format!("data.{} is read", f.info().name))
     }
 
     pub(super) fn reads_field(&self, field: FieldId) -> bool {
-        self.demand.reads.contains(field)
+        self.access.reads.contains(field)
     }
 
     pub(super) fn writes(&self, fields: &[FieldId]) -> bool {
-        fields.iter().any(|f| self.demand.writes.contains(*f))
+        fields.iter().any(|f| self.access.writes.contains(*f))
     }
 
     /// Whether an actuator acts through one of these transmissions.

@@ -7,7 +7,7 @@ use crate::forces::tendon;
 use crate::kinds::{biastype, dyntype, trntype};
 use crate::math::rows;
 use crate::model::Model;
-use crate::model::reflect::{FieldId, data, model};
+use crate::model::reflect::{FieldId, model};
 
 /// What the force of an actuator without a control follows from.
 pub(super) const ACTUATORS: [FieldId; 12] = [
@@ -26,8 +26,6 @@ pub(super) const ACTUATORS: [FieldId; 12] = [
 ];
 /// Whether equality constraints act after a reset.
 pub(super) const EQUALITIES: [FieldId; 1] = [model::eq_active0];
-/// The inputs that are taken as they are after a reset.
-pub(super) const INPUTS: [FieldId; 2] = [data::ctrl, data::eq_active];
 
 /// Whether a force or a control of nothing is within these ranges, where they are limited.
 fn holds_zero(limited: &[bool], ranges: &[f64]) -> bool {

@@ -9,6 +9,7 @@ pub(crate) mod balance;
 mod calls;
 mod clocked;
 pub(crate) mod damping;
+pub(crate) mod deciding;
 pub(crate) mod discrete;
 pub(crate) mod factored;
 pub(crate) mod forward;

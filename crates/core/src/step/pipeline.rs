@@ -9,6 +9,7 @@ use super::calls as run;
 use super::clocked::{self, CLOCKED};
 use crate::dynamics::tree_algorithms;
 use crate::kinds::{disable, integrator, trntype, wraptype};
+use crate::math::broken_invariant;
 use crate::model::reflect::{data, model};
 use crate::model::stage::Stage;
 use crate::model::{Model, Obj};
@@ -46,8 +47,10 @@ pub(super) struct Row {
 
 impl Row {
     /// Whether the stage uses the results of another one in a scene.
-    pub(super) fn uses(&self, scene: &ModelAnalysis, of: Stage) -> bool {
-        self.needs.iter().any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(scene, of))
+    pub(super) fn uses(&self, analysis: &ModelAnalysis, of: Stage) -> bool {
+        self.needs
+            .iter()
+            .any(|(stages, when)| (stages.is_empty() || stages.contains(&of)) && when(analysis, of))
     }
 }
 
@@ -262,7 +265,7 @@ pub(super) const STAGES: [Row; 26] = [
         needs: &[
             (&[Stage::Tendon], |s, _| s.tendon_armature),
             (&[Stage::ComVel], |s, _| s.tendon_armature || s.large),
-            (&[Stage::Kinematics], |s, _| tree_algorithms::look_at_places(s.m, s.ways)),
+            (&[Stage::Kinematics], |s, _| tree_algorithms::look_at_places(s.m, s.algorithms)),
         ],
         wanted: |s| because(s.m.nv > 0, "gravity and the motion of bodies make forces"),
         left_out: |_| "nothing moves",
@@ -455,7 +458,8 @@ impl<const N: usize> Sequence<N> {
 
     /// The bits of the stages before one.
     pub(crate) fn before(&self, stage: Stage) -> u32 {
-        let n = self.stage.iter().position(|s| *s == stage).unwrap_or(0);
+        let n = self.stage.iter().position(|s| *s == stage);
+        let n = n.unwrap_or_else(|| broken_invariant("a stage runs in this part of a pass"));
         (1 << n) - 1
     }
 

@@ -4,7 +4,7 @@
 //! parameter that some program writes is treated as if it had any value. A plan never changes a number: the
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
-use super::analysis::{AccessSet, FACTS, ModelAnalysis};
+use super::analysis::{AccessSet, FLAGS, ModelAnalysis};
 use super::pipeline::{STAGES, passes};
 use crate::model::Model;
 use crate::model::plan::{Decision, PlanFlag, PlanTable};
@@ -35,42 +35,44 @@ impl PlanTable {
     ///
     /// From the last stage to the first: a stage runs when it is wanted for its own sake, or when a later
     /// stage that runs uses its results.
-    pub(crate) fn new(m: &Model, demand: &AccessSet, ways: TreeAlgorithms) -> PlanTable {
-        PlanTable::with(m, demand, ways, None)
+    pub(crate) fn new(m: &Model, access: &AccessSet, algorithms: TreeAlgorithms) -> PlanTable {
+        PlanTable::with(m, access, algorithms, None)
     }
 
     /// The same with a stage more, and what it uses, wanted or not: to see what it would cost.
     pub(crate) fn with(
         m: &Model,
-        demand: &AccessSet,
-        ways: TreeAlgorithms,
+        access: &AccessSet,
+        algorithms: TreeAlgorithms,
         more: Option<Stage>,
     ) -> PlanTable {
-        let mut scene = ModelAnalysis::new(m, demand, ways);
-        scene.every_sensor |= more == Some(Stage::Sensors);
+        let mut analysis = ModelAnalysis::new(m, access, algorithms);
+        analysis.every_sensor |= more == Some(Stage::Sensors);
         let mut plan = PlanTable::default();
-        (plan.ways, plan.more) = (ways, more);
-        (plan.sensed, plan.every_sensor) = (demand.reads.sensed(), scene.every_sensor);
-        for (fact, holds) in FACTS {
-            plan.state(fact, holds(&scene));
+        (plan.algorithms, plan.more) = (algorithms, more);
+        (plan.sensed, plan.every_sensor) = (access.reads.sensed(), analysis.every_sensor);
+        for (flag, holds) in FLAGS {
+            plan.set_flag(flag, holds(&analysis));
         }
         for row in STAGES.iter().rev() {
-            let user = STAGES.iter().find(|later| plan.keeps(later.stage) && later.uses(&scene, row.stage));
-            let why = (row.wanted)(&scene).or_else(|| user.map(|u| format!("the {} stage uses it", u.name)));
+            let user =
+                STAGES.iter().find(|later| plan.keeps(later.stage) && later.uses(&analysis, row.stage));
+            let why =
+                (row.wanted)(&analysis).or_else(|| user.map(|u| format!("the {} stage uses it", u.name)));
             let why = why.or_else(|| (more == Some(row.stage)).then(|| "it was requested".into()));
             match why {
                 Some(reason) => plan.decide(row.stage, true, reason),
-                None => plan.decide(row.stage, false, (row.left_out)(&scene).into()),
+                None => plan.decide(row.stage, false, (row.left_out)(&analysis).into()),
             }
         }
         plan.decisions.reverse();
-        let forced = plan.keeps(Stage::Passive) || plan.keeps(Stage::Actuation) || scene.applies_forces();
-        plan.state(PlanFlag::Unforced, !forced);
+        let forced = plan.keeps(Stage::Passive) || plan.keeps(Stage::Actuation) || analysis.applies_forces();
+        plan.set_flag(PlanFlag::Unforced, !forced);
         let ties = plan.has(PlanFlag::General) || plan.keeps(Stage::Solve) || plan.keeps(Stage::Sleep);
-        plan.state(PlanFlag::Ballistic, !forced && !ties);
-        plan.state(PlanFlag::BodyInertias, scene.needs_body_inertias(&plan));
-        let for_rows = scene.mass_for_rows(&plan);
-        plan.state(PlanFlag::MassForRows, for_rows);
+        plan.set_flag(PlanFlag::Ballistic, !forced && !ties);
+        plan.set_flag(PlanFlag::BodyInertias, analysis.needs_body_inertias(&plan));
+        let for_rows = analysis.mass_for_rows(&plan);
+        plan.set_flag(PlanFlag::MassForRows, for_rows);
         plan.arranged()
     }
 

@@ -48,8 +48,8 @@ pub(crate) fn set_plan(m: &Model, d: &mut Workspace, plan: PlanTable) {
     } else {
         collision::Pairs::default()
     };
-    if plan.ways != d.plan.ways {
-        d.work.dynamics = dynamics::Scratch::new(m, plan.ways);
+    if plan.algorithms != d.plan.algorithms {
+        d.work.dynamics = dynamics::Scratch::new(m, plan.algorithms);
     }
     d.plan = plan;
     if d.work.watch.is_some() {

@@ -6,6 +6,7 @@
 //! engine would index by is looked at before it is believed.
 
 use crate::constraint::kind;
+use crate::kinds::cone;
 use crate::model::bytes::{Plain, fingerprint};
 use crate::model::reflect::{self, Elem, Object, View};
 use crate::model::{Contact, Model, Obj, Warning, WarningStat};
@@ -233,7 +234,7 @@ fn wrong(m: &Model, d: &Workspace) -> Option<&'static str> {
         return Some("efc_id");
     }
     let good = |c: &Contact| {
-        let rows = if m.opt.cone == 0 { (2 * c.dim).saturating_sub(2).max(1) } else { c.dim };
+        let rows = if m.opt.cone == cone::PYRAMIDAL { (2 * c.dim).saturating_sub(2).max(1) } else { c.dim };
         let last = c.efc_address.map(|a| a.saturating_add(rows));
         matches!(c.dim, 1 | 3 | 4 | 6)
             && c.geom1.max(c.geom2) < m.ngeom

@@ -6,6 +6,7 @@
 use crate::dynamics::walk;
 use crate::geometry::Hull;
 use crate::kinds::{dyntype, eqtype, gaintype, geom, joint, trntype, wraptype};
+use crate::model::index::{element_range, object_index};
 use crate::model::reflect::{self, FieldId, Object, View, model};
 use crate::model::{Model, Obj};
 use crate::sensor;
@@ -82,12 +83,6 @@ fn size(m: &Model, field: FieldId) -> usize {
         View::Size(n) => n,
         _ => 0,
     }
-}
-
-/// The part of an array that a list is: of an empty one, which may begin at -1, nothing.
-fn span(adr: i32, num: i32) -> std::ops::Range<usize> {
-    let [first, n] = [adr, num].map(|x| usize::try_from(x).unwrap_or(0));
-    first..first + n
 }
 
 fn within(id: i32, count: usize) -> bool {
@@ -176,31 +171,6 @@ fn trees(m: &Model) -> bool {
             (q, v) = (q + joint::nq(kind), v + joint::nv(kind));
             good
         });
-    let dofs = (0..m.nv).all(|k| {
-        let j = m.dof_jntid[k] as usize;
-        let first = m.jnt_dofadr[j] as usize;
-        let columns = &m.M_colind[span(m.M_rowadr[k], m.M_rownnz[k])];
-        let whole = &m.D_colind[span(m.D_rowadr[k], m.D_rownnz[k])];
-        (first..first + joint::nv(m.jnt_type[j])).contains(&k)
-            && m.dof_bodyid[k] == m.jnt_bodyid[j]
-            && columns.last() == Some(&(k as i32))
-            && columns.is_sorted_by(|a, b| a < b)
-            && whole.is_sorted_by(|a, b| a < b)
-            && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
-            // The path to the root is the row, but where M is diagonal.
-            && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
-    });
-    let bodies = (0..m.nbody).all(|b| {
-        let joints = span(m.body_jntadr[b], m.body_jntnum[b]);
-        let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
-        joints.clone().all(|j| m.jnt_bodyid[j] as usize == b)
-            && dofs == m.body_dofnum[b] as usize
-            && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
-            && m.body_rootid[b] <= b as i32
-            && m.body_weldid[b] <= b as i32
-            // What has joints is welded to nothing; what has none has no first degree of freedom.
-            && (if dofs == 0 { m.body_dofadr[b] == -1 } else { m.body_weldid[b] == b as i32 })
-    });
     // Each follows the one before it in its body, the first of a body the last of those that carry it.
     let paths = (0..m.nv).all(|k| match m.dof_bodyid[k] as usize {
         b if k as i32 > m.body_dofadr[b] => m.dof_parentid[k] == k as i32 - 1,
@@ -220,9 +190,9 @@ fn trees(m: &Model) -> bool {
         && m.body_parentid.first() == Some(&0)
         && before(&m.body_parentid, 1)
         && before(&m.dof_parentid, 0)
-        && bodies
+        && (0..m.nbody).all(|b| has_joints_in_order(m, b))
         && paths
-        && dofs
+        && (0..m.nv).all(|k| has_rows_of_path(m, k))
         && in_order
         && next as usize == m.nv
         && simple
@@ -230,12 +200,41 @@ fn trees(m: &Model) -> bool {
         && (0..m.nv).all(|k| m.dof_simplenum[k] == 0 || m.M_rownnz[k] == 1)
 }
 
+/// A degree of freedom is one of its joint, and its rows of M and D end with it and hold it.
+fn has_rows_of_path(m: &Model, k: usize) -> bool {
+    let j = m.dof_jntid[k] as usize;
+    let first = m.jnt_dofadr[j] as usize;
+    let columns = &m.M_colind[element_range(m.M_rowadr[k], m.M_rownnz[k])];
+    let whole = &m.D_colind[element_range(m.D_rowadr[k], m.D_rownnz[k])];
+    (first..first + joint::nv(m.jnt_type[j])).contains(&k)
+        && m.dof_bodyid[k] == m.jnt_bodyid[j]
+        && columns.last() == Some(&(k as i32))
+        && columns.is_sorted_by(|a, b| a < b)
+        && whole.is_sorted_by(|a, b| a < b)
+        && usize::try_from(m.D_diag[k]).ok().and_then(|at| whole.get(at)) == Some(&(k as i32))
+        // The path to the root is the row, but where M is diagonal.
+        && (m.dof_simplenum[k] > 0 || walk::upward(m, k as i32).eq(columns.iter().rev().map(|&c| c as usize)))
+}
+
+/// The joints of a body are its own, and its degrees of freedom theirs.
+fn has_joints_in_order(m: &Model, b: usize) -> bool {
+    let joints = element_range(m.body_jntadr[b], m.body_jntnum[b]);
+    let dofs: usize = joints.clone().map(|j| joint::nv(m.jnt_type[j])).sum();
+    joints.clone().all(|j| m.jnt_bodyid[j] as usize == b)
+        && dofs == m.body_dofnum[b] as usize
+        && (dofs == 0 || m.body_dofadr[b] == m.jnt_dofadr[joints.start])
+        && m.body_rootid[b] <= b as i32
+        && m.body_weldid[b] <= b as i32
+        // What has joints is welded to nothing; what has none has no first degree of freedom.
+        && (if dofs == 0 { m.body_dofadr[b] == -1 } else { m.body_weldid[b] == b as i32 })
+}
+
 /// The last degree of freedom of the bodies above a body, -1 where there is none.
 fn last_before(m: &Model, b: usize) -> i32 {
     let mut up = b;
     while up > 0 {
         // Parents stand before their children.
-        up = (m.body_parentid[up].max(0) as usize).min(up - 1);
+        up = object_index(m.body_parentid[up]).min(up - 1);
         if m.body_dofnum[up] > 0 {
             return m.body_dofadr[up] + m.body_dofnum[up] - 1;
         }
@@ -256,7 +255,7 @@ fn shapes(m: &Model) -> bool {
     });
     let meshes = (0..m.nmesh).all(|id| {
         let corners = m.mesh_vertnum[id];
-        let faces = span(m.mesh_faceadr[id], m.mesh_facenum[id]);
+        let faces = element_range(m.mesh_faceadr[id], m.mesh_facenum[id]);
         let in_range = m.mesh_face.as_chunks::<3>().0[faces].iter().flatten().all(|&v| v < corners);
         let Ok(at) = usize::try_from(m.mesh_graphadr[id]) else { return corners > 0 && in_range };
         let Some(hull) = m.mesh_graph.get(at..).and_then(Hull::from_graph) else { return false };
@@ -279,8 +278,10 @@ fn ties(m: &Model) -> bool {
             eqtype::TENDON => (m.ntendon, true),
             _ => return false,
         };
-        let scalar =
-            |j: i32| matches!(m.jnt_type.get(j.max(0) as usize), Some(&(joint::SLIDE | joint::HINGE)));
+        let scalar = |j: i32| {
+            let kind = usize::try_from(j).ok().and_then(|j| m.jnt_type.get(j));
+            matches!(kind, Some(&(joint::SLIDE | joint::HINGE)))
+        };
         let joints = m.eq_type[e] != eqtype::JOINT || scalar(first) && (second < 0 || scalar(second));
         within(first, n) && (within(second, n) || alone && second == -1) && joints
     };
@@ -293,7 +294,7 @@ fn ties(m: &Model) -> bool {
             && kinds.iter().all(|k| matches!(*k, wraptype::SITE | wraptype::SPHERE | wraptype::CYLINDER))
     };
     let tendon = |t: usize| {
-        let path = span(m.tendon_adr[t], m.tendon_num[t]);
+        let path = element_range(m.tendon_adr[t], m.tendon_num[t]);
         let fixed = m.wrap_type.get(path.start) == Some(&wraptype::JOINT);
         !path.is_empty()
             && path.clone().all(|w| (m.wrap_type[w] == wraptype::JOINT) == fixed)
@@ -311,8 +312,9 @@ fn ties(m: &Model) -> bool {
         }
         _ => true,
     };
-    let rows = (0..m.ntendon)
-        .all(|t| m.ten_J_colind[span(m.ten_J_rowadr[t], m.ten_J_rownnz[t])].is_sorted_by(|a, b| a < b));
+    let rows = (0..m.ntendon).all(|t| {
+        m.ten_J_colind[element_range(m.ten_J_rowadr[t], m.ten_J_rownnz[t])].is_sorted_by(|a, b| a < b)
+    });
     (0..m.neq).all(equality) && (0..m.ntendon).all(tendon) && (0..m.nwrap).all(wrap) && rows
 }
 

@@ -47,8 +47,8 @@ pub(crate) struct Work {
 
 impl Work {
     /// What depends on the sizes of the model.
-    pub(super) fn make_room(&mut self, m: &Model, ways: TreeAlgorithms) {
-        self.dynamics = dynamics::Scratch::new(m, ways);
+    pub(super) fn make_room(&mut self, m: &Model, algorithms: TreeAlgorithms) {
+        self.dynamics = dynamics::Scratch::new(m, algorithms);
         self.forces = forces::Scratch::new(m);
         self.constraint = constraint::Scratch::new(m);
         self.sleep = sleep::Scratch::new(m);

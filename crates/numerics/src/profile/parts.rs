@@ -166,7 +166,7 @@ pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption
 
 /// The ways, in their order.
 pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
-    let trees = plan.ways(model);
+    let trees = plan.tree_algorithms(model);
     let count = |way: core::TreeAlgorithm| {
         let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();
         TreeAlgorithmUse { name: way.name(), trees: [of(0), of(1), of(2)] }

@@ -37,7 +37,7 @@ macro_rules! jacobians {
             which: &(impl Which<$id> + ?Sized),
         ) -> Result<PointJacobian, Error> {
             d.belongs_to(m)?;
-            let id = which.of(&d.names)?;
+            let id = which.find_in(&d.names)?;
             call::$name(m, d, $([$arg.x, $arg.y, $arg.z],)* id).map(|j| PointJacobian::from_rows(m, &j))
         }
     )* };
@@ -69,7 +69,7 @@ pub fn jac_subtree_com<S: Scope>(
     which: &(impl Which<BodyId> + ?Sized),
 ) -> Result<DMatrix<f64>, Error> {
     d.belongs_to(m)?;
-    let rows = call::jac_subtree_com(m, d, which.of(&d.names)?)?;
+    let rows = call::jac_subtree_com(m, d, which.find_in(&d.names)?)?;
     Ok(DMatrix::from_row_slice(3, m.nv, &rows))
 }
 

@@ -46,7 +46,7 @@ impl<S: Scope> Data<S> {
     pub fn body_pose(&self, which: &(impl Which<BodyId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::xpos, data::xquat])?;
         let d = self.fields();
-        by_quaternion(&d.xpos, &d.xquat, which.of(&self.names)?)
+        by_quaternion(&d.xpos, &d.xquat, which.find_in(&self.names)?)
     }
 
     /// The pose of a body's centre of mass and principal axes of inertia, m, world: `xipos` and `ximat`.
@@ -57,7 +57,7 @@ impl<S: Scope> Data<S> {
     pub fn body_inertial_pose(&self, which: &(impl Which<BodyId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::xipos, data::ximat])?;
         let d = self.fields();
-        by_matrix(&d.xipos, &d.ximat, which.of(&self.names)?)
+        by_matrix(&d.xipos, &d.ximat, which.find_in(&self.names)?)
     }
 
     /// The pose of a geom, m, world: `geom_xpos` and `geom_xmat`.
@@ -68,7 +68,7 @@ impl<S: Scope> Data<S> {
     pub fn geom_pose(&self, which: &(impl Which<GeomId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::geom_xpos, data::geom_xmat])?;
         let d = self.fields();
-        by_matrix(&d.geom_xpos, &d.geom_xmat, which.of(&self.names)?)
+        by_matrix(&d.geom_xpos, &d.geom_xmat, which.find_in(&self.names)?)
     }
 
     /// The pose of a site, m, world: `site_xpos` and `site_xmat`.
@@ -79,7 +79,7 @@ impl<S: Scope> Data<S> {
     pub fn site_pose(&self, which: &(impl Which<SiteId> + ?Sized)) -> Result<Isometry3<f64>, Error> {
         self.has(&[data::site_xpos, data::site_xmat])?;
         let d = self.fields();
-        by_matrix(&d.site_xpos, &d.site_xmat, which.of(&self.names)?)
+        by_matrix(&d.site_xpos, &d.site_xmat, which.find_in(&self.names)?)
     }
 }
 
@@ -117,7 +117,7 @@ macro_rules! velocities {
         ) -> Result<Velocity, Error> {
             d.belongs_to(m)?;
             d.has(&[data::cvel, data::subtree_com, $(data::$needs),*])?;
-            let id = which.of(&d.names)?;
+            let id = which.find_in(&d.names)?;
             let [wx, wy, wz, x, y, z] = object::object_velocity(m, &d.inner, Obj::$kind, id, local);
             Ok(Velocity { angular: Vector3::new(wx, wy, wz), linear: Vector3::new(x, y, z) })
         }

@@ -14,7 +14,7 @@ pub(super) const ROW: Row = Row {
     name: "diagonal_inertia",
     covers,
     copies: &[fields_of::body_mass, fields_of::body_inertia],
-    load: |m, w| w.ways.diagonal_inertia.joints.iter_mut().for_each(|joint| joint.load(m)),
+    load: |m, w| w.algorithms.diagonal_inertia.joints.iter_mut().for_each(|joint| joint.load(m)),
     forces: Some(Forces { mass, bias, looks_at_places: slides, constant: has_inertia, turns_alone: true }),
     ..NOTHING
 };
@@ -53,7 +53,7 @@ impl Trees {
 
 /// The constant diagonal.
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    for i in w.ways.diagonal_inertia.dofs.iter().cloned().flatten() {
+    for i in w.algorithms.diagonal_inertia.dofs.iter().cloned().flatten() {
         d.M[m.M_rowadr[i] as usize] = m.dof_M0[i];
     }
 }
@@ -86,7 +86,7 @@ impl Joint {
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
-    for joint in &w.ways.diagonal_inertia.joints {
+    for joint in &w.algorithms.diagonal_inertia.joints {
         bias_of(d, joint, gravity);
     }
 }
@@ -102,7 +102,9 @@ pub(crate) fn turning_slope([a, b, c]: Vec3, [x, y, z]: Vec3) -> [Vec3; 3] {
 fn bias_of(d: &mut Fields, s: &Joint, gravity: Vec3) {
     let (mass, [a, b, c]) = (s.mass, s.inertia);
     let turning = |w: Vec3| cross(w, [a * w[0], b * w[1], c * w[2]]);
-    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else { return };
+    let (Some(v), Some(out)) = (d.qvel.get(s.dof..), d.qfrc_bias.get_mut(s.dof..)) else {
+        return broken_invariant("a joint has a velocity and a force");
+    };
     match (s.kind, v, out) {
         (joint::FREE, &[_, _, _, x, y, z, ..], [fx, fy, fz, tx, ty, tz, ..]) => {
             [*fx, *fy, *fz] = scale(gravity, -mass);

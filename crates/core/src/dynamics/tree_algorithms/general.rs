@@ -1,4 +1,4 @@
-//! The general way, which computes everything of any tree.
+//! The general algorithm, which computes everything of any tree.
 //!
 //! Bodies are placed one after the other (`kinematics`); M comes from composite bodies, a row for each degree of freedom, and is
 //! factorized by elimination (`mass`); the bias force is found by recursion (`rne`).
@@ -15,7 +15,7 @@ pub(super) const ROW: Row = Row {
     name: "general",
     covers: |_, _| true,
     copies: &kinematics::FIELDS,
-    load: |m, w| w.ways.general.frames.load(m),
+    load: |m, w| w.algorithms.general.frames.load(m),
     places: Some(Places { forward_kinematics, orientations }),
     forces: Some(Forces {
         mass,
@@ -68,19 +68,19 @@ fn spans(m: &Model, trees: &[usize]) -> Vec<Range<usize>> {
 
 /// The frames of all bodies.
 pub(super) fn frames(w: &mut Scratch) -> &mut Frames {
-    &mut w.ways.general.frames
+    &mut w.algorithms.general.frames
 }
 
 fn forward_kinematics(_: &Model, d: &mut Fields, w: &mut Scratch) {
-    kinematics::bodies(d, &mut w.ways.general.frames);
+    kinematics::bodies(d, &mut w.algorithms.general.frames);
 }
 
 fn orientations(d: &mut Fields, w: &mut Scratch) {
-    kinematics::orientations(d, &w.ways.general.frames);
+    kinematics::orientations(d, &w.algorithms.general.frames);
 }
 
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    rows::composite_inertia(m, d, &mut w.path, &w.ways.general.forces);
+    rows::composite_inertia(m, d, &mut w.path, &w.algorithms.general.forces);
 }
 
 fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
@@ -92,7 +92,7 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
 #[inline(never)] // scenes of small trees do not carry the set-up of the others: so below
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
-    for dofs in w.ways.general.factors.iter().cloned() {
+    for dofs in w.algorithms.general.factors.iter().cloned() {
         bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs));
     }
     bad
@@ -100,14 +100,14 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 
 #[inline(never)]
 fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    for dofs in w.ways.general.factors.iter().cloned() {
+    for dofs in w.algorithms.general.factors.iter().cloned() {
         rows::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
     }
 }
 
 #[inline(never)]
 fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    for dofs in w.ways.general.factors.iter().cloned() {
+    for dofs in w.algorithms.general.factors.iter().cloned() {
         rows::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
     }
 }
@@ -115,7 +115,7 @@ fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
 #[inline(never)]
 fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
-    for dofs in w.ways.general.factors.iter().cloned() {
+    for dofs in w.algorithms.general.factors.iter().cloned() {
         bad = bad.or(rows::factor_copy(m, &d.M, &mut d.qLD, &mut d.qLDiagInv, dofs.clone()));
         rows::solve(m, &d.qLD, &d.qLDiagInv, x, dofs);
     }

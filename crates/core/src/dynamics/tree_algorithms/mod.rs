@@ -1,20 +1,20 @@
-//! How trees are computed: the table of ways.
+//! How trees are computed: the table of tree algorithms.
 //!
 //! Three things are computed of a tree: where its bodies are ([`Places`]), M with the bias force ([`Forces`]), and accelerations
-//! from forces, by a factorization of M ([`Factors`]). The general way, which is the last row, computes all three of any tree. A
-//! short way computes some of them, of trees of its kind, in less time. Each tree takes, for each of the three, the first row
+//! from forces, by a factorization of M ([`Factors`]). The general algorithm, which is the last row, computes all three of
+//! any tree. A specialized one computes some of them, of trees of its kind, in less time. Each tree takes, for each of the three, the first row
 //! of the table that covers it; this follows from the structure of the model when data are made for it, never from a plan.
 //!
-//! # To add a way
+//! # To add an algorithm
 //!
 //! One file in this folder and one row of the table:
 //!
 //! * the file has `covers` (which trees are of its kind), `Trees` with `Trees::new` (what it knows of its trees from one step to the
-//!   next), its functions, and the row, `ROW`, which names the way and its functions;
+//!   next), its functions, and the row, `ROW`, which names the algorithm and its functions;
 //! * its `mod` and its name in the table stand below, before those that are longer.
 //!
-//! Nothing else knows the names of ways: plans, steps and `labspec bench --without WAY` ask the table. Any short way can be
-//! forbidden ([`Ways`]): `tests/tree_algorithms.rs` does so with each row and holds it against the general one, and
+//! Nothing else knows the names of algorithms: plans, steps and `labspec bench --without NAME` ask the table. Any specialized
+//! algorithm can be disabled ([`TreeAlgorithms`]): `tests/tree_algorithms.rs` does so with each row and holds it against the general one, and
 //! `docs/measured/speed.md` says what each is worth.
 
 use super::Scratch;
@@ -26,22 +26,22 @@ use crate::model::{Fields, Model};
 
 /// The table, from its rows: a module each, with `ROW` and `Trees`.
 macro_rules! table {
-    ($($way:ident)*) => {
-        static TABLE: [Row; [$(stringify!($way)),*].len()] = [$($way::ROW),*];
+    ($($algorithm:ident)*) => {
+        static TABLE: [Row; [$(stringify!($algorithm)),*].len()] = [$($algorithm::ROW),*];
 
-        /// What each way knows of its trees, and which ways have some.
+        /// What each algorithm keeps of its trees, and which algorithms have some.
         #[derive(Clone, Debug, Default, PartialEq)]
-        pub(crate) struct Kept {
-            taken: Selected,
-            $($way: $way::Trees,)*
+        pub(crate) struct AlgorithmStates {
+            selected: Selected,
+            $($algorithm: $algorithm::Trees,)*
         }
 
-        impl Kept {
-            /// The trees of a model by the ways that they take.
-            pub(crate) fn new(m: &Model, ways: TreeAlgorithms) -> Kept {
-                let (taken, own) = sort(m, ways);
-                let mut own = own.iter();
-                Kept { taken, $($way: own.next().map_or_else($way::Trees::default, |own| $way::Trees::new(m, own)),)* }
+        impl AlgorithmStates {
+            /// The trees of a model by the algorithms that compute them.
+            pub(crate) fn new(m: &Model, algorithms: TreeAlgorithms) -> AlgorithmStates {
+                let (selected, assignments) = sort(m, algorithms);
+                let mut assignments = assignments.iter();
+                AlgorithmStates { selected, $($algorithm: assignments.next().map_or_else($algorithm::Trees::default, |trees| $algorithm::Trees::new(m, trees)),)* }
             }
         }
     };
@@ -70,7 +70,7 @@ table! {
 
 pub(crate) use diagonal_inertia::turning_slope;
 
-/// A way.
+/// An algorithm.
 struct Row {
     /// As it is called in `labspec bench`.
     name: &'static str,
@@ -85,7 +85,7 @@ struct Row {
     factors: Option<Factors>,
 }
 
-/// A way that computes nothing, of which rows say what they do.
+/// An algorithm that computes nothing: rows say what they do instead.
 const NOTHING: Row = Row {
     name: "",
     covers: |_, _| false,
@@ -100,7 +100,7 @@ const NOTHING: Row = Row {
 struct Places {
     /// `xpos xmat xipos ximat xanchor xaxis`.
     forward_kinematics: fn(&Model, &mut Fields, &mut Scratch),
-    /// `xquat`, after `place`.
+    /// `xquat`, after `forward_kinematics`.
     orientations: fn(&mut Fields, &mut Scratch),
 }
 
@@ -139,7 +139,7 @@ struct Factors {
 /// B, x and y.
 type Damped<'a> = (&'a [f64], &'a mut [f64], &'a mut [f64]);
 
-/// The ways that have trees, for each of the three.
+/// The algorithms that have trees, for each of the three.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Selected {
     places: TreeAlgorithms,
@@ -147,7 +147,7 @@ struct Selected {
     factors: TreeAlgorithms,
 }
 
-/// The trees of one way, for each of the three, in order.
+/// The trees of one algorithm, for each of the three, in order.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Assignment {
     places: Vec<usize>,
@@ -156,7 +156,7 @@ struct Assignment {
 }
 
 impl TreeAlgorithm {
-    /// The short ways, in the order of the table.
+    /// The specialized algorithms, in the order of the table.
     pub fn short() -> impl Iterator<Item = TreeAlgorithm> {
         (0..GENERAL as u8).map(TreeAlgorithm)
     }
@@ -181,13 +181,13 @@ impl std::fmt::Debug for TreeAlgorithm {
 /// The last row.
 const GENERAL: usize = TABLE.len() - 1;
 
-// `Ways` has a bit for each row.
+// `TreeAlgorithms` has a bit for each row.
 const _: () = assert!(TABLE.len() <= u8::BITS as usize);
 
 /// The row that a tree takes for one of the three.
-fn row_of(m: &Model, ways: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
+fn row_of(m: &Model, algorithms: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) -> bool) -> usize {
     let takes = |i: &usize| {
-        ways.has(TreeAlgorithm(*i as u8))
+        algorithms.has(TreeAlgorithm(*i as u8))
             && !m.tree_dofs(tree).is_empty()
             && computes(&TABLE[*i])
             && (TABLE[*i].covers)(m, tree)
@@ -195,77 +195,79 @@ fn row_of(m: &Model, ways: TreeAlgorithms, tree: usize, computes: impl Fn(&Row) 
     (0..GENERAL).find(takes).unwrap_or(GENERAL)
 }
 
-/// Which ways the trees of a model take.
-fn sort(m: &Model, ways: TreeAlgorithms) -> (Selected, [Assignment; TABLE.len()]) {
-    // The general way is always asked: bodies may be in no tree, and what it computes of bodies may be read.
+/// Which algorithms compute the trees of a model.
+fn sort(m: &Model, algorithms: TreeAlgorithms) -> (Selected, [Assignment; TABLE.len()]) {
+    // The general algorithm is always asked: bodies may be in no tree, and what it computes of bodies may be read.
     let always = TreeAlgorithms::GENERAL.with(TreeAlgorithm(GENERAL as u8));
-    let mut taken = Selected { places: always, forces: always, factors: TreeAlgorithms::GENERAL };
+    let mut selected = Selected { places: always, forces: always, factors: TreeAlgorithms::GENERAL };
     let mut assignments = [(); TABLE.len()].map(|()| Assignment::default());
     for tree in (0..m.ntree).filter(|&t| !m.tree_dofs(t).is_empty()) {
-        let [places, forces, factors] = taken_by(m, ways, tree).map(|way| usize::from(way.0));
+        let [places, forces, factors] =
+            selected_for(m, algorithms, tree).map(|algorithm| usize::from(algorithm.0));
         assignments[places].places.push(tree);
         assignments[forces].forces.push(tree);
         assignments[factors].factors.push(tree);
-        taken.places = taken.places.with(TreeAlgorithm(places as u8));
-        taken.forces = taken.forces.with(TreeAlgorithm(forces as u8));
-        taken.factors = taken.factors.with(TreeAlgorithm(factors as u8));
+        selected.places = selected.places.with(TreeAlgorithm(places as u8));
+        selected.forces = selected.forces.with(TreeAlgorithm(forces as u8));
+        selected.factors = selected.factors.with(TreeAlgorithm(factors as u8));
     }
-    (taken, assignments)
+    (selected, assignments)
 }
 
 // What plans ask.
 
 /// What computes M and the bias force of a tree. A row without them is never chosen.
-fn forces(m: &Model, ways: TreeAlgorithms, tree: usize) -> (usize, Option<&'static Forces>) {
-    let row = row_of(m, ways, tree, |row| row.forces.is_some());
+fn forces(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> (usize, Option<&'static Forces>) {
+    let row = row_of(m, algorithms, tree, |row| row.forces.is_some());
     (row, TABLE[row].forces.as_ref())
 }
 
-/// The ways that a tree takes for its places, its forces and its factors.
-pub(crate) fn taken_by(m: &Model, ways: TreeAlgorithms, tree: usize) -> [TreeAlgorithm; 3] {
+/// The algorithms that compute a tree: its places, its forces and its factors.
+pub(crate) fn selected_for(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> [TreeAlgorithm; 3] {
     [
-        row_of(m, ways, tree, |row| row.places.is_some()),
-        row_of(m, ways, tree, |row| row.forces.is_some()),
-        row_of(m, ways, tree, |row| row.factors.is_some()),
+        row_of(m, algorithms, tree, |row| row.places.is_some()),
+        row_of(m, algorithms, tree, |row| row.forces.is_some()),
+        row_of(m, algorithms, tree, |row| row.factors.is_some()),
     ]
     .map(|row| TreeAlgorithm(row as u8))
 }
 
 /// Whether M and the bias force of some tree need composite bodies and recursion.
-pub(crate) fn need_bodies(m: &Model, ways: TreeAlgorithms) -> bool {
-    (0..m.ntree).any(|tree| forces(m, ways, tree).0 == GENERAL)
+pub(crate) fn need_bodies(m: &Model, algorithms: TreeAlgorithms) -> bool {
+    (0..m.ntree).any(|tree| forces(m, algorithms, tree).0 == GENERAL)
 }
 
 /// Whether the bias force of some tree needs to know where its bodies are.
-pub(crate) fn look_at_places(m: &Model, ways: TreeAlgorithms) -> bool {
-    (0..m.ntree).any(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.looks_at_places)(m, tree)))
+pub(crate) fn look_at_places(m: &Model, algorithms: TreeAlgorithms) -> bool {
+    (0..m.ntree).any(|tree| forces(m, algorithms, tree).1.is_some_and(|f| (f.looks_at_places)(m, tree)))
 }
 
 /// Whether M of the whole model is diagonal and constant.
-pub(crate) fn are_constant(m: &Model, ways: TreeAlgorithms) -> bool {
-    (0..m.ntree).all(|tree| forces(m, ways, tree).1.is_some_and(|f| (f.constant)(m, tree)))
+pub(crate) fn are_constant(m: &Model, algorithms: TreeAlgorithms) -> bool {
+    (0..m.ntree).all(|tree| forces(m, algorithms, tree).1.is_some_and(|f| (f.constant)(m, tree)))
 }
 
 /// Whether the bias force of a tree is a torque that follows from the turning of its one free body: then composite bodies are not
 /// needed to say how it changes with velocities.
-pub(crate) fn turns_alone(m: &Model, ways: TreeAlgorithms, tree: usize) -> bool {
-    forces(m, ways, tree).1.is_some_and(|f| f.turns_alone)
+pub(crate) fn turns_alone(m: &Model, algorithms: TreeAlgorithms, tree: usize) -> bool {
+    forces(m, algorithms, tree).1.is_some_and(|f| f.turns_alone)
 }
 
 /// Whether all accelerations are found without the general rows of M.
-pub(crate) fn solve_alone(m: &Model, ways: TreeAlgorithms) -> bool {
+pub(crate) fn solve_alone(m: &Model, algorithms: TreeAlgorithms) -> bool {
     (0..m.ntree).all(|tree| {
-        let factors = row_of(m, ways, tree, |row| row.factors.is_some());
-        forces(m, ways, tree).0 != GENERAL || TABLE[factors].factors.as_ref().is_some_and(|f| f.without_mass)
+        let factors = row_of(m, algorithms, tree, |row| row.factors.is_some());
+        forces(m, algorithms, tree).0 != GENERAL
+            || TABLE[factors].factors.as_ref().is_some_and(|f| f.without_mass)
     })
 }
 
-/// The fields of which ways keep copies.
+/// The fields of which algorithms keep copies.
 pub(crate) fn copied() -> impl Iterator<Item = FieldId> {
     TABLE.iter().flat_map(|row| row.copies).copied()
 }
 
-/// Takes what the ways keep from the model again: when data are made, and when a field of which they keep copies was written.
+/// Takes what the algorithms keep from the model again: when data are made, and when a field of which they keep copies was written.
 pub(crate) fn load(m: &Model, w: &mut Scratch) {
     TABLE.iter().for_each(|row| (row.load)(m, w));
 }
@@ -283,19 +285,19 @@ pub(crate) fn are_chains(m: &Model, trees: &[i32]) -> bool {
 
 /// Whether some trees put off the rows of M until somebody asks for them.
 pub(crate) fn put_rows_off(w: &Scratch) -> bool {
-    !w.ways.planar_chain.is_empty()
+    !w.algorithms.planar_chain.is_empty()
 }
 
-// What steps ask: each calls the functions of all ways that have trees.
+// What steps ask: each calls the functions of all algorithms that have trees.
 
-/// Calls a function of every way that has trees for one of the three, from the general one to the shortest: what that one
-/// computes of all bodies, the short ones write over.
+/// Calls a function of every algorithm that has trees for one of the three, from the general one to the first of the table: what
+/// that one computes of all bodies, the specialized ones write over.
 macro_rules! each {
-    ($w:ident, $of:ident, |$way:ident, $row:ident, $functions:ident| $call:expr) => {
+    ($w:ident, $of:ident, |$algorithm:ident, $row:ident, $functions:ident| $call:expr) => {
         for i in (0..TABLE.len()).rev() {
-            let ($way, $row) = (TreeAlgorithm(i as u8), &TABLE[i]);
+            let ($algorithm, $row) = (TreeAlgorithm(i as u8), &TABLE[i]);
             if let Some($functions) = &$row.$of
-                && $w.ways.taken.$of.has($way)
+                && $w.algorithms.selected.$of.has($algorithm)
             {
                 $call
             }
@@ -306,21 +308,21 @@ macro_rules! each {
 /// Poses of bodies and joints: `xpos xmat xipos ximat xanchor xaxis`.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn forward_kinematics(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |_way, row, of| (of.forward_kinematics)(m, d, w));
+    each!(w, places, |_algorithm, row, of| (of.forward_kinematics)(m, d, w));
 }
 
-/// Orientations of bodies as quaternions, `xquat`, after [`place`].
+/// Orientations of bodies as quaternions, `xquat`, after [`forward_kinematics`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn orientations(d: &mut Fields, w: &mut Scratch) {
-    each!(w, places, |_way, row, of| (of.orientations)(d, w));
+    each!(w, places, |_algorithm, row, of| (of.orientations)(d, w));
 }
 
-/// `M`, with or without the rows of the general way, and of ways that put theirs off.
+/// `M`, with or without the rows of the general algorithm, and of those that put theirs off.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, rows: bool) {
     w.rows_wanted = rows;
-    each!(w, forces, |way, row, of| {
-        if way.0 != GENERAL as u8 || general {
+    each!(w, forces, |algorithm, row, of| {
+        if algorithm.0 != GENERAL as u8 || general {
             (of.mass)(m, d, w);
         }
     });
@@ -330,14 +332,14 @@ pub(crate) fn mass(m: &Model, d: &mut Fields, w: &mut Scratch, general: bool, ro
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn bias(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let gravity = if m.opt.disabled(disable::GRAVITY) { [0.0; 3] } else { m.opt.gravity };
-    each!(w, forces, |_way, row, of| (of.bias)(m, d, w, gravity));
+    each!(w, forces, |_algorithm, row, of| (of.bias)(m, d, w, gravity));
 }
 
 /// `qLD` and `qLDiagInv`, the factorization of M. Returns the first degree of freedom whose D is not positive: so below.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_way, row, of| bad = first(bad, (of.factor)(m, d, w)));
+    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.factor)(m, d, w)));
     bad
 }
 
@@ -346,27 +348,27 @@ pub(crate) fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize
 pub(crate) fn complete(m: &Model, d: &mut Fields, w: &mut Scratch) {
     if w.rows_due {
         w.rows_due = false;
-        each!(w, factors, |_way, row, of| (of.complete)(m, d, w));
+        each!(w, factors, |_algorithm, row, of| (of.complete)(m, d, w));
     }
 }
 
 /// x ← M⁻¹ x by what [`factor`] has left.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    each!(w, factors, |_way, row, of| (of.solve)(m, d, w, x));
+    each!(w, factors, |_algorithm, row, of| (of.solve)(m, d, w, x));
 }
 
 /// x ← (M + B)⁻¹ x for a diagonal matrix B (nv), after [`factor`].
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    each!(w, factors, |_way, row, of| (of.solve_with)(m, d, w, b, x));
+    each!(w, factors, |_algorithm, row, of| (of.solve_with)(m, d, w, b, x));
 }
 
 /// x ← M⁻¹ x without what [`factor`] would leave.
 #[cfg_attr(not(feature = "small"), inline(always))]
 pub(crate) fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_way, row, of| bad = first(bad, (of.solve_now)(m, d, w, x)));
+    each!(w, factors, |_algorithm, row, of| bad = first(bad, (of.solve_now)(m, d, w, x)));
     bad
 }
 
@@ -381,7 +383,8 @@ pub(crate) fn solve_both(
     y: &mut [f64],
 ) -> Option<usize> {
     let mut bad = None;
-    each!(w, factors, |_way, row, of| bad = first(bad, (of.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
+    each!(w, factors, |_algorithm, row, of| bad =
+        first(bad, (of.solve_both)(m, d, w, (b, &mut *x, &mut *y))));
     bad
 }
 

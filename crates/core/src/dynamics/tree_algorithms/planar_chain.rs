@@ -11,7 +11,7 @@
 //! ω q, q = (-r_y, r_x), it is h + M q and J + q · (2 h + M q) about the anchor before.
 //!
 //! Which trees are such chains is found when a model is compiled, and kept in it. Written to its axes and frames afterwards, a chain may
-//! leave its plane: it is then computed as the general way does.
+//! leave its plane: it is then computed as the general algorithm does.
 
 use super::planar_passes::{Joint, Link, forward_kinematics, inward, outward, solve_known};
 use super::{Assignment, Damped, Factors, Forces, NOTHING, Row, chain};
@@ -26,7 +26,7 @@ pub(super) const ROW: Row = Row {
     name: "planar",
     covers,
     copies: &chain::COPIES,
-    load: |m, w| w.ways.planar_chain.load(m),
+    load: |m, w| w.algorithms.planar_chain.load(m),
     forces: Some(Forces {
         mass,
         bias,
@@ -171,7 +171,7 @@ impl Trees {
 #[inline(never)] // scenes of other trees do not carry the set-up: so below
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
     let rows = w.rows_wanted;
-    let trees = &mut w.ways.planar_chain;
+    let trees = &mut w.algorithms.planar_chain;
     if !trees.flat {
         return in_space(m, d, w);
     }
@@ -189,7 +189,7 @@ fn in_space(m: &Model, d: &mut Fields, w: &mut Scratch) {
     kinematics::bodies(d, super::general::frames(w));
     com::com_pos(m, d);
     com::body_inertias(m, d);
-    for span in w.ways.planar_chain.spans.iter().map(|span| span.dofs.clone()) {
+    for span in w.algorithms.planar_chain.spans.iter().map(|span| span.dofs.clone()) {
         rows_of_m::composite_inertia(m, d, &mut w.path, &[span]);
     }
 }
@@ -218,11 +218,11 @@ fn rows_of_mass(m: &Model, mass: &mut [f64], span: &Span, links: &[Link]) {
 /// The bias force.
 #[inline(never)]
 fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
-    if !w.ways.planar_chain.flat {
+    if !w.algorithms.planar_chain.flat {
         com::com_vel(m, d);
         return rne::newton_euler(m, d, w, gravity);
     }
-    let Trees { spans, links, .. } = &mut w.ways.planar_chain;
+    let Trees { spans, links, .. } = &mut w.algorithms.planar_chain;
     for span in spans.iter() {
         let links = &mut links[span.links.clone()];
         // Gravity enters as an upward acceleration of the world.
@@ -250,11 +250,11 @@ fn bias(m: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
 /// U and 1/D, which solve with M; and with `x`, x ← M⁻¹ x.
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn prepare(m: &Model, d: &mut Fields, w: &mut Scratch, mut x: Option<&mut [f64]>) -> Option<usize> {
-    let trees = &mut w.ways.planar_chain;
+    let trees = &mut w.algorithms.planar_chain;
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     let mut bad = None;
-    for Span { dofs, links: own, .. } in &trees.spans {
-        let (links, joints) = (&trees.links[own.clone()], &mut trees.joints[own.clone()]);
+    for Span { dofs, links: range, .. } in &trees.spans {
+        let (links, joints) = (&trees.links[range.clone()], &mut trees.joints[range.clone()]);
         let found = match (x.as_deref_mut(), trees.untied && trees.flat) {
             (Some(x), true) => {
                 let x = &mut x[dofs.clone()];
@@ -300,15 +300,15 @@ fn solve_now(m: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
 
 #[inline(never)]
 fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
-    let trees = &mut w.ways.planar_chain;
+    let trees = &mut w.algorithms.planar_chain;
     trees.untied = m.ntendon == 0 || !reflected::tendons_have_inertia(m);
     if !(trees.untied && trees.flat) {
         solve_with(m, d, w, b, y);
         return solve_now(m, d, w, x);
     }
     let mut bad = None;
-    for Span { dofs, links: own, .. } in &trees.spans {
-        let (links, joints) = (&trees.links[own.clone()], &mut trees.joints[own.clone()]);
+    for Span { dofs, links: range, .. } in &trees.spans {
+        let (links, joints) = (&trees.links[range.clone()], &mut trees.joints[range.clone()]);
         let (b, x, y) = (&b[dofs.clone()], &mut x[dofs.clone()], &mut y[dofs.clone()]);
         for ((joint, link), ((b, x), y)) in joints.iter_mut().zip(links).zip(b.iter().zip(&*x).zip(&*y)) {
             (joint[0].diagonal, joint[0].x) = (link.armature, *x);
@@ -327,7 +327,7 @@ fn solve_both(m: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>)
 /// The rows of `qLD`, and `qLDiagInv`.
 #[inline(never)]
 fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let Trees { spans, links, joints, untied, flat, .. } = &w.ways.planar_chain;
+    let Trees { spans, links, joints, untied, flat, .. } = &w.algorithms.planar_chain;
     if !(*untied && *flat) {
         return;
     }
@@ -349,28 +349,28 @@ fn rows_of_factor(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 #[inline(never)]
 fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    let Trees { spans, links, joints, untied, flat, .. } = &mut w.ways.planar_chain;
-    for Span { dofs, links: own, .. } in spans.iter() {
+    let Trees { spans, links, joints, untied, flat, .. } = &mut w.algorithms.planar_chain;
+    for Span { dofs, links: range, .. } in spans.iter() {
         if !(*untied && *flat) {
             rows_of_m::solve(m, &d.qLD, &d.qLDiagInv, x, dofs.clone());
             continue;
         }
-        let (x, joints) = (&mut x[dofs.clone()], &mut joints[own.clone()]);
+        let (x, joints) = (&mut x[dofs.clone()], &mut joints[range.clone()]);
         joints.iter_mut().zip(&*x).for_each(|(joint, x)| joint[0].x = *x);
-        solve_known(&links[own.clone()], joints);
+        solve_known(&links[range.clone()], joints);
         x.iter_mut().zip(&*joints).for_each(|(x, joint)| *x = joint[0].x);
     }
 }
 
 #[inline(never)]
 fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    let Trees { spans, links, joints, untied, flat, .. } = &mut w.ways.planar_chain;
-    for Span { dofs, links: own, .. } in spans.iter() {
+    let Trees { spans, links, joints, untied, flat, .. } = &mut w.algorithms.planar_chain;
+    for Span { dofs, links: range, .. } in spans.iter() {
         if !(*untied && *flat) {
             rows_of_m::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs.clone(), x);
             continue;
         }
-        let (links, joints) = (&links[own.clone()], &mut joints[own.clone()]);
+        let (links, joints) = (&links[range.clone()], &mut joints[range.clone()]);
         let (b, x) = (&b[dofs.clone()], &mut x[dofs.clone()]);
         for ((joint, link), (b, x)) in joints.iter_mut().zip(links).zip(b.iter().zip(&*x)) {
             (joint[1].diagonal, joint[1].x) = (link.armature + b, *x);

@@ -21,7 +21,7 @@ pub(super) const ROW: Row = Row {
         fields_of::actuator_armature,
         fields_of::actuator_gear,
     ],
-    load: |m, w| w.ways.prismatic.load(m),
+    load: |m, w| w.algorithms.prismatic.load(m),
     forces: Some(Forces {
         mass,
         bias,
@@ -140,7 +140,7 @@ impl Trees {
 }
 
 fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
-    let trees = &mut w.ways.prismatic;
+    let trees = &mut w.algorithms.prismatic;
     trees.update(m, rows::<3>(&d.xaxis));
     for slide in &trees.slides {
         d.M[rows_of_mass::row(m, slide.dof)].copy_from_slice(&slide.row);
@@ -149,14 +149,14 @@ fn mass(m: &Model, d: &mut Fields, w: &mut Scratch) {
 
 fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
     let axes = rows::<3>(&d.xaxis);
-    for slide in &w.ways.prismatic.slides {
+    for slide in &w.algorithms.prismatic.slides {
         d.qfrc_bias[slide.dof] = -slide.mass * dot(gravity, axes[slide.joint]);
     }
 }
 
 fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
-    for tree in &mut w.ways.prismatic.factored {
+    for tree in &mut w.algorithms.prismatic.factored {
         let (rows, dofs) = (tree.rows.clone(), tree.dofs.clone());
         if same_bits(&tree.of, &d.M[rows.clone()]) {
             d.qLD[rows].copy_from_slice(&tree.ld);
@@ -179,13 +179,13 @@ fn factor(m: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 }
 
 fn solve(m: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    for tree in &w.ways.prismatic.factored {
+    for tree in &w.algorithms.prismatic.factored {
         rows_of_mass::solve(m, &d.qLD, &d.qLDiagInv, x, tree.dofs.clone());
     }
 }
 
 fn solve_with(m: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    for tree in &w.ways.prismatic.factored {
+    for tree in &w.algorithms.prismatic.factored {
         let dofs = tree.dofs.clone();
         rows_of_mass::solve_with(m, &d.M, b, [&mut w.ld, &mut w.diag_inv], dofs, x);
     }

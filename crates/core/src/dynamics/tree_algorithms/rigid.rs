@@ -20,7 +20,7 @@ pub(super) const ROW: Row = Row {
     name: "rigid",
     covers,
     copies: &COPIES,
-    load: |m, w| w.ways.rigid.bodies.iter_mut().for_each(|body| body.load(m)),
+    load: |m, w| w.algorithms.rigid.bodies.iter_mut().for_each(|body| body.load(m)),
     forces: Some(Forces {
         mass,
         bias,
@@ -129,7 +129,7 @@ impl Body {
 }
 
 fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
-    for body in &w.ways.rigid.bodies {
+    for body in &w.algorithms.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let ([a, b, c], [u, v, w]) = (body.turning, body.moving);
         let out = &mut d.M[body.rows..];
@@ -160,10 +160,12 @@ fn fill<const N: usize>(rows: &mut [f64], values: [f64; N]) {
 }
 
 fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
-    for body in &w.ways.rigid.bodies {
+    for body in &w.algorithms.rigid.bodies {
         let [xx, yy, zz, xy, xz, yz, hx, hy, hz, mass] = body.inertia;
         let (h, axes) = ([hx, hy, hz], &rows::<9>(&d.xmat)[body.body]);
-        let Some(&turn) = d.qvel[body.turn..].first_chunk() else { continue };
+        let Some(&turn) = d.qvel[body.turn..].first_chunk() else {
+            return broken_invariant("a body that turns has three angular velocities");
+        };
         let [x, y, z] = turn;
         let momentum = [xx * x + xy * y + xz * z, xy * x + yy * y + yz * z, xz * x + yz * y + zz * z];
         let torque = sub(cross(turn, momentum), cross(h, mat_t_mul_vec(axes, gravity)));

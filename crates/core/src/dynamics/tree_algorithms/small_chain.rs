@@ -57,7 +57,7 @@ impl Trees {
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn factor(_: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
     let mut bad = None;
-    for tree in &w.ways.small_chain.trees {
+    for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, None));
     }
     bad
@@ -65,14 +65,14 @@ fn factor(_: &Model, d: &mut Fields, w: &mut Scratch) -> Option<usize> {
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve(_: &Model, d: &Fields, w: &mut Scratch, x: &mut [f64]) {
-    for tree in &w.ways.small_chain.trees {
+    for tree in &w.algorithms.small_chain.trees {
         tree.solve(d, x);
     }
 }
 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_with(_: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) {
-    for tree in &w.ways.small_chain.trees {
+    for tree in &w.algorithms.small_chain.trees {
         tree.solve_with(&d.M, b, x);
     }
 }
@@ -80,7 +80,7 @@ fn solve_with(_: &Model, d: &Fields, w: &mut Scratch, b: &[f64], x: &mut [f64]) 
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_now(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Option<usize> {
     let mut bad = None;
-    for tree in &w.ways.small_chain.trees {
+    for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
     }
     bad
@@ -89,7 +89,7 @@ fn solve_now(_: &Model, d: &mut Fields, w: &mut Scratch, x: &mut [f64]) -> Optio
 #[cfg_attr(not(feature = "small"), inline(always))]
 fn solve_both(_: &Model, d: &mut Fields, w: &mut Scratch, (b, x, y): Damped<'_>) -> Option<usize> {
     let mut bad = None;
-    for tree in &w.ways.small_chain.trees {
+    for tree in &w.algorithms.small_chain.trees {
         bad = bad.or(tree.factor(&d.M, &mut d.qLD, &mut d.qLDiagInv, Some(&mut *x)));
         tree.solve_with(&d.M, b, y);
     }

@@ -19,6 +19,7 @@ mod servo;
 use crate::forces::{Scratch, transmission};
 use crate::kinds::{biastype, disable, dyntype, gaintype, joint, trntype};
 use crate::math::*;
+use crate::model::index::{element_range, object_index};
 use crate::model::plan::PlanFlag;
 use crate::model::{Fields, Model, asleep};
 
@@ -44,9 +45,7 @@ pub(crate) fn prm(of: &[f64], i: usize) -> &[f64; 10] {
 
 /// Addresses of the activations of actuator `i`.
 fn states(m: &Model, i: usize) -> std::ops::Range<usize> {
-    // Without activations the address is -1 and the number 0.
-    let first = m.actuator_actadr[i].max(0) as usize;
-    first..first + m.actuator_actnum[i] as usize
+    element_range(m.actuator_actadr[i], m.actuator_actnum[i])
 }
 
 /// A filter with time constant τ after a time h.
@@ -256,7 +255,7 @@ pub(crate) fn idle(m: &Model, d: &Fields, i: usize) -> bool {
 /// follows from the length of a slide, hinge or tendon alone and does not push with the velocity. Controls are those of
 /// `acting`.
 pub(crate) fn along_length(m: &Model, d: &Fields, i: usize) -> Option<[f64; 2]> {
-    let target = m.actuator_trnid[2 * i].max(0) as usize;
+    let target = object_index(m.actuator_trnid[2 * i]);
     let simple = match m.actuator_trntype[i] {
         trntype::JOINT | trntype::JOINTINPARENT => {
             m.jnt_type.get(target).is_some_and(|&t| matches!(t, joint::SLIDE | joint::HINGE))

@@ -6,6 +6,7 @@
 //! matrices B that act on s_j add up over subtrees, as composite bodies do (Featherstone 2008, chapter 6; Echeandia
 //! and Wensing 2021, *Numerical methods to compute the Coriolis matrix*).
 
+use crate::model::index::element_range;
 use std::ops::Range;
 
 use super::sparse;
@@ -103,8 +104,7 @@ fn slopes(m: &Model, d: &Fields, w: &mut Work, bodies: Range<usize>) {
     let cvel = rows::<6>(&d.cvel);
     for b in bodies {
         let mut v = cvel[m.body_parentid[b] as usize];
-        let first = m.body_jntadr[b].max(0) as usize;
-        for j in first..first + m.body_jntnum[b] as usize {
+        for j in element_range(m.body_jntadr[b], m.body_jntnum[b]) {
             let k = m.jnt_dofadr[j] as usize;
             // Degrees of freedom that move as one: the translations and the rotations of a free joint, a ball.
             let groups = match m.jnt_type[j] {

@@ -94,7 +94,7 @@ pub(crate) fn subtract_bias(m: &Model, d: &Fields, w: &mut Work) {
 
 /// Subtracts the derivative of the bias force of one tree that is a free body.
 pub(crate) fn subtract_tree_bias(m: &Model, d: &Fields, w: &mut Work, tree: usize) {
-    if tree_algorithms::turns_alone(m, d.plan.ways, tree) {
+    if tree_algorithms::turns_alone(m, d.plan.algorithms, tree) {
         return subtract_turning(m, d, &mut w.whole, tree);
     }
     let first = m.tree_bodyadr[tree] as usize;

@@ -3,6 +3,7 @@
 //! A body is a box with the same inertia, unless one of its geoms asks for the ellipsoid model (MuJoCo's
 //! documentation, "Computation: Fluid forces").
 
+use crate::model::index::element_range;
 use std::f64::consts::PI;
 
 use super::ellipsoid::Ellipsoid;
@@ -33,14 +34,14 @@ pub(crate) fn shapes(m: &Model, d: &Fields, mut f: impl FnMut(&Frame, &Shape)) {
         if m.body_mass[b] < MINVAL {
             continue;
         }
-        let first = m.body_geomadr[b].max(0) as usize;
-        let fluid = &rows::<FLUID>(&m.geom_fluid)[first..first + m.body_geomnum[b] as usize];
+        let geoms = element_range(m.body_geomadr[b], m.body_geomnum[b]);
+        let fluid = &rows::<FLUID>(&m.geom_fluid)[geoms.clone()];
         if fluid.iter().all(|s| s[0] <= 0.0) {
             let frame = Frame::new(m, d, b, rows::<3>(&d.xipos)[b], rows::<9>(&d.ximat)[b]);
             f(&frame, &Shape::Box(InertiaBox::new(m, b)));
             continue;
         }
-        for (g, &fluid) in (first..).zip(fluid).filter(|(_, s)| s[0] != 0.0) {
+        for (g, &fluid) in geoms.zip(fluid).filter(|(_, s)| s[0] != 0.0) {
             let frame = Frame::new(m, d, b, rows::<3>(&d.geom_xpos)[g], rows::<9>(&d.geom_xmat)[g]);
             f(&frame, &Shape::Ellipsoid(Ellipsoid::new(m, g, fluid)));
         }

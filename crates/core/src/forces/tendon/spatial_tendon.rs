@@ -230,7 +230,10 @@ pub(crate) fn pull(m: &Model, d: &Fields, t: usize, force: f64, apply: &mut impl
         let point = rows::<3>(&d.wrap_xpos)[k];
         let body = match d.wrap_obj[k] {
             ON_PULLEY => {
-                (divisor, last) = (divisors.next().unwrap_or(1.0), None);
+                divisor = divisors
+                    .next()
+                    .unwrap_or_else(|| 1.0 + broken_invariant::<f64>("a pulley has a divisor"));
+                last = None;
                 continue;
             }
             ON_SITE => sites.next().map_or(0, |s| m.site_bodyid[s]),

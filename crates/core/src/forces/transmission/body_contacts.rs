@@ -3,6 +3,7 @@
 use super::Rows;
 use crate::dynamics::jacobian;
 use crate::forces::Scratch;
+use crate::kinds::exclude;
 use crate::model::{Fields, Model};
 
 /// The mean over the contacts of body `b` of the direction in which they separate, as a force that pulls; it has no
@@ -14,7 +15,7 @@ pub(super) fn adhesion(m: &Model, d: &Fields, b: usize, w: &mut Scratch, out: &m
     for contact in &d.contact {
         let bodies = [contact.geom1, contact.geom2].map(|g| m.geom_bodyid[g] as usize);
         // Those that are detected in the gap count, those that move nothing do not.
-        if !bodies.contains(&b) || contact.exclude > 1 {
+        if !bodies.contains(&b) || contact.exclude > exclude::IN_GAP {
             continue;
         }
         count += 1;

@@ -81,7 +81,6 @@ fn others(i: usize) -> [usize; 2] {
 }
 
 impl Placement {
-    #[inline]
     fn new(first: &Shape, second: &Shape) -> Placement {
         let between = sub(second.pos, first.pos);
         let columns = [0, 1, 2].map(|j| mat_t_mul_vec(&first.mat, second.axis(j)));
@@ -106,7 +105,6 @@ impl Placement {
     }
 
     /// The largest gap along a face normal; of equal ones the first.
-    #[inline]
     fn largest_face_gap(&self) -> (f64, Face) {
         let [along_first, along_second] = self.face_gaps();
         let (mut best, mut face) = (f64::NEG_INFINITY, Face::First(0));
@@ -124,7 +122,6 @@ impl Placement {
     }
 
     /// The largest gap along a common perpendicular of edges, where that is larger than a gap.
-    #[inline]
     fn larger_edge_gap(&self, mut gap: f64) -> Option<EdgeAxis> {
         let [x, y, z] = [0, 1, 2].map(|i| self.edge_gaps(i));
         let largest = vec3(x.fast_max(y).fast_max(z));
@@ -249,7 +246,6 @@ fn face_contacts(
 impl Placement {
     /// The face of the second box that is turned most towards the upper or lower face `a` of the first, clipped by the sides of
     /// that face: coordinates along the face, and the height above it.
-    #[inline]
     fn clipped_face(&self, a: usize, up: f64) -> List<Vec3, 8> {
         let ([size, other], [offset, _]) = (self.size, self.offset);
         let [x, y] = others(a);

@@ -124,7 +124,7 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Cont
     let mesh = &other.mesh();
     let down = scale(mat_t_mul_vec(&other.mat, normal), -1.0);
     let at = |v: usize| {
-        let point = other.world(mesh.vert.get(v).copied().unwrap_or_default());
+        let point = other.world(mesh.vertex(v));
         touch(normal, dot(sub(point, plane.pos), normal), point)
     };
     let lowest = match &mesh.hull {
@@ -146,7 +146,7 @@ pub(super) fn mesh(plane: &Shape, other: &Shape, margin: f64, out: &mut Vec<Cont
     let mut corners = Corners::new();
     for k in 0..side.len() {
         let v = side[(start + k) % side.len()] as usize;
-        corners.push(mesh.vert.get(v).copied().unwrap_or_default());
+        corners.push(mesh.vertex(v));
     }
     let mut add = |local: Vec3| {
         let point = other.world(local);

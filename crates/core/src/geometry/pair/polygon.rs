@@ -238,7 +238,7 @@ fn mesh_corner(s: &Shape, sides: &HullFaces, vertex: usize, corner: Vec3, out: &
         let list = sides.vertices(index);
         let other = list[(at + 1) % list.len()] as usize;
         out.faces.push(Face { index, normal: mat_mul_vec(&s.mat, sides.normal(index)) });
-        out.edges.push([corner, s.world(s.mesh().vert.get(other).copied().unwrap_or_default())]);
+        out.edges.push([corner, s.world(s.mesh().vertex(other))]);
     }
 }
 
@@ -265,7 +265,7 @@ fn corners(s: &Shape, face: usize) -> Corners {
         _ => {
             let vertices = s.mesh().sides.map_or(&[][..], |sides| sides.vertices(face));
             for &v in vertices.iter().rev() {
-                out.push(s.world(s.mesh().vert.get(v as usize).copied().unwrap_or_default()));
+                out.push(s.world(s.mesh().vertex(v as usize)));
             }
         }
     }

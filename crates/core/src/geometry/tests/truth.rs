@@ -240,7 +240,7 @@ pub(super) fn is_true(a: &Shape, b: &Shape) -> bool {
     })
 }
 
-fn check(kind1: i32, kind2: i32, cases: usize) -> Tally {
+fn check_pair(kind1: i32, kind2: i32, cases: usize) -> Tally {
     let solids = solids();
     let (mut r, mut room, mut t) = (Random((kind1 * 8 + kind2) as u64), Room::default(), Tally::default());
     let settings = super::patient();
@@ -320,7 +320,7 @@ fn signed_distances_are_true() {
     let mut table = String::new();
     let mut wrong = String::new();
     for (kind1, kind2) in PAIRS {
-        let t = check(kind1, kind2, cases);
+        let t = check_pair(kind1, kind2, cases);
         table += &format!(
             "| {}-{} | {} | {:.0e} | {} | {:.0e} | {:.0e} | {:.0e} |\n",
             super::KINDS[kind1 as usize],
@@ -369,11 +369,12 @@ fn prisms_of_the_ground_are_true() {
         }
         deep += 1;
         let edge = |i: usize, j: usize| normalize(sub(corners[i], corners[j])).0;
-        let own = [edge(0, 1), edge(1, 2), edge(2, 0), edge(3, 4), edge(4, 5), edge(5, 3), [0.0, 0.0, 1.0]];
+        let axes_of_first =
+            [edge(0, 1), edge(1, 2), edge(2, 0), edge(3, 4), edge(4, 5), edge(5, 3), [0.0, 0.0, 1.0]];
         // Every side of the prism holds two of its own edges.
         let (mut axes, others) = faces_and_edges(&b);
-        for e in own {
-            let across = own.iter().chain(&others).map(|f| normalize(cross(e, *f)));
+        for e in axes_of_first {
+            let across = axes_of_first.iter().chain(&others).map(|f| normalize(cross(e, *f)));
             axes.extend(across.filter(|(_, sine)| *sine > 1e-9).map(|(n, _)| n));
         }
         let least =

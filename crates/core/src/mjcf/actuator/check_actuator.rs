@@ -2,7 +2,7 @@
 
 use super::shortcut::inputs;
 use crate::forces::actuation::slots;
-use crate::kinds::{biastype, dyntype, gaintype, joint, trntype};
+use crate::kinds::{biastype, choice, dyntype, gaintype, joint, trntype};
 use crate::mjcf::body::limits;
 use crate::mjcf::context::Context;
 use crate::mjcf::gather::listed;
@@ -174,7 +174,7 @@ impl Check<'_, '_> {
                 .why("an integrator adds rotation vectors")
                 .help("write `input=\"expmap\"`");
         }
-        if a.force.flag == 1 && a.force.range[0] != 0.0 {
+        if a.force.flag == choice::TRUE && a.force.range[0] != 0.0 {
             self.error("forcerange", "has a forcerange that does not begin at zero")
                 .why("the range limits the magnitude of its torque");
         }
@@ -294,7 +294,7 @@ impl Check<'_, '_> {
                 .why("MuJoCo 3.14.0 gives a pid one state")
                 .help("write either `ki` (the first of `gainprm`) or `slewmax` (the second of `dynprm`)");
         }
-        if a.act.flag == 1 && needed == 0 && a.dyntype == dyntype::NONE {
+        if a.act.flag == choice::TRUE && needed == 0 && a.dyntype == dyntype::NONE {
             self.error("actrange", "has an actrange, but no activation")
                 .why("only actuators with a `dyntype` have a state to limit")
                 .help("remove `actrange`, or write `ctrlrange` or `dyntype`");

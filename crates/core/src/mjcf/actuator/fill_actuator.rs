@@ -2,6 +2,7 @@
 
 use super::check_actuator::{controls, outputs};
 use crate::forces::{history, transmission};
+use crate::kinds::choice;
 use crate::mjcf::arrays::{flat, padded};
 use crate::mjcf::gather::listed;
 use crate::mjcf::rules;
@@ -79,17 +80,17 @@ pub(crate) fn actuators(m: &mut Model, list: &[ActuatorSpec]) {
     flat(&mut m.actuator_dynprm, list, |a| a.dynprm);
     flat(&mut m.actuator_gainprm, list, |a| a.gainprm);
     flat(&mut m.actuator_biasprm, list, |a| a.biasprm);
-    flat(&mut m.actuator_actlimited, list, |a| [a.act.flag == 1]);
+    flat(&mut m.actuator_actlimited, list, |a| [a.act.flag == choice::TRUE]);
     flat(&mut m.actuator_actrange, list, |a| a.act.range);
     flat(&mut m.actuator_actearly, list, |a| [a.actearly]);
     flat(&mut m.actuator_damping, list, |a| [a.damping[0]]);
     flat(&mut m.actuator_dampingpoly, list, |a| [a.damping[1], a.damping[2]]);
     flat(&mut m.actuator_armature, list, |a| [a.armature]);
     flat(&mut m.actuator_group, list, |a| [a.group]);
-    flat(&mut m.actuator_forcelimited, list, |a| [a.force.flag == 1]);
+    flat(&mut m.actuator_forcelimited, list, |a| [a.force.flag == choice::TRUE]);
     flat(&mut m.actuator_forcerange, list, |a| a.force.range);
     let ranges: Vec<RangeSpec> = listed(list.iter().flat_map(controls));
-    flat(&mut m.actuator_ctrllimited, &ranges, |r| [r.flag == 1]);
+    flat(&mut m.actuator_ctrllimited, &ranges, |r| [r.flag == choice::TRUE]);
     flat(&mut m.actuator_ctrlrange, &ranges, |r| r.range);
     let each_output = || list.iter().flat_map(|a| std::iter::repeat_n(a, outputs(a)));
     flat(&mut m.actuator_gear, each_output(), |a| a.gear);

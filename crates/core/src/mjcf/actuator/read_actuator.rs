@@ -97,7 +97,7 @@ fn overlay(a: &mut ActuatorSpec, node: &Node, report: &mut Report) {
     a.biasprm = p.reals("biasprm", a.biasprm);
     a.dynprm = p.reals("dynprm", a.dynprm);
     a.actdim = p.int("actdim").unwrap_or(a.actdim);
-    a.actearly = p.word("actearly").map_or(a.actearly, |w| w == 1);
+    a.actearly = p.flag("actearly", a.actearly);
     for (limit, flag, range) in [
         (&mut a.ctrl, "ctrllimited", "ctrlrange"),
         (&mut a.force, "forcelimited", "forcerange"),
@@ -167,6 +167,29 @@ fn transmission(
             return None;
         }
     };
+    check_belongs(node, attribute, object, kind, report);
+    let id = refs.optional(object, node, attribute)?;
+    let second = match kind {
+        trntype::SLIDERCRANK => refs.required("site", node, "slidersite", report)?,
+        trntype::SITE if node.text("refsite").is_some() => refs.optional("site", node, "refsite")?,
+        _ => -1,
+    };
+    if a.gaintype == gaintype::SO3 && matches!(kind, trntype::JOINT | trntype::SITE) {
+        kind = trntype::SO3;
+        check_orientation(attribute, id, second, refs, node, report);
+    }
+    if kind == trntype::SLIDERCRANK && a.cranklength <= 0.0 {
+        let span = node.attribute("cranklength").map_or(node.span.clone(), |a| a.span.clone());
+        report
+            .error(rules::ACTUATOR, span, format!("`cranklength` of {owner} is {}", a.cranklength))
+            .why("it is the length of the rod between both sites, which must be larger than zero");
+    }
+    Some(TransmissionSpec { kind, id: [id, second] })
+}
+
+/// Reports attributes that belong to another transmission than the actuator's.
+fn check_belongs(node: &Node, attribute: &str, object: &str, kind: i32, report: &mut Report) {
+    let owner = node.describe();
     for (name, of, needs) in [
         ("slidersite", trntype::SLIDERCRANK, "cranksite"),
         ("cranklength", trntype::SLIDERCRANK, "cranksite"),
@@ -184,33 +207,33 @@ fn transmission(
                 ));
         }
     }
-    let id = refs.optional(object, node, attribute)?;
-    let second = match kind {
-        trntype::SLIDERCRANK => refs.required("site", node, "slidersite", report)?,
-        trntype::SITE if node.text("refsite").is_some() => refs.optional("site", node, "refsite")?,
-        _ => -1,
-    };
-    if a.gaintype == gaintype::SO3 && matches!(kind, trntype::JOINT | trntype::SITE) {
-        kind = trntype::SO3;
-        let joint = attribute == "joint";
-        if !joint && second < 0 {
-            report
-                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} has no `refsite`"))
-                .why("an orientation is relative to another site")
-                .help("write `refsite` with a site of the world for an orientation in space");
-        }
-        if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::kinds::joint::BALL) {
-            report
-                .error(rules::ACTUATOR, node.span.clone(), format!("{owner} acts on a joint that is not a ball joint"))
-                .why("an orientation has three degrees of freedom")
-                .help("use `position` for a hinge, and `site` with `refsite` for the orientation of a free body");
-        }
-    }
-    if kind == trntype::SLIDERCRANK && a.cranklength <= 0.0 {
-        let span = node.attribute("cranklength").map_or(node.span.clone(), |a| a.span.clone());
+}
+
+/// Reports what an actuator of orientations cannot act on.
+fn check_orientation(
+    attribute: &str,
+    id: i32,
+    second: i32,
+    refs: References,
+    node: &Node,
+    report: &mut Report,
+) {
+    let owner = node.describe();
+    let joint = attribute == "joint";
+    if !joint && second < 0 {
         report
-            .error(rules::ACTUATOR, span, format!("`cranklength` of {owner} is {}", a.cranklength))
-            .why("it is the length of the rod between both sites, which must be larger than zero");
+            .error(rules::ACTUATOR, node.span.clone(), format!("{owner} has no `refsite`"))
+            .why("an orientation is relative to another site")
+            .help("write `refsite` with a site of the world for an orientation in space");
     }
-    Some(TransmissionSpec { kind, id: [id, second] })
+    if joint && refs.ids.joint(id).is_some_and(|(kind, _)| kind != crate::kinds::joint::BALL) {
+        report
+            .error(
+                rules::ACTUATOR,
+                node.span.clone(),
+                format!("{owner} acts on a joint that is not a ball joint"),
+            )
+            .why("an orientation has three degrees of freedom")
+            .help("use `position` for a hinge, and `site` with `refsite` for the orientation of a free body");
+    }
 }

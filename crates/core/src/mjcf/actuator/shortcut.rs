@@ -5,7 +5,7 @@
 
 use super::overlay::Overlay;
 use super::shortcut_motor;
-use crate::kinds::{biastype, dyntype, gaintype};
+use crate::kinds::{biastype, choice, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
 use crate::mjcf::text::diagnostic::shorten_name;
 use std::f64::consts::PI;
@@ -125,7 +125,7 @@ fn inherit(inheritrange: f64, range: [f64; 2], attribute: &str, e: &mut Overlay)
 
 /// Controls from zero on, always clamped.
 fn one_way(a: &mut ActuatorSpec, e: &mut Overlay, why: &str) {
-    a.ctrl.flag = 1;
+    a.ctrl.flag = choice::TRUE;
     if a.ctrl.range.iter().any(|&x| x < 0.0) {
         let owner = e.node.describe();
         let [lower, upper] = a.ctrl.range;

@@ -6,10 +6,10 @@
 
 use super::overlay::Overlay;
 use crate::forces::actuation::slots;
-use crate::kinds::{biastype, dyntype, gaintype};
+use crate::kinds::{biastype, choice, dyntype, gaintype};
 use crate::mjcf::spec::ActuatorSpec;
 
-/// Writes the parameters of a motor into an actuator.
+/// Writes the parameters of a motor into an actuator. Long, as there is a paragraph for each attribute, in the order of the reference.
 pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
     // What a class without a motor has there stands for nothing.
     if a.gaintype != gaintype::DCMOTOR {
@@ -39,7 +39,7 @@ pub(crate) fn dcmotor(a: &mut ActuatorSpec, e: &mut Overlay) {
     }
     let limit = if force > 0.0 { force } else { k * current };
     if limit > 0.0 {
-        a.force.flag = 1;
+        a.force.flag = choice::TRUE;
         a.force.range = [-limit, limit];
     }
     a.dynprm[1] = slope.max(0.0);

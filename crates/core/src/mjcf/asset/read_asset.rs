@@ -221,7 +221,7 @@ impl Reader<'_> {
                 scale: p.reals("scale", [1.0; 3]),
                 refpos: p.reals("refpos", [0.0; 3]),
                 refquat,
-                smooth: p.word("smoothnormal") == Some(1),
+                smooth: p.flag("smoothnormal", false),
                 maxhullvert: usize::try_from(maxhullvert).ok(),
                 body: match p.word("inertia") {
                     Some(0) => Body::Convex,

@@ -76,6 +76,29 @@ impl Skin {
                 "count vertices from 0",
             ));
         }
+        let total = self.total_weights(n)?;
+        if let Some(i) = total.iter().position(|&sum| sum.is_nan() || sum <= MINVAL) {
+            return Err(Problem::new(
+                "",
+                format!("has a vertex {i} that no bone carries"),
+                "the weights of a vertex give the share of each body, and their sum must be positive",
+                "give the vertex to a bone, with a positive weight",
+            ));
+        }
+        for bone in &mut self.bones {
+            for (id, weight) in bone.vertid.iter().zip(&mut bone.vertweight) {
+                *weight /= total.get(*id as usize).copied().unwrap_or(1.0);
+            }
+            let length = libm::sqrt(bone.bindquat.iter().map(|x| x * x).sum());
+            if length > MINVAL {
+                bone.bindquat = bone.bindquat.map(|x| x / length);
+            }
+        }
+        Ok(self)
+    }
+
+    /// The sum of the weights of each of `n` vertices.
+    fn total_weights(&self, n: usize) -> Result<Vec<f64>, Problem> {
         let mut total = vec![0.0; n];
         for bone in &self.bones {
             let (ids, weights) = (bone.vertid.len(), bone.vertweight.len());
@@ -99,24 +122,7 @@ impl Skin {
                 *sum += weight;
             }
         }
-        if let Some(i) = total.iter().position(|&sum| sum.is_nan() || sum <= MINVAL) {
-            return Err(Problem::new(
-                "",
-                format!("has a vertex {i} that no bone carries"),
-                "the weights of a vertex give the share of each body, and their sum must be positive",
-                "give the vertex to a bone, with a positive weight",
-            ));
-        }
-        for bone in &mut self.bones {
-            for (id, weight) in bone.vertid.iter().zip(&mut bone.vertweight) {
-                *weight /= total.get(*id as usize).copied().unwrap_or(1.0);
-            }
-            let length = libm::sqrt(bone.bindquat.iter().map(|x| x * x).sum());
-            if length > MINVAL {
-                bone.bindquat = bone.bindquat.map(|x| x / length);
-            }
-        }
-        Ok(self)
+        Ok(total)
     }
 }
 
@@ -130,12 +136,6 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
             "export the skin in MuJoCo's binary format",
         ));
     }
-    let damaged = || {
-        Problem::file(
-            "has an SKN file that is shorter than its header says",
-            "the file is damaged: export it again",
-        )
-    };
     let mut numbers = Bytes(bytes);
     let sizes: [i32; 4] = numbers.ints().ok_or_else(damaged)?;
     let [nvert, ntexcoord, nface, nbone] = sizes.map(|n| usize::try_from(n).unwrap_or(usize::MAX));
@@ -156,18 +156,7 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
         ..Skin::default()
     };
     for _ in 0..nbone {
-        let (name, rest) = numbers.0.split_at_checked(NAME).ok_or_else(damaged)?;
-        numbers = Bytes(rest);
-        let end = name.iter().position(|&c| c == 0).unwrap_or(NAME - 1);
-        let body = String::from_utf8_lossy(name.get(..end).unwrap_or(name)).into_owned();
-        let (Some(bindpos), Some(bindquat), Some(n)) = (numbers.reals(), numbers.reals(), numbers.int())
-        else {
-            return Err(damaged());
-        };
-        let n = usize::try_from(n).ok().filter(|&n| n <= numbers.0.len() / 8).ok_or_else(damaged)?;
-        let vertid = listed((0..n).map_while(|_| numbers.int()));
-        let vertweight = listed((0..n).map_while(|_| numbers.real()));
-        skin.bones.push(Bone { body, bindpos, bindquat, vertid, vertweight, file: Some(span.clone()) });
+        skin.bones.push(read_bone(&mut numbers, span)?);
     }
     if !numbers.0.is_empty() {
         let message = format!("has an SKN file with {} bytes more than its header says", numbers.0.len());
@@ -182,4 +171,26 @@ pub(crate) fn decode(path: &str, bytes: &[u8], span: &Range<usize>) -> Result<Sk
         ));
     }
     Ok(skin)
+}
+
+fn damaged() -> Problem {
+    Problem::file(
+        "has an SKN file that is shorter than its header says",
+        "the file is damaged: export it again",
+    )
+}
+
+/// A bone at the front of the numbers.
+fn read_bone(numbers: &mut Bytes, span: &Range<usize>) -> Result<Bone, Problem> {
+    let (name, rest) = numbers.0.split_at_checked(NAME).ok_or_else(damaged)?;
+    *numbers = Bytes(rest);
+    let end = name.iter().position(|&c| c == 0).unwrap_or(NAME - 1);
+    let body = String::from_utf8_lossy(name.get(..end).unwrap_or(name)).into_owned();
+    let (Some(bindpos), Some(bindquat), Some(n)) = (numbers.reals(), numbers.reals(), numbers.int()) else {
+        return Err(damaged());
+    };
+    let n = usize::try_from(n).ok().filter(|&n| n <= numbers.0.len() / 8).ok_or_else(damaged)?;
+    let vertid = listed((0..n).map_while(|_| numbers.int()));
+    let vertweight = listed((0..n).map_while(|_| numbers.real()));
+    Ok(Bone { body, bindpos, bindquat, vertid, vertweight, file: Some(span.clone()) })
 }

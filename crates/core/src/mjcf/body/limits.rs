@@ -1,5 +1,6 @@
 //! Ranges with a flag: `range` and `limited`, and their like for forces.
 
+use crate::kinds::choice;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
 use crate::mjcf::rules::{self, Rule};
@@ -18,12 +19,9 @@ pub(crate) fn read(cx: &mut Context, p: &Props, node: &Node, limit: &Limit) -> (
     let range = p.reals(limit.range, [0.0; 2]);
     let span = p.span(limit.range).unwrap_or(node.span.clone());
     let given = p.has(limit.range) && range != [0.0; 2];
-    let flag = p.word(limit.flag).unwrap_or(AUTO);
+    let flag = p.word(limit.flag).unwrap_or(choice::AUTO);
     (decide(cx, flag, given, range, span, &node.describe(), limit), range)
 }
-
-/// A flag that says nothing.
-const AUTO: i32 = 2;
 
 /// Whether a range holds; a range that holds and does not grow is reported.
 pub(crate) fn decide(
@@ -37,8 +35,8 @@ pub(crate) fn decide(
 ) -> bool {
     let Limit { range, flag: attribute, code } = *limit;
     let limited = match flag {
-        0 => false,
-        1 => true,
+        choice::FALSE => false,
+        choice::TRUE => true,
         _ if cx.compiler.autolimits => {
             if given && lower >= upper {
                 let message = format!("the {range} of {owner} is {lower} to {upper}, which limits nothing");

@@ -1,7 +1,7 @@
 //! Joints.
 
 use super::limits;
-use crate::kinds::joint;
+use crate::kinds::{choice, joint};
 use crate::math::{norm, normalize};
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
@@ -31,7 +31,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
         kind,
         pos: if kind == joint::FREE { [0.0; 3] } else { p.reals("pos", [0.0; 3]) },
         axis: axis(cx, &p, node, kind),
-        align: p.word("align").unwrap_or(2),
+        align: p.word("align").unwrap_or(choice::AUTO),
         limited,
         range,
         margin: p.real("margin").unwrap_or(0.0),
@@ -43,7 +43,7 @@ pub(crate) fn joint(cx: &mut Context, i: usize, node: &Node, childclass: Option<
         solimp_friction: p.reals("solimpfriction", SOLIMP),
         actfrclimited,
         actfrcrange,
-        actgravcomp: p.word("actuatorgravcomp") == Some(1),
+        actgravcomp: p.flag("actuatorgravcomp", false),
         group: p.int("group").unwrap_or(0),
         user: List::read(&p, "user"),
         armature: p.real("armature").unwrap_or(0.0),

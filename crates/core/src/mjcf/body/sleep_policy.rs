@@ -10,7 +10,7 @@ use crate::model::Model;
 use crate::model::asleep::policy;
 
 /// Reports a choice where there is no tree to sleep.
-pub(crate) fn check(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
+pub(crate) fn check_policies(bodies: &[BodySpec], layout: &Layout, report: &mut Report) {
     for body in bodies.iter().skip(1).filter(|b| b.sleep != 0) {
         let carried = layout.body_tree.get(body.parent).is_some_and(|&t| t >= 0);
         if carried || body.joints.is_empty() {

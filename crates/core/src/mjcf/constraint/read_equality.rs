@@ -47,7 +47,7 @@ fn equality(cx: &mut Context, refs: References, node: &Node) -> Option<EqualityS
         objtype: if matches!(objtype, Obj::Body | Obj::Site) { objtype as i32 } else { 0 },
         obj1,
         obj2,
-        active: p.word("active") != Some(0),
+        active: p.flag("active", true),
         solref: p.reals("solref", SOLREF),
         solimp: p.reals("solimp", SOLIMP),
         data,

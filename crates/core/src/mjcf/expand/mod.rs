@@ -6,6 +6,7 @@
 //!
 //! Requests are carried out in the order of the text, inner ones first, so that copies hold copies.
 
+mod attach;
 mod copy;
 mod followers;
 pub(crate) mod references;
@@ -14,13 +15,12 @@ use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeMap;
 
 use super::MAX_ELEMENTS;
-use super::names::WORLD;
-use super::schema::{BODY, FRAME, ROOT};
+use super::schema::{FRAME, ROOT};
 use super::settings::Compiler;
 use crate::math::{Vec3, add, rotate};
 use crate::mjcf::body::orientation;
 use crate::mjcf::rules;
-use crate::mjcf::text::diagnostic::{Report, nearest, shorten_name};
+use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::load::Written;
 use crate::mjcf::text::tree::{Attribute, Node, Tree};
 use crate::mjcf::text::values::Value;
@@ -283,190 +283,6 @@ impl Expander {
         Some(())
     }
 
-    /// Copies a part of another model, or of this one, under a prefix.
-    fn attach(&mut self, at: usize, report: &mut Report) -> Option<()> {
-        let node = self.nodes.get(at)?.clone();
-        let Some(prefix) = node.attribute("prefix").and(Some(node.text("prefix").unwrap_or(""))) else {
-            report
-                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach has no `prefix`")
-                .why("it comes before every name of the copy, so that names stay unique")
-                .help("write `prefix=\"left_\"`");
-            return None;
-        };
-        let part = match (node.text("body"), node.text("frame")) {
-            (Some(_), Some(_)) => {
-                report
-                    .error(rules::CONFLICT, node.span.clone(), "attach has both `body` and `frame`")
-                    .help("keep one of them: only one object is attached");
-                return None;
-            }
-            (Some(name), None) => Some(("body", name)),
-            (None, Some(name)) => Some(("frame", name)),
-            (None, None) => None,
-        };
-        match node.text("model") {
-            Some(model) => {
-                // Taken out, so that it can be read while this model grows.
-                let Some((name, mut child)) = self.models.remove_entry(model) else {
-                    let span = node.attribute("model").map_or(node.span.clone(), |a| a.span.clone());
-                    unknown("model", model, self.models.keys().map(String::as_str), span, report);
-                    return None;
-                };
-                let done = self.attach_model(at, &node, prefix, &mut child, part, report);
-                self.models.insert(name, child);
-                done
-            }
-            None => self.attach_own(at, &node, prefix, part, report),
-        }
-    }
-
-    /// Copies a body or frame of this model.
-    fn attach_own(
-        &mut self,
-        at: usize,
-        node: &Node,
-        prefix: &str,
-        part: Option<(&'static str, &str)>,
-        report: &mut Report,
-    ) -> Option<()> {
-        let Some((kind, name)) = part else {
-            report
-                .error(rules::MISSING_ATTRIBUTE, node.span.clone(), "attach names neither a model nor a body")
-                .help("write `model=\"…\"` for a model of the assets, or `body=\"…\"` for a copy of a body of this model");
-            return None;
-        };
-        let span = node.attribute(kind).map_or(node.span.clone(), |a| a.span.clone());
-        let Some(&original) = self.names.get(&(kind, name.to_string())) else {
-            let names = self.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
-            unknown(kind, name, names, span, report);
-            return None;
-        };
-        if original > at && original < self.written {
-            report
-                .error(
-                    rules::COPY,
-                    span,
-                    format!("{kind} {} comes after the `attach` that copies it", shorten_name(name)),
-                )
-                .help("move the `attach` after it");
-            return None;
-        }
-        if self.holds(original, at) {
-            report
-                .error(rules::COPY, span, format!("{kind} {} is attached inside itself", shorten_name(name)))
-                .why("the copy would contain itself without end");
-            return None;
-        }
-        let rename = Rename { prefix, suffix: "", other_model: None };
-        let subtree = copy::names(&self.nodes, original);
-        let mut followers = self.uses.followers(&self.nodes, &subtree, false);
-        let (copy, _) = copy::copy(&self.nodes, original, rename, None);
-        let copy = self.adopt(copy, at)?;
-        let class = class_around(&self.nodes, original).unwrap_or("main").to_string();
-        self.settle(at, vec![childclass(node, class)?], vec![copy])?;
-        self.follow(&mut followers, rename)
-    }
-
-    /// Whether an element stands inside of another.
-    fn holds(&self, outer: usize, inner: usize) -> bool {
-        let mut up = Some(inner);
-        while let Some(at) = up {
-            if at == outer {
-                return true;
-            }
-            up = self.nodes.get(at).and_then(|n| n.parent);
-        }
-        false
-    }
-
-    /// Copies a body, a frame or all of another model, with its assets and classes.
-    fn attach_model(
-        &mut self,
-        at: usize,
-        node: &Node,
-        prefix: &str,
-        child: &mut Child,
-        part: Option<(&'static str, &str)>,
-        report: &mut Report,
-    ) -> Option<()> {
-        let offset = *child.offset.get_or_insert(self.parts.len());
-        if offset == self.parts.len() {
-            self.parts.extend(child.model.parts.iter().cloned());
-        }
-        let nodes = &child.model.tree.nodes;
-        let rename = Rename { prefix, suffix: "", other_model: Some(offset) };
-        let world = members(nodes, "worldbody");
-        let roots = match part {
-            None => world.clone(),
-            Some(("body", WORLD)) => world.clone(),
-            Some((kind, name)) => {
-                let Some(&root) = child.names.get(&(kind, name.to_string())) else {
-                    let span = node.attribute(kind).map_or(node.span.clone(), |a| a.span.clone());
-                    let names = child.names.keys().filter(|(k, _)| *k == kind).map(|(_, name)| name.as_str());
-                    unknown(kind, name, names, span, report);
-                    return None;
-                };
-                vec![root]
-            }
-        };
-        let mut subtree: Names = filled(roots.iter().flat_map(|&root| copy::names(nodes, root)));
-
-        let class = match roots.as_slice() {
-            [root] if part.is_some() => class_around(nodes, *root).map(|class| rename.class(class)),
-            _ => None,
-        };
-        let class = childclass(node, class.unwrap_or(rename.main_class()))?;
-        let mut holder = at;
-        let mut inside = Vec::new();
-        if part == Some(("body", WORLD)) {
-            subtree.insert(("body", WORLD.to_string()));
-            let name = Attribute {
-                attr: BODY.attribute("name")?,
-                value: Value::Text(rename.name(WORLD)),
-                span: node.span.clone(),
-            };
-            let body = Node {
-                element: &BODY,
-                model: offset,
-                attributes: vec![name],
-                children: Vec::new(),
-                parent: None,
-                ..node.clone()
-            };
-            holder = self.adopt(vec![body], at)?;
-        }
-        for root in roots {
-            let (copy, _) = copy::copy(nodes, root, rename, None);
-            inside.push(self.adopt(copy, holder)?);
-        }
-        if holder == at {
-            self.settle(at, vec![class], inside)?;
-        } else {
-            self.nodes.get_mut(holder)?.children = inside;
-            self.settle(at, vec![class], vec![holder])?;
-        }
-
-        for (section, at) in luggage(nodes) {
-            let (mut copy, _) = copy::copy(nodes, at, rename, None);
-            add_main_class(&mut copy, rename, node);
-            if section == "default" {
-                let root = self.adopt(copy, 0)?;
-                self.nodes.first_mut()?.children.push(root);
-            } else {
-                self.append(section, copy)?;
-            }
-        }
-        for f in child.uses.followers(nodes, &subtree, true) {
-            subtree.extend(f.names);
-            for at in f.elements {
-                let (mut copy, _) = copy::copy(nodes, at, rename, Some(&subtree));
-                add_main_class(&mut copy, rename, node);
-                self.append(f.section, copy)?;
-            }
-        }
-        Some(())
-    }
-
     /// The whole in the order of the text.
     fn finish(mut self) -> Expanded {
         for section in self.nodes.first().map_or(Vec::new(), |root| root.children.clone()) {
@@ -475,53 +291,6 @@ impl Expander {
             }
         }
         Expanded { tree: Tree { nodes: in_order(&self.nodes) }, parts: self.parts }
-    }
-}
-
-/// The class of what stands at a place without a class of its own; `None` for the main class. A copy keeps it.
-fn class_around(nodes: &[Node], at: usize) -> Option<&str> {
-    let mut up = nodes.get(at)?.parent;
-    while let Some(node) = up.and_then(|at| nodes.get(at)) {
-        if let Some(class) = node.text("childclass") {
-            return Some(class);
-        }
-        up = node.parent;
-    }
-    None
-}
-
-/// The class of what a copy holds.
-fn childclass(request: &Node, class: String) -> Option<Attribute> {
-    let attr = FRAME.attribute("childclass")?;
-    Some(Attribute { attr, value: Value::Text(class), span: request.span.clone() })
-}
-
-/// Reports a name that is not there.
-fn unknown<'n>(
-    kind: &str,
-    name: &str,
-    names: impl Iterator<Item = &'n str>,
-    span: std::ops::Range<usize>,
-    report: &mut Report,
-) {
-    let error = report.error(
-        rules::UNKNOWN_NAME,
-        span,
-        format!("there is no {kind} named {} to attach", shorten_name(name)),
-    );
-    if let Some(near) = nearest(name, names) {
-        error.help(format!("did you mean `{near}`?"));
-    }
-}
-
-/// An element of another model that has no class is of that model's main class.
-fn add_main_class(copy: &mut [Node], rename: Rename, request: &Node) {
-    let Some(node) = copy.first_mut() else { return };
-    let without =
-        node.attribute("class").is_none() || node.element.name == "default" && node.text("class").is_none();
-    if let Some(attr) = node.element.attribute("class").filter(|_| without) {
-        let value = Value::Text(rename.main_class());
-        node.attributes.push(Attribute { attr, value, span: request.span.clone() });
     }
 }
 
@@ -551,34 +320,6 @@ fn target(node: &Node) -> Option<(&'static str, String)> {
 /// An attribute of a frame, at the place of what asked for it.
 fn written(request: &Node, name: &str, value: Value) -> Option<Attribute> {
     Some(Attribute { attr: FRAME.attribute(name)?, value, span: request.span.clone() })
-}
-
-/// What another model brings along whatever is attached of it: all classes and assets, numbers and texts.
-fn luggage(nodes: &[Node]) -> Vec<(&'static str, usize)> {
-    let mut list: Vec<_> = Vec::new();
-    for &at in nodes.first().map_or(&[][..], |root| &root.children) {
-        let Some(section) = nodes.get(at) else { continue };
-        match section.element.name {
-            "default" => list.push(("default", at)),
-            name @ ("asset" | "custom" | "deformable") => {
-                let travels = |c: &usize| match nodes.get(*c).map_or("", |n| n.element.name) {
-                    "model" => false,
-                    "tuple" => false, // a tuple follows its objects
-                    _ => true,
-                };
-                list.extend(section.children.iter().copied().filter(travels).map(|c| (name, c)));
-            }
-            _ => {}
-        }
-    }
-    list
-}
-
-/// The elements of all sections of a name.
-fn members(nodes: &[Node], section: &str) -> Vec<usize> {
-    let sections = nodes.first().map_or(&[][..], |root| &root.children);
-    let sections = sections.iter().filter_map(|&s| nodes.get(s)).filter(|s| s.element.name == section);
-    listed(sections.flat_map(|s| s.children.iter().copied()))
 }
 
 /// About how many bytes an element takes.

@@ -49,7 +49,7 @@ impl Form {
 
 /// The form of a geom that has a mesh or a height field; `None` when there is none, or it was reported.
 pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) -> Option<Form> {
-    let shell = p.word("shellinertia") == Some(1);
+    let shell = p.flag("shellinertia", false);
     if shape.kind == geom::HFIELD {
         let (data, field) = cx.assets.hfield(p.text("hfield")?)?;
         let form = Form::primitive(shape, field.geom_size(), shell);
@@ -81,7 +81,7 @@ pub(crate) fn of_asset(cx: &mut Context, p: &Props, node: &Node, shape: &Shape) 
 }
 
 /// Reports what does not go with a mesh or a height field. Whether a geom or site has a form at all.
-pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
+pub(crate) fn check_form(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     let needs = match kind {
         geom::MESH => Some("mesh"),
         geom::HFIELD => Some("hfield"),
@@ -107,7 +107,7 @@ pub(crate) fn check(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool
             .error(rules::CONFLICT, span("fromto"), format!("{owner} has both `mesh` and `fromto`"))
             .why("the mesh defines its position and size")
             .help("remove one of them");
-    } else if kind == geom::MESH && p.word("shellinertia") == Some(1) {
+    } else if kind == geom::MESH && p.flag("shellinertia", false) {
         cx.report
             .error(rules::CONFLICT, span("shellinertia"), format!("{owner} is a mesh with `shellinertia`"))
             .why("a mesh has the same inertia everywhere")

@@ -13,7 +13,7 @@ use crate::mjcf::settings::checked;
 use crate::mjcf::spec::{GeomSpec, List, SOLIMP, SOLREF};
 use crate::mjcf::text::tree::{Node, name};
 
-/// A `geom` element; `None` when its type was refused.
+/// A `geom` element; `None` when its type was refused. Long, as there is a line for each attribute.
 pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<usize>) -> Option<GeomSpec> {
     let p = cx.classes.props(node, childclass);
     if p.has("type") && p.word("type").is_none() {
@@ -34,7 +34,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
     }
     let of_asset = form_is_of_asset(&p, shape);
     let form = if of_asset {
-        if !read_form::check(cx, &p, node, shape.kind) {
+        if !read_form::check_form(cx, &p, node, shape.kind) {
             return None;
         }
         let form = read_form::of_asset(cx, &p, node, shape)?;
@@ -43,7 +43,7 @@ pub(crate) fn geom(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
         form
     } else {
         check_size(cx, &p, node, shape, size);
-        Form::primitive(shape, size, p.word("shellinertia") == Some(1))
+        Form::primitive(shape, size, p.flag("shellinertia", false))
     };
     let (mass, moments) = mass(cx, &p, node, shape, &form);
     let material = p.text("material").or_else(|| cx.assets.material(p.text("mesh")?));

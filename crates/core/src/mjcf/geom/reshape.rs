@@ -7,7 +7,7 @@
 use crate::mjcf::gather::{filled, listed};
 use std::collections::BTreeSet;
 
-use crate::kinds::joint;
+use crate::kinds::{choice, joint};
 use crate::math::{IDENTITY, MINVAL, quat_conj, rotate, scale};
 use crate::mjcf::body::frame::Pose;
 use crate::mjcf::body::inertia::combined;
@@ -51,7 +51,7 @@ fn align_free(bodies: &mut [BodySpec], inertias: &mut [Inertia], parts: &[Attach
     }
     for ((body, inertia), carries) in bodies.iter_mut().zip(inertias).zip(carries) {
         let by_rule = parts.get(body.part).is_some_and(|p| p.compiler.alignfree);
-        let asked = |align: i32| if align == 2 { by_rule } else { align == 1 };
+        let asked = |align: i32| if align == choice::AUTO { by_rule } else { align == choice::TRUE };
         let free = body.joints.iter().any(|j| j.kind == joint::FREE && asked(j.align));
         if !free || carries {
             continue;
@@ -103,13 +103,14 @@ fn fuse_static(bodies: &mut Vec<BodySpec>, inertias: &mut Vec<Inertia>, tree: &T
         if is_named || !body.joints.is_empty() || body.mocap {
             continue;
         }
-        let (Some(parent), Some(own)) = (before.get_mut(body.parent), inertias.get_mut(body.parent)) else {
+        let (Some(parent), Some(merged)) = (before.get_mut(body.parent), inertias.get_mut(body.parent))
+        else {
             continue;
         };
         let pose = Pose { pos: body.pos, quat: body.quat };
         if body.parent > 0 && inertia.mass >= MINVAL {
             let Pose { pos, quat } = pose.in_parent(inertia.pos, inertia.quat);
-            *own = combined(&[own.clone(), Inertia { pos, quat, ..inertia }]);
+            *merged = combined(&[merged.clone(), Inertia { pos, quat, ..inertia }]);
         }
         move_members(body, pose);
         parent.geoms.append(&mut body.geoms);

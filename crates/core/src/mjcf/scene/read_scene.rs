@@ -1,6 +1,6 @@
 //! What marks a place or is there to be seen: sites, cameras, lights, materials; and custom data.
 
-use crate::kinds::geom;
+use crate::kinds::{camlight, geom, lighttype, projection};
 use crate::math::normalize;
 use crate::mjcf::classes::Props;
 use crate::mjcf::context::Context;
@@ -12,6 +12,7 @@ use crate::mjcf::names::NameTable;
 use crate::mjcf::rules;
 use crate::mjcf::spec::{CameraSpec, LightSpec, List, MaterialSpec, NumericSpec, SiteSpec, TupleSpec};
 use crate::mjcf::text::tree::{Node, Tree, name};
+use crate::model::Obj;
 
 /// Most numbers of a custom list, as in MuJoCo.
 const MAX_NUMBERS: i32 = 500;
@@ -62,7 +63,7 @@ pub(crate) fn site(cx: &mut Context, i: usize, node: &Node, childclass: Option<u
 /// Whether a site that names a mesh is one.
 fn check_mesh(cx: &mut Context, p: &Props, node: &Node, kind: i32) -> bool {
     if kind == geom::MESH {
-        return read_form::check(cx, p, node, kind);
+        return read_form::check_form(cx, p, node, kind);
     }
     let message = format!("{} names a mesh but has another type", node.describe());
     cx.report
@@ -89,6 +90,42 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
             _ => values,
         }
     };
+    check_lens(cx, &p, node, sensorsize, resolution);
+    let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
+    let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
+    let fovy = match sensorsize[1] > 0.0 {
+        // In single precision, as the lengths are kept.
+        true => {
+            let half = libm::atan2f(sensorsize[1] as f32 / 2.0, fy as f32);
+            2.0 * f64::from(half) * 180.0 / std::f64::consts::PI
+        }
+        false => p.real("fovy").unwrap_or(45.0),
+    };
+    if sensorsize[1] <= 0.0 && fovy >= 180.0 {
+        let message = format!("`fovy` of {} is {fovy}, but it must be less than 180", node.describe());
+        cx.report
+            .error(rules::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
+            .why("it is an angle in degrees, from the lower to the upper edge of the picture");
+    }
+    CameraSpec {
+        name: name(node),
+        mode: p.word("mode").unwrap_or(camlight::FIXED),
+        target: node.text("target").map(str::to_string),
+        pos: p.reals("pos", [0.0; 3]),
+        quat: cx.orientation(&p, node),
+        projection: p.word("projection").unwrap_or(projection::PERSPECTIVE),
+        fovy,
+        ipd: p.real("ipd").unwrap_or(0.068),
+        resolution,
+        output: output(cx, &p, node),
+        sensorsize,
+        intrinsic: [fx, fy, px, py],
+        user: List::read(&p, "user"),
+    }
+}
+
+/// Reports a sensor without pixels, and a lens without a sensor.
+fn check_lens(cx: &mut Context, p: &Props, node: &Node, sensorsize: [f64; 2], resolution: [i32; 2]) {
     if sensorsize[1] > 0.0 && resolution.iter().any(|&n| n <= 0) {
         let [w, h] = resolution;
         let message = format!("{} has a `sensorsize`, but its image has {w} by {h} pixels", node.describe());
@@ -108,37 +145,6 @@ pub(crate) fn camera(cx: &mut Context, node: &Node, childclass: Option<usize>) -
             .error(rules::VALUE, p.span(name).unwrap_or(node.span.clone()), message)
             .why("the field of view depends on both, and MuJoCo refuses one without the other")
             .help("write the width and height of the sensor in metres, or write `fovy` instead");
-    }
-    let [fx, fy] = metres("focal", "focalpixel", [0.01; 2]);
-    let [px, py] = metres("principal", "principalpixel", [0.0; 2]);
-    let fovy = match sensorsize[1] > 0.0 {
-        // In single precision, as the lengths are kept.
-        true => {
-            let half = libm::atan2f(sensorsize[1] as f32 / 2.0, fy as f32);
-            2.0 * f64::from(half) * 180.0 / std::f64::consts::PI
-        }
-        false => p.real("fovy").unwrap_or(45.0),
-    };
-    if sensorsize[1] <= 0.0 && fovy >= 180.0 {
-        let message = format!("`fovy` of {} is {fovy}, but it must be less than 180", node.describe());
-        cx.report
-            .error(rules::VALUE, p.span("fovy").unwrap_or(node.span.clone()), message)
-            .why("it is an angle in degrees, from the lower to the upper edge of the picture");
-    }
-    CameraSpec {
-        name: name(node),
-        mode: p.word("mode").unwrap_or(0),
-        target: node.text("target").map(str::to_string),
-        pos: p.reals("pos", [0.0; 3]),
-        quat: cx.orientation(&p, node),
-        projection: p.word("projection").unwrap_or(0),
-        fovy,
-        ipd: p.real("ipd").unwrap_or(0.068),
-        resolution,
-        output: output(cx, &p, node),
-        sensorsize,
-        intrinsic: [fx, fy, px, py],
-        user: List::read(&p, "user"),
     }
 }
 
@@ -165,10 +171,8 @@ fn output(cx: &mut Context, p: &Props, node: &Node) -> i32 {
 pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) -> LightSpec {
     let p = cx.classes.props(node, childclass);
     let number = |name: &str, default: f64| p.real(name).unwrap_or(default);
-    let kind = match (p.word("type"), p.word("directional")) {
-        (Some(kind), _) => kind,
-        (None, directional) => directional.unwrap_or(0),
-    };
+    let directional = if p.flag("directional", false) { lighttype::DIRECTIONAL } else { lighttype::SPOT };
+    let kind = p.word("type").unwrap_or(directional);
     if p.list("dir").is_some_and(|dir| dir.iter().all(|&x| x == 0.0)) {
         let span = p.span("dir").unwrap_or(node.span.clone());
         cx.report
@@ -178,13 +182,13 @@ pub(crate) fn light(cx: &mut Context, node: &Node, childclass: Option<usize>) ->
     }
     LightSpec {
         name: name(node),
-        mode: p.word("mode").unwrap_or(0),
+        mode: p.word("mode").unwrap_or(camlight::FIXED),
         target: node.text("target").map(str::to_string),
         texture: node.text("texture").map(str::to_string),
         span: p.span("texture").unwrap_or(node.span.clone()),
         kind,
-        castshadow: p.word("castshadow") != Some(0),
-        active: p.word("active") != Some(0),
+        castshadow: p.flag("castshadow", true),
+        active: p.flag("active", true),
         pos: p.reals("pos", [0.0; 3]),
         dir: normalize(p.reals("dir", [0.0, 0.0, -1.0])).0,
         numbers: [
@@ -226,7 +230,7 @@ pub(crate) fn materials(cx: &Context) -> Vec<MaterialSpec> {
         MaterialSpec {
             name: name(node),
             textures,
-            texuniform: p.word("texuniform") == Some(1),
+            texuniform: p.flag("texuniform", false),
             texrepeat: p.reals("texrepeat", [1.0; 2]),
             numbers: [
                 number("emission", 0.0),
@@ -323,20 +327,20 @@ pub(crate) fn tuples(cx: &mut Context, refs: References) -> Vec<TupleSpec> {
 
 /// Kind and id of the object that an element of a tuple names.
 fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &Node) -> Option<(i32, i32)> {
-    const KINDS: [(&str, i32); 10] = [
-        ("body", 1),
-        ("xbody", 2),
-        ("joint", 3),
-        ("geom", 5),
-        ("site", 6),
-        ("camera", 7),
-        ("light", 8),
-        ("tendon", 18),
-        ("actuator", 19),
-        ("sensor", 20),
+    const KINDS: [(&str, Obj); 10] = [
+        ("body", Obj::Body),
+        ("xbody", Obj::XBody),
+        ("joint", Obj::Joint),
+        ("geom", Obj::Geom),
+        ("site", Obj::Site),
+        ("camera", Obj::Camera),
+        ("light", Obj::Light),
+        ("tendon", Obj::Tendon),
+        ("actuator", Obj::Actuator),
+        ("sensor", Obj::Sensor),
     ];
     let (kind, object) = (p.text("objtype").unwrap_or(""), p.text("objname").unwrap_or(""));
-    let Some(&(word, number)) = KINDS.iter().find(|(word, _)| *word == kind) else {
+    let Some(&(word, object_kind)) = KINDS.iter().find(|(word, _)| *word == kind) else {
         let span = p.span("objtype").unwrap_or(node.span.clone());
         let message = format!("a tuple cannot contain objects of the kind `{kind}`");
         cx.report
@@ -346,7 +350,7 @@ fn element_of(cx: &mut Context, ids: &Ids, names: &NameTable, p: &Props, node: &
     };
     let word = if word == "xbody" { "body" } else { word };
     match ids.find(word, object, names) {
-        Some(id) => Some((number, id)),
+        Some(id) => Some((object_kind as i32, id)),
         None => {
             names.unknown(word, object, p.span("objname").unwrap_or(node.span.clone()), cx.report);
             None

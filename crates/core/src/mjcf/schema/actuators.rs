@@ -15,11 +15,11 @@ use super::not_yet;
 use super::reals;
 use super::upto;
 use super::word;
-use crate::kinds::{biastype, dyntype, gaintype};
+use crate::kinds::{biastype, dyntype, gaintype, interpolation};
 
 const COMMON: &[Attr] = attributes! {
     INT => group nsample;
-    Kind::Words(&[word("zoh", 0), word("linear", 1), word("cubic", 2)]) => interp;
+    Kind::Words(&[word("zoh", interpolation::HOLD), word("linear", interpolation::LINEAR), word("cubic", interpolation::CUBIC)]) => interp;
     REAL => delay;
     LIST => user;
 };

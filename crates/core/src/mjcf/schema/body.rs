@@ -4,7 +4,7 @@ use super::{
     AUTO, Attr, Element, FLAG, INT, Kind, LIST, ORIENTATION, REAL, TEXT, Word, attributes, extension,
     flexible, not_yet, reals, upto, word,
 };
-use crate::kinds::{geom, joint};
+use crate::kinds::{camlight, choice, geom, joint, lighttype, projection};
 
 const GEOM_SHAPES: &[Word] = &[
     word("plane", geom::PLANE),
@@ -70,7 +70,7 @@ pub(crate) static BODY: Element = Element::new(
         ORIENTATION,
         attributes! {
             FLAG => mocap;
-            Kind::Words(&[word("auto", 1), word("false", 0)]) => simple;
+            Kind::Words(&[word("auto", choice::TRUE), word("false", choice::FALSE)]) => simple;
             REAL => gravcomp;
             Kind::Words(&[word("auto", 0), word("never", 1), word("allowed", 2), word("init", 3)]) => sleep;
             LIST => user;
@@ -140,7 +140,7 @@ static FREEJOINT: Element = Element::new(
     "freejoint",
     &[attributes! {
         Kind::Name("joint") => name;
-        Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]) => align;
+        Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE), word("auto", choice::AUTO)]) => align;
         INT => group;
     }],
 );
@@ -193,11 +193,11 @@ static SITE: Element =
     Element::new("site", &[attributes! { Kind::Name("site") => name; }, CLASS, SITE_ATTRS]);
 
 const TRACKING: Kind = Kind::Words(&[
-    word("fixed", 0),
-    word("track", 1),
-    word("trackcom", 2),
-    word("targetbody", 3),
-    word("targetbodycom", 4),
+    word("fixed", camlight::FIXED),
+    word("track", camlight::TRACK),
+    word("trackcom", camlight::TRACKCOM),
+    word("targetbody", camlight::TARGETBODY),
+    word("targetbodycom", camlight::TARGETBODYCOM),
 ]);
 
 /// A camera, without its name, class and target.
@@ -206,7 +206,7 @@ pub(super) const CAMERA_ATTRS: &[Attr] = attributes! {
     reals(4) => quat axisangle;
     reals(6) => xyaxes;
     TRACKING => mode;
-    Kind::Words(&[word("perspective", 0), word("orthographic", 1)]) => projection;
+    Kind::Words(&[word("perspective", projection::PERSPECTIVE), word("orthographic", projection::ORTHOGRAPHIC)]) => projection;
     REAL => fovy ipd;
     Kind::Ints(2, 2) => resolution;
     TEXT => output;
@@ -224,7 +224,7 @@ pub(super) const LIGHT_ATTRS: &[Attr] = attributes! {
     FLAG => active castshadow directional;
     REAL => bulbradius cutoff exponent intensity range softness;
     TRACKING => mode;
-    Kind::Words(&[word("spot", 0), word("directional", 1), word("point", 2), word("image", 3)]) => type;
+    Kind::Words(&[word("spot", lighttype::SPOT), word("directional", lighttype::DIRECTIONAL), word("point", lighttype::POINT), word("image", lighttype::IMAGE)]) => type;
 };
 static LIGHT: Element = Element::new(
     "light",

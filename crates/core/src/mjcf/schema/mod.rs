@@ -174,14 +174,16 @@ macro_rules! attributes {
     };
     ($($rows:tt)*) => { $crate::mjcf::schema::attributes!(@ [] $($rows)*) };
 }
+use crate::kinds::choice;
 use crate::mjcf::gather::listed;
 use attributes;
 
 const REAL: Kind = Kind::Reals(1, 1);
 const INT: Kind = Kind::Ints(1, 1);
 const TEXT: Kind = Kind::Text;
-const FLAG: Kind = Kind::Words(&[word("false", 0), word("true", 1)]);
-const AUTO: Kind = Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]);
+const FLAG: Kind = Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE)]);
+const AUTO: Kind =
+    Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE), word("auto", choice::AUTO)]);
 
 /// Exactly `n` numbers.
 const fn reals(n: usize) -> Kind {

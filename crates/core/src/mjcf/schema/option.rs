@@ -15,16 +15,16 @@ use super::not_yet;
 use super::reals;
 use super::upto;
 use super::word;
-use crate::kinds::integrator;
+use crate::kinds::{angle, choice, cone, integrator, jacobian, solver};
 
 pub(super) static COMPILER: Element = Element::new(
     "compiler",
     &[attributes! {
         FLAG => autolimits balanceinertia;
         REAL => boundmass boundinertia;
-        Kind::Words(&[word("radian", 0), word("degree", 1)]) => angle;
+        Kind::Words(&[word("radian", angle::RADIAN), word("degree", angle::DEGREE)]) => angle;
         TEXT => eulerseq;
-        Kind::Words(&[word("false", 0), word("true", 1), word("auto", 2)]) => inertiafromgeom;
+        Kind::Words(&[word("false", choice::FALSE), word("true", choice::TRUE), word("auto", choice::AUTO)]) => inertiafromgeom;
         Kind::Ints(2, 2) => inertiagrouprange;
         Kind::Words(&[word("local", 0), not_yet("global", 1)]) => coordinate [Only("local")];
         REAL => settotalmass;
@@ -59,10 +59,10 @@ pub(super) static OPTION: Element = Element::new(
             word("Euler", integrator::EULER), word("RK4", integrator::RK4), word("implicit", integrator::IMPLICIT),
             word("implicitfast", integrator::IMPLICITFAST), word("discrete", integrator::DISCRETE),
         ]) => integrator;
-        Kind::Words(&[word("pyramidal", 0), word("elliptic", 1)]) => cone;
-        Kind::Words(&[word("PGS", 0), word("CG", 1), word("Newton", 2)]) => solver;
+        Kind::Words(&[word("pyramidal", cone::PYRAMIDAL), word("elliptic", cone::ELLIPTIC)]) => cone;
+        Kind::Words(&[word("PGS", solver::PGS), word("CG", solver::CG), word("Newton", solver::NEWTON)]) => solver;
         INT => iterations ls_iterations;
-        Kind::Words(&[word("dense", 0), word("sparse", 1), word("auto", 2)]) => jacobian;
+        Kind::Words(&[word("dense", jacobian::DENSE), word("sparse", jacobian::SPARSE), word("auto", jacobian::AUTO)]) => jacobian;
         INT => noslip_iterations ccd_iterations;
         REAL => noslip_tolerance ccd_tolerance sleep_tolerance;
         INT => sdf_iterations sdf_initpoints;

@@ -1,6 +1,7 @@
 //! `sensor`: an element for every kind in the table of sensors.
 
 use super::{Attr, Element, INT, Kind, LIST, REAL, TEXT, attributes, extension, upto, word};
+use crate::kinds::interpolation;
 use crate::model::Obj;
 use crate::sensor::{self, Senses};
 
@@ -13,7 +14,7 @@ const TIMING: &[Attr] = attributes! {
     INT => nsample;
     REAL => delay;
     upto(2) => interval;
-    Kind::Words(&[word("zoh", 0), word("linear", 1), word("cubic", 2)]) => interp;
+    Kind::Words(&[word("zoh", interpolation::HOLD), word("linear", interpolation::LINEAR), word("cubic", interpolation::CUBIC)]) => interp;
 };
 const FRAMES: Kind = Kind::Words(&[
     word("body", Obj::Body as i32),

@@ -14,14 +14,14 @@ use super::reals;
 use super::word;
 
 /// A section of `visual` with these attributes.
-const fn look(name: &'static str, attributes: &'static [&'static [super::Attr]]) -> Element {
+const fn visual_section(name: &'static str, attributes: &'static [&'static [super::Attr]]) -> Element {
     Element::new(name, attributes).status(LOOK).once()
 }
 
 pub(super) static VISUAL: Element =
     Element::new("visual", &[]).status(LOOK).children(&[&GLOBAL, &QUALITY, &HEADLIGHT, &MAP, &SCALE, &RGBA]);
 
-static GLOBAL: Element = look(
+static GLOBAL: Element = visual_section(
     "global",
     &[attributes! {
         REAL => fovy ipd azimuth elevation linewidth glow realtime;
@@ -29,34 +29,34 @@ static GLOBAL: Element = look(
         FLAG => orthographic ellipsoidinertia bvactive;
     }],
 );
-static QUALITY: Element = look(
+static QUALITY: Element = visual_section(
     "quality",
     &[attributes! {
         INT => shadowsize offsamples numslices numstacks numquads;
     }],
 );
-static HEADLIGHT: Element = look(
+static HEADLIGHT: Element = visual_section(
     "headlight",
     &[attributes! {
         reals(3) => ambient diffuse specular;
         INT => active;
     }],
 );
-static MAP: Element = look(
+static MAP: Element = visual_section(
     "map",
     &[attributes! {
         REAL => stiffness stiffnessrot force torque alpha fogstart fogend znear zfar haze shadowclip shadowscale
             actuatortendon;
     }],
 );
-static SCALE: Element = look(
+static SCALE: Element = visual_section(
     "scale",
     &[attributes! {
         REAL => forcewidth contactwidth contactheight connect com camera light selectpoint jointlength jointwidth
             actuatorlength actuatorwidth framelength framewidth constraint slidercrank frustum;
     }],
 );
-static RGBA: Element = look(
+static RGBA: Element = visual_section(
     "rgba",
     &[attributes! {
         reals(4) => fog haze force inertia joint actuator actuatornegative actuatorpositive com camera light

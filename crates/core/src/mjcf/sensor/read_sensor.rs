@@ -2,7 +2,7 @@
 //!
 //! Kinds of sensors and what each can be attached to stand in [`crate::sensor`]'s table.
 
-use crate::kinds::joint;
+use crate::kinds::{interpolation, joint};
 use crate::mjcf::classes::Props;
 use crate::mjcf::gather::listed;
 use crate::mjcf::ids::References;
@@ -116,7 +116,7 @@ impl Context<'_> {
         let [period, phase] = self.p.reals("interval", [0.0; 2]);
         let timing = SensorTiming {
             nsample: self.p.int("nsample").unwrap_or(0),
-            interp: self.p.word("interp").unwrap_or(0),
+            interp: self.p.word("interp").unwrap_or(interpolation::HOLD),
             delay: self.p.real("delay").unwrap_or(0.0),
             interval: [period, phase],
         };

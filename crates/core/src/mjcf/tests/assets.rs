@@ -20,7 +20,7 @@ fn mesh(file: &str, bytes: &[u8]) -> Result<Model, String> {
     load(&format!("<mesh name='m' file='{file}'/>"), "type='mesh' mesh='m'", file, bytes)
 }
 
-fn words(list: &[f32]) -> impl Iterator<Item = u8> + '_ {
+fn to_bytes(list: &[f32]) -> impl Iterator<Item = u8> + '_ {
     list.iter().flat_map(|x| x.to_le_bytes())
 }
 
@@ -32,7 +32,7 @@ fn stl() -> Vec<u8> {
     bytes.extend(4_i32.to_le_bytes());
     for face in FACES {
         bytes.extend([0; 12]);
-        bytes.extend(face.iter().flat_map(|&v| words(&CORNERS[v]).collect::<Vec<u8>>()));
+        bytes.extend(face.iter().flat_map(|&v| to_bytes(&CORNERS[v]).collect::<Vec<u8>>()));
         bytes.extend([0; 2]);
     }
     bytes
@@ -40,14 +40,14 @@ fn stl() -> Vec<u8> {
 
 fn msh() -> Vec<u8> {
     let mut bytes: Vec<u8> = [4_i32, 0, 0, 4].iter().flat_map(|n| n.to_le_bytes()).collect();
-    bytes.extend(words(CORNERS.as_flattened()));
+    bytes.extend(to_bytes(CORNERS.as_flattened()));
     bytes.extend(FACES.as_flattened().iter().flat_map(|&v| (v as i32).to_le_bytes()));
     bytes
 }
 
 fn hfield() -> Vec<u8> {
     let mut bytes: Vec<u8> = [2_i32, 3].iter().flat_map(|n| n.to_le_bytes()).collect();
-    bytes.extend(words(&[0.0, 1.0, 2.0, 3.0, 1.0, 0.0]));
+    bytes.extend(to_bytes(&[0.0, 1.0, 2.0, 3.0, 1.0, 0.0]));
     bytes
 }
 
@@ -56,17 +56,17 @@ const OBJ: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1.5\nf 1 3 2\nf 1 2 4\nf 1
 /// A skin of one triangle that two bodies carry.
 fn skn() -> Vec<u8> {
     let mut bytes: Vec<u8> = [3_i32, 3, 1, 2].iter().flat_map(|n| n.to_le_bytes()).collect();
-    bytes.extend(words(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
-    bytes.extend(words(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]));
+    bytes.extend(to_bytes(&[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
+    bytes.extend(to_bytes(&[0.0, 0.0, 1.0, 0.0, 0.0, 1.0]));
     bytes.extend([0_i32, 1, 2].iter().flat_map(|n| n.to_le_bytes()));
     for (body, ids) in [("world", &[0_i32, 1][..]), ("ball", &[2])] {
         let mut name = body.as_bytes().to_vec();
         name.resize(40, 0);
         bytes.extend(name);
-        bytes.extend(words(&[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]));
+        bytes.extend(to_bytes(&[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0]));
         bytes.extend((ids.len() as i32).to_le_bytes());
         bytes.extend(ids.iter().flat_map(|n| n.to_le_bytes()));
-        bytes.extend(words(&vec![0.5; ids.len()]));
+        bytes.extend(to_bytes(&vec![0.5; ids.len()]));
     }
     bytes
 }

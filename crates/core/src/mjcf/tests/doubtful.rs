@@ -51,13 +51,13 @@ fn what_is_too_fast_grows_and_the_rest_does_not() {
                 all.push(slide(&option, "", &kp(1.0, c)));
             }
             for xml in all {
-                let told = codes(&xml).iter().any(|(code, _)| *code == "mjcf-too-fast");
+                let reported = codes(&xml).iter().any(|(code, _)| *code == "mjcf-too-fast");
                 let grows = grows(&xml);
-                seen[usize::from(told)] += 1;
+                seen[usize::from(reported)] += 1;
                 // The bound of RK4 is a little below the true one.
                 assert!(
-                    told == grows || (integrator == "RK4" && told && share < 1.0),
-                    "{told} {grows} {share}: {xml}"
+                    reported == grows || (integrator == "RK4" && reported && share < 1.0),
+                    "{reported} {grows} {share}: {xml}"
                 );
             }
         }
@@ -73,11 +73,11 @@ fn what_is_softened_is_what_it_is_said_to_get() {
             "<mujoco><worldbody><geom type='plane' size='1 1 1'/><body pos='0 0 .1'><freejoint/><geom size='.1' solref='{solref} 1'/>\
              </body></worldbody></mujoco>"
         );
-        let told = codes(&xml).iter().any(|(code, _)| *code == "mjcf-softened");
+        let reported = codes(&xml).iter().any(|(code, _)| *code == "mjcf-softened");
         let model = check_xml(&xml, &NoFiles, None).model.unwrap();
         let mut data = Workspace::new(&model);
         (0..200).for_each(|_| crate::step::step(&model, &mut data));
-        (told, data.qpos.clone())
+        (reported, data.qpos.clone())
     };
     // The floor has the default: the two are mixed half and half, so both ends count.
     let (short, least, soft) = (run("0.001"), run("0.004"), run("0.008"));

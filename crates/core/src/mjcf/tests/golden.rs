@@ -9,7 +9,7 @@ use crate::step::workspace::Workspace;
 const NOT_YET: &[&str] = &["nD", "D_rownnz", "D_rowadr", "D_diag", "D_colind"];
 
 /// Checks every recorded field and name of a model; quaternions and what depends on them to rounding.
-fn check(name: &str, xml: &str, recorded: &str) {
+fn check_golden(name: &str, xml: &str, recorded: &str) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/mjcf/golden");
     let files = mjcf::Folder::new(&folder).unwrap();
     let m = mjcf::compile_only(xml, &files).unwrap_or_else(|list| {
@@ -97,7 +97,7 @@ macro_rules! golden {
     ($($name:ident)*) => { $(
         #[test]
         fn $name() {
-            check(
+            check_golden(
                 stringify!($name),
                 include_str!(concat!("../golden/", stringify!($name), ".xml")),
                 include_str!(concat!("../golden/", stringify!($name), ".txt")),

@@ -182,9 +182,9 @@ fn numbers_have_one_budget() {
         format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
     assert_eq!(first_code(&shared), Some(rules::LIMIT.code));
     let sites = "<site user='2'/>".repeat(2000);
-    let own =
+    let overriding =
         format!("<mujoco><default><site user='{list}'/></default><worldbody>{sites}</worldbody></mujoco>");
-    assert_eq!(first_code(&own), Some(rules::LIMIT.code));
+    assert_eq!(first_code(&overriding), Some(rules::LIMIT.code));
     let classes = (0..1900).map(|i| format!("<default class='c{i}'/>")).collect::<String>();
     let inherited = format!("<mujoco><default><site user='{list}'/>{classes}</default></mujoco>");
     assert!(compile(&inherited).is_ok());

@@ -87,7 +87,7 @@ impl<'f> Loader<'f> {
                 let change = |p: &Patch| patch::apply(&mut list, root, p).err();
                 self.refusals = listed(self.patches.iter().map(change));
             }
-            let mut tree = tree::check(&list, root, report)?;
+            let mut tree = tree::check_tree(&list, root, report)?;
             names::after_files(&mut tree);
             let models = self.models(&tree, &folder, report);
             Some(Written { tree, folder, models })

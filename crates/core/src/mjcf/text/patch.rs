@@ -64,34 +64,7 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
         }
     };
     let seen = seen(list, root);
-    let named = |s: &Seen| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
-    let of_kind: Vec<Seen> = listed(seen.iter().copied().filter(|s| !s.default && s.schema.name == kind));
-    let names = of_kind.iter().filter_map(named);
-    let found = match name {
-        Some(name) => of_kind.iter().find(|s| named(s) == Some(name)).copied(),
-        None => of_kind.first().copied().filter(|_| of_kind.len() == 1),
-    };
-    let found = match (found, name) {
-        (Some(found), _) => found,
-        (None, None) if of_kind.is_empty() => match missing(list, kind, &seen) {
-            Some(made) => made,
-            None => {
-                let kinds = seen.iter().map(|s| s.schema.name).filter(|k| !["mujoco", "default"].contains(k));
-                return Err(no_kind(kind, kinds));
-            }
-        },
-        (None, Some(_)) if of_kind.is_empty() => {
-            return Err(no_kind(kind, seen.iter().filter(|s| named(s).is_some()).map(|s| s.schema.name)));
-        }
-        (None, Some(name)) => {
-            let help = near(name, names, "it has no named ones");
-            return refuse(format!("the model has no {kind} `{name}`"), &help);
-        }
-        (None, None) => {
-            let help = format!("name one of them: {}", near("", names, "give it a name"));
-            return refuse(format!("the model has {} elements `{kind}`", of_kind.len()), &help);
-        }
-    };
+    let found = find_element(list, &seen, kind, name)?;
     // The mass of a body is written in what it consists of.
     let found = match (kind, attribute) {
         ("body", "mass") => mass_of(list, found, &seen, name.unwrap_or(""))?,
@@ -109,6 +82,44 @@ pub(super) fn apply(list: &mut Vec<Element>, root: usize, patch: &Patch) -> Resu
         None => {
             let help = near(attribute, found.schema.attributes().map(|a| a.name), "it has none");
             refuse(format!("`{kind}` has no attribute `{attribute}`"), &help)
+        }
+    }
+}
+
+/// The element of a kind that a name means, or the only one; made where it may be and is missing.
+fn find_element(
+    list: &mut Vec<Element>,
+    seen: &[Seen],
+    kind: &str,
+    name: Option<&str>,
+) -> Result<Seen, Refusal> {
+    let refuse = |message: String, help: &str| Err(Refusal { message, help: help.to_string() });
+    let named = |s: &Seen| list.get(s.at).and_then(|e| e.attribute("name")).map(|a| a.value.as_str());
+    let of_kind: Vec<Seen> = listed(seen.iter().copied().filter(|s| !s.default && s.schema.name == kind));
+    let names = of_kind.iter().filter_map(named);
+    let found = match name {
+        Some(name) => of_kind.iter().find(|s| named(s) == Some(name)).copied(),
+        None => of_kind.first().copied().filter(|_| of_kind.len() == 1),
+    };
+    match (found, name) {
+        (Some(found), _) => Ok(found),
+        (None, None) if of_kind.is_empty() => match missing(list, kind, seen) {
+            Some(made) => Ok(made),
+            None => {
+                let kinds = seen.iter().map(|s| s.schema.name).filter(|k| !["mujoco", "default"].contains(k));
+                Err(no_kind(kind, kinds))
+            }
+        },
+        (None, Some(_)) if of_kind.is_empty() => {
+            Err(no_kind(kind, seen.iter().filter(|s| named(s).is_some()).map(|s| s.schema.name)))
+        }
+        (None, Some(name)) => {
+            let help = near(name, names, "it has no named ones");
+            refuse(format!("the model has no {kind} `{name}`"), &help)
+        }
+        (None, None) => {
+            let help = format!("name one of them: {}", near("", names, "give it a name"));
+            refuse(format!("the model has {} elements `{kind}`", of_kind.len()), &help)
         }
     }
 }

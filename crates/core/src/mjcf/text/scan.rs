@@ -113,7 +113,7 @@ fn pass_over(text: &str, range: Range<usize>, base: usize, changes: &mut Changes
         .help("begin a tag with `<`, write a remark as a comment, <!-- … -->, or remove the text");
 }
 
-/// Whether the limits hold. What must change is added to `changes`.
+/// Whether the limits hold. What must change is added to `changes`. Long, as there is an arm for each kind of markup.
 fn within_limits(
     text: &str,
     base: usize,
@@ -161,48 +161,14 @@ fn within_limits(
             after(bytes, open + 2, b">")
         } else {
             let tag = tag(bytes, open + 1);
-            counts.elements += 1;
-            for &at in &tag.joined {
-                report
-                    .warning(rules::TEXT, base + at..base + at, "a space is missing between two attributes")
-                    .help("put a space here");
-            }
-            changes.inserted.extend(&tag.joined);
-            counts.attributes += tag.attributes;
-            let name = base + open..base + open + 1;
-            if tag.attributes > MAX_ATTRIBUTES {
-                report.error(
-                    rules::LIMIT,
-                    name,
-                    format!("an element has more than {MAX_ATTRIBUTES} attributes"),
-                );
-                return false;
-            }
-            if let Some(at) = tag.namespace {
-                report
-                    .error(rules::XML, base + at..base + at + 5, "the model declares an XML namespace")
-                    .help("remove the `xmlns` attribute");
-                return false;
-            }
             if !tag.closed {
                 depth += 1;
             }
             ended |= depth == 0;
-            if depth > MAX_DEPTH {
-                report
-                    .error(rules::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
-                    .help("split the kinematic chain into several trees");
+            if !tag_within_limits(&tag, base + open, base, depth, counts, report) {
                 return false;
             }
-            if counts.elements > MAX_ELEMENTS {
-                report.error(rules::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
-                return false;
-            }
-            if counts.attributes > MAX_ALL_ATTRIBUTES {
-                let message = format!("the model has more than {MAX_ALL_ATTRIBUTES} attributes");
-                report.error(rules::LIMIT, name, message);
-                return false;
-            }
+            changes.inserted.extend(&tag.joined);
             tag.end
         };
     }
@@ -210,6 +176,44 @@ fn within_limits(
         pass_over(text, at..text.len(), base, changes, report);
     }
     true
+}
+
+/// Whether the limits hold with the element that a tag at `open` begins, `depth` deep.
+fn tag_within_limits(
+    tag: &Tag,
+    open: usize,
+    base: usize,
+    depth: usize,
+    counts: &mut Counts,
+    report: &mut Report,
+) -> bool {
+    counts.elements += 1;
+    counts.attributes += tag.attributes;
+    for &at in &tag.joined {
+        report
+            .warning(rules::TEXT, base + at..base + at, "a space is missing between two attributes")
+            .help("put a space here");
+    }
+    let name = open..open + 1;
+    if tag.attributes > MAX_ATTRIBUTES {
+        report.error(rules::LIMIT, name, format!("an element has more than {MAX_ATTRIBUTES} attributes"));
+    } else if let Some(at) = tag.namespace {
+        report
+            .error(rules::XML, base + at..base + at + 5, "the model declares an XML namespace")
+            .help("remove the `xmlns` attribute");
+    } else if depth > MAX_DEPTH {
+        report
+            .error(rules::LIMIT, name, format!("elements are nested more than {MAX_DEPTH} deep"))
+            .help("split the kinematic chain into several trees");
+    } else if counts.elements > MAX_ELEMENTS {
+        report.error(rules::LIMIT, name, format!("the model has more than {MAX_ELEMENTS} elements"));
+    } else if counts.attributes > MAX_ALL_ATTRIBUTES {
+        let message = format!("the model has more than {MAX_ALL_ATTRIBUTES} attributes");
+        report.error(rules::LIMIT, name, message);
+    } else {
+        return true;
+    }
+    false
 }
 
 struct Tag {

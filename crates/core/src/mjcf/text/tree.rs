@@ -103,7 +103,7 @@ impl Tree {
 }
 
 /// Checks the elements of a model; `None` when it is not a model at all.
-pub(crate) fn check(list: &[Xml], root: usize, report: &mut Report) -> Option<Tree> {
+pub(crate) fn check_tree(list: &[Xml], root: usize, report: &mut Report) -> Option<Tree> {
     let name = list.get(root).map_or("", |r| r.name.as_str());
     if name != ROOT.name {
         let span = list.get(root).map_or(0..0, |r| r.span.clone());

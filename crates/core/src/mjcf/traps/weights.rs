@@ -19,15 +19,15 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
         let moves = |b: usize| m.body_weldid.get(b).is_some_and(|w| *w != 0);
         let apart_from = |b: usize| m.body_dofnum.get(b).is_some_and(|n| *n > 0);
         let mass = |b: usize| m.body_mass.get(b).copied().unwrap_or(0.0);
-        let [own, below] = [mass(b), mass(parent)];
-        let ratio = own.max(below) / own.min(below);
-        if parent > 0 && moves(parent) && apart_from(b) && own > 0.0 && below > 0.0 && ratio > APART {
+        let [child, base] = [mass(b), mass(parent)];
+        let ratio = child.max(base) / child.min(base);
+        if parent > 0 && moves(parent) && apart_from(b) && child > 0.0 && base > 0.0 && ratio > APART {
             let message = format!(
                 "{} has {} kg, but its neighbour {} has {} kg",
                 format_name("body", body(b), b),
-                digits(own),
+                digits(child),
                 format_name("body", body(parent), parent),
-                digits(below)
+                digits(base)
             );
             report
                 .note(rules::MASSES_APART, place(tree, &["body"], body(b)), message)

@@ -4,6 +4,7 @@ use super::{AWAKE, Scratch, coordinates};
 use crate::constraint::Islands;
 use crate::kinds::disable;
 use crate::model::asleep::{self, on, policy, some};
+use crate::model::index::element_range;
 use crate::model::{Fields, Model};
 
 /// Whether a tree may sleep at all.
@@ -92,8 +93,7 @@ pub(crate) fn put_back(m: &Model, d: &mut Fields, w: &Scratch) {
     }
     for i in 0..m.nactuator {
         if asleep::actuator(m, d, i) {
-            let first = m.actuator_actadr[i].max(0) as usize;
-            let states = first..first + m.actuator_actnum[i] as usize;
+            let states = element_range(m.actuator_actadr[i], m.actuator_actnum[i]);
             d.act_dot[states.clone()].copy_from_slice(&w.act_dot[states]);
         }
     }

@@ -29,14 +29,15 @@ pub(crate) fn wake_by_tendons(m: &Model, d: &mut Fields) {
         return;
     }
     for t in (0..m.ntendon).filter(|&t| m.tendon_treenum[t] == 2) {
+        // A stored model may count two trees and name fewer: that tendon ties nothing.
+        let [Ok(a), Ok(b)] = [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(usize::try_from) else {
+            continue;
+        };
         let length = d.ten_length[t];
         let [lower, upper] = [m.tendon_range[2 * t], m.tendon_range[2 * t + 1]];
         let margin = m.tendon_margin[t];
         if m.tendon_limited[t] && (length < lower + margin || length > upper - margin) {
-            wake_one(
-                d,
-                [m.tendon_treeid[2 * t], m.tendon_treeid[2 * t + 1]].map(|tree| tree.max(0) as usize),
-            );
+            wake_one(d, [a, b]);
         }
     }
     update(m, d);

@@ -33,7 +33,7 @@ pub(super) const ROW: Row = Row {
     name: "chain",
     covers,
     copies: &COPIES,
-    load: |m, w| w.ways.chain.load(m),
+    load: |m, w| w.algorithms.chain.load(m),
     forces: Some(Forces {
         mass,
         bias,
@@ -274,8 +274,8 @@ macro_rules! by_length {
         let mut rest = $chains.links.as_mut_slice();
         for &n in &$chains.lengths {
             let (chain, after) = rest.split_at_mut(n);
-            let known = if cfg!(feature = "small") { 0 } else { n };
-            match (known, chain[0].planar) {
+            let constant = if cfg!(feature = "small") { 0 } else { n };
+            match (constant, chain[0].planar) {
                 (0, true) => planar::$function::<0>(chain, $($argument),*),
                 (1, true) => planar::$function::<1>(chain, $($argument),*),
                 (2, true) => planar::$function::<2>(chain, $($argument),*),
@@ -298,11 +298,11 @@ macro_rules! by_length {
 
 /// The rows of M that belong to short chains.
 fn mass(_: &Model, d: &mut Fields, w: &mut Scratch) {
-    by_length!(w.ways.chain, mass_matrix(&d.qpos, &mut d.M));
+    by_length!(w.algorithms.chain, mass_matrix(&d.qpos, &mut d.M));
 }
 
 /// The bias force of short chains.
 #[inline(never)] // scenes without any do not carry its set-up
 fn bias(_: &Model, d: &mut Fields, w: &mut Scratch, gravity: Vec3) {
-    by_length!(w.ways.chain, bias(&d.qvel, &mut d.qfrc_bias, gravity));
+    by_length!(w.algorithms.chain, bias(&d.qvel, &mut d.qfrc_bias, gravity));
 }

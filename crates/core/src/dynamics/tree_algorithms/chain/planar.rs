@@ -4,6 +4,7 @@
 //! the angular accelerations vanish, and of the gyroscopic torque nothing points out of the plane.
 
 use super::{Link, MAX_DOFS, length};
+use crate::math::broken_invariant;
 use crate::math::{EYE, Mat3, Vec3, column, cross, dot, mat_mul, mat_mul_vec, normalize, scale};
 
 type Vec2 = [f64; 2];
@@ -40,6 +41,7 @@ const FLAT: f64 = 1e-12;
 /// Finds out whether a chain is planar, and its parameters.
 pub(super) fn load(chain: &mut [Link]) {
     let mut all = [(EYE, [0.0; 3]); MAX_DOFS];
+    // Longer ones are those of `planar_chain`, which has parameters of its own.
     let Some(axes) = all.get_mut(..chain.len()) else { return };
     let mut above = EYE;
     for (link, (turn, axis)) in chain.iter().zip(axes.iter_mut()) {
@@ -122,7 +124,9 @@ impl Swing {
 /// The rows of M of a chain.
 pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
     let n = length::<N>(chain);
-    let Some(chain) = chain.get_mut(..n) else { return };
+    let Some(chain) = chain.get_mut(..n) else {
+        return broken_invariant("a chain is as long as its length");
+    };
     let mut rows = [[0.0; MAX_DOFS]; MAX_DOFS];
     let mut up = Swing { cos: 1.0, ..Swing::default() };
     let mut angle = 0.0;
@@ -178,10 +182,12 @@ fn shift(sense: f64, joint: &Swing, point: Vec2) -> Vec2 {
 /// The bias force of a chain.
 pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
     let n = length::<N>(chain);
-    let Some(chain) = chain.get_mut(..n) else { return };
+    let Some(chain) = chain.get_mut(..n) else {
+        return broken_invariant("a chain is as long as its length");
+    };
     let (first, plane) = (chain[0].dof, chain[0].flat.plane);
     let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
-        return;
+        return broken_invariant("every link of a chain has a degree of freedom");
     };
     // Gravity enters as an upward acceleration of the world.
     let up = scale(gravity, -1.0);

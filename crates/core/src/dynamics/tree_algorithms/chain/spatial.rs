@@ -7,7 +7,9 @@ use crate::math::*;
 /// The rows of M of a chain.
 pub(super) fn mass_matrix<const N: usize>(chain: &mut [Link], qpos: &[f64], mass: &mut [f64]) {
     let n = length::<N>(chain);
-    let Some(chain) = chain.get_mut(..n) else { return };
+    let Some(chain) = chain.get_mut(..n) else {
+        return broken_invariant("a chain is as long as its length");
+    };
     for i in 0..n {
         let parent = i.checked_sub(1).map(|p| chain[p].pose);
         chain[i].forward_kinematics(parent.as_ref(), qpos[chain[i].coordinate]);
@@ -70,10 +72,12 @@ impl Link {
 /// The bias force of a chain.
 pub(super) fn bias<const N: usize>(chain: &mut [Link], qvel: &[f64], qfrc_bias: &mut [f64], gravity: Vec3) {
     let n = length::<N>(chain);
-    let Some(chain) = chain.get_mut(..n) else { return };
+    let Some(chain) = chain.get_mut(..n) else {
+        return broken_invariant("a chain is as long as its length");
+    };
     let first = chain[0].dof;
     let (Some(v), Some(out)) = (qvel.get(first..first + n), qfrc_bias.get_mut(first..first + n)) else {
-        return;
+        return broken_invariant("every link of a chain has a degree of freedom");
     };
     let mut forces = [0.0; MAX_DOFS];
     // Gravity enters as an upward acceleration of the world.

@@ -207,14 +207,14 @@ fn depth_is_that_of_the_hull_of_differences() {
         let (face_gap, axis) = axes(&first, &second);
         let gap = axis.map_or(face_gap, |axis| axis.gap);
         let tolerance = 1e-9 * extent(&first, &second);
-        let missed = -depth - gap;
+        let residual = -depth - gap;
         let at = || format!("case {case}: depth {depth:e}, gap {gap:e}, {first:?} {second:?}");
-        assert!(missed <= tolerance, "{}", at());
+        assert!(residual <= tolerance, "{}", at());
         if depth < -tolerance {
             // Apart, the gap along an axis that belongs to no facet may be larger than along all that do.
             assert!(gap > 0.0, "{}", at());
         } else {
-            assert!(missed >= -tolerance, "{}", at());
+            assert!(residual >= -tolerance, "{}", at());
             compared += 1;
             edges += usize::from(axis.is_some());
         }

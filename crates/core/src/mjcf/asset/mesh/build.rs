@@ -35,7 +35,7 @@ impl Options {
 
 /// Makes a mesh. Its hull is made where the mesh is made of it; others ask for it by [`hull`].
 pub(crate) fn mesh(mut raw: Raw, options: Options) -> Result<Mesh, Problem> {
-    check(&raw, options.body)?;
+    check_faces(&raw, options.body)?;
     let written = raw.vert.clone();
     let mut own_hull = None;
     if raw.face.is_empty() || options.body == Body::Convex {
@@ -113,7 +113,7 @@ fn unscaled_hull(written: &[Vec3], options: &Options) -> Result<Hull, Problem> {
 }
 
 /// That there is something to make a mesh of.
-fn check(raw: &Raw, body: Body) -> Result<(), Problem> {
+fn check_faces(raw: &Raw, body: Body) -> Result<(), Problem> {
     let count = raw.vert.len();
     if count < 4 {
         return Err(Problem::new(

@@ -25,7 +25,7 @@ const RULES: [(&str, &[&str]); 7] = [
 /// Highest resolution of a side.
 const FINEST: f64 = 500.0;
 
-/// Makes a mesh; whether it is a surface without inside is said, too.
+/// Makes a mesh; whether it is a surface without inside is said, too. Long, as each rule has ranges for its own parameters.
 pub(crate) fn make(rule: &str, params: &[f64]) -> Result<(Raw, bool), Problem> {
     let Some((_, names)) = RULES.iter().find(|(name, _)| *name == rule) else {
         return Err(Problem::new(

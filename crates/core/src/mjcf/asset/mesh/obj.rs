@@ -49,7 +49,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
             ));
         }
     }
-    for corners in &polygons {
+    add_triangles(&mut raw, &polygons)?;
+    Ok(raw)
+}
+
+/// Cuts polygons into the triangles of a mesh.
+fn add_triangles(raw: &mut Raw, polygons: &[Vec<Corner>]) -> Result<(), Problem> {
+    for corners in polygons {
         let mut places: Vec<Vec3> = Vec::with_capacity(corners.len());
         for c in corners {
             // A vertex may be named before its line: whether it is there is known only now.
@@ -76,7 +82,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Raw, Problem> {
             }
         }
     }
-    Ok(raw)
+    Ok(())
 }
 
 /// Vertex, texture coordinate and normal of a corner; -1 where there is none.

@@ -323,10 +323,10 @@ impl Growing {
         let mut borders: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         // How many sides meet at each point.
         let mut meet = vec![0_u32; self.points.len()];
-        for (face, &own) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
+        for (face, &this_side) in self.faces.iter().zip(&side).filter(|(f, _)| f.alive) {
             for k in 0..3 {
-                if side.get(face.beyond[k] as usize) != Some(&own) {
-                    borders.insert((own, face.corner[k]), face.corner[(k + 1) % 3]);
+                if side.get(face.beyond[k] as usize) != Some(&this_side) {
+                    borders.insert((this_side, face.corner[k]), face.corner[(k + 1) % 3]);
                     meet[face.corner[k] as usize] += 1;
                 }
             }
@@ -357,7 +357,6 @@ impl Growing {
 
 impl Plane {
     /// How far a point is above the plane, in volumes of the grid.
-    #[inline]
     fn height(&self, p: Point) -> i128 {
         (0..3).map(|i| self.normal[i] * i128::from(p[i] - self.at[i])).sum()
     }
@@ -386,7 +385,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// What makes a hull: closed, convex, around all points, with as many triangles as Euler says.
-    fn check(points: &[Vec3], hull: &Hull, whole: bool) {
+    fn check_hull(points: &[Vec3], hull: &Hull, whole: bool) {
         let (v, f) = (hull.vertex.len(), hull.face.len());
         assert_eq!(f, 2 * v - 4);
         let mut edges: Vec<(i32, i32)> =
@@ -418,7 +417,7 @@ mod tests {
             let points = cube(n);
             let hull = Hull::from_points(&points, None).unwrap();
             assert_eq!((hull.vertex.len(), hull.face.len()), (8, 12), "{n}");
-            check(&points, &hull, true);
+            check_hull(&points, &hull, true);
         }
     }
 
@@ -442,11 +441,11 @@ mod tests {
             .collect();
         let whole = Hull::from_points(&points, None).unwrap();
         assert_eq!(whole.vertex.len(), 500);
-        check(&points, &whole, true);
+        check_hull(&points, &whole, true);
         for most in [4, 5, 20, 100] {
             let hull = Hull::from_points(&points, Some(most)).unwrap();
             assert_eq!(hull.vertex.len(), most);
-            check(&points, &hull, false);
+            check_hull(&points, &hull, false);
         }
     }
 
@@ -471,7 +470,7 @@ mod tests {
         fn degenerate_clouds_have_hulls(points in prop::collection::vec(prop::array::uniform3(-3..4_i32), 4..60)) {
             let points: Vec<Vec3> = points.into_iter().map(|p| p.map(|x| f64::from(x) * 0.1)).collect();
             if let Ok(hull) = Hull::from_points(&points, None) {
-                check(&points, &hull, true);
+                check_hull(&points, &hull, true);
                 prop_assert_eq!(&Hull::from_points(&points, None).unwrap(), &hull);
             }
         }

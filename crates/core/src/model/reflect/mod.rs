@@ -2,12 +2,19 @@
 //!
 //! The language, the lints, the reports and the reference pages know the engine only through this module.
 
+mod cell;
+mod field_set;
+
 pub use super::stage::Stage;
+pub(crate) use cell::Cell;
+pub use cell::{Elem, View, ViewMut};
+pub use field_set::FieldSet;
+
 use crate::math::sort::sort_by;
-use crate::model::bytes::{Plain, fingerprint};
+use crate::model::bytes::fingerprint;
 use crate::model::fields::{data_fields, model_fields, option_fields, statistic_fields};
-use crate::model::sensed::Values;
 use crate::model::{Fields, Model};
+use cell::Typed;
 use std::sync::LazyLock;
 
 /// The struct that a field belongs to.
@@ -38,19 +45,6 @@ pub enum Kind {
     Inertial,
     /// Computed by a stage: writing it has no effect.
     Derived,
-}
-
-/// Element type of a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Elem {
-    /// 64-bit float.
-    F64,
-    /// 32-bit integer.
-    I32,
-    /// Boolean, 0 or 1 in the language.
-    Bool,
-    /// Size or count.
-    Size,
 }
 
 /// One row of the field table.
@@ -113,167 +107,6 @@ impl FieldId {
     /// One line of documentation.
     pub fn doc(self) -> &'static str {
         WORDS[self.0 as usize].doc
-    }
-}
-
-/// The numbers of a field.
-#[derive(Clone, Copy, Debug)]
-pub enum View<'a> {
-    /// Floats.
-    F64(&'a [f64]),
-    /// Integers.
-    I32(&'a [i32]),
-    /// Booleans.
-    Bool(&'a [bool]),
-    /// A size or count.
-    Size(usize),
-}
-
-impl View<'_> {
-    /// Number of elements.
-    pub fn len(&self) -> usize {
-        match self {
-            View::F64(v) => v.len(),
-            View::I32(v) => v.len(),
-            View::Bool(v) => v.len(),
-            View::Size(_) => 1,
-        }
-    }
-
-    /// Whether there are no elements.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Element `i` as a number, `None` past the end.
-    pub fn get(&self, i: usize) -> Option<f64> {
-        match self {
-            View::F64(v) => v.get(i).copied(),
-            View::I32(v) => v.get(i).map(|&x| f64::from(x)),
-            View::Bool(v) => v.get(i).map(|&x| f64::from(u8::from(x))),
-            View::Size(n) => (i == 0).then_some(*n as f64),
-        }
-    }
-}
-
-/// The numbers of a field, for writing. Sizes cannot be written.
-#[derive(Debug)]
-pub enum ViewMut<'a> {
-    /// Floats.
-    F64(&'a mut [f64]),
-    /// Integers.
-    I32(&'a mut [i32]),
-    /// Booleans.
-    Bool(&'a mut [bool]),
-    /// A size or count: not writable.
-    Fixed,
-}
-
-impl ViewMut<'_> {
-    /// Stores `value` at `i` as a typed array of JavaScript would (integers truncate); `false` when there is
-    /// no such element.
-    pub fn set(&mut self, i: usize, value: f64) -> bool {
-        match self {
-            ViewMut::F64(v) => v.get_mut(i).map(|x| *x = value).is_some(),
-            ViewMut::I32(v) => v.get_mut(i).map(|x| *x = to_int32(value)).is_some(),
-            ViewMut::Bool(v) => v.get_mut(i).map(|x| *x = to_int32(value) & 0xff != 0).is_some(),
-            ViewMut::Fixed => false,
-        }
-    }
-}
-
-/// ECMAScript's ToInt32: truncate, then wrap modulo 2^32.
-fn to_int32(x: f64) -> i32 {
-    if !x.is_finite() {
-        return 0;
-    }
-    x.trunc().rem_euclid(4_294_967_296.0) as u32 as i32
-}
-
-/// The element type of a Rust type that can stand in the field table.
-trait Typed {
-    const ELEM: Elem;
-}
-
-/// A value of such a type: what is done to every field is done through this, once for each type and not for each field.
-pub(crate) trait Cell {
-    fn view(&self) -> View<'_>;
-    fn view_mut(&mut self) -> ViewMut<'_>;
-    /// Gives an array `n` zero elements, and numbers of fixed shape the value zero. Sizes stay as they are.
-    fn allocate(&mut self, n: usize);
-    /// Appends the elements as bytes.
-    fn write(&self, out: &mut Vec<u8>);
-    /// Takes `n` elements, or as many as the shape fixes, from the front of `bytes`; `false` when there are not as many.
-    fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool;
-}
-
-macro_rules! cells {
-    ($($t:ty => $variant:ident),*) => { $(
-        impl Typed for $t {
-            const ELEM: Elem = Elem::$variant;
-        }
-        impl Typed for Vec<$t> {
-            const ELEM: Elem = Elem::$variant;
-        }
-        impl<const N: usize> Typed for [$t; N] {
-            const ELEM: Elem = Elem::$variant;
-        }
-        impl Cell for $t {
-            fn view(&self) -> View<'_> { View::$variant(std::slice::from_ref(self)) }
-            fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(std::slice::from_mut(self)) }
-            fn allocate(&mut self, _: usize) { *self = <$t>::default(); }
-            fn write(&self, out: &mut Vec<u8>) { self.put(out); }
-            fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
-                Plain::take(bytes).map(|x| *self = x).is_some()
-            }
-        }
-        impl Cell for Vec<$t> {
-            fn view(&self) -> View<'_> { View::$variant(self) }
-            fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
-            fn allocate(&mut self, n: usize) {
-                self.clear();
-                self.resize(n, <$t>::default());
-            }
-            fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
-            fn read(&mut self, n: usize, bytes: &mut &[u8]) -> bool {
-                // Every element takes a byte or more: no room is made for what is not there.
-                if n > bytes.len() {
-                    return false;
-                }
-                self.allocate(n);
-                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
-            }
-        }
-        impl<const N: usize> Cell for [$t; N] {
-            fn view(&self) -> View<'_> { View::$variant(self) }
-            fn view_mut(&mut self) -> ViewMut<'_> { ViewMut::$variant(self) }
-            fn allocate(&mut self, _: usize) { *self = [<$t>::default(); N]; }
-            fn write(&self, out: &mut Vec<u8>) { self.iter().for_each(|x| x.put(out)); }
-            fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
-                self.iter_mut().all(|x| Plain::take(bytes).map(|y| *x = y).is_some())
-            }
-        }
-    )* };
-}
-cells!(f64 => F64, i32 => I32, bool => Bool);
-
-impl Typed for usize {
-    const ELEM: Elem = Elem::Size;
-}
-
-impl Cell for usize {
-    fn view(&self) -> View<'_> {
-        View::Size(*self)
-    }
-    fn view_mut(&mut self) -> ViewMut<'_> {
-        ViewMut::Fixed
-    }
-    fn allocate(&mut self, _: usize) {}
-    fn write(&self, out: &mut Vec<u8>) {
-        self.put(out);
-    }
-    fn read(&mut self, _: usize, bytes: &mut &[u8]) -> bool {
-        Plain::take(bytes).map(|x| *self = x).is_some()
     }
 }
 
@@ -611,126 +444,5 @@ pub(crate) fn allocate_data(m: &Model, d: &mut Fields) {
     }
 }
 
-/// A set of fields. Of `sensordata` it holds which of its numbers are meant, as each comes from a sensor that costs something by
-/// itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FieldSet([u64; NFIELD.div_ceil(64)], Values);
-
-impl Default for FieldSet {
-    fn default() -> Self {
-        FieldSet::EMPTY
-    }
-}
-
-impl FieldSet {
-    /// No field.
-    pub const EMPTY: FieldSet = FieldSet([0; NFIELD.div_ceil(64)], Values::NONE);
-    /// Every field.
-    pub const ALL: FieldSet = FieldSet([u64::MAX; NFIELD.div_ceil(64)], Values::ALL);
-
-    /// Adds a field.
-    pub fn insert(&mut self, f: FieldId) {
-        self.insert_elements(f, 0, None);
-    }
-
-    /// Adds elements of a field: `count` from `first` on, or all that follow. Of `sensordata` these alone are meant then; any
-    /// other field is added as a whole.
-    pub fn insert_elements(&mut self, f: FieldId, first: usize, count: Option<usize>) {
-        self.0[f.0 as usize / 64] |= 1 << (f.0 % 64);
-        if f == data::sensordata {
-            self.1.insert(first..count.map_or(usize::MAX, |n| first.saturating_add(n)));
-        }
-    }
-
-    /// Whether an element of a field is in the set.
-    pub fn contains_element(&self, f: FieldId, element: usize) -> bool {
-        self.contains(f) && (f != data::sensordata || self.1.some(element..element + 1))
-    }
-
-    /// The numbers of `sensordata` in the set.
-    pub(crate) fn sensed(&self) -> Values {
-        self.1
-    }
-
-    /// Whether the set holds all numbers of a field that has so many.
-    pub(crate) fn contains_whole(&self, f: FieldId, numbers: usize) -> bool {
-        self.contains(f) && (f != data::sensordata || self.1.every(0..numbers))
-    }
-
-    /// Whether the field is in the set.
-    pub fn contains(&self, f: FieldId) -> bool {
-        self.0[f.0 as usize / 64] & (1 << (f.0 % 64)) != 0
-    }
-
-    /// Adds all fields of another set.
-    pub fn extend(&mut self, other: &FieldSet) {
-        for (a, b) in self.0.iter_mut().chain(&mut self.1.0).zip(other.0.iter().chain(&other.1.0)) {
-            *a |= b;
-        }
-    }
-
-    /// The fields of this set that are in another.
-    pub fn intersection(&self, other: &FieldSet) -> FieldSet {
-        let mut both = *self;
-        for (a, b) in both.0.iter_mut().chain(&mut both.1.0).zip(other.0.iter().chain(&other.1.0)) {
-            *a &= b;
-        }
-        both
-    }
-
-    /// The fields of this set that are not in another.
-    pub fn difference(&self, other: &FieldSet) -> FieldSet {
-        let mut rest = *self;
-        for (a, b) in rest.0.iter_mut().chain(&mut rest.1.0).zip(other.0.iter().chain(&other.1.0)) {
-            *a &= !b;
-        }
-        rest
-    }
-
-    /// Whether no field is in the set.
-    pub fn is_empty(&self) -> bool {
-        self.0.iter().all(|&bits| bits == 0)
-    }
-
-    /// The fields of the set, in table order.
-    pub fn iter(&self) -> impl Iterator<Item = FieldId> + '_ {
-        fields().filter(|&f| self.contains(f))
-    }
-
-    /// Whether every field of this set is in another.
-    pub fn is_part_of(&self, other: &FieldSet) -> bool {
-        self.0.iter().chain(&self.1.0).zip(other.0.iter().chain(&other.1.0)).all(|(a, b)| a & !b == 0)
-    }
-
-    /// Whether any field of the set satisfies `test`.
-    pub fn any(&self, mut test: impl FnMut(&FieldInfo) -> bool) -> bool {
-        self.iter().any(|f| test(f.info()))
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::step::workspace::Workspace;
-
-    #[test]
-    fn elements_are_those_of_views() {
-        let model = crate::mjcf::compile(
-            "<mujoco><option timestep='0.003'/><statistic extent='4'/>
-             <worldbody><body pos='0 0 1'><freejoint/><geom size='0.1'/></body></worldbody></mujoco>",
-        );
-        let m = model.unwrap();
-        let mut d = Workspace::new(&m);
-        d.time = 0.25;
-        for f in fields() {
-            let whole = view(&m, &d, f);
-            for i in 0..=whole.len() {
-                let bits = |x: Option<f64>| x.map(f64::to_bits);
-                assert_eq!(bits(element(&m, &d, f, i)), bits(whole.get(i)), "{}[{i}]", f.info().name);
-            }
-        }
-        let time = field(Object::Data, "time").unwrap();
-        assert_eq!(element(&m, &d, time, 0), Some(0.25));
-        assert_eq!(element(&m, &d, FieldId(NFIELD as u16), 0), None);
-    }
-}
+mod tests;

@@ -1,0 +1,67 @@
+//! Questions about where geoms are: rays, distances, volumes, and which pairs can touch.
+
+use super::{Data, Error, Model, Scope, exists};
+use crate::geometry::Distance;
+use crate::math::Vec3;
+use crate::model::reflect::data;
+use crate::query::{self, RayFilter, RayHit};
+use crate::step::functions;
+
+/// The nearest geom on the ray `from` + x `along`, x ≥ 0 (`mj_ray`). A direction of no length hits nothing.
+pub fn ray<S: Scope>(
+    m: &Model,
+    d: &Data<S>,
+    from: Vec3,
+    along: Vec3,
+    filter: &RayFilter,
+) -> Result<Option<RayHit>, Error> {
+    d.belongs_to(m)?;
+    d.has(&[data::geom_xpos, data::geom_xmat])?;
+    Ok(query::ray(m, &d.inner, from, along, filter))
+}
+
+/// The distance of two geoms up to `most`, m, with the segment from the first to the second (`mj_geomDistance`).
+///
+/// Shapes with closed forms use those, at their deepest contact; two planes or height fields have no distance.
+pub fn geom_distance<S: Scope>(
+    m: &Model,
+    d: &mut Data<S>,
+    geom1: usize,
+    geom2: usize,
+    most: f64,
+) -> Result<Distance, Error> {
+    d.has(&[data::geom_xpos, data::geom_xmat])?;
+    exists("geom", geom1, m.ngeom)?;
+    exists("geom", geom2, m.ngeom)?;
+    let found = functions::geom_distance(m, d.engine(m)?, geom1, geom2, most);
+    found.ok_or(Error::NoConvex { geom1, geom2 })
+}
+
+/// Whether a point (world, m) is inside the volume of a site (`mj_insideSite`).
+pub fn inside_site<S: Scope>(m: &Model, d: &Data<S>, site: usize, point: Vec3) -> Result<bool, Error> {
+    d.belongs_to(m)?;
+    d.has(&[data::site_xpos, data::site_xmat])?;
+    exists("site", site, m.nsite)?;
+    Ok(query::inside_site(m, &d.inner, site, point))
+}
+
+/// Whether the contact bits of two geoms admit a contact. They may be written while a lab runs.
+pub fn can_collide(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
+    exists("geom", geom1, m.ngeom)?;
+    exists("geom", geom2, m.ngeom)?;
+    Ok(crate::collision::can_collide(m, geom1, geom2))
+}
+
+/// Whether two geoms can make contacts: their bits, their bodies and the pairs and exclusions of the model admit it.
+pub fn may_touch(m: &Model, geom1: usize, geom2: usize) -> Result<bool, Error> {
+    exists("geom", geom1, m.ngeom)?;
+    exists("geom", geom2, m.ngeom)?;
+    Ok(crate::collision::may_touch(m, geom1, geom2))
+}
+
+/// How many of the pairs of geoms that can touch have bounds within reach of each other where the geoms are now: the others cost
+/// one comparison each.
+pub fn pairs_in_reach<S: Scope>(m: &Model, d: &Data<S>) -> Result<usize, Error> {
+    d.belongs_to(m)?;
+    Ok(functions::pairs_in_reach(m, &d.inner))
+}

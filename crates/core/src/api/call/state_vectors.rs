@@ -1,0 +1,35 @@
+//! States as lists of numbers.
+
+use super::{Data, Error, Model, Scope};
+use crate::model::state;
+pub use crate::model::state::{
+    ACT, CTRL, EQ_ACTIVE, FULLPHYSICS, HISTORY, INTEGRATION, MOCAP_POS, MOCAP_QUAT, PHYSICS, QFRC_APPLIED,
+    QPOS, QVEL, StateError, TIME, USER, USERDATA, WARMSTART, XFRC_APPLIED,
+};
+
+/// Number of numbers of a state (`mj_stateSize`).
+pub fn size(m: &Model, sig: i32) -> Result<usize, Error> {
+    Ok(state::size(m, sig)?)
+}
+
+/// Writes a state to `out`, which has `size` numbers (`mj_getState`).
+pub fn get<S: Scope>(m: &Model, d: &Data<S>, out: &mut [f64], sig: i32) -> Result<(), Error> {
+    d.belongs_to(m)?;
+    Ok(state::get(m, &d.inner, out, sig)?)
+}
+
+/// Sets a state (`mj_setState`). What follows from it is computed by `forward` or the next step.
+pub fn set<S: Scope>(m: &Model, d: &mut Data<S>, values: &[f64], sig: i32) -> Result<(), Error> {
+    Ok(state::set(m, d.engine_to_write(m)?, values, sig)?)
+}
+
+/// Takes the parts `to` of the state `from`, which has the parts `sig` (`mj_extractState`).
+pub fn extract(m: &Model, from: &[f64], sig: i32, out: &mut [f64], to: i32) -> Result<(), Error> {
+    Ok(state::extract(m, from, sig, out, to)?)
+}
+
+/// Copies parts of a state (`mj_copyState`).
+pub fn copy<S: Scope, T: Scope>(m: &Model, from: &Data<S>, to: &mut Data<T>, sig: i32) -> Result<(), Error> {
+    from.belongs_to(m)?;
+    Ok(state::copy(m, &from.inner, to.engine_to_write(m)?, sig)?)
+}
