@@ -1,10 +1,11 @@
 //! What stands before a place of a text, as far as its tokens tell: `data.joint("hinge").qpos[0]` is a name, a member, a call, a
 //! member and an index. The text around it may be incomplete, which is what it is while somebody writes.
 
-use crate::Span;
 use crate::globals::Globals;
 use crate::lex::{Tok, Token, tokens};
-use crate::schema::{CollectionId, Entry, Field, FunctionId, ObjectId, Param, Schema, Type};
+use crate::schema::{Entry, Field, Param, Schema};
+use crate::types::{CollectionId, FunctionId, ObjectId, Type};
+use labspec_finding::Span;
 
 /// How often a variable may stand for another one.
 const MAX_ALIASES: usize = 8;

@@ -5,11 +5,12 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::formula::{Formula, Step};
+use crate::host::Host;
 use crate::math::FEW;
 use crate::operation::{known_operator, select};
 use crate::operators::BinaryOp;
-use crate::program::{Host, Program};
-use crate::schema::FieldKey;
+use crate::program::Program;
+use crate::types::FieldKey;
 
 /// Samples that an operation takes at once: few enough that all registers stay in the nearest cache.
 const BLOCK: usize = 32;

@@ -1,13 +1,14 @@
 //! What can be written at a place of a text that may be incomplete: names, members, methods, and the names of objects between
 //! quotes.
 
-use crate::Span;
 use crate::chain::{Meaning, Tokens, of_entry};
 use crate::globals::Globals;
 use crate::lex::Tok;
 use crate::math;
 use crate::natives;
-use crate::schema::{Field, Schema, Type, signature};
+use crate::schema::{Field, Schema, signature};
+use crate::types::Type;
+use labspec_finding::Span;
 
 /// What a suggestion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

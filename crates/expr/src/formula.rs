@@ -7,10 +7,10 @@ use std::collections::BTreeMap;
 use crate::math;
 use crate::operation::select;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::schema::FieldKey;
+use crate::types::FieldKey;
 
 /// The number of an operation, and so of its result.
-pub(crate) type At = u32;
+pub(crate) type StepId = u32;
 
 /// A constant, by its bits: zeros of both signs are equal, but not the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,13 +30,13 @@ pub(crate) enum Step {
     Load(FieldKey, u32),
     /// A number of the program around it.
     Input(u32),
-    Unary(UnaryOp, At),
-    Binary(BinaryOp, At, At),
+    Unary(UnaryOp, StepId),
+    Binary(BinaryOp, StepId, StepId),
     /// With a constant on the right, or on the left.
-    Right(BinaryOp, At, Bits),
-    Left(BinaryOp, Bits, At),
+    Right(BinaryOp, StepId, Bits),
+    Left(BinaryOp, Bits, StepId),
     /// By the truth of the first: the second or the third.
-    Select(At, At, At),
+    Select(StepId, StepId, StepId),
     /// First and number of its arguments in the list of arguments.
     Math(math::Function, u32, u32),
 }
@@ -45,23 +45,23 @@ pub(crate) enum Step {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Formula {
     pub(crate) steps: Vec<Step>,
-    args: Vec<At>,
-    pub(crate) output: At,
+    args: Vec<StepId>,
+    pub(crate) output: StepId,
     /// It gives 1 or 0 for a truth value.
     pub(crate) truth: bool,
     /// Operations that are there already; of functions, by their arguments.
-    known: BTreeMap<Step, At>,
-    known_math: BTreeMap<(math::Function, Vec<At>), At>,
+    known: BTreeMap<Step, StepId>,
+    known_math: BTreeMap<(math::Function, Vec<StepId>), StepId>,
 }
 
 impl Formula {
     /// The arguments of a function of `Math`.
-    pub(crate) fn args(&self, first: u32, count: u32) -> &[At] {
+    pub(crate) fn args(&self, first: u32, count: u32) -> &[StepId] {
         self.args.get(first as usize..(first + count) as usize).unwrap_or(&[])
     }
 
     /// The constant that a step is.
-    pub(crate) fn constant_at(&self, at: At) -> Option<f64> {
+    pub(crate) fn constant_at(&self, at: StepId) -> Option<f64> {
         match self.steps.get(at as usize) {
             Some(Step::Constant(k)) => Some(k.number()),
             _ => None,
@@ -69,7 +69,7 @@ impl Formula {
     }
 
     /// An operation, or the same one that is there already.
-    pub(crate) fn step(&mut self, step: Step) -> At {
+    pub(crate) fn step(&mut self, step: Step) -> StepId {
         if let Some(at) = self.known.get(&step) {
             return *at;
         }
@@ -78,22 +78,22 @@ impl Formula {
         at
     }
 
-    fn push(&mut self, step: Step) -> At {
+    fn push(&mut self, step: Step) -> StepId {
         self.steps.push(step);
-        (self.steps.len() - 1) as At
+        (self.steps.len() - 1) as StepId
     }
 
-    pub(crate) fn constant(&mut self, x: f64) -> At {
+    pub(crate) fn constant(&mut self, x: f64) -> StepId {
         self.step(Step::Constant(Bits(x.to_bits())))
     }
 
-    pub(crate) fn unary(&mut self, op: UnaryOp, a: At) -> At {
+    pub(crate) fn unary(&mut self, op: UnaryOp, a: StepId) -> StepId {
         self.step(Step::Unary(op, a))
     }
 
     /// Constants become part of the operation. What can be turned round is, and `x - k` is `x + -k` and `x ** 2` is `x * x`,
     /// to the bit.
-    pub(crate) fn binary(&mut self, op: BinaryOp, a: At, b: At) -> At {
+    pub(crate) fn binary(&mut self, op: BinaryOp, a: StepId, b: StepId) -> StepId {
         let turns = matches!(op, BinaryOp::Add | BinaryOp::Multiply);
         let bits = |k: f64| Bits(k.to_bits());
         let step = match (op, self.constant_at(a), self.constant_at(b)) {
@@ -107,7 +107,7 @@ impl Formula {
         self.step(step)
     }
 
-    pub(crate) fn select(&mut self, test: At, yes: At, no: At) -> At {
+    pub(crate) fn select(&mut self, test: StepId, yes: StepId, no: StepId) -> StepId {
         match self.constant_at(test) {
             _ if yes == no => yes,
             Some(x) if !x.is_nan() => select(x, yes, no),
@@ -115,7 +115,7 @@ impl Formula {
         }
     }
 
-    pub(crate) fn math(&mut self, function: math::Function, args: Vec<At>) -> At {
+    pub(crate) fn math(&mut self, function: math::Function, args: Vec<StepId>) -> StepId {
         if let Some(at) = self.known_math.get(&(function, args.clone())) {
             return *at;
         }
@@ -127,12 +127,12 @@ impl Formula {
     }
 
     /// Leaves out what the results do not need; gives where each step stands now. What was known is forgotten.
-    pub(crate) fn finish(&mut self, results: &mut [At]) {
+    pub(crate) fn finish(&mut self, results: &mut [StepId]) {
         self.known = BTreeMap::new();
         self.known_math = BTreeMap::new();
         let Formula { steps, args, .. } = self;
         let mut used = vec![false; steps.len()];
-        let mark = |used: &mut Vec<bool>, at: At| {
+        let mark = |used: &mut Vec<bool>, at: StepId| {
             if let Some(place) = used.get_mut(at as usize) {
                 *place = true;
             }
@@ -145,11 +145,11 @@ impl Formula {
         }
         let mut kept = 0;
         let count = |used: &bool| {
-            kept += At::from(*used);
+            kept += StepId::from(*used);
             kept.saturating_sub(1)
         };
-        let places: Vec<At> = used.iter().map(count).collect();
-        let mut moved = |at: &mut At| *at = places.get(*at as usize).copied().unwrap_or(*at);
+        let places: Vec<StepId> = used.iter().map(count).collect();
+        let mut moved = |at: &mut StepId| *at = places.get(*at as usize).copied().unwrap_or(*at);
         results.iter_mut().for_each(&mut moved);
         for (step, _) in steps.iter_mut().zip(&used).filter(|(_, used)| **used) {
             step.each(args, &mut moved);
@@ -161,7 +161,7 @@ impl Formula {
 
 impl Step {
     /// The operations whose results it uses.
-    fn each(&mut self, args: &mut [At], f: &mut impl FnMut(&mut At)) {
+    fn each(&mut self, args: &mut [StepId], f: &mut impl FnMut(&mut StepId)) {
         match self {
             Step::Constant(_) | Step::Load(..) | Step::Input(_) => {}
             Step::Unary(_, a) | Step::Right(_, a, _) | Step::Left(_, _, a) => f(a),

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use crate::known::Known;
 use crate::rules;
 use crate::words::Words;
-use crate::{Finding, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Span, nearest};
 
 /// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

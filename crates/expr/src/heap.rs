@@ -5,14 +5,10 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
+use crate::code::Code;
 use crate::number;
-use crate::schema::Elem;
-use crate::value::Value;
-use crate::vm::Code;
-
-/// The number of a list, record or function in its [`Heap`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Ref(u32);
+use crate::types::Elem;
+use crate::value::{Ref, Value};
 
 /// Something that a value refers to.
 #[derive(Clone, Debug, Default)]

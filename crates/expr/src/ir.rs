@@ -2,12 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::Span;
 use crate::math;
-use crate::natives;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
-use crate::schema::{Elem, FunctionId, Type};
+use crate::types::{Elem, FunctionId, Type};
 use crate::value::{Value, View};
+use labspec_finding::Span;
 
 /// A value to be computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +52,7 @@ pub(crate) enum Kind {
     /// `place ||= value` and its like.
     StoreIf(LogicalOp, Box<Place>, Box<Ir>),
     /// `place++` and its like: adds the number; gives the new value, or the old one.
-    Update(Box<Place>, f64, Gives),
+    Update(Box<Place>, f64, UpdateResult),
     /// Stores one number in every element.
     Fill(View, Box<Ir>),
     /// Stores values one after the other, from an element of the view on.
@@ -66,9 +65,9 @@ pub(crate) enum Kind {
     /// `object.name` of something known only while running.
     Member(Box<Ir>, Arc<str>),
     /// A method of a value.
-    Method(natives::Name, Box<Ir>, Vec<Item>),
+    Method(MethodId, Box<Ir>, Vec<Item>),
     /// A function that is no method.
-    Native(natives::Free, Vec<Item>),
+    Native(FreeFunctionId, Vec<Item>),
     /// A function of the text, as a value.
     Closure(UnitId),
     /// A call of a known function of the text.
@@ -87,13 +86,21 @@ pub(crate) enum Kind {
 
 /// Which value a `++` gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Gives {
+pub(crate) enum UpdateResult {
     New,
     Old,
 }
 
 /// A function of the text.
 pub(crate) type UnitId = u32;
+
+/// A name that is a method of something: its first row in the table of `natives`. Rows of one name follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MethodId(pub(crate) u8);
+
+/// A function that belongs to nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FreeFunctionId(pub(crate) u8);
 
 /// An item of a list or an argument.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,12 +1,12 @@
 //! Tree to text: one layout, parentheses only where the tree needs them. Reading the result gives the tree back.
 //! The formatter is this with two wishes of authors: numbers stay as they are written, and a text of one line stays on one.
 
-use crate::Finding;
 use crate::ast::{
     BinaryOp, Body, Element, Expr, ExprKind, Function, LogicalOp, Pattern, Property, Stmt, StmtKind, UnaryOp,
 };
 use crate::lex::{Tok, tokens};
 use crate::{number, parse_expression, parse_statements};
+use labspec_finding::Finding;
 
 /// Binding powers beyond those of the operators, see [`BinaryOp::power`].
 const ASSIGNMENT: u8 = 1;

@@ -40,33 +40,33 @@ place        = name | postfix "." name | postfix "[" expression "]" ;
 "#;
 
 /// A row of a table: how it is written, what it gives, an example with its value.
-struct Row {
+struct Native {
     name: String,
     doc: &'static str,
     example: (String, &'static str),
 }
 
-fn rows(of: &[On], array: &str) -> Vec<Row> {
+fn rows(of: &[On], array: &str) -> Vec<Native> {
     let natives = natives::rows().filter(|r| of.contains(&r.on));
-    let name = |row: &natives::Row| match row.calls() {
+    let name = |row: &natives::Native| match row.calls() {
         true if row.on == On::Nothing => format!("{}(v, f)", row.name),
         true => format!("{}(f)", row.name),
         false => row.name.to_owned(),
     };
-    natives.map(|r| Row { name: name(r), doc: r.doc, example: r.example(array) }).collect()
+    natives.map(|r| Native { name: name(r), doc: r.doc, example: r.example(array) }).collect()
 }
 
-fn functions_of_math() -> Vec<Row> {
+fn functions_of_math() -> Vec<Native> {
     let name = |name: &str| if name.starts_with("is") { name.to_owned() } else { format!("Math.{name}") };
     let rows = math::DOCS.iter();
-    rows.map(|&(n, doc, (source, value))| Row { name: name(n), doc, example: (source.into(), value) })
+    rows.map(|&(n, doc, (source, value))| Native { name: name(n), doc, example: (source.into(), value) })
         .collect()
 }
 
 /// A section with a table.
-fn table(out: &mut String, title: &str, rows: Vec<Row>) {
+fn table(out: &mut String, title: &str, rows: Vec<Native>) {
     let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
-    for Row { name, doc, example: (source, value) } in rows {
+    for Native { name, doc, example: (source, value) } in rows {
         let cell = |s: &str| s.replace('|', "\\|");
         let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(&source), cell(value));
     }
@@ -115,7 +115,7 @@ pub fn language_page(words: &Words) -> String {
         "A text has at most {} bytes and {} nested levels; a run does at most {} operations (an element that a method visits counts as five, a step of the {} as its own cost), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
         crate::MAX_SOURCE,
         crate::MAX_DEPTH,
-        crate::vm::MAX_WORK / crate::vm::OPERATION,
+        crate::vm::MAX_WORK / crate::code::OPERATION,
         words.world
     );
     out
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn the_examples_give_what_they_say() {
         let all = rows(&[On::List, On::Growing, On::Untyped, On::Text, On::Number, On::Nothing], "data.qpos");
-        for Row { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
+        for Native { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");
         }

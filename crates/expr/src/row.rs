@@ -2,14 +2,16 @@
 //! number at hand, each with a register or a constant as its other operand. The number so stays in a register of the
 //! processor from operation to operation; only what is needed again later goes to memory.
 
-use crate::formula::{At, Formula, Step};
+use crate::formula::{Formula, Step, StepId};
 use crate::math::{Apply, FEW, Function};
 use crate::operation::select;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::program::Host;
-use crate::schema::FieldKey;
+use crate::types::FieldKey;
 use crate::value::Value;
 use crate::watch::Watch;
+
+/// An element of a field, by its place in the whole field.
+pub(crate) type Element = (FieldKey, u32);
 
 /// Number of registers: a byte names each of them, so none can be out of range.
 pub(crate) const REGISTERS: usize = 256;
@@ -97,7 +99,7 @@ impl Op {
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     /// What is read, in the order of the fields; it goes into the first registers.
-    elements: Vec<(FieldKey, u32)>,
+    elements: Vec<Element>,
     /// The register that is at hand first.
     start: u8,
     ops: Vec<Op>,
@@ -110,7 +112,7 @@ pub(crate) struct Row {
 
 /// A step whose result is wanted in a register.
 pub(crate) struct Wanted {
-    pub(crate) step: At,
+    pub(crate) step: StepId,
     pub(crate) register: u8,
     /// Nothing reads behind the step what stood in the register before.
     pub(crate) at_once: bool,
@@ -140,7 +142,7 @@ impl Row {
 
     fn with(
         formula: &Formula,
-        elements: &[(FieldKey, u32)],
+        elements: &[Element],
         wanted: &[Wanted],
         mut free: impl Iterator<Item = u8>,
     ) -> Option<Row> {
@@ -200,14 +202,18 @@ impl Row {
         self.ops.iter().map(kept).max().unwrap_or(0)
     }
 
-    /// The value now; `None` when an element does not exist.
+    /// The value now; `None` when an element does not exist. `read` fetches all elements at once.
     #[inline]
-    pub(crate) fn value(&self, host: &dyn Host, numbers: &mut Vec<f64>) -> Option<Value> {
+    pub(crate) fn value(
+        &self,
+        read: impl FnOnce(&[Element], &mut [f64]) -> bool,
+        numbers: &mut Vec<f64>,
+    ) -> Option<Value> {
         if numbers.len() < REGISTERS {
             make_room(numbers);
         }
         let r: &mut Registers = numbers.first_chunk_mut()?;
-        if !host.read(&self.elements, r.get_mut(..self.elements.len())?) {
+        if !read(&self.elements, r.get_mut(..self.elements.len())?) {
             return None;
         }
         let x = self.run(r);
@@ -217,19 +223,19 @@ impl Row {
     /// The value now, as [`Row::value`]; the watch notes what happens on the way.
     pub(crate) fn watched_value(
         &self,
-        host: &dyn Host,
+        read: impl FnOnce(&[Element], &mut [f64]) -> bool,
         numbers: &mut Vec<f64>,
         watch: &mut Watch,
     ) -> Option<Value> {
         // There is nothing to note.
         if self.passes_nan && !watch.notes_comparisons() {
-            return self.value(host, numbers);
+            return self.value(read, numbers);
         }
         if numbers.len() < REGISTERS {
             make_room(numbers);
         }
         let r: &mut Registers = numbers.first_chunk_mut()?;
-        if !host.read(&self.elements, r.get_mut(..self.elements.len())?) {
+        if !read(&self.elements, r.get_mut(..self.elements.len())?) {
             return None;
         }
         let x = self.watched_run(r, watch);
@@ -356,16 +362,16 @@ struct Build<'f> {
     ops: Vec<Op>,
     args: Vec<u8>,
     /// The step whose result is the number at hand.
-    at_hand: Option<At>,
+    at_hand: Option<StepId>,
 }
 
 impl Build<'_> {
-    fn home(&self, at: At) -> Option<u8> {
+    fn home(&self, at: StepId) -> Option<u8> {
         self.homes.get(at as usize).copied()
     }
 
     /// Makes a result the number at hand.
-    fn take(&mut self, at: At) -> Option<()> {
+    fn take(&mut self, at: StepId) -> Option<()> {
         if self.at_hand != Some(at) {
             self.ops.push(Op::Take(self.home(at)?));
         }
@@ -373,7 +379,7 @@ impl Build<'_> {
     }
 
     /// An operation of two operands: the second may be the number at hand when there is a way round for it.
-    fn two(&mut self, a: At, b: At, op: impl Fn(u8) -> Op, round: impl Fn(u8) -> Op) -> Option<Op> {
+    fn two(&mut self, a: StepId, b: StepId, op: impl Fn(u8) -> Op, round: impl Fn(u8) -> Op) -> Option<Op> {
         if self.at_hand == Some(b) && a != b {
             return Some(round(self.home(a)?));
         }
@@ -382,7 +388,7 @@ impl Build<'_> {
     }
 
     /// An operation, kept for later in its register.
-    fn step(&mut self, at: At, step: Step) -> Option<()> {
+    fn step(&mut self, at: StepId, step: Step) -> Option<()> {
         let op = match step {
             Step::Load(..) | Step::Input(_) => return Some(()),
             Step::Constant(k) => {
@@ -407,7 +413,7 @@ impl Build<'_> {
         Some(())
     }
 
-    fn one(&mut self, a: At, op: Op) -> Option<Op> {
+    fn one(&mut self, a: StepId, op: Op) -> Option<Op> {
         self.take(a)?;
         Some(op)
     }
@@ -451,6 +457,7 @@ impl Build<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::host::Host;
     use crate::mock::{Mock, World};
     use crate::{Compiler, Context, Globals, Program};
 
@@ -507,7 +514,7 @@ mod tests {
                 world.fields[0][0] = f64::from(i) * 0.37;
                 world.fields[1][2] = 3.0 - f64::from(i) / 2.0;
                 let bits = |v: Value| (v.type_of(), v.to_number().to_bits());
-                let ours = row.value(&world, &mut Vec::new()).unwrap();
+                let ours = row.value(|elements, out| world.read(elements, out), &mut Vec::new()).unwrap();
                 let theirs = crate::vm::run(&program.code, &mut world, &mut Context::new(), None).unwrap();
                 let nan = ours.to_number().is_nan() && theirs.to_number().is_nan();
                 assert!(nan || bits(ours.clone()) == bits(theirs.clone()), "{source}: {ours} and {theirs}");

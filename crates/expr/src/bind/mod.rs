@@ -11,9 +11,10 @@ use crate::globals::{Globals, ProgramId};
 use crate::parse::{self, Parsed, in_order};
 use crate::program::Program;
 use crate::rules;
-use crate::schema::{Help, Schema, Type};
-use crate::{Finding, Fix, Span};
+use crate::schema::{Help, Schema};
+use crate::types::Type;
 
+use labspec_finding::{Finding, Fix, Span};
 use names::Surroundings;
 
 /// Compiles the texts of one lab.

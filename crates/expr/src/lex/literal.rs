@@ -11,7 +11,7 @@ use nom::{IResult, Offset, Parser};
 use super::{Raw, Tok, blank, is_line_end};
 use crate::number::from_digits;
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// A part of a string or a template.
 #[derive(Clone)]

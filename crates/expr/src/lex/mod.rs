@@ -15,8 +15,8 @@ use nom::sequence::delimited;
 use nom::{IResult, Parser};
 
 use crate::operators::{BinaryOp, LogicalOp};
-use crate::{Finding, Span};
 use crate::{number, rules};
+use labspec_finding::{Finding, Span};
 use literal::Part;
 
 /// A piece of the source text.

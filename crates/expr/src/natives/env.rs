@@ -1,10 +1,10 @@
 //! What methods work with: the lists of a run, its host, its budget, and JavaScript's conversions.
 
 use crate::heap::{Full, Heap, MAX_TEXT, Object};
+use crate::host::Host;
 use crate::ir::Shown;
-use crate::program::Host;
 use crate::rules::{self, Rule};
-use crate::schema::Elem;
+use crate::types::Elem;
 use crate::value::{Value, View};
 
 /// Why a method fails.

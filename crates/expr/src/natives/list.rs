@@ -1,13 +1,13 @@
 //! Methods of lists, typed arrays and arrays of the host (ECMAScript, "Array Objects", "TypedArray Objects").
 
-use super::env::{arg, integer, range, relative};
-use super::{Env, MANY, Outcome, Row, Trouble, no_method, table};
+use super::env::{Env, Trouble, arg, integer, range, relative};
+use super::native::{MANY, Native, Outcome, no_method, table};
 use crate::heap::Object;
 use crate::rules;
-use crate::schema::Elem;
+use crate::types::Elem;
 use crate::value::{Value, View};
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "at" List (1, 1) Item Moves at: "[1, 2, 3].at(-1)" => "3",
         "element at an index; a negative index counts from the end";
     "concat" Untyped (0, MANY) List Keeps concat: "[1].concat([2, 3], 4)" => "1,2,3,4",

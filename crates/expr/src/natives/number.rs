@@ -1,12 +1,12 @@
 //! Methods of numbers, and functions that make numbers, texts and truth values (ECMAScript, "Number Objects", "parseFloat", "parseInt").
 
-use super::env::{arg, integer};
-use super::{Env, Outcome, Row, Trouble, table};
+use super::env::{Env, Trouble, arg, integer};
+use super::native::{Native, Outcome, table};
 use crate::number as convert;
 use crate::rules;
 use crate::value::Value;
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "toExponential" Number (0, 1) String Looks to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
         "in exponential form with this many decimals";
     "toFixed" Number (0, 1) String Looks to_fixed_method: "(2.345).toFixed(1)" => "2.3",

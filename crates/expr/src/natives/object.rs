@@ -1,12 +1,12 @@
 //! Functions of `Array` and `Object` (ECMAScript, "Properties of the Array Constructor", "Properties of the Object Constructor").
 
-use super::env::{arg, integer};
-use super::{Env, MANY, Outcome, Row, Trouble, table};
+use super::env::{Env, Trouble, arg, integer};
+use super::native::{MANY, Native, Outcome, table};
 use crate::heap::Object;
 use crate::rules;
 use crate::value::Value;
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "Array.isArray" Nothing (1, 1) Boolean Asks is_array: "Array.isArray([1])" => "true",
         "whether a value is a list; an array of the engine is not one, as in JavaScript";
     "Array.of" Nothing (0, MANY) List Keeps of: "Array.of(1, 2)" => "1,2",
@@ -22,7 +22,7 @@ pub(super) static ROWS: &[Row] = table! {
 };
 
 /// `Array.from` with a function for every element.
-pub(super) static WRITTEN: &[Row] = table! {
+pub(super) static WRITTEN: &[Native] = table! {
     "Array.from" Nothing: "Array.from([1, 2], x => 2 * x)" => "2,4", "a list of the results of a function for each element",
         2 => "(v, f) => { const l = Array.from(v), n = l.length, r = []; for (let i = 0; i < n; i++) r.push(f(l[i], i)); return r }";
 };

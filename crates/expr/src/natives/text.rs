@@ -1,14 +1,14 @@
 //! Methods of texts (ECMAScript, "String Objects"). Indexes count UTF-16 code units, as JavaScript's do; half of a
 //! pair, cut off by an index, becomes the replacement character.
 
-use super::env::{arg, integer, range};
-use super::{Env, MANY, Outcome, Row, Trouble, table};
+use super::env::{Env, Trouble, arg, integer, range};
+use super::native::{MANY, Native, Outcome, table};
 use crate::heap::MAX_TEXT;
 use crate::number::is_space;
 use crate::rules;
 use crate::value::Value;
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "at" Text (1, 1) Any Looks at: "'abc'.at(-1)" => "c",
         "character at an index; a negative index counts from the end";
     "concat" Text (0, MANY) String Looks concat: "'a'.concat('b', 1)" => "ab1",

@@ -7,7 +7,7 @@ use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Name, Property, UnaryOp};
 use crate::lex::{self, Tok};
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// Binding powers that no operator table holds, see [`BinaryOp::power`].
 const ASSIGNMENT: u8 = 1;

@@ -5,7 +5,7 @@ use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
 use crate::ast::{Body, Element, ExprKind, Function, Name, Pattern, Stmt, StmtKind};
 use crate::lex::Tok;
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// The binding power of an assignment, the loosest.
 const ASSIGNMENT: u8 = 1;

@@ -13,7 +13,7 @@ use crate::ast::{Expr, ExprKind, Stmt};
 use crate::lex::{self, Tok, Token};
 use crate::rules;
 use crate::words::Words;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// What a parser understood, and what it could not read.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::rules;
 use crate::words::Words;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// The finding for a construct, in the plural.
 fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {

@@ -4,7 +4,7 @@ use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::lex::Tok;
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
     /// All statements to the end of the text.

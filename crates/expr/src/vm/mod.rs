@@ -4,33 +4,31 @@
 //! before the first operation of a function. Every jump back counts the operations that it repeats, every call those of the
 //! function, so every run ends, and what it cost is known.
 
-mod code;
-mod emit;
 mod noting;
 mod parts;
 
-pub(crate) use code::{Code, CodeUnit};
 use noting::Operands;
 
 use std::sync::Arc;
 
-use crate::Span;
-use crate::form::{Num, Op, Slot, Val};
+use crate::code::{Code, CodeUnit};
+use crate::context::Context;
 use crate::heap::{MAX_TEXT, Object};
+use crate::host::Host;
 use crate::natives::{self, Env, Trouble};
 use crate::number;
 use crate::operation::{select, truth, truthy};
 use crate::operators::BinaryOp;
-use crate::program::{Context, EventKind, Host, RuntimeError, RuntimeEvent};
 use crate::row::REGISTERS;
 use crate::rules;
-use crate::schema::FieldKey;
+use crate::runtime_event::{EventKind, RuntimeError, RuntimeEvent};
+use crate::ssa::{Num, Op, Slot, Val};
+use crate::types::FieldKey;
 use crate::value::{Value, View};
+use labspec_finding::Span;
 
 /// Work that a run may do. A unit is about a nanosecond of a fast machine.
 pub(crate) const MAX_WORK: u64 = 200_000_000;
-/// What an operation counts.
-pub(crate) const OPERATION: u64 = 2;
 /// What a call of the host counts besides the work of the host itself, in elements.
 const HOST_CALL: usize = 10;
 /// Functions that may call each other, one inside the other.

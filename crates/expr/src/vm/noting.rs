@@ -1,12 +1,14 @@
 //! What a watched run notes of each operation: whether an operand that is not a number became something else, and how
 //! comparisons of numbers came out ([`crate::Watch`]).
 
-use super::{CodeUnit, Frame, Machine, span_of, truth};
-use crate::form::{Args, Num, Op, Val};
-use crate::heap::Object;
+use super::{Frame, Machine, span_of, truth};
+use crate::code::CodeUnit;
+use crate::heap::{Heap, Object};
+use crate::ir::MethodId;
 use crate::natives::{self, Nan};
 use crate::operators::BinaryOp;
-use crate::schema::Elem;
+use crate::ssa::{Args, Num, Op, Val};
+use crate::types::Elem;
 use crate::value::Value;
 
 /// What is known of an operation before it runs: its result may take the place of an operand.
@@ -149,11 +151,9 @@ impl Machine<'_> {
                 let first = view.first as usize;
                 (0..self.length(*view)).any(|i| self.host.get(view.field, first + i).is_none_or(f64::is_nan))
             }
-            _ => self
-                .context
-                .watch
-                .as_ref()
-                .is_some_and(|watch| watch.without_number(&self.context.heap, value)),
+            _ => self.context.watch.as_ref().is_some_and(|watch| {
+                is_without_number(&self.context.heap, value, watch.counts_undefined(), 8)
+            }),
         }
     }
 
@@ -179,7 +179,7 @@ impl Machine<'_> {
         }
     }
 
-    fn method_looks(&self, name: natives::Name, args: Args, unit: &CodeUnit, f: Frame) -> bool {
+    fn method_looks(&self, name: MethodId, args: Args, unit: &CodeUnit, f: Frame) -> bool {
         let Some((receiver, args)) = args.of(&unit.args).split_first() else { return false };
         let nan = self.becomes(name, self.val(f, Val(*receiver)));
         nan.of_elements() && self.has_no_number(f, Val(*receiver))
@@ -187,7 +187,23 @@ impl Machine<'_> {
     }
 
     /// What becomes of NaN in a method of a value; a function that a record holds may do anything with it.
-    fn becomes(&self, name: natives::Name, receiver: &Value) -> Nan {
+    fn becomes(&self, name: MethodId, receiver: &Value) -> Nan {
         natives::row_of(&self.context.heap, name, receiver).map_or(Nan::Looks, |row| row.nan)
+    }
+}
+
+/// Whether a value is, or holds down to a depth, what is not a number.
+fn is_without_number(heap: &Heap, value: &Value, undefined: bool, depth: usize) -> bool {
+    let inner = |value: &Value| is_without_number(heap, value, undefined, depth - 1);
+    match value {
+        Value::Number(x) => x.is_nan(),
+        Value::Undefined => undefined,
+        Value::List(_) | Value::Record(_) if depth > 0 => match heap.object(value) {
+            Object::List(items) => items.iter().any(inner),
+            Object::Numbers(items, _) => items.iter().any(|x| x.is_nan()),
+            Object::Record(entries) => entries.iter().any(|(_, value)| inner(value)),
+            _ => false,
+        },
+        _ => false,
     }
 }

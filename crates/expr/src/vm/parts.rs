@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use super::{Code, CodeUnit, Frame, Machine, Stop, index_of, taken, what, whole_index};
-use crate::form::{Args, Op, Slot, Val};
+use super::{Frame, Machine, Stop, index_of, taken, what, whole_index};
+use crate::code::{Code, CodeUnit};
 use crate::heap::Object;
-use crate::ir::Picks;
+use crate::ir::{MethodId, Picks};
 use crate::natives::{self, Trouble};
 use crate::rules;
+use crate::ssa::{Args, Op, Slot, Val};
 use crate::value::{Value, View};
 
 impl Machine<'_> {
@@ -377,7 +378,7 @@ impl Machine<'_> {
         code: &Arc<Code>,
         unit: &CodeUnit,
         f: Frame,
-        name: natives::Name,
+        name: MethodId,
         receiver: &Value,
         args: &[Value],
     ) -> Result<Value, Stop> {

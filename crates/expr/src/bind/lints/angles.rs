@@ -5,8 +5,9 @@ use crate::ast::{BinaryOp, Expr};
 use crate::bind::types::Shape;
 use crate::number;
 use crate::rules;
-use crate::schema::{FieldKey, Role};
-use crate::{Finding, Span};
+use crate::schema::Role;
+use crate::types::FieldKey;
+use labspec_finding::{Finding, Span};
 
 impl Look<'_> {
     /// What a function of angles gets.

@@ -3,7 +3,7 @@
 use super::Look;
 use crate::ast::{BinaryOp, Expr, ExprKind};
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl Look<'_> {
     /// A comparison with the literal NaN.

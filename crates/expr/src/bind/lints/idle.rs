@@ -3,9 +3,9 @@
 use super::Look;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Stmt, StmtKind};
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl Look<'_> {
     /// A statement that changes nothing.

@@ -11,7 +11,7 @@ use super::Tree;
 use super::types::{Typed, Want};
 use crate::ast::{BinaryOp, Body, Element, Expr, ExprKind, Pattern, Property, Stmt, StmtKind};
 use crate::schema::Schema;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// What the lints look at.
 struct Look<'l> {

@@ -4,9 +4,9 @@ use super::Look;
 use crate::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::bind::types::Shape;
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl Look<'_> {
     /// `-text`

@@ -3,7 +3,7 @@
 use super::Look;
 use crate::ast::{Expr, ExprKind, Stmt, StmtKind};
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// Functions that a second argument of the same value says nothing to, or says wrongly.
 const FUNCTIONS: [&str; 3] = ["Math.hypot", "Math.max", "Math.min"];

@@ -3,7 +3,8 @@
 use super::unknown::LANGUAGE;
 use super::{Use, Walk};
 use crate::math;
-use crate::schema::{Entry, ObjectId, Schema};
+use crate::schema::{Entry, Schema};
+use crate::types::ObjectId;
 use labspec_finding::{nearest, ranked};
 
 impl Use {

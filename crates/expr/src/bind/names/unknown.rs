@@ -5,8 +5,7 @@ use crate::ast::Name;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
 use crate::words::Words;
-use crate::{Finding, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Span, nearest};
 
 /// Names of the language itself.
 pub(super) const LANGUAGE: [&str; 14] = [

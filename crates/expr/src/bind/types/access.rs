@@ -7,11 +7,11 @@ use crate::bind::names::list;
 use crate::ir::{Index, Ir, Kind};
 use crate::number;
 use crate::rules;
-use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
+use crate::schema::{Field, Help};
+use crate::types::{CollectionId, ObjectId, Type};
 use crate::value::Value;
 use crate::words::Words;
-use crate::{Finding, Fix, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Fix, Span, nearest};
 
 /// What chooses a `ctx` variable.
 pub(super) enum GlobalName {

@@ -6,10 +6,11 @@ use super::scope::Meaning;
 use super::{Attempt, Binder, Reported, Thing, Want};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use crate::bind::names::MACHINERY;
-use crate::ir::{Gives, Index, Ir, Kind, Place};
+use crate::ir::{Index, Ir, Kind, Place, UpdateResult};
 use crate::rules;
-use crate::schema::{Field, FieldKind, Type};
-use crate::{Finding, Span};
+use crate::schema::{Field, FieldKind};
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `target = value` of a control that sets.
@@ -83,7 +84,7 @@ impl<'a> Binder<'a> {
         let place = self.place(target)?;
         self.stored(target, &place, Type::Number);
         let (step, gives) =
-            (if increment { 1.0 } else { -1.0 }, if prefix { Gives::New } else { Gives::Old });
+            (if increment { 1.0 } else { -1.0 }, if prefix { UpdateResult::New } else { UpdateResult::Old });
         Ok(Ir::new(Kind::Update(Box::new(place), step, gives), Type::Number, span))
     }
 

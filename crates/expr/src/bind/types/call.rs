@@ -4,14 +4,15 @@ use super::access::Chosen;
 use super::member::quoted;
 use super::{Attempt, Binder, Reported, Thing, Want};
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
+use crate::ir::{FreeFunctionId, Ir, Item, Kind, Step, Tree, Unit};
 use crate::math;
 use crate::natives;
 use crate::program::{Aggregate, Program};
 use crate::rules;
-use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type, signature};
+use crate::schema::{FunctionInfo, Help, Param, signature};
+use crate::types::{FunctionId, Type};
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// Functions of an angle.
 const OF_ANGLES: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
@@ -69,7 +70,7 @@ impl<'a> Binder<'a> {
 
     /// A function of the language: `Number(x)`, `Array.from(v, f)`.
     #[inline(never)]
-    fn native_call(&mut self, function: natives::Free, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    fn native_call(&mut self, function: FreeFunctionId, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
         let args = self.taken(args, row.arity().1);
         if let (Some(method), [first, rest @ ..]) = (function.written(args.len()), args) {

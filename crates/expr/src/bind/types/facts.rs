@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::schema::Type;
+use crate::types::Type;
 
 /// A place whose type is looked for: the call whose written method declares it (0 for the text itself), the byte of what
 /// declares it, and what it is there.

@@ -7,8 +7,8 @@ use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
 use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId};
 use crate::operators::BinaryOp;
 use crate::rules;
-use crate::schema::Type;
-use crate::{Finding, Span};
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// A function that the text gives at this place.

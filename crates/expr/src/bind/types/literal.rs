@@ -7,8 +7,8 @@ use crate::bind::names::names_of;
 use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::operators::BinaryOp;
 use crate::rules;
-use crate::schema::Type;
-use crate::{Finding, Span};
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// Items of a list, or arguments, with their spreads.

@@ -4,12 +4,13 @@ use super::access::past_the_end;
 use super::{Attempt, Binder, Reported, Thing, What};
 use crate::ast::{BinaryOp, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::bind::names::{Declared, names_of};
-use crate::ir::{Ir, Item, Kind, Loop, Place, Step};
+use crate::ir::{Ir, Item, Kind, Loop, Place, Step, UpdateResult};
 use crate::number;
 use crate::rules;
-use crate::schema::{Field, Type};
+use crate::schema::Field;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `for (init; test; update) body`
@@ -110,7 +111,7 @@ impl<'a> Binder<'a> {
         let read_counter = Ir::new(Kind::Local(counter), Type::Number, items.span);
         let one_more = |span| {
             Step::Effect(Ir::new(
-                Kind::Update(Box::new(Place::Local(counter)), 1.0, crate::ir::Gives::New),
+                Kind::Update(Box::new(Place::Local(counter)), 1.0, UpdateResult::New),
                 Type::Number,
                 span,
             ))

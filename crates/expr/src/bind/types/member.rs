@@ -8,11 +8,11 @@ use crate::math;
 use crate::natives;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
-use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
+use crate::schema::{Entry, Field, FieldKind, Help};
+use crate::types::{ObjectId, Type};
 use crate::value::{Value, View};
 use crate::words::Words;
-use crate::{Finding, Span};
-use labspec_finding::{nearest, ranked};
+use labspec_finding::{Finding, Span, nearest, ranked};
 
 impl<'a> Binder<'a> {
     pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Thing> {

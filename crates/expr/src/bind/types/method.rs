@@ -3,12 +3,13 @@
 use super::member::view_of;
 use super::{Attempt, Binder, Receiver, Thing, Want};
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, Item, Kind};
-use crate::natives::{self, On, Row};
+use crate::ir::{Ir, Item, Kind, MethodId};
+use crate::natives::{self, Native, On};
 use crate::rules;
-use crate::schema::{Field, Type};
+use crate::schema::Field;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// A value that is a list when it is computed, or the run ends: what is called on it is a method of lists.
 fn listed(ir: Ir, method: &str) -> Ir {
@@ -34,7 +35,7 @@ impl<'a> Binder<'a> {
     pub(super) fn method(
         &mut self,
         receiver: Receiver,
-        name: natives::Name,
+        name: MethodId,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<Ir> {
@@ -51,7 +52,7 @@ impl<'a> Binder<'a> {
             Receiver::Field(_) => Type::View,
             Receiver::Value(ir) => ir.ty,
         };
-        let rows: Vec<&'static Row> = name.rows_for(ty).collect();
+        let rows: Vec<&'static Native> = name.rows_for(ty).collect();
         let run = rows.iter().copied().filter(|row| !row.calls());
         let runs = run.clone().next().is_some();
         if let Some(row) = rows.iter().copied().find(|row| row.calls() && !(runs && args.is_empty())) {
@@ -76,7 +77,7 @@ impl<'a> Binder<'a> {
     /// The function of the language that computes a method with these arguments.
     fn written(
         &mut self,
-        row: &'static Row,
+        row: &'static Native,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<&'a crate::ast::Function> {
@@ -109,7 +110,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The example of a method, from its name on: `.map(x => 2 * x)`.
-    fn call_of(&self, row: &Row) -> String {
+    fn call_of(&self, row: &Native) -> String {
         let (example, _) = row.example("");
         let at = example.find(row.name).unwrap_or(0);
         let from = example.split_at(at).1;
@@ -117,7 +118,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for something else where a method takes a function.
-    pub(super) fn needs_function(&self, row: &Row, span: Span) -> Finding {
+    pub(super) fn needs_function(&self, row: &Native, span: Span) -> Finding {
         let point = if row.on == On::Nothing { "" } else { "." };
         Finding::error(rules::ARGUMENT_TYPE, span, format!("`{point}{}` needs a function", row.name))
             .why("it is called for every element")
@@ -125,7 +126,12 @@ impl<'a> Binder<'a> {
     }
 
     /// Checks how many arguments a function of the language gets, which one of these rows computes.
-    pub(super) fn check_arity(&mut self, rows: &[&'static Row], args: &'a [Expr], span: Span) -> Attempt<()> {
+    pub(super) fn check_arity(
+        &mut self,
+        rows: &[&'static Native],
+        args: &'a [Expr],
+        span: Span,
+    ) -> Attempt<()> {
         let Some(row) = rows.first() else { return Ok(()) };
         let least = rows.iter().map(|row| row.arity().0).min().unwrap_or(0);
         let most = rows.iter().map(|row| row.arity().1).max().unwrap_or(0);

@@ -30,12 +30,12 @@ use super::names::Names;
 use super::{Compiler, MAX_LEVELS, Mode};
 use crate::ast::Expr;
 use crate::globals::{Globals, ProgramId};
-use crate::ir::{Ir, Step, Tree, Unit, UnitId};
+use crate::ir::{FreeFunctionId, Ir, MethodId, Step, Tree, Unit, UnitId};
 use crate::math;
-use crate::natives;
 use crate::program::Aggregate;
 use crate::rules;
-use crate::schema::{CollectionId, Field, FunctionId, Help, ObjectId, Schema, Type};
+use crate::schema::{Field, Help, Schema};
+use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use crate::words::Words;
 use crate::{Finding, Fix, Span};
 
@@ -132,9 +132,9 @@ enum Thing {
     /// `Array`, `Number`, `String`, `Object`: a holder of functions.
     Namespace(&'static str),
     /// A function of the language, not yet called.
-    Native(natives::Free),
+    Native(FreeFunctionId),
     /// A method, not yet called, with what it is called on.
-    Method(Box<Receiver>, natives::Name),
+    Method(Box<Receiver>, MethodId),
     /// A function of the text: its place among the known ones.
     Closure(usize),
 }

@@ -9,10 +9,10 @@ use crate::bind::names::{MACHINERY, Named, list};
 use crate::ir::{Index, Ir, Kind, Picks};
 use crate::natives;
 use crate::rules;
-use crate::schema::{CollectionId, Entry, Field, Param, Type};
+use crate::schema::{Entry, Field, Param};
+use crate::types::{CollectionId, Type};
 use crate::value::{Value, View};
-use crate::{Finding, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Span, nearest};
 
 /// The most elements that a literal spread of an array of the simulation writes out.
 const MAX_WRITTEN_OUT: usize = 64;

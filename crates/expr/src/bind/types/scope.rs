@@ -3,13 +3,12 @@
 use super::facts::Key;
 use super::written::Site;
 use super::{Attempt, Binder, Reported, Thing, What};
-use crate::Finding;
-use crate::Span;
 use crate::ast::{Declarator, Function, Name, Pattern, Stmt, StmtKind};
 use crate::bind::names::{Declared, Named, names_of};
 use crate::ir::{Ir, Kind, Local, LocalId, Step, UnitId};
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 /// A name that the text gives.
 #[derive(Clone, Debug)]

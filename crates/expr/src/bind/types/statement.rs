@@ -5,9 +5,9 @@ use super::{Attempt, Binder, Mode, Thing};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     pub(super) fn statement(&mut self, statement: &'a Stmt, steps: &mut Vec<Step>) {

@@ -6,7 +6,7 @@ use crate::bind::{Compiler, Tree};
 use crate::globals::Globals;
 use crate::mock::{Mock, execute};
 use crate::parse_statements;
-use crate::schema::Type;
+use crate::types::Type;
 
 /// All types.
 const TYPES: [Type; 13] = [

@@ -3,11 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use crate::Span;
 use crate::ir::{Index, Ir, Kind};
 use crate::operators::UnaryOp;
-use crate::schema::{FieldKey, Type};
+use crate::types::{FieldKey, Type};
 use crate::value::Value;
+use labspec_finding::Span;
 
 /// What is known of a text, part by part.
 #[derive(Default)]

@@ -5,9 +5,9 @@ use super::{Attempt, Binder, Mode, Reported, Thing};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use crate::ir::{Index, Ir, Kind};
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// A part of the source as a value of any kind.

@@ -6,14 +6,14 @@ use std::sync::OnceLock;
 use super::function::ends;
 use super::scope::Meaning;
 use super::{Attempt, Binder, Reported, Thing, What};
-use crate::Span;
 use crate::ast::{Body, Expr, Function, Name, Pattern};
 use crate::bind::Mode;
 use crate::bind::names::{Names, Surroundings, resolve};
 use crate::globals::Globals;
 use crate::ir::{Ir, Kind, Step};
-use crate::natives::{self, Row};
-use crate::schema::Type;
+use crate::natives::{self, Native};
+use crate::types::Type;
+use labspec_finding::Span;
 
 /// The call of a written method.
 #[derive(Clone, Copy)]
@@ -22,7 +22,7 @@ pub(super) struct Site {
     pub(super) id: usize,
     /// Where the text calls it.
     pub(super) call: Span,
-    row: &'static Row,
+    row: &'static Native,
     pub(super) names: &'static Names,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Binder<'a> {
     pub(super) fn call_written(
         &mut self,
         function: &'a Function,
-        row: &'static Row,
+        row: &'static Native,
         first: Thing,
         args: &'a [Expr],
         span: Span,

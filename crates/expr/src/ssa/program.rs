@@ -3,35 +3,22 @@
 //!
 //! A function is a list of blocks; what differs between the ways that lead to a block are its parameters, as in a call.
 //! Blocks stand in the order of the text, so all ways but those back to the start of a loop lead forward. The machine's
-//! code (`vm/emit`) and formulas ([`pure`]) are made from here.
-
-mod build;
-mod call;
-mod effects;
-mod flow;
-mod fold;
-pub(crate) mod measure;
-pub(crate) mod op;
-pub(crate) mod order;
-mod place;
-pub(crate) mod pure;
-mod step;
+//! code (`lower::emit`) and formulas (`lower::pure`) are made from here.
 
 use std::sync::Arc;
 
-use crate::Span;
-use crate::ir::{Picks, Shown, Tree};
-use crate::schema::Type;
+use crate::ir::{Picks, Shown};
+use crate::types::Type;
 use crate::value::Value;
 
-pub(crate) use effects::effects;
-pub(crate) use op::{Args, Num, Op, Use, Val};
+use super::op::{Num, Op, Val};
+use labspec_finding::Span;
 
 /// A text.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Form {
+pub(crate) struct SsaProgram {
     /// The functions; the first is the text itself.
-    pub(crate) units: Vec<Unit>,
+    pub(crate) units: Vec<SsaFunction>,
     /// Names of members.
     pub(crate) texts: Vec<Arc<str>>,
     pub(crate) picks: Vec<Arc<Picks>>,
@@ -41,7 +28,7 @@ pub(crate) struct Form {
 
 /// A function. Its first names, from 1 on, are its parameters and what it uses of the functions around it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Unit {
+pub(crate) struct SsaFunction {
     pub(crate) blocks: Vec<Block>,
     /// The operations of all blocks, one block after the other.
     pub(crate) ops: Vec<Op>,
@@ -68,7 +55,7 @@ pub(crate) struct Names {
 
 /// A number or a value of any type.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum At {
+pub(crate) enum Operand {
     Number(Num),
     Value(Val),
 }
@@ -80,7 +67,7 @@ pub(crate) type BlockId = u32;
 pub(crate) struct Block {
     /// Its first operation.
     pub(crate) first: u32,
-    pub(crate) params: Vec<At>,
+    pub(crate) params: Vec<Operand>,
     /// The last block that all ways to this one pass.
     pub(crate) after: BlockId,
     pub(crate) end: End,
@@ -92,7 +79,7 @@ pub(crate) struct Block {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Edge {
     pub(crate) to: BlockId,
-    pub(crate) args: Vec<At>,
+    pub(crate) args: Vec<Operand>,
 }
 
 /// Where a block leads.
@@ -105,7 +92,7 @@ pub(crate) enum End {
     IfNothing(bool, Val, Edge),
     /// Back to the start of a loop.
     Again(Edge),
-    Return(Option<At>),
+    Return(Option<Operand>),
 }
 
 /// How a value is handed over.
@@ -128,14 +115,7 @@ impl Slot {
     }
 }
 
-impl Form {
-    /// The form of a text.
-    pub(crate) fn of(tree: &Tree) -> Form {
-        build::form(tree)
-    }
-}
-
-impl Unit {
+impl SsaFunction {
     /// The places of the operations of a block.
     pub(crate) fn range(&self, block: BlockId) -> std::ops::Range<usize> {
         let first = |b: BlockId| self.blocks.get(b as usize).map_or(self.ops.len(), |b| b.first as usize);
@@ -165,15 +145,15 @@ impl Names {
         Val(last(&self.values, v.0))
     }
 
-    pub(crate) fn at(&self, at: At) -> At {
+    pub(crate) fn at(&self, at: Operand) -> Operand {
         match at {
-            At::Number(n) => At::Number(self.number(n)),
-            At::Value(v) => At::Value(self.value(v)),
+            Operand::Number(n) => Operand::Number(self.number(n)),
+            Operand::Value(v) => Operand::Value(self.value(v)),
         }
     }
 
     /// Every name leads to where it stands for in one step.
-    fn shorten(&mut self) {
+    pub(crate) fn shorten(&mut self) {
         for list in [&mut self.numbers, &mut self.values] {
             for i in 0..list.len() {
                 // A name stands for one before it, which is short already, or for one of an outer loop.
@@ -182,6 +162,26 @@ impl Names {
                     *place = end;
                 }
             }
+        }
+    }
+
+    /// A name turned out to be another one.
+    pub(crate) fn join(&mut self, name: Operand, other: Operand) {
+        match (name, other) {
+            (Operand::Number(n), Operand::Number(other)) => {
+                let other = self.number(other).0;
+                if let Some(place) = self.numbers.get_mut(n.0 as usize) {
+                    *place = other;
+                }
+            }
+            (Operand::Value(v), Operand::Value(other)) => {
+                let other = self.value(other).0;
+                if let Some(place) = self.values.get_mut(v.0 as usize) {
+                    *place = other;
+                }
+            }
+            // A variable holds numbers or values, never both.
+            _ => {}
         }
     }
 }

@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use super::{At as Name, Block, BlockId, Edge, End, Num, Op, Slot, Unit};
-use crate::formula::{At, Formula, Step};
+use crate::formula::{Formula, Step, StepId};
 use crate::math::FEW;
+use crate::ssa::{Block, BlockId, Edge, End, Num, Op, Operand, Slot, SsaFunction};
 
 /// The formula of a text that gives a number or a truth value; `None` when its value depends on more than elements of
 /// fields at known indexes.
-pub(crate) fn whole(unit: &Unit) -> Option<Formula> {
+pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
     let loads_and_numbers = |op: &Op| op.is_numeric() || matches!(op, Op::Load(..));
     if unit.result == Slot::Value || !unit.ops.iter().all(loads_and_numbers) {
         return None;
@@ -30,10 +30,10 @@ pub(crate) fn whole(unit: &Unit) -> Option<Formula> {
 /// The formula of numeric operations that follow each other, with the step of every number that they give. `input`: the
 /// register of a number that stands there before.
 pub(crate) fn stretch(
-    unit: &Unit,
+    unit: &SsaFunction,
     ops: &[Op],
     input: &mut dyn FnMut(Num) -> u32,
-) -> Option<(Formula, Vec<(Num, At)>)> {
+) -> Option<(Formula, Vec<(Num, StepId)>)> {
     let mut steps = Steps { input: Some(input), ..Steps::of(unit) };
     let mut given = Vec::with_capacity(ops.len());
     for op in ops {
@@ -44,19 +44,19 @@ pub(crate) fn stretch(
 
 /// The work on one formula.
 struct Steps<'u> {
-    unit: &'u Unit,
+    unit: &'u SsaFunction,
     input: Option<&'u mut dyn FnMut(Num) -> u32>,
     formula: Formula,
     /// The step of each name.
-    at: BTreeMap<Num, At>,
+    at: BTreeMap<Num, StepId>,
 }
 
 impl<'u> Steps<'u> {
-    fn of(unit: &'u Unit) -> Steps<'u> {
+    fn of(unit: &'u SsaFunction) -> Steps<'u> {
         Steps { unit, input: None, formula: Formula::default(), at: BTreeMap::new() }
     }
 
-    fn find(&mut self, name: Num) -> Option<At> {
+    fn find(&mut self, name: Num) -> Option<StepId> {
         let name = self.unit.same.number(name);
         if let Some(at) = self.at.get(&name) {
             return Some(*at);
@@ -71,7 +71,7 @@ impl<'u> Steps<'u> {
     }
 
     /// The step of an operation, with its name.
-    fn op(&mut self, op: &Op) -> Option<(Num, At)> {
+    fn op(&mut self, op: &Op) -> Option<(Num, StepId)> {
         let (name, at) = match *op {
             Op::Load(name, field, index) => (name, self.formula.step(Step::Load(field, index))),
             Op::Unary(name, op, a) => {
@@ -104,7 +104,7 @@ impl<'u> Steps<'u> {
         let unit = self.unit;
         let Block { params, after, .. } = unit.blocks.get(to as usize)?;
         for (i, param) in params.iter().enumerate() {
-            let Name::Number(name) = param else { return None };
+            let Operand::Number(name) = param else { return None };
             let at = self.chosen(*after, to, i)?;
             self.at.insert(*name, at);
         }
@@ -113,14 +113,15 @@ impl<'u> Steps<'u> {
 
     /// What a parameter of a block is, by the questions since the block that all ways to it passed last. Ways lead
     /// forward, so from the last block on it is known what follows.
-    fn chosen(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<At> {
+    fn chosen(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<StepId> {
         let unit = self.unit;
-        let mut from: Vec<Option<At>> = vec![None; (to - after) as usize];
+        let mut from: Vec<Option<StepId>> = vec![None; (to - after) as usize];
         for at in (after..to).rev() {
-            let known =
-                |from: &[Option<At>], block: BlockId| from.get((block - after) as usize).copied().flatten();
-            let follow = |steps: &mut Self, from: &[Option<At>], edge: &Edge| match edge.args.get(param) {
-                Some(Name::Number(name)) if edge.to == to => steps.find(*name),
+            let known = |from: &[Option<StepId>], block: BlockId| {
+                from.get((block - after) as usize).copied().flatten()
+            };
+            let follow = |steps: &mut Self, from: &[Option<StepId>], edge: &Edge| match edge.args.get(param) {
+                Some(Operand::Number(name)) if edge.to == to => steps.find(*name),
                 _ if edge.to < to => known(from, edge.to),
                 _ => None,
             };
@@ -137,7 +138,9 @@ impl<'u> Steps<'u> {
                         (one, other) => one.or(other),
                     }
                 }
-                End::Return(Some(Name::Number(name))) if to as usize == unit.blocks.len() => self.find(*name),
+                End::Return(Some(Operand::Number(name))) if to as usize == unit.blocks.len() => {
+                    self.find(*name)
+                }
                 End::Return(_) => None,
                 End::IfNothing(..) | End::Again(_) => return None,
             };

@@ -3,10 +3,10 @@
 //! call anything.
 
 use super::effects::{receiver, stores_items, whole, written};
-use super::{End, Form, Op, Unit};
 use crate::effects::{Access, Effects};
 use crate::ir::UnitId;
-use crate::schema::FunctionId;
+use crate::ssa::{End, Op, SsaFunction, SsaProgram};
+use crate::types::FunctionId;
 use crate::value::View;
 
 /// Something that a program does.
@@ -30,7 +30,7 @@ pub(crate) struct Order {
 const MOST_PARTS: usize = 20_000;
 
 impl Order {
-    pub(crate) fn of(form: &Form, effects: &Effects) -> Order {
+    pub(crate) fn of(form: &SsaProgram, effects: &Effects) -> Order {
         // Most texts write nothing and call nothing.
         if effects.writes.is_empty() && effects.calls.is_empty() {
             return Order::default();
@@ -70,7 +70,7 @@ fn store((event, _): &(Event, bool)) -> Option<Access> {
 }
 
 struct Walk<'f> {
-    form: &'f Form,
+    form: &'f SsaProgram,
     events: Vec<(Event, bool)>,
     /// Functions around: one that calls itself is looked at once.
     within: Vec<UnitId>,
@@ -94,7 +94,7 @@ impl Walk<'_> {
         self.within.pop();
     }
 
-    fn op(&mut self, op: &Op, unit: &Unit, certain: bool) {
+    fn op(&mut self, op: &Op, unit: &SsaFunction, certain: bool) {
         if let Some(access) = written(op, unit) {
             self.events.push((Event::Write(access), certain));
         }
@@ -121,7 +121,7 @@ impl Walk<'_> {
 
 /// Which blocks every way from start to end passes. Blocks stand in the order of the text: what no way from before leads
 /// past is passed by all.
-fn passed(unit: &Unit) -> Vec<bool> {
+fn passed(unit: &SsaFunction) -> Vec<bool> {
     let end = unit.blocks.len();
     let (mut reached, mut furthest) = (vec![false; end + 1], 0);
     let mut all = Vec::with_capacity(end);

@@ -1,22 +1,30 @@
-//! Form to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
+//! SsaProgram to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
 //! operation whose result goes to a parameter puts it there itself where it can.
 
 use std::collections::BTreeMap;
 
-use super::OPERATION;
-use super::code::CodeUnit;
-use crate::Span;
-use crate::form::{Args, At, Block, BlockId, Edge, End, Num, Op, Slot, Unit, Use, Val, pure};
+use super::pure;
+use crate::code::{Code, CodeUnit, OPERATION};
 use crate::row::{Row, Wanted};
+use crate::ssa::{
+    Args, Block, BlockId, Edge, End, Num, Op, Operand, OperandUse, Slot, SsaFunction, SsaProgram, Val,
+};
 use crate::value::Value;
+use labspec_finding::Span;
 
 /// Numeric operations in a row from which on a formula is faster, as measured.
 const WORTH: usize = 5;
 /// Most operations of one formula, so that a byte can name its registers.
 const MOST: usize = 64;
 
+/// The code of a program. `often`: it will run often enough for formulas within it.
+pub(crate) fn emit(form: SsaProgram, often: bool) -> Code {
+    let units = form.units.iter().map(|function| emit_function(function, often)).collect();
+    Code { form, units }
+}
+
 /// The code of a function.
-pub(super) fn unit(form: &Unit, often: bool) -> CodeUnit {
+fn emit_function(form: &SsaFunction, often: bool) -> CodeUnit {
     let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
@@ -74,7 +82,7 @@ impl File {
 struct Emit<'f> {
     /// Operations that make a formula.
     worth: usize,
-    form: &'f Unit,
+    form: &'f SsaFunction,
     code: CodeUnit,
     numbers: File,
     values: File,
@@ -92,13 +100,13 @@ impl<'f> Emit<'f> {
         let Emit { form, numbers, values, kept, .. } = self;
         for (at, block) in form.blocks.iter().enumerate().rev() {
             let at = at as BlockId;
-            let mut used = |at: At| match at {
-                At::Number(n) => numbers.used(n.0),
-                At::Value(v) => values.used(v.0),
+            let mut used = |at: Operand| match at {
+                Operand::Number(n) => numbers.used(n.0),
+                Operand::Value(v) => values.used(v.0),
             };
             match &block.end {
-                End::If(_, test, _) => used(At::Number(form.same.number(*test))),
-                End::IfNothing(_, value, _) => used(At::Value(form.same.value(*value))),
+                End::If(_, test, _) => used(Operand::Number(form.same.number(*test))),
+                End::IfNothing(_, value, _) => used(Operand::Value(form.same.value(*value))),
                 End::Return(Some(at)) => used(form.same.at(*at)),
                 End::Return(None) | End::Jump(_) | End::Again(_) => {}
             }
@@ -107,13 +115,13 @@ impl<'f> Emit<'f> {
                 let params = form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
                 for (param, arg) in params.iter().zip(&edge.args) {
                     let needed = match param {
-                        At::Number(n) => numbers.uses(n.0) > 0,
-                        At::Value(v) => values.uses(v.0) > 0,
+                        Operand::Number(n) => numbers.uses(n.0) > 0,
+                        Operand::Value(v) => values.uses(v.0) > 0,
                     };
                     match form.same.at(*arg) {
                         _ if !(needed || back) => {}
-                        At::Number(n) => numbers.used(n.0),
-                        At::Value(v) => values.used(v.0),
+                        Operand::Number(n) => numbers.used(n.0),
+                        Operand::Value(v) => values.used(v.0),
                     }
                 }
             }
@@ -123,8 +131,8 @@ impl<'f> Emit<'f> {
                 };
                 let mut needed = !op.is_pure();
                 op.each(&mut |u| match u {
-                    Use::Gives(n) => needed |= numbers.uses(n.0) > 0,
-                    Use::GivesValue(v) => needed |= values.uses(v.0) > 0,
+                    OperandUse::Gives(n) => needed |= numbers.uses(n.0) > 0,
+                    OperandUse::GivesValue(v) => needed |= values.uses(v.0) > 0,
                     _ => {}
                 });
                 *keep = needed;
@@ -132,15 +140,15 @@ impl<'f> Emit<'f> {
                     continue;
                 }
                 op.each(&mut |u| match u {
-                    Use::Reads(n) => numbers.used(form.same.number(*n).0),
-                    Use::ReadsValue(v) => values.used(form.same.value(*v).0),
-                    Use::ReadsAll(args) => {
+                    OperandUse::Reads(n) => numbers.used(form.same.number(*n).0),
+                    OperandUse::ReadsValue(v) => values.used(form.same.value(*v).0),
+                    OperandUse::ReadsAll(args) => {
                         args.of(&form.args).iter().for_each(|n| numbers.used(form.same.number(Num(*n)).0));
                     }
-                    Use::ReadsValues(args) => {
+                    OperandUse::ReadsValues(args) => {
                         args.of(&form.args).iter().for_each(|v| values.used(form.same.value(Val(*v)).0));
                     }
-                    Use::Gives(_) | Use::GivesValue(_) => {}
+                    OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
                 });
             }
         }
@@ -170,7 +178,7 @@ impl<'f> Emit<'f> {
     }
 
     fn block(&mut self, at: BlockId) {
-        let form: &'f Unit = self.form;
+        let form: &'f SsaFunction = self.form;
         let Some(Block { end, span, .. }) = form.blocks.get(at as usize) else { return };
         // A block that nothing leads to is left out. Ways lead forward, so they were seen before.
         let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
@@ -223,8 +231,8 @@ impl<'f> Emit<'f> {
                 }
             };
             op.each(&mut |u| match u {
-                Use::Reads(n) => use_up(*n),
-                Use::ReadsAll(args) => args.of(&form.args).iter().for_each(|n| use_up(Num(*n))),
+                OperandUse::Reads(n) => use_up(*n),
+                OperandUse::ReadsAll(args) => args.of(&form.args).iter().for_each(|n| use_up(Num(*n))),
                 _ => {}
             });
         }
@@ -253,11 +261,11 @@ impl<'f> Emit<'f> {
 
     /// Lets operations of a block put their results where its end wants them.
     fn settle(&mut self, at: BlockId, end: &End) {
-        let mut wanted: Vec<(At, At)> = Vec::new();
+        let mut wanted: Vec<(Operand, Operand)> = Vec::new();
         match end {
             End::Jump(edge) | End::Again(edge) => wanted = self.moves(edge),
-            End::Return(Some(from @ At::Number(_))) => wanted.push((At::Number(Num(0)), *from)),
-            End::Return(Some(from @ At::Value(_))) => wanted.push((At::Value(Val(0)), *from)),
+            End::Return(Some(from @ Operand::Number(_))) => wanted.push((Operand::Number(Num(0)), *from)),
+            End::Return(Some(from @ Operand::Value(_))) => wanted.push((Operand::Value(Val(0)), *from)),
             _ => {}
         }
         if wanted.is_empty() {
@@ -265,7 +273,7 @@ impl<'f> Emit<'f> {
         }
         let again = matches!(end, End::Again(_));
         // From the last operation on: what was read behind an operation must still stand where it stood.
-        let mut read: Vec<At> =
+        let mut read: Vec<Operand> =
             if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
         for i in self.form.range(at).rev() {
             if self.kept.get(i) != Some(&true) {
@@ -274,19 +282,19 @@ impl<'f> Emit<'f> {
             let Some(mut op) = self.form.ops.get(i).copied() else { continue };
             let mut gives = None;
             op.each(&mut |u| match u {
-                Use::Gives(n) => gives = Some(At::Number(*n)),
-                Use::GivesValue(v) => gives = Some(At::Value(*v)),
+                OperandUse::Gives(n) => gives = Some(Operand::Number(*n)),
+                OperandUse::GivesValue(v) => gives = Some(Operand::Value(*v)),
                 _ => {}
             });
             if let Some(gives) = gives
                 && let Some((to, _)) = wanted.iter().find(|(to, from)| *from == gives && !read.contains(to))
             {
                 match (gives, *to) {
-                    (At::Number(n), At::Number(to)) if self.numbers.uses(n.0) == 1 => {
+                    (Operand::Number(n), Operand::Number(to)) if self.numbers.uses(n.0) == 1 => {
                         let register = if to.0 == 0 { 0 } else { self.numbers.register(to.0) };
                         self.numbers.set(n.0, register);
                     }
-                    (At::Value(v), At::Value(to)) if self.values.uses(v.0) == 1 => {
+                    (Operand::Value(v), Operand::Value(to)) if self.values.uses(v.0) == 1 => {
                         let register = if to.0 == 0 { 0 } else { self.values.register(to.0) };
                         self.values.set(v.0, register);
                     }
@@ -300,25 +308,29 @@ impl<'f> Emit<'f> {
     }
 
     /// Parameters of the block that an edge leads to, with what they get; both as names.
-    fn moves(&self, edge: &Edge) -> Vec<(At, At)> {
+    fn moves(&self, edge: &Edge) -> Vec<(Operand, Operand)> {
         let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
-        let needed = |param: &At| match param {
-            At::Number(n) => self.numbers.uses(n.0) > 0,
-            At::Value(v) => self.values.uses(v.0) > 0,
+        let needed = |param: &Operand| match param {
+            Operand::Number(n) => self.numbers.uses(n.0) > 0,
+            Operand::Value(v) => self.values.uses(v.0) > 0,
         };
         let pairs = params.iter().zip(&edge.args).filter(|(param, _)| needed(param));
         pairs.map(|(param, from)| (*param, self.form.same.at(*from))).collect()
     }
 
     /// Adds what an operation reads.
-    fn reads(&self, mut op: Op, read: &mut Vec<At>) {
+    fn reads(&self, mut op: Op, read: &mut Vec<Operand>) {
         let (same, list) = (&self.form.same, &self.form.args);
         op.each(&mut |u| match u {
-            Use::Reads(n) => read.push(At::Number(same.number(*n))),
-            Use::ReadsValue(v) => read.push(At::Value(same.value(*v))),
-            Use::ReadsAll(a) => read.extend(a.of(list).iter().map(|n| At::Number(same.number(Num(*n))))),
-            Use::ReadsValues(a) => read.extend(a.of(list).iter().map(|v| At::Value(same.value(Val(*v))))),
-            Use::Gives(_) | Use::GivesValue(_) => {}
+            OperandUse::Reads(n) => read.push(Operand::Number(same.number(*n))),
+            OperandUse::ReadsValue(v) => read.push(Operand::Value(same.value(*v))),
+            OperandUse::ReadsAll(a) => {
+                read.extend(a.of(list).iter().map(|n| Operand::Number(same.number(Num(*n)))))
+            }
+            OperandUse::ReadsValues(a) => {
+                read.extend(a.of(list).iter().map(|v| Operand::Value(same.value(Val(*v)))))
+            }
+            OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
         });
     }
 
@@ -338,12 +350,16 @@ impl<'f> Emit<'f> {
         };
         let mut args = None;
         op.each(&mut |u| match u {
-            Use::Gives(n) => n.0 = numbers.register(n.0),
-            Use::GivesValue(v) => v.0 = values.register(v.0),
-            Use::Reads(n) => n.0 = numbers.register(form.same.number(*n).0),
-            Use::ReadsValue(v) => v.0 = values.register(form.same.value(*v).0),
-            Use::ReadsAll(a) => args = Some(list(a, &mut |n| numbers.register(form.same.number(Num(n)).0))),
-            Use::ReadsValues(a) => args = Some(list(a, &mut |v| values.register(form.same.value(Val(v)).0))),
+            OperandUse::Gives(n) => n.0 = numbers.register(n.0),
+            OperandUse::GivesValue(v) => v.0 = values.register(v.0),
+            OperandUse::Reads(n) => n.0 = numbers.register(form.same.number(*n).0),
+            OperandUse::ReadsValue(v) => v.0 = values.register(form.same.value(*v).0),
+            OperandUse::ReadsAll(a) => {
+                args = Some(list(a, &mut |n| numbers.register(form.same.number(Num(n)).0)))
+            }
+            OperandUse::ReadsValues(a) => {
+                args = Some(list(a, &mut |v| values.register(form.same.value(Val(v)).0)))
+            }
         });
         if let (Some(first), Some(place)) = (args, op.args_mut()) {
             place.first = first;
@@ -378,13 +394,13 @@ impl<'f> Emit<'f> {
             return;
         }
         match end {
-            End::Return(Some(At::Number(n))) => {
+            End::Return(Some(Operand::Number(n))) => {
                 let from = self.number(*n);
                 if from.0 != 0 {
                     self.push(Op::Move(Num(0), from), span);
                 }
             }
-            End::Return(Some(At::Value(v))) => {
+            End::Return(Some(Operand::Value(v))) => {
                 let from = self.value(*v);
                 if from.0 != 0 {
                     self.push(Op::MoveValue(Val(0), from), span);
@@ -405,8 +421,12 @@ impl<'f> Emit<'f> {
         let (mut numbers, mut values) = (Vec::new(), Vec::new());
         for (to, from) in self.moves(edge) {
             match (to, from) {
-                (At::Number(to), At::Number(from)) => numbers.push((self.number(to).0, self.number(from).0)),
-                (At::Value(to), At::Value(from)) => values.push((self.value(to).0, self.value(from).0)),
+                (Operand::Number(to), Operand::Number(from)) => {
+                    numbers.push((self.number(to).0, self.number(from).0))
+                }
+                (Operand::Value(to), Operand::Value(from)) => {
+                    values.push((self.value(to).0, self.value(from).0))
+                }
                 // A parameter and what it gets are of one kind.
                 _ => {}
             }

@@ -1,11 +1,10 @@
 //! The operations of a form, and of the machine: on numbers and on values of any type. In a form the first operand of
 //! each names the result, and no two have one name; in the machine all of them are registers.
 
-use crate::ir::UnitId;
+use crate::ir::{FreeFunctionId, MethodId, UnitId};
 use crate::math;
-use crate::natives;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::schema::{FieldKey, FunctionId};
+use crate::types::{FieldKey, FunctionId};
 use crate::value::View;
 
 /// A number, or a truth value as 1 or 0.
@@ -98,10 +97,10 @@ pub(crate) enum Op {
     StoreItem(Val, Val, Val, bool),
     StoreMember(Val, u32, Val, bool),
     /// What it is called on comes first.
-    Method(Val, natives::Name, Args),
-    MethodList(Val, natives::Name, Val, Val),
-    Native(Val, natives::Free, Args),
-    NativeList(Val, natives::Free, Val),
+    Method(Val, MethodId, Args),
+    MethodList(Val, MethodId, Val, Val),
+    Native(Val, FreeFunctionId, Args),
+    NativeList(Val, FreeFunctionId, Val),
     Pick(Val, u32, Val),
     PickNumber(Num, u32, Val),
 
@@ -120,7 +119,7 @@ pub(crate) enum Op {
 }
 
 /// What an operation does with an operand.
-pub(crate) enum Use<'o> {
+pub(crate) enum OperandUse<'o> {
     Gives(&'o mut Num),
     GivesValue(&'o mut Val),
     Reads(&'o mut Num),
@@ -131,8 +130,8 @@ pub(crate) enum Use<'o> {
 
 impl Op {
     /// Every operand, with what is done to it.
-    pub(crate) fn each(&mut self, f: &mut impl FnMut(Use<'_>)) {
-        use Use::{Gives, GivesValue, Reads, ReadsAll, ReadsValue, ReadsValues};
+    pub(crate) fn each(&mut self, f: &mut impl FnMut(OperandUse<'_>)) {
+        use OperandUse::{Gives, GivesValue, Reads, ReadsAll, ReadsValue, ReadsValues};
         match self {
             Op::Load(d, ..) | Op::Length(d, _) | Op::Aggregate(d, _) => f(Gives(d)),
             Op::GlobalNumber(d, _) | Op::TakeNumber(d) => f(Gives(d)),

@@ -5,35 +5,12 @@
 
 use std::collections::BTreeMap;
 
-use super::build::{Build, Exits};
-use super::{At, Block, BlockId, Edge, End, Num, Op, Slot, Val};
-use crate::Span;
+use super::builder::{Build, Exits, Level, Variables, Way};
 use crate::ir::LocalId;
 use crate::operation::truthy;
+use crate::ssa::{Block, BlockId, Edge, End, Num, Op, Operand, Val};
 use crate::value::Value;
-
-/// What variables hold now.
-#[derive(Default)]
-pub(super) struct Variables {
-    /// What it holds, and in how many loops that was found.
-    now: Vec<Option<(At, u32)>>,
-    /// What was held before each change.
-    log: Vec<(LocalId, Option<(At, u32)>)>,
-}
-
-/// A way whose end is not known yet: the block that it leaves, and what was stored since a place in the log.
-pub(super) struct Way {
-    from: BlockId,
-    stored: Vec<(LocalId, At)>,
-}
-
-impl Way {
-    /// What was stored in a variable on the way.
-    fn held(&self, local: LocalId) -> Option<At> {
-        let at = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
-        self.stored.get(at).map(|(_, at)| *at)
-    }
-}
+use labspec_finding::Span;
 
 /// The variables that ways store.
 fn stored_on<'w>(ways: impl IntoIterator<Item = &'w Way>) -> Vec<LocalId> {
@@ -50,20 +27,6 @@ const LITTLE: usize = 4;
 /// A question about a number: the answer that leads further off.
 fn question(end: &End) -> Option<(bool, Num)> {
     if let End::If(when, test, _) = end { Some((*when, *test)) } else { None }
-}
-
-/// A loop around the place of the work.
-pub(super) struct Level {
-    header: BlockId,
-    /// What leads in.
-    entry: Option<Way>,
-    mark: usize,
-    /// Variables that are read or stored in it: the parameter, and what was held before.
-    params: BTreeMap<LocalId, (At, At)>,
-    pub(super) breaks: Vec<Way>,
-    pub(super) continues: Vec<Way>,
-    /// Ways out of what is around it, when it began.
-    returns: (usize, usize),
 }
 
 impl Build<'_> {
@@ -86,7 +49,7 @@ impl Build<'_> {
         self.tree.locals.len() as u32 + self.temporaries
     }
 
-    pub(super) fn write(&mut self, local: LocalId, at: At) {
+    pub(super) fn write(&mut self, local: LocalId, at: Operand) {
         let Variables { now, log } = &mut self.variables;
         if now.len() <= local as usize {
             now.resize(local as usize + 1, None);
@@ -97,7 +60,7 @@ impl Build<'_> {
     }
 
     /// What a variable holds; `None` when nothing was stored.
-    fn find(&mut self, local: LocalId) -> Option<At> {
+    fn find(&mut self, local: LocalId) -> Option<Operand> {
         let (mut at, level) = self.variables.now.get(local as usize).copied().flatten()?;
         if (level as usize) < self.loops.len() {
             for i in level as usize..self.loops.len() {
@@ -120,14 +83,14 @@ impl Build<'_> {
 
     pub(super) fn read_number(&mut self, local: LocalId) -> Num {
         match self.find(local) {
-            Some(At::Number(n)) => n,
+            Some(Operand::Number(n)) => n,
             _ => self.constant(f64::NAN),
         }
     }
 
     pub(super) fn read_value(&mut self, local: LocalId) -> Val {
         match self.find(local) {
-            Some(At::Value(v)) => v,
+            Some(Operand::Value(v)) => v,
             _ => self.constant_value(&Value::Undefined),
         }
     }
@@ -138,10 +101,10 @@ impl Build<'_> {
     }
 
     /// A new name of the same kind.
-    fn like(&mut self, at: At) -> At {
+    fn like(&mut self, at: Operand) -> Operand {
         match at {
-            At::Number(_) => At::Number(self.new_number()),
-            At::Value(_) => At::Value(self.new_value()),
+            Operand::Number(_) => Operand::Number(self.new_number()),
+            Operand::Value(_) => Operand::Value(self.new_value()),
         }
     }
 
@@ -158,7 +121,7 @@ impl Build<'_> {
         self.dead = false;
     }
 
-    fn stored_since(&self, mark: usize) -> Vec<(LocalId, At)> {
+    fn stored_since(&self, mark: usize) -> Vec<(LocalId, Operand)> {
         let log = self.variables.log.get(mark..).unwrap_or(&[]);
         let mut locals: Vec<LocalId> = log.iter().map(|(local, _)| *local).collect();
         locals.sort_unstable();
@@ -227,13 +190,13 @@ impl Build<'_> {
             }
         }
         for local in stored_on(&ways) {
-            let held: Vec<Option<At>> = ways.iter().map(|way| way.held(local)).collect();
+            let held: Vec<Option<Operand>> = ways.iter().map(|way| way.held(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
-            let held: Option<Vec<At>> = held.into_iter().map(|at| at.or(before)).collect();
+            let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
             // What one of the ways does not know is not used any more.
             let Some(held) = held else { continue };
             let Some(&first) = held.first() else { continue };
-            let same = |at: &At| self.unit.same.at(*at) == self.unit.same.at(first);
+            let same = |at: &Operand| self.unit.same.at(*at) == self.unit.same.at(first);
             if held.iter().all(same) {
                 self.write(local, first);
                 continue;
@@ -295,7 +258,7 @@ impl Build<'_> {
                 let (yes, no) = if when { (there, next) } else { (next, there) };
                 let same = self.unit.same.number(yes) == self.unit.same.number(no);
                 let one = if same { yes } else { self.number_by(span, |dst| Op::Select(dst, test, yes, no)) };
-                self.write(local, At::Number(one));
+                self.write(local, Operand::Number(one));
             }
             return;
         }
@@ -318,7 +281,7 @@ impl Build<'_> {
             let (there, next) = (there.held(local), next.held(local));
             let before = if there.is_none() || next.is_none() { self.find(local) } else { None };
             match (there.or(before), next.or(before)) {
-                (Some(At::Number(there)), Some(At::Number(next))) => all.push((local, there, next)),
+                (Some(Operand::Number(there)), Some(Operand::Number(next))) => all.push((local, there, next)),
                 // What one of the ways does not know is not used any more.
                 (None, _) | (_, None) => {}
                 _ => return None,
@@ -441,36 +404,5 @@ impl Build<'_> {
         }
         let exits = level.breaks.into_iter().map(Some);
         self.land(level.header, exits);
-    }
-
-    /// How a local of a type is handed over.
-    pub(super) fn slot(&self, local: LocalId) -> Slot {
-        match self.tree.locals.get(local as usize) {
-            Some(local) if local.shared => Slot::Value,
-            Some(local) => Slot::of(local.ty),
-            None => Slot::Value,
-        }
-    }
-}
-
-impl super::Names {
-    /// A name turned out to be another one.
-    pub(super) fn join(&mut self, name: At, other: At) {
-        match (name, other) {
-            (At::Number(n), At::Number(other)) => {
-                let other = self.number(other).0;
-                if let Some(place) = self.numbers.get_mut(n.0 as usize) {
-                    *place = other;
-                }
-            }
-            (At::Value(v), At::Value(other)) => {
-                let other = self.value(other).0;
-                if let Some(place) = self.values.get_mut(v.0 as usize) {
-                    *place = other;
-                }
-            }
-            // A variable holds numbers or values, never both.
-            _ => {}
-        }
     }
 }

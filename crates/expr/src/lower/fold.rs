@@ -2,8 +2,8 @@
 //! needs to know of a value while it looks for types, as an index or a name, it has found itself; here it is what comes
 //! together only in the form: arguments of functions, variables, and what a loop does not change.
 
-use super::{Num, Op, Unit};
 use crate::operation::select;
+use crate::ssa::{Num, Op, Operand, SsaFunction};
 
 /// What an operation gives.
 enum Gives {
@@ -13,7 +13,7 @@ enum Gives {
 }
 
 /// Computes what is known.
-pub(super) fn fold(unit: &mut Unit) {
+pub(super) fn fold(unit: &mut SsaFunction) {
     let mut gone: Vec<u32> = Vec::new();
     for i in 0..unit.ops.len() {
         let Some((name, gives)) = unit.ops.get(i).and_then(|op| result(unit, op)) else { continue };
@@ -22,7 +22,7 @@ pub(super) fn fold(unit: &mut Unit) {
                 let at = unit.numbers.partition_point(|(n, _)| *n < name);
                 unit.numbers.insert(at, (name, x));
             }
-            Gives::Same(other) => unit.same.join(super::At::Number(name), super::At::Number(other)),
+            Gives::Same(other) => unit.same.join(Operand::Number(name), Operand::Number(other)),
         }
         gone.push(i as u32);
     }
@@ -40,7 +40,7 @@ pub(super) fn fold(unit: &mut Unit) {
 }
 
 /// What a numeric operation gives, with its name, where that is known.
-fn result(unit: &Unit, op: &Op) -> Option<(Num, Gives)> {
+fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Gives)> {
     let known = |n: Num| unit.known(unit.same.number(n));
     Some(match *op {
         Op::Unary(name, op, a) => (name, kept(&[known(a)?], op.on_number(known(a)?))?),

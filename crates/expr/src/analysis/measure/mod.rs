@@ -16,13 +16,14 @@ mod operation;
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::Form;
-use crate::Span;
 use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
-use crate::schema::{Schema, Type};
+use crate::schema::Schema;
+use crate::ssa::SsaProgram;
+use crate::types::Type;
 
 use flow::{Around, Work};
+use labspec_finding::Span;
 
 /// What is known of the surroundings of a text.
 #[derive(Clone, Debug, Default)]
@@ -72,7 +73,12 @@ pub struct Clash {
 pub(crate) type Aggregates = BTreeMap<usize, Measure>;
 
 /// The dimensions in a text.
-pub(crate) fn measured(form: &Form, schema: &dyn Schema, given: &Given, aggregates: &Aggregates) -> Measured {
+pub(crate) fn measured(
+    form: &SsaProgram,
+    schema: &dyn Schema,
+    given: &Given,
+    aggregates: &Aggregates,
+) -> Measured {
     let around = Around { form, schema, given, aggregates, left: Cell::new(flow::MOST) };
     let mut all = Measured::default();
     for (id, unit) in form.units.iter().enumerate() {

@@ -1,176 +1,15 @@
 //! Typed tree to form, in one walk. Each node is computed in the way that its surroundings ask for: as a number, as a
 //! value of any type, or only for whether it is true. A numeric expression so never becomes a value.
 
-use std::collections::BTreeMap;
-
-use super::flow::{Level, Variables, Way};
-use super::{Args, At, Edge, End, Form, Num, Op, Slot, Unit, Val};
-use crate::Span;
-use crate::ir::{self, Entry, Index, Ir, Item, Kind, LocalId, Tree};
+use super::builder::{Build, Exits};
+use crate::ir::{Entry, Index, Ir, Item, Kind, LocalId};
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
-use crate::schema::Type;
+use crate::ssa::{Args, Edge, End, Num, Op, Operand, Slot, Val};
+use crate::types::Type;
 use crate::value::{Value, View};
+use labspec_finding::Span;
 
-/// The form of a text.
-pub(super) fn form(tree: &Tree) -> Form {
-    let mut form = Form { views: tree.views.clone(), ..Form::default() };
-    let mut variables = Variables::default();
-    for unit in &tree.units {
-        let mut build = Build::new(tree, &mut form, variables);
-        build.whole(unit);
-        build.back_to(0);
-        let mut done = build.unit;
-        variables = build.variables;
-        super::fold::fold(&mut done);
-        done.same.shorten();
-        form.units.push(done);
-    }
-    form
-}
-
-/// A part of the text that is left by more ways than its end, with a value: statements in the place of a call, or a
-/// chain with `?.`.
-pub(super) struct Exits {
-    pub(super) mark: usize,
-    pub(super) result: LocalId,
-    pub(super) exits: Vec<Way>,
-}
-
-/// The work on one function.
-pub(super) struct Build<'t> {
-    pub(super) tree: &'t Tree,
-    pub(super) form: &'t mut Form,
-    pub(super) unit: Unit,
-    /// Nothing leads here.
-    pub(super) dead: bool,
-    /// Constants by their bits.
-    constants: BTreeMap<u64, Num>,
-    pub(super) variables: Variables,
-    pub(super) temporaries: u32,
-    pub(super) loops: Vec<Level>,
-    pub(super) inlines: Vec<Exits>,
-    pub(super) chains: Vec<Exits>,
-    /// Where all of it seems to stand.
-    pub(super) site: Option<Span>,
-}
-
-impl<'t> Build<'t> {
-    fn new(tree: &'t Tree, form: &'t mut Form, variables: Variables) -> Build<'t> {
-        let mut build = Build {
-            tree,
-            form,
-            unit: Unit::default(),
-            dead: false,
-            constants: BTreeMap::new(),
-            variables,
-            temporaries: 0,
-            loops: Vec::new(),
-            inlines: Vec::new(),
-            chains: Vec::new(),
-            site: None,
-        };
-        // Room for a text of usual length.
-        build.unit.ops.reserve(32);
-        build.unit.spans.reserve(32);
-        build.unit.same.numbers.reserve(64);
-        build.unit.same.values.reserve(32);
-        // The first names are for what the function gives.
-        build.new_number();
-        build.new_value();
-        build.begin(0);
-        build
-    }
-
-    fn whole(&mut self, unit: &ir::Unit) {
-        self.unit.result = unit.result.map_or(Slot::Value, Slot::of);
-        self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
-        self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
-        let given: Vec<(LocalId, At)> =
-            unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
-        for (i, (local, at)) in given.into_iter().enumerate() {
-            let at = match at {
-                // What is captured is the shared place already.
-                At::Value(value) if self.is_shared(local) && i < unit.params.len() => {
-                    At::Value(self.value_of(Span::default(), |dst| Op::NewCell(dst, value)))
-                }
-                at => at,
-            };
-            self.write(local, at);
-        }
-        self.steps(&unit.body);
-        self.end(End::Return(None), Span::default());
-    }
-
-    /// The name of a parameter.
-    fn given(&mut self, local: LocalId) -> At {
-        match self.slot(local) {
-            Slot::Value => At::Value(self.new_value()),
-            Slot::Number | Slot::Boolean => At::Number(self.new_number()),
-        }
-    }
-
-    pub(super) fn is_shared(&self, local: LocalId) -> bool {
-        self.tree.locals.get(local as usize).is_some_and(|l| l.shared)
-    }
-
-    pub(super) fn emit(&mut self, op: Op, span: Span) {
-        if !self.dead {
-            self.unit.ops.push(op);
-            self.unit.spans.push(self.site.unwrap_or(span));
-        }
-    }
-
-    pub(super) fn new_number(&mut self) -> Num {
-        let name = self.unit.same.numbers.len() as u32;
-        self.unit.same.numbers.push(name);
-        Num(name)
-    }
-
-    pub(super) fn new_value(&mut self) -> Val {
-        let name = self.unit.same.values.len() as u32;
-        self.unit.same.values.push(name);
-        Val(name)
-    }
-
-    pub(super) fn constant(&mut self, x: f64) -> Num {
-        if let Some(&name) = self.constants.get(&x.to_bits()) {
-            return name;
-        }
-        let name = self.new_number();
-        self.constants.insert(x.to_bits(), name);
-        self.unit.numbers.push((name, x));
-        name
-    }
-
-    pub(super) fn constant_value(&mut self, value: &Value) -> Val {
-        let known = self.unit.values.iter().find(|(_, v)| match (v, value) {
-            (Value::Number(a), Value::Number(b)) => a.to_bits() == b.to_bits(),
-            (a, b) => a == b,
-        });
-        if let Some((name, _)) = known {
-            return *name;
-        }
-        let name = self.new_value();
-        self.unit.values.push((name, value.clone()));
-        name
-    }
-
-    pub(super) fn list_of(&mut self, names: &[u32]) -> Args {
-        let first = self.unit.args.len() as u32;
-        self.unit.args.extend_from_slice(names);
-        Args { first, count: names.len() as u32 }
-    }
-
-    pub(super) fn text(&mut self, text: &std::sync::Arc<str>) -> u32 {
-        match self.form.texts.iter().position(|t| t == text) {
-            Some(at) => at as u32,
-            None => {
-                self.form.texts.push(text.clone());
-                (self.form.texts.len() - 1) as u32
-            }
-        }
-    }
-
+impl Build<'_> {
     /// The node as a number (JavaScript's `Number(x)`).
     pub(super) fn number(&mut self, ir: &Ir) -> Num {
         let span = ir.span;
@@ -239,7 +78,7 @@ impl<'t> Build<'t> {
 
     fn number_to(&mut self, ir: &Ir, place: LocalId) {
         let src = self.number(ir);
-        self.write(place, At::Number(src));
+        self.write(place, Operand::Number(src));
     }
 
     /// The node as a value of its own type.
@@ -365,7 +204,7 @@ impl<'t> Build<'t> {
 
     fn logical_value(&mut self, op: LogicalOp, a: &Ir, b: &Ir, span: Span) -> Val {
         let (result, left) = (self.temporary(), self.value(a));
-        self.write(result, At::Value(left));
+        self.write(result, Operand::Value(left));
         let test = self.keeps(op, left, span);
         self.skip(test, span, |s| s.value_to(b, result));
         self.read_value(result)
@@ -380,16 +219,9 @@ impl<'t> Build<'t> {
         End::If(op == LogicalOp::Or, test, Edge::default())
     }
 
-    pub(super) fn boxed(&mut self, src: Num, slot: Slot, span: Span) -> Val {
-        match slot {
-            Slot::Boolean => self.value_of(span, |dst| Op::BoxBoolean(dst, src)),
-            _ => self.value_of(span, |dst| Op::BoxNumber(dst, src)),
-        }
-    }
-
     pub(super) fn value_to(&mut self, ir: &Ir, place: LocalId) {
         let src = self.value(ir);
-        self.write(place, At::Value(src));
+        self.write(place, Operand::Value(src));
     }
 
     /// A number that is true when the node is.
@@ -406,18 +238,6 @@ impl<'t> Build<'t> {
                 self.number_by(ir.span, |dst| Op::Truthy(dst, value))
             }
         }
-    }
-
-    pub(super) fn number_by(&mut self, span: Span, op: impl FnOnce(Num) -> Op) -> Num {
-        let dst = self.new_number();
-        self.emit(op(dst), span);
-        dst
-    }
-
-    pub(super) fn value_of(&mut self, span: Span, op: impl FnOnce(Val) -> Op) -> Val {
-        let dst = self.new_value();
-        self.emit(op(dst), span);
-        dst
     }
 
     pub(super) fn values<'i>(&mut self, items: impl IntoIterator<Item = &'i Ir>) -> Args {
@@ -482,7 +302,7 @@ impl<'t> Build<'t> {
             let left = self.number_by(a.span, |dst| Op::ToNumber(dst, value));
             (left, self.number_by(a.span, |dst| Op::Truthy(dst, value)))
         };
-        self.write(result, At::Number(left));
+        self.write(result, Operand::Number(left));
         let test = End::If(op == LogicalOp::Or, test, Edge::default());
         self.skip(test, span, |s| s.number_to(b, result));
         self.read_number(result)
@@ -501,7 +321,7 @@ impl<'t> Build<'t> {
 
     fn chain(&mut self, inner: &Ir, span: Span) -> Val {
         let (result, nothing) = (self.temporary(), self.constant_value(&Value::Undefined));
-        self.write(result, At::Value(nothing));
+        self.write(result, Operand::Value(nothing));
         let outer = self.chains.len();
         let work = |s: &mut Self, mark| {
             s.chains.push(Exits { mark, result, exits: Vec::new() });
@@ -544,10 +364,5 @@ impl<'t> Build<'t> {
             }
         }
         record
-    }
-
-    fn table(&mut self, picks: &std::sync::Arc<ir::Picks>) -> u32 {
-        self.form.picks.push(picks.clone());
-        (self.form.picks.len() - 1) as u32
     }
 }

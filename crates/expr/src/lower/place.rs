@@ -1,12 +1,12 @@
 //! Assignments: to elements of fields, to variables, and to parts of lists and records.
 
-use super::build::Build;
-use super::{At, Num, Op, Slot, Val};
-use crate::Span;
-use crate::ir::{Gives, Index, Ir, LocalId, Place};
+use super::builder::Build;
+use crate::ir::{Index, Ir, LocalId, Place, UpdateResult};
 use crate::operators::{BinaryOp, LogicalOp};
-use crate::schema::Type;
+use crate::ssa::{Num, Op, Operand, Slot, Val};
+use crate::types::Type;
 use crate::value::View;
+use labspec_finding::Span;
 
 /// A place whose parts are computed, so that it can be read and then stored.
 enum Found {
@@ -92,7 +92,7 @@ impl Build<'_> {
         match *found {
             Found::Fixed(view, at) => self.emit(Op::Store(view.field, at, src), span),
             Found::Element(view, at) => self.emit(Op::StoreAt(view, at, src), span),
-            Found::Local(id) if self.slot(id) != Slot::Value => self.write(id, At::Number(src)),
+            Found::Local(id) if self.slot(id) != Slot::Value => self.write(id, Operand::Number(src)),
             _ => {
                 let boxed = self.boxed(src, Slot::Number, span);
                 self.store_found(found, boxed, span);
@@ -108,10 +108,10 @@ impl Build<'_> {
             }
             Found::Local(id) if self.slot(id) != Slot::Value => {
                 let number = self.number_by(span, |dst| Op::ToNumber(dst, src));
-                return self.write(id, At::Number(number));
+                return self.write(id, Operand::Number(number));
             }
             Found::Local(id) if self.is_shared(id) => Op::CellSet(self.read_value(id), src, false),
-            Found::Local(id) => return self.write(id, At::Value(src)),
+            Found::Local(id) => return self.write(id, Operand::Value(src)),
             Found::Global(slot) => Op::StoreGlobal(slot, src),
             Found::GlobalNamed(name) => Op::StoreGlobalNamed(name, src),
             Found::Item(object, index, record) => Op::StoreItem(object, index, src, record),
@@ -160,28 +160,28 @@ impl Build<'_> {
     pub(super) fn store_if(&mut self, op: LogicalOp, place: &Place, value: &Ir, span: Span) -> Val {
         let found = self.place(place);
         let (result, old) = (self.temporary(), self.load_found(&found, span));
-        self.write(result, At::Value(old));
+        self.write(result, Operand::Value(old));
         let test = self.keeps(op, old, span);
         self.skip(test, span, |s| {
             let new = s.value(value);
-            s.write(result, At::Value(new));
+            s.write(result, Operand::Value(new));
             s.store_found(&found, new, span);
         });
         self.read_value(result)
     }
 
     /// `place++` of a number.
-    pub(super) fn update(&mut self, place: &Place, step: f64, gives: Gives, span: Span) -> Num {
+    pub(super) fn update(&mut self, place: &Place, step: f64, gives: UpdateResult, span: Span) -> Num {
         let found = self.place(place);
         let step = self.constant(step);
         let old = self.load_number(&found, span);
         let new = self.number_by(span, |dst| Op::Binary(dst, BinaryOp::Add, old, step));
         self.store_number(&found, new, span);
-        if gives == Gives::New { new } else { old }
+        if gives == UpdateResult::New { new } else { old }
     }
 
     /// `place++` of a value of any type, which becomes a number.
-    pub(super) fn update_value(&mut self, place: &Place, step: f64, gives: Gives, span: Span) -> Val {
+    pub(super) fn update_value(&mut self, place: &Place, step: f64, gives: UpdateResult, span: Span) -> Val {
         let found = self.place(place);
         let old = self.load_number(&found, span);
         let step = self.constant(step);
@@ -189,8 +189,8 @@ impl Build<'_> {
         let boxed = self.boxed(new, Slot::Number, span);
         self.store_found(&found, boxed, span);
         match gives {
-            Gives::New => boxed,
-            Gives::Old => self.boxed(old, Slot::Number, span),
+            UpdateResult::New => boxed,
+            UpdateResult::Old => self.boxed(old, Slot::Number, span),
         }
     }
 }

@@ -1,11 +1,10 @@
 //! Calls of functions of the text, of methods, and functions as values.
 
-use super::build::Build;
-use super::{At, Op, Slot, Val};
-use crate::Span;
-use crate::ir::{Ir, Item, LocalId, UnitId};
-use crate::natives;
+use super::builder::Build;
+use crate::ir::{FreeFunctionId, Ir, Item, LocalId, MethodId, UnitId};
+use crate::ssa::{Op, Operand, Slot, Val};
 use crate::value::Value;
+use labspec_finding::Span;
 
 impl Build<'_> {
     /// How a function hands over what it returns.
@@ -28,28 +27,28 @@ impl Build<'_> {
         let mut passed = Vec::new();
         for (i, slot) in self.params(unit).into_iter().enumerate() {
             passed.push(match (args.get(i), slot) {
-                (Some(arg), Slot::Number | Slot::Boolean) => At::Number(self.number(arg)),
-                (Some(arg), Slot::Value) => At::Value(self.value(arg)),
-                (None, Slot::Value) => At::Value(self.constant_value(&Value::Undefined)),
-                (None, _) => At::Number(self.constant(f64::NAN)),
+                (Some(arg), Slot::Number | Slot::Boolean) => Operand::Number(self.number(arg)),
+                (Some(arg), Slot::Value) => Operand::Value(self.value(arg)),
+                (None, Slot::Value) => Operand::Value(self.constant_value(&Value::Undefined)),
+                (None, _) => Operand::Number(self.constant(f64::NAN)),
             });
         }
         for capture in self.captures(unit) {
             passed.push(match self.slot(capture) {
                 // The shared place itself, if it is one.
-                Slot::Value => At::Value(self.read_value(capture)),
-                _ => At::Number(self.read_number(capture)),
+                Slot::Value => Operand::Value(self.read_value(capture)),
+                _ => Operand::Number(self.read_number(capture)),
             });
         }
         // The first registers of a function are for its result.
         let (mut numbers, mut values) = (1, 1);
         for passed in passed {
             match passed {
-                At::Number(src) => {
+                Operand::Number(src) => {
                     self.emit(Op::PassNumber(numbers, src), span);
                     numbers += 1;
                 }
-                At::Value(src) => {
+                Operand::Value(src) => {
                     self.emit(Op::PassValue(values, src), span);
                     values += 1;
                 }
@@ -81,7 +80,7 @@ impl Build<'_> {
         self.value_of(span, |dst| Op::Invoke(dst, callee, args))
     }
 
-    pub(super) fn method(&mut self, name: natives::Name, receiver: &Ir, args: &[Item], span: Span) -> Val {
+    pub(super) fn method(&mut self, name: MethodId, receiver: &Ir, args: &[Item], span: Span) -> Val {
         if args.iter().any(|a| a.spread) {
             let receiver = self.value(receiver);
             let list = self.list(args, span);
@@ -91,7 +90,7 @@ impl Build<'_> {
         self.value_of(span, |dst| Op::Method(dst, name, args))
     }
 
-    pub(super) fn native(&mut self, function: natives::Free, args: &[Item], span: Span) -> Val {
+    pub(super) fn native(&mut self, function: FreeFunctionId, args: &[Item], span: Span) -> Val {
         if args.iter().any(|a| a.spread) {
             let list = self.list(args, span);
             return self.value_of(span, |dst| Op::NativeList(dst, function, list));

@@ -4,15 +4,15 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::super::effects::{element, whole};
-use super::super::{At, End, Form, Num, Unit, Val};
 use super::{Aggregates, Clash, Given, Measured};
-use crate::Span;
+use crate::analysis::effects::{element, whole};
 use crate::dimension::Measure;
 use crate::effects::Access;
 use crate::ir::UnitId;
 use crate::schema::Schema;
+use crate::ssa::{End, Num, Operand, SsaFunction, SsaProgram, Val};
 use crate::value::{Value, View};
+use labspec_finding::Span;
 
 /// Operations that are looked at for one text; calls within calls and loops within loops would be many.
 pub(super) const MOST: usize = 100_000;
@@ -22,7 +22,7 @@ const DEEP: usize = 8;
 
 /// What a text is looked at with.
 pub(super) struct Around<'f> {
-    pub(super) form: &'f Form,
+    pub(super) form: &'f SsaProgram,
     pub(super) schema: &'f dyn Schema,
     pub(super) given: &'f Given,
     pub(super) aggregates: &'f Aggregates,
@@ -33,7 +33,7 @@ pub(super) struct Around<'f> {
 /// The work on one function of a text.
 pub(super) struct Work<'f> {
     pub(super) around: &'f Around<'f>,
-    pub(super) unit: &'f Unit,
+    pub(super) unit: &'f SsaFunction,
     /// The function, behind those that called it; of one that is looked at for itself it stands alone.
     stack: Vec<UnitId>,
     pub(super) numbers: BTreeMap<u32, Measure>,
@@ -41,7 +41,7 @@ pub(super) struct Work<'f> {
     /// Values that are functions of the text, with the names of what these use of this one.
     pub(super) closures: BTreeMap<u32, (UnitId, Vec<Val>)>,
     /// What is passed to the function that is called next, by its registers, and what the last one gave.
-    pub(super) passed: [BTreeMap<u32, At>; 2],
+    pub(super) passed: [BTreeMap<u32, Operand>; 2],
     pub(super) taken: Measure,
     /// A function that is not known was called: it may have changed whatever is shared.
     pub(super) wild: bool,
@@ -49,7 +49,7 @@ pub(super) struct Work<'f> {
 }
 
 impl<'f> Work<'f> {
-    pub(super) fn new(around: &'f Around<'f>, id: UnitId, unit: &'f Unit) -> Work<'f> {
+    pub(super) fn new(around: &'f Around<'f>, id: UnitId, unit: &'f SsaFunction) -> Work<'f> {
         Work {
             around,
             unit,
@@ -116,7 +116,7 @@ impl<'f> Work<'f> {
         }
         let stack = self.stack.iter().copied().chain([id]).collect();
         let mut work = Work { stack, ..Work::new(around, id, unit) };
-        let places: Vec<At> = places(unit).collect();
+        let places: Vec<Operand> = places(unit).collect();
         for (at, measure) in places.iter().zip(given) {
             work.set(*at, *measure);
         }
@@ -126,29 +126,29 @@ impl<'f> Work<'f> {
     }
 
     /// A name measures one thing more.
-    pub(super) fn join(&mut self, at: At, measure: Measure) {
+    pub(super) fn join(&mut self, at: Operand, measure: Measure) {
         let before = self.slot(at).copied().unwrap_or(Measure::Anything);
         self.set(at, before.or(measure));
     }
 
-    fn slot(&self, at: At) -> Option<&Measure> {
+    fn slot(&self, at: Operand) -> Option<&Measure> {
         match self.unit.same.at(at) {
-            At::Number(n) => self.numbers.get(&n.0),
-            At::Value(v) => self.values.get(&v.0),
+            Operand::Number(n) => self.numbers.get(&n.0),
+            Operand::Value(v) => self.values.get(&v.0),
         }
     }
 
-    pub(super) fn set(&mut self, at: At, measure: Measure) {
+    pub(super) fn set(&mut self, at: Operand, measure: Measure) {
         match self.unit.same.at(at) {
-            At::Number(n) => self.numbers.insert(n.0, measure),
-            At::Value(v) => self.values.insert(v.0, measure),
+            Operand::Number(n) => self.numbers.insert(n.0, measure),
+            Operand::Value(v) => self.values.insert(v.0, measure),
         };
     }
 
-    pub(super) fn at(&self, at: At) -> Measure {
+    pub(super) fn at(&self, at: Operand) -> Measure {
         match at {
-            At::Number(n) => self.number(n),
-            At::Value(v) => self.value(v),
+            Operand::Number(n) => self.number(n),
+            Operand::Value(v) => self.value(v),
         }
     }
 
@@ -199,17 +199,17 @@ impl<'f> Work<'f> {
 }
 
 /// The names of the parameters of a function, and then of what it uses of the functions around it.
-fn places(unit: &Unit) -> impl Iterator<Item = At> {
-    use super::super::Slot;
+fn places(unit: &SsaFunction) -> impl Iterator<Item = Operand> {
+    use crate::ssa::Slot;
     let (mut numbers, mut values) = (0, 0);
     unit.params.iter().chain(&unit.captures).map(move |slot| match slot {
         Slot::Number | Slot::Boolean => {
             numbers += 1;
-            At::Number(Num(numbers))
+            Operand::Number(Num(numbers))
         }
         Slot::Value => {
             values += 1;
-            At::Value(Val(values))
+            Operand::Value(Val(values))
         }
     })
 }

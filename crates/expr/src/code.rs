@@ -1,15 +1,18 @@
-//! Programs for the machine.
+//! The code of a program: what the machine runs, and what the heap keeps of functions.
 
-use crate::Span;
-use crate::form::{Form, Num, Op, Slot, Val};
 use crate::row::Row;
+use crate::ssa::{Num, Op, Slot, SsaProgram, Val};
 use crate::value::Value;
+use labspec_finding::Span;
+
+/// What an operation counts, in units of work.
+pub(crate) const OPERATION: u64 = 2;
 
 /// A program for the machine.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Code {
     /// What it was made from, with the names, tables and arrays that its operations name by number.
-    pub(crate) form: Form,
+    pub(crate) form: SsaProgram,
     /// The functions; the first is the text itself.
     pub(crate) units: Vec<CodeUnit>,
 }
@@ -36,12 +39,4 @@ pub(crate) struct CodeUnit {
     pub(crate) params: Vec<Slot>,
     pub(crate) captures: Vec<Slot>,
     pub(crate) result: Slot,
-}
-
-impl Code {
-    /// The code of a form. `often`: it will run often enough for formulas within it.
-    pub(crate) fn of(form: Form, often: bool) -> Code {
-        let units = form.units.iter().map(|unit| super::emit::unit(unit, often)).collect();
-        Code { form, units }
-    }
 }

@@ -1,22 +1,22 @@
 //! What one operation gives, by what its operands are.
 
-use super::super::effects::{element, whole};
-use super::super::{Args, At, Num, Op, Use, Val};
 use super::Stored;
 use super::flow::Work;
 use super::natives as handed;
-use crate::Span;
+use crate::analysis::effects::{element, whole};
 use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
+use crate::ir::MethodId;
 use crate::ir::UnitId;
 use crate::math;
-use crate::natives::Name;
 use crate::operators::{BinaryOp, UnaryOp};
+use crate::ssa::{Args, Num, Op, Operand, OperandUse, Slot, Val};
 use crate::value::Value;
+use labspec_finding::Span;
 
 impl Work<'_> {
     pub(super) fn op(&mut self, op: &Op, span: &Span) {
-        let (number, value) = (At::Number, At::Value);
+        let (number, value) = (Operand::Number, Operand::Value);
         match *op {
             Op::Load(d, field, at) => {
                 let m = self.access(Access { field, first: at as usize, count: Some(1) });
@@ -93,7 +93,7 @@ impl Work<'_> {
 
     /// Operations on lists, records, texts and functions.
     fn shared(&mut self, op: &Op) {
-        let (number, value) = (At::Number, At::Value);
+        let (number, value) = (Operand::Number, Operand::Value);
         match *op {
             Op::List(d, args) => {
                 for v in args.of(&self.unit.args) {
@@ -173,7 +173,7 @@ impl Work<'_> {
                 let slots = self.around.form.units.get(unit as usize);
                 let given = slots.iter().flat_map(|u| u.params.iter().chain(&u.captures));
                 let given = given.filter_map(|slot| match slot {
-                    super::super::Slot::Value => values.next(),
+                    Slot::Value => values.next(),
                     _ => numbers.next(),
                 });
                 self.invoke(unit, given.collect(), Vec::new());
@@ -186,9 +186,9 @@ impl Work<'_> {
 
     /// Calls a function of the text; what it may have put into lists and shared places is known afterwards. As in JavaScript, an
     /// argument too few is `undefined`, and one too many is ignored.
-    fn invoke(&mut self, unit: UnitId, args: Vec<At>, used: Vec<At>) {
+    fn invoke(&mut self, unit: UnitId, args: Vec<Operand>, used: Vec<Operand>) {
         let wanted = self.around.form.units.get(unit as usize).map_or(0, |u| u.params.len());
-        let mut given: Vec<Option<At>> = args.into_iter().map(Some).collect();
+        let mut given: Vec<Option<Operand>> = args.into_iter().map(Some).collect();
         if !used.is_empty() || given.len() < wanted {
             given.resize(wanted, None);
         }
@@ -197,7 +197,7 @@ impl Work<'_> {
             given.iter().map(|at| at.map_or(Measure::Anything, |at| self.at(at))).collect();
         let (result, after) = self.call(unit, &measures);
         for (at, measure) in given.into_iter().zip(after) {
-            if let Some(at @ At::Value(_)) = at {
+            if let Some(at @ Operand::Value(_)) = at {
                 self.join(at, measure);
             }
         }
@@ -220,8 +220,8 @@ impl Work<'_> {
     fn unknown(&mut self, op: &Op) {
         let (mut given, mut op) = (Vec::new(), *op);
         op.each(&mut |u| match u {
-            Use::Gives(d) => given.push(At::Number(*d)),
-            Use::GivesValue(d) => given.push(At::Value(*d)),
+            OperandUse::Gives(d) => given.push(Operand::Number(*d)),
+            OperandUse::GivesValue(d) => given.push(Operand::Value(*d)),
             _ => {}
         });
         given.into_iter().for_each(|at| self.set(at, Measure::Unknown));
@@ -306,7 +306,7 @@ impl Work<'_> {
 }
 
 /// Whether a method changes the elements of what it is called on.
-fn changes(name: Name) -> bool {
+fn changes(name: MethodId) -> bool {
     name.rows().any(|row| row.changes)
 }
 

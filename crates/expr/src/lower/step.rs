@@ -1,10 +1,10 @@
 //! Statements: declarations, conditions, loops and jumps.
 
-use super::build::{Build, Exits};
-use super::{At, End, Num, Op, Slot, Val};
-use crate::Span;
-use crate::ir::{Ir, Kind, LocalId, Loop, Step};
+use super::builder::{Build, Exits};
+use crate::ir::{Ir, Kind, LocalId, Loop, Step, UpdateResult};
+use crate::ssa::{End, Num, Op, Operand, Slot, Val};
 use crate::value::Value;
+use labspec_finding::Span;
 
 impl Build<'_> {
     pub(super) fn steps(&mut self, steps: &[Step]) {
@@ -19,14 +19,14 @@ impl Build<'_> {
             Step::Declare(local, value) => self.declare(*local, value),
             Step::Reserve(local) => {
                 let cell = self.value_of(Span::default(), Op::EmptyCell);
-                self.write(*local, At::Value(cell));
+                self.write(*local, Operand::Value(cell));
             }
             Step::Renew(local) => {
                 if self.is_shared(*local) && self.has(*local) {
                     let cell = self.read_value(*local);
                     let old = self.value_of(Span::default(), |dst| Op::CellGet(dst, cell));
                     let new = self.value_of(Span::default(), |dst| Op::NewCell(dst, old));
-                    self.write(*local, At::Value(new));
+                    self.write(*local, Operand::Value(new));
                 }
             }
             Step::If(test, then, otherwise) => {
@@ -59,7 +59,7 @@ impl Build<'_> {
                 self.store(place, *op, value, ir.span);
             }
             Kind::Update(place, step, _) if self.is_plain_place(place) => {
-                self.update(place, *step, crate::ir::Gives::New, ir.span);
+                self.update(place, *step, UpdateResult::New, ir.span);
             }
             Kind::Invoke(unit, args) => self.invoke(*unit, args, ir.span),
             Kind::Block(steps, value) => {
@@ -85,14 +85,14 @@ impl Build<'_> {
             return self.emit(Op::CellSet(cell, src, true), value.span);
         }
         let cell = self.value_of(value.span, |dst| Op::NewCell(dst, src));
-        self.write(local, At::Value(cell));
+        self.write(local, Operand::Value(cell));
     }
 
     /// A value in the way that a local is handed over.
-    fn in_slot(&mut self, local: LocalId, value: &Ir) -> At {
+    fn in_slot(&mut self, local: LocalId, value: &Ir) -> Operand {
         match self.slot(local) {
-            Slot::Value => At::Value(self.value(value)),
-            _ => At::Number(self.number(value)),
+            Slot::Value => Operand::Value(self.value(value)),
+            _ => Operand::Number(self.number(value)),
         }
     }
 
@@ -135,7 +135,7 @@ impl Build<'_> {
         let outer = self.site.replace(self.site.unwrap_or(span));
         if self.slot(result) == Slot::Value {
             let nothing = self.constant_value(&Value::Undefined);
-            self.write(result, At::Value(nothing));
+            self.write(result, Operand::Value(nothing));
         }
         let work = |s: &mut Self, mark| {
             s.inlines.push(Exits { mark, result, exits: Vec::new() });
@@ -149,8 +149,8 @@ impl Build<'_> {
         let span = value.span;
         let Some((result, mark)) = self.inlines.last().map(|i| (i.result, i.mark)) else {
             let at = match self.unit.result {
-                Slot::Value => At::Value(self.value(value)),
-                _ => At::Number(self.number(value)),
+                Slot::Value => Operand::Value(self.value(value)),
+                _ => Operand::Number(self.number(value)),
             };
             return self.end(End::Return(Some(at)), span);
         };

@@ -1,13 +1,13 @@
 //! What a text touches, read off its form.
 
-use super::{Args, Form, Op, Unit};
 use crate::effects::{Access, Effects};
 use crate::ir::UnitId;
 use crate::schema::Schema;
+use crate::ssa::{Args, End, Op, SsaFunction, SsaProgram, Val};
 use crate::value::{Value, View};
 
 /// The effects of a text: of everything that it may come to, in the order in which it comes there first.
-pub(crate) fn effects(form: &Form, schema: &dyn Schema) -> Effects {
+pub(crate) fn effects(form: &SsaProgram, schema: &dyn Schema) -> Effects {
     let mut look = Look { form, schema, effects: Effects::default(), seen: vec![false; form.units.len()] };
     look.unit(0);
     let mut effects = look.effects;
@@ -39,7 +39,7 @@ pub(super) fn element(view: View, index: Option<f64>) -> Access {
 }
 
 /// The elements that an operation stores by itself.
-pub(super) fn written(op: &Op, unit: &Unit) -> Option<Access> {
+pub(super) fn written(op: &Op, unit: &SsaFunction) -> Option<Access> {
     match *op {
         Op::Store(field, at, _) => Some(Access { field, first: at as usize, count: Some(1) }),
         Op::StoreAt(view, index, _) => Some(element(view, unit.known(index))),
@@ -58,7 +58,7 @@ pub(super) fn stores_items(op: &Op) -> bool {
 }
 
 struct Look<'f> {
-    form: &'f Form,
+    form: &'f SsaProgram,
     schema: &'f dyn Schema,
     effects: Effects,
     /// Functions that were looked at.
@@ -73,10 +73,10 @@ impl Look<'_> {
         }
         unit.ops.iter().for_each(|op| self.op(op, unit));
         // A loop may be stopped.
-        self.effects.can_throw |= unit.blocks.iter().any(|b| matches!(b.end, super::End::Again(_)));
+        self.effects.can_throw |= unit.blocks.iter().any(|b| matches!(b.end, End::Again(_)));
     }
 
-    fn op(&mut self, op: &Op, unit: &Unit) {
+    fn op(&mut self, op: &Op, unit: &SsaFunction) {
         let effects = &mut self.effects;
         effects.can_throw |= op.may_fail();
         effects.stores_items |= stores_items(op);
@@ -114,14 +114,14 @@ impl Look<'_> {
 }
 
 /// The array that a method is called on, where it is a known one.
-pub(super) fn receiver(op: &Op, unit: &Unit) -> Option<View> {
+pub(super) fn receiver(op: &Op, unit: &SsaFunction) -> Option<View> {
     let of = |args: &Args| args.of(&unit.args).first().copied();
     let name = match op {
         Op::Method(_, _, args) => of(args)?,
         Op::MethodList(_, _, on, _) => on.0,
         _ => return None,
     };
-    match unit.known_value(super::Val(name))? {
+    match unit.known_value(Val(name))? {
         Value::View(view) => Some(*view),
         _ => None,
     }
