@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::global_names::GlobalNames;
 use crate::globals::Globals;
 use crate::heap::Heap;
-use crate::known::Known;
 use crate::runtime_event::RuntimeEvent;
 use crate::value::Value;
 use crate::watch::Watch;
@@ -49,13 +49,13 @@ impl Context {
     /// All variables `undefined`, and their names known: no later run has to learn them.
     pub fn of(globals: &Globals) -> Context {
         let mut context = Context::new();
-        context.learn(globals.known());
+        context.learn(globals.shared_names());
         context
     }
 
     /// Takes in the names of variables before a program runs that was compiled with them, whenever this context was made. What was
     /// stored under a computed name before any text named it is found under that name from now on.
-    pub(crate) fn learn(&mut self, known: &Known) {
+    pub(crate) fn learn(&mut self, known: &GlobalNames) {
         if known.len() <= self.named.len() {
             return;
         }
@@ -69,7 +69,7 @@ impl Context {
 
     /// Stores a variable for the host, such as what a control gives. Programs find it by its name, too.
     pub fn store(&mut self, globals: &Globals, slot: u32, value: Value) {
-        self.learn(globals.known());
+        self.learn(globals.shared_names());
         self.set(slot, value);
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::known::Known;
+use crate::global_names::GlobalNames;
 use crate::rules;
 use crate::words::Words;
 use labspec_finding::{Finding, Span, nearest};
@@ -17,7 +17,7 @@ pub struct Globals {
     slots: BTreeMap<String, u32>,
     names: Vec<String>,
     /// The same names, for whoever runs programs.
-    known: Known,
+    known: GlobalNames,
     /// The host itself stores the variable.
     given: Vec<bool>,
     uses: Vec<Use>,
@@ -126,7 +126,7 @@ impl Globals {
     }
 
     /// All names, for whoever runs programs.
-    pub(crate) fn known(&self) -> &Known {
+    pub(crate) fn shared_names(&self) -> &GlobalNames {
         &self.known
     }
 

@@ -345,3 +345,12 @@ impl Ir {
         }
     }
 }
+
+/// Whether statements never come to their end: all ways through them return.
+pub(crate) fn always_return(steps: &[Step]) -> bool {
+    steps.iter().any(|step| match step {
+        Step::Return(_) => true,
+        Step::If(_, then, otherwise) => always_return(then) && always_return(otherwise),
+        _ => false,
+    })
+}

@@ -5,7 +5,8 @@ use crate::ast::{
     BinaryOp, Body, Element, Expr, ExprKind, Function, LogicalOp, Pattern, Property, Stmt, StmtKind, UnaryOp,
 };
 use crate::lex::{Tok, tokens};
-use crate::{number, parse_expression, parse_statements};
+use crate::number;
+use crate::parse::{parse_expression, parse_statements};
 use labspec_finding::Finding;
 
 /// Binding powers beyond those of the operators, see [`BinaryOp::power`].

@@ -9,10 +9,10 @@ use crate::context::Context;
 use crate::dimension::Measure;
 use crate::effects::{Access, Effects};
 use crate::formula::Formula;
+use crate::global_names::GlobalNames;
 use crate::globals::Globals;
 use crate::host::Host;
 use crate::ir::Tree;
-use crate::known::Known;
 use crate::lower::{emit, lower, whole_formula};
 use crate::row::Row;
 use crate::rules;
@@ -54,7 +54,7 @@ pub struct Program {
     pub(crate) aggregates: Vec<Aggregate>,
     pub(crate) order: Order,
     /// The variables that were named when it was compiled.
-    pub(crate) known: Known,
+    pub(crate) known: GlobalNames,
     /// What the numbers of its fields and elements are of ([`crate::Schema::identity`]).
     pub(crate) identity: u64,
     /// What it computes, if it is a numeric expression without effects.
@@ -83,7 +83,7 @@ impl Program {
             result,
             aggregates,
             order,
-            known: globals.known().clone(),
+            known: globals.shared_names().clone(),
             identity: schema.identity(),
             formula,
             row,

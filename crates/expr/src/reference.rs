@@ -5,6 +5,7 @@ use std::fmt::Write;
 use crate::ast::{BinaryOp, LogicalOp};
 use crate::math;
 use crate::natives::{self, On};
+use crate::parse;
 use crate::words::Words;
 
 /// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
@@ -113,8 +114,8 @@ pub fn language_page(words: &Words) -> String {
     let _ = writeln!(
         out,
         "A text has at most {} bytes and {} nested levels; a run does at most {} operations (an element that a method visits counts as five, a step of the {} as its own cost), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
-        crate::MAX_SOURCE,
-        crate::MAX_DEPTH,
+        parse::MAX_SOURCE,
+        parse::MAX_DEPTH,
         crate::vm::MAX_WORK / crate::code::OPERATION,
         words.world
     );

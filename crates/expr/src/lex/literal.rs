@@ -8,24 +8,11 @@ use nom::multi::many0;
 use nom::sequence::{delimited, preceded, terminated};
 use nom::{IResult, Offset, Parser};
 
-use super::{Raw, Tok, blank, is_line_end};
+use super::blank::{blank, is_line_end};
+use super::token::{Part, Raw, Tok};
 use crate::number::from_digits;
 use crate::rules;
 use labspec_finding::{Finding, Span};
-
-/// A part of a string or a template.
-#[derive(Clone)]
-pub(super) enum Part<'a> {
-    Plain(&'a str),
-    /// What an escape stands for.
-    Char(char),
-    /// A line that goes on.
-    Nothing,
-    /// An escape without a meaning.
-    Broken(&'a str),
-    /// The expression between `${` and `}`.
-    Code(&'a str),
-}
 
 /// What a number means that is followed directly by the letters `tail`. Also a bad number stands for a number, so that what
 /// follows is understood.

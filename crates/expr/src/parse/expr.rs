@@ -3,7 +3,8 @@
 //! The height of every tree is counted while it is built, so that no later stage, which walks trees by
 //! recursion, can run out of stack.
 
-use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
+use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
+use super::refuse;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Name, Property, UnaryOp};
 use crate::lex::{self, Tok};
 use crate::rules;

@@ -1,7 +1,8 @@
 //! Functions of a text's own, and the patterns that take lists and records apart.
 
 use super::expr::Node;
-use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
+use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
+use super::refuse;
 use crate::ast::{Body, Element, ExprKind, Function, Name, Pattern, Stmt, StmtKind};
 use crate::lex::Tok;
 use crate::rules;

@@ -1,6 +1,7 @@
 //! Statements, automatic semicolons, and where reading goes on after a mistake.
 
-use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
+use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
+use super::refuse;
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::lex::Tok;
 use crate::rules;

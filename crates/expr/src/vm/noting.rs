@@ -1,28 +1,17 @@
 //! What a watched run notes of each operation: whether an operand that is not a number became something else, and how
 //! comparisons of numbers came out ([`crate::Watch`]).
 
-use super::{Frame, Machine, span_of, truth};
+use super::machine::{Frame, Machine, span_of};
+use super::operands::Operands;
 use crate::code::CodeUnit;
 use crate::heap::{Heap, Object};
 use crate::ir::MethodId;
 use crate::natives::{self, Nan};
+use crate::operation::truth;
 use crate::operators::BinaryOp;
 use crate::ssa::{Args, Num, Op, Val};
 use crate::types::Elem;
 use crate::value::Value;
-
-/// What is known of an operation before it runs: its result may take the place of an operand.
-#[derive(Clone, Copy)]
-pub(super) struct Operands {
-    /// An operand is not a number.
-    nan: bool,
-    /// The sides of a comparison of numbers, or of another operation on two.
-    sides: Option<(BinaryOp, f64, f64)>,
-}
-
-impl Operands {
-    pub(super) const NONE: Operands = Operands { nan: false, sides: None };
-}
 
 impl Machine<'_> {
     /// Looks at the operands of an operation. What decides a way or a place is lost here, whatever comes out.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Frame, Machine, Stop, index_of, taken, what, whole_index};
+use super::machine::{Frame, Machine, Stop, index_of, taken, what, whole_index};
 use crate::code::{Code, CodeUnit};
 use crate::heap::Object;
 use crate::ir::{MethodId, Picks};

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::{Aggregates, Clash, Given, Measured};
+use super::measured::{Aggregates, Clash, Given, Measured};
 use crate::analysis::effects::{element, whole};
 use crate::dimension::Measure;
 use crate::effects::Access;
@@ -15,10 +15,36 @@ use crate::value::{Value, View};
 use labspec_finding::Span;
 
 /// Operations that are looked at for one text; calls within calls and loops within loops would be many.
-pub(super) const MOST: usize = 100_000;
+const MOST: usize = 100_000;
 /// Rounds through a function with loops, and functions that call each other.
 const ROUNDS: usize = 8;
 const DEEP: usize = 8;
+
+/// The dimensions in a text.
+pub(crate) fn measured(
+    form: &SsaProgram,
+    schema: &dyn Schema,
+    given: &Given,
+    aggregates: &Aggregates,
+) -> Measured {
+    let around = Around { form, schema, given, aggregates, left: Cell::new(MOST) };
+    let mut all = Measured::default();
+    for (id, unit) in form.units.iter().enumerate() {
+        let mut work = Work::new(&around, id as u32, unit);
+        work.look();
+        let found = work.found;
+        if id == 0 {
+            all.value = found.value;
+        }
+        for (slot, measure) in found.variables {
+            let known = all.variables.entry(slot).or_insert(Measure::Anything);
+            *known = known.or(measure);
+        }
+        all.stores.extend(found.stores);
+        all.clashes.extend(found.clashes);
+    }
+    all
+}
 
 /// What a text is looked at with.
 pub(super) struct Around<'f> {

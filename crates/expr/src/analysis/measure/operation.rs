@@ -1,7 +1,7 @@
 //! What one operation gives, by what its operands are.
 
-use super::Stored;
 use super::flow::Work;
+use super::measured::Stored;
 use super::natives as handed;
 use crate::analysis::effects::{element, whole};
 use crate::dimension::{Dimension, Measure};

@@ -1,6 +1,6 @@
 //! Angles: degrees written for radians, and numbers taken for angles that are none.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr};
 use crate::bind::types::Shape;
 use crate::number;
@@ -9,7 +9,7 @@ use crate::schema::Role;
 use crate::types::FieldKey;
 use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// What a function of angles gets.
     pub(super) fn angle(&mut self, span: Span, by: &str, shape: &Shape) {
         if let Some(x) = shape.number()

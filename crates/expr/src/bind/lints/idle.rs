@@ -1,13 +1,13 @@
 //! What is computed or written for nothing.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Stmt, StmtKind};
 use crate::rules;
 use crate::types::Type;
 use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// A statement that changes nothing.
     #[inline(never)]
     pub(super) fn unused(&mut self, expr: &Expr) {

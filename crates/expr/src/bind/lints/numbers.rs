@@ -1,6 +1,6 @@
 //! Texts where numbers belong.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
 use crate::bind::types::Shape;
 use crate::rules;
@@ -8,7 +8,7 @@ use crate::types::Type;
 use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// `-text`
     #[inline(never)]
     pub(super) fn text_operand(&mut self, op: UnaryOp, expr: &Expr) {

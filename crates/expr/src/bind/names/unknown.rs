@@ -1,32 +1,11 @@
 //! What is said of a name that means nothing, or that cannot be used like this.
 
-use super::{Use, Walk};
-use crate::ast::Name;
+use super::language::list_names;
+use super::walk::{NameUse, NameWalk};
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
 use crate::words::Words;
 use labspec_finding::{Finding, Span, nearest};
-
-/// Names of the language itself.
-pub(super) const LANGUAGE: [&str; 14] = [
-    "Math",
-    "NaN",
-    "Infinity",
-    "undefined",
-    "isNaN",
-    "isFinite",
-    "ctx",
-    "Array",
-    "Number",
-    "String",
-    "Boolean",
-    "Object",
-    "parseFloat",
-    "parseInt",
-];
-
-/// Names that hold functions of the language.
-pub(in super::super) const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
 
 /// Names of a browser or of Node.
 const PAGE: [&str; 8] =
@@ -71,12 +50,8 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
     Some((why, help))
 }
 
-/// Members through which JavaScript reaches the machinery behind a value.
-pub(in super::super) const MACHINERY: [&str; 5] =
-    ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
-
-impl Walk<'_, '_> {
-    pub(super) fn unknown(&self, name: &str, span: Span, used: Use) -> Finding {
+impl NameWalk<'_, '_> {
+    pub(super) fn unknown(&self, name: &str, span: Span, used: NameUse) -> Finding {
         let words = self.words();
         if name == "value" {
             return Finding::error(rules::NO_VALUE_HERE, span, "`value` is not defined here")
@@ -89,7 +64,7 @@ impl Walk<'_, '_> {
                 .help(help);
         }
         let report = match used {
-            Use::Callee => {
+            NameUse::Callee => {
                 Finding::error(rules::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
             }
             _ => Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
@@ -101,14 +76,16 @@ impl Walk<'_, '_> {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
                 let own = match used {
-                    Use::Callee => "to define your own function, write `const f = (x) => …` first".to_owned(),
+                    NameUse::Callee => {
+                        "to define your own function, write `const f = (x) => …` first".to_owned()
+                    }
                     _ => {
                         format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
                     }
                 };
                 let mut known = self.root_names();
                 known.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report.why(format!("the names here are {}", list(&known))).help(own)
+                report.why(format!("the names here are {}", list_names(&known))).help(own)
             }
         }
     }
@@ -144,53 +121,4 @@ impl Walk<'_, '_> {
     pub(super) fn own_names(&self) -> impl Iterator<Item = &str> {
         self.reach.iter().filter_map(|byte| Some(self.names.declared.get(byte)?.name.as_str()))
     }
-}
-
-/// The finding for a second declaration, or one of a name that means something already.
-pub(super) fn taken(name: &Name, here: bool) -> Finding {
-    let why = if here { "it is declared above" } else { "it already has a meaning in every text" };
-    Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
-        .why(format!("{why}; JavaScript rejects a second declaration"))
-        .help(if here {
-            "assign it without `const` or `let`, or choose another name"
-        } else {
-            "choose another name"
-        })
-}
-
-/// The finding for a use before the declaration.
-pub(super) fn too_early(name: &str, span: Span) -> Finding {
-    Finding::error(rules::USED_TOO_EARLY, span, format!("`{name}` is used before its declaration"))
-        .why("statements run from top to bottom: here the name has no value yet")
-        .help(format!("move the declaration of `{name}` up"))
-}
-
-/// The finding for a `const` that is assigned.
-pub(super) fn constant(name: &str, span: Span) -> Finding {
-    Finding::error(rules::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
-        .why("a `const` name keeps its first value; JavaScript stops the program here")
-        .help(format!("declare it with `let {name}`, or use another name"))
-}
-
-/// The finding for a name of the language that is assigned.
-pub(super) fn not_assignable(name: &str, span: Span) -> Finding {
-    let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
-    match name {
-        "ctx" => report.why("it holds the global variables").help("assign a variable, as `ctx.peak = 0`"),
-        "value" => report.why("it is set from outside").help("use another name, as `const x = value / 2`"),
-        _ => report.why("it has the same meaning everywhere").help("use another name"),
-    }
-}
-
-/// Whether the language itself gives a meaning to a name.
-pub(in super::super) fn is_language(name: &str) -> bool {
-    LANGUAGE.contains(&name) || name == "value"
-}
-
-/// A list of names for a message, cut when it is long.
-pub(in super::super) fn list(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }

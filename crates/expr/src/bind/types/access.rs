@@ -1,9 +1,9 @@
 //! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
 
+use super::binder::{Attempt, Binder, Reported, Thing};
 use super::member::{quoted, view_of};
-use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
-use crate::bind::names::list;
+use crate::bind::names::list_names;
 use crate::ir::{Index, Ir, Kind};
 use crate::number;
 use crate::rules;
@@ -368,7 +368,7 @@ impl<'a> Binder<'a> {
                 let shown = if names.is_empty() {
                     String::new()
                 } else {
-                    format!("; the names are {}", list(&names))
+                    format!("; the names are {}", list_names(&names))
                 };
                 return self.refuse(
                     Finding::error(
@@ -396,7 +396,7 @@ impl<'a> Binder<'a> {
             None if names.is_empty() => report
                 .why(format!("no {noun} has a name here"))
                 .help(format!("give the {noun} a name in the {}", self.words().model)),
-            None => report.why(format!("the names are {}", list(&names))).help("use one of them"),
+            None => report.why(format!("the names are {}", list_names(&names))).help("use one of them"),
         };
         self.refuse(report)
     }

@@ -1,9 +1,9 @@
 //! Assignments: what may stand on the left, and why not what may not.
 
 use super::access::GlobalName;
+use super::binder::{Attempt, Binder, Meaning, Reported, Thing};
 use super::member::{machinery, view_of};
-use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing, Want};
+use super::typed::Want;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use crate::bind::names::MACHINERY;
 use crate::ir::{Index, Ir, Kind, Place, UpdateResult};

@@ -1,8 +1,9 @@
 //! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
+use super::binder::{Attempt, Binder, Reported, Thing};
 use super::member::quoted;
-use super::{Attempt, Binder, Reported, Thing, Want};
+use super::typed::Want;
 use crate::ast::{Expr, ExprKind};
 use crate::ir::{FreeFunctionId, Ir, Item, Kind, Step, Tree, Unit};
 use crate::math;

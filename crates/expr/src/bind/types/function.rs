@@ -1,10 +1,9 @@
 //! Functions of a text: bound when they are first called, with the types that they are called with.
 
-use super::facts::Key;
-use super::scope::{Known, Meaning};
-use super::{Attempt, Binder, Reported, Thing, What};
+use super::binder::{Attempt, Binder, Known, Meaning, Reported, Thing};
+use super::facts::{Key, What};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
-use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId};
+use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId, always_return};
 use crate::operators::BinaryOp;
 use crate::rules;
 use crate::types::Type;
@@ -97,7 +96,7 @@ impl<'a> Binder<'a> {
                 self.returns.push(key);
                 steps.extend(self.block(statements));
                 self.returns.pop();
-                if !ends(&steps) {
+                if !always_return(&steps) {
                     self.facts.see(key, Type::Undefined);
                 }
             }
@@ -228,13 +227,4 @@ impl<'a> Binder<'a> {
     pub(super) fn call_value(&mut self, callee: Ir, args: Vec<Item>, span: Span) -> Ir {
         Ir::new(Kind::InvokeValue(Box::new(callee), args), Type::Any, span)
     }
-}
-
-/// Whether statements never come to their end: all ways through them return.
-pub(super) fn ends(steps: &[Step]) -> bool {
-    steps.iter().any(|step| match step {
-        Step::Return(_) => true,
-        Step::If(_, then, otherwise) => ends(then) && ends(otherwise),
-        _ => false,
-    })
 }

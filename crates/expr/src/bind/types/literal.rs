@@ -1,7 +1,7 @@
 //! Lists, records, templates, and declarations that take lists and records apart.
 
-use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing, What};
+use super::binder::{Attempt, Binder, Meaning, Reported, Thing};
+use super::facts::What;
 use crate::ast::{Element, Expr, ExprKind, Pattern, Property};
 use crate::bind::names::names_of;
 use crate::ir::{Entry, Ir, Item, Kind, Step};

@@ -1,7 +1,8 @@
 //! Loops, and what is known of the numbers that count them.
 
 use super::access::past_the_end;
-use super::{Attempt, Binder, Reported, Thing, What};
+use super::binder::{Attempt, Binder, Reported, Thing};
+use super::facts::What;
 use crate::ast::{BinaryOp, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::bind::names::{Declared, names_of};
 use crate::ir::{Ir, Item, Kind, Loop, Place, Step, UpdateResult};

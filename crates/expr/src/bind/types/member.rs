@@ -1,8 +1,8 @@
 //! What names stand for: those at the start of an expression, and those behind a point.
 
-use super::{Attempt, Binder, Receiver, Reported, Thing};
+use super::binder::{Attempt, Binder, Receiver, Reported, Thing};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::bind::names::{MACHINERY, NAMESPACES, list, meant_elsewhere};
+use crate::bind::names::{MACHINERY, NAMESPACES, list_names, meant_elsewhere};
 use crate::ir::{Ir, Kind};
 use crate::math;
 use crate::natives;
@@ -153,7 +153,7 @@ impl<'a> Binder<'a> {
             Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).guess(name.span, meant),
             None => {
                 let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
-                report.why(format!("it has {}", list(&names)))
+                report.why(format!("it has {}", list_names(&names)))
             }
         })
     }
@@ -292,7 +292,7 @@ impl<'a> Binder<'a> {
             }
             (Some((_, meant)), _) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
             (None, _) if names.is_empty() => report.why("it has no fields"),
-            (None, _) => report.why(format!("its fields are {}", list(&names))),
+            (None, _) => report.why(format!("its fields are {}", list_names(&names))),
         }
     }
 }

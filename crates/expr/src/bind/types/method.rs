@@ -1,7 +1,8 @@
 //! Calls of methods: of arrays of the simulation, lists, texts and numbers.
 
+use super::binder::{Attempt, Binder, Receiver, Thing};
 use super::member::view_of;
-use super::{Attempt, Binder, Receiver, Thing, Want};
+use super::typed::Want;
 use crate::ast::{Expr, ExprKind};
 use crate::ir::{Ir, Item, Kind, MethodId};
 use crate::natives::{self, Native, On};

@@ -1,11 +1,11 @@
 //! Members of values, and of objects whose name is computed while running.
 
+use super::binder::{Attempt, Binder, Receiver, Thing};
 use std::sync::Arc;
 
 use super::member::{machinery, view_of};
-use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::bind::names::{MACHINERY, Named, list};
+use crate::bind::names::{MACHINERY, NameMeaning, list_names};
 use crate::ir::{Index, Ir, Kind, Picks};
 use crate::natives;
 use crate::rules;
@@ -64,7 +64,7 @@ impl<'a> Binder<'a> {
                         name.span,
                         format!("the result of `{}` has no `{}`", info.name, name.text),
                     )
-                    .why(format!("it has {}", list(&names)));
+                    .why(format!("it has {}", list_names(&names)));
                     return self.refuse(match nearest(&name.text, names.iter().map(String::as_str)) {
                         Some(meant) => {
                             report.help(format!("did you mean `{meant}`?")).guess(name.span, meant)
@@ -127,7 +127,7 @@ impl<'a> Binder<'a> {
         let ExprKind::Member { object: holder, name, .. } = &callee.kind else { return None };
         let ExprKind::Name(root) = &holder.kind else { return None };
         let [Expr { kind: ExprKind::String(chosen), .. }] = args.as_slice() else { return None };
-        if self.names.at(holder.span.start) != Named::Outside {
+        if self.names.at(holder.span.start) != NameMeaning::Outside {
             return None;
         }
         let Some(Entry::Object(holder)) = self.schema.root(root) else { return None };

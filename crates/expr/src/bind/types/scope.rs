@@ -1,53 +1,13 @@
 //! Variables: their places, the functions that use them, and what they stand for.
 
-use super::facts::Key;
-use super::written::Site;
-use super::{Attempt, Binder, Reported, Thing, What};
-use crate::ast::{Declarator, Function, Name, Pattern, Stmt, StmtKind};
-use crate::bind::names::{Declared, Named, names_of};
-use crate::ir::{Ir, Kind, Local, LocalId, Step, UnitId};
+use super::binder::{Attempt, Binder, Meaning, Reported, Thing, Variable};
+use super::facts::{Key, What};
+use crate::ast::{Declarator, Name, Pattern, Stmt, StmtKind};
+use crate::bind::names::{Declared, NameMeaning, names_of};
+use crate::ir::{Ir, Kind, Local, LocalId, Step};
 use crate::rules;
 use crate::types::Type;
 use labspec_finding::{Finding, Span};
-
-/// A name that the text gives.
-#[derive(Clone, Debug)]
-pub(super) struct Variable {
-    pub(super) key: Key,
-    pub(super) id: LocalId,
-    /// The function that it belongs to.
-    pub(super) unit: UnitId,
-    /// Its declaration has run.
-    pub(super) ready: bool,
-    pub(super) meaning: Meaning,
-    /// Smallest and largest value, of a loop that counts between known bounds.
-    pub(super) range: Option<(f64, f64)>,
-}
-
-/// What a name stands for.
-#[derive(Clone, Debug)]
-pub(super) enum Meaning {
-    /// A value, kept in a place of its own.
-    Slot,
-    /// Another word for a thing: `const v = list`.
-    Alias(Thing),
-    /// Its declaration has a mistake, reported there.
-    Unknown,
-}
-
-/// A function of the text.
-#[derive(Clone)]
-pub(super) struct Known<'a> {
-    pub(super) function: &'a Function,
-    /// What it gives.
-    pub(super) key: Key,
-    /// The function around it.
-    pub(super) around: UnitId,
-    /// What it was bound as.
-    pub(super) unit: Option<UnitId>,
-    /// The call whose written method it stands in.
-    pub(super) site: Option<Site>,
-}
 
 impl<'a> Binder<'a> {
     /// The key of something declared at a byte.
@@ -178,9 +138,9 @@ impl<'a> Binder<'a> {
     /// What the first pass found of a name, and the variable that it means.
     pub(super) fn variable(&mut self, name: &str, span: Span) -> Attempt<Option<Variable>> {
         match self.site.map_or(self.names, |site| site.names).at(span.start) {
-            Named::Outside => Ok(None),
-            Named::Wrong => Err(Reported),
-            Named::Declared(byte) => match self.variables.get(&self.key(byte, What::Name)) {
+            NameMeaning::Outside => Ok(None),
+            NameMeaning::Wrong => Err(Reported),
+            NameMeaning::Declared(byte) => match self.variables.get(&self.key(byte, What::Name)) {
                 Some(variable) => Ok(Some(variable.clone())),
                 None => self.refuse(
                     Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here"))

@@ -1,8 +1,8 @@
 //! Statements: declarations, effects, choices, and expressions that change nothing.
 
-use super::scope::Meaning;
-use super::{Attempt, Binder, Mode, Thing};
+use super::binder::{Attempt, Binder, Meaning, Thing};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
+use crate::bind::source::Mode;
 use crate::ir::{Entry, Ir, Item, Kind, Step};
 use crate::rules;
 use crate::types::Type;

@@ -1,8 +1,9 @@
 //! The rounds end, soon, and with an answer that holds, whatever they are given.
 
-use super::{Bound, Facts, Key, What, bind};
+use super::binder::{BindContext, Bound, bind};
+use super::facts::{Facts, Key, What};
 use crate::bind::names::{Surroundings, resolve};
-use crate::bind::{Compiler, Tree};
+use crate::bind::source::SourceTree;
 use crate::globals::Globals;
 use crate::mock::{Mock, execute};
 use crate::parse_statements;
@@ -28,14 +29,14 @@ const TYPES: [Type; 13] = [
 fn bound(source: &str) -> Bound {
     let parsed = parse_statements(source);
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
-    let tree = Tree::Statements(&parsed.tree);
+    let tree = SourceTree::Statements(&parsed.tree);
     let mut globals = Globals::new();
     let around = Surroundings { schema: Some(&Mock), globals: &globals, mode: tree.mode(), has_value: false };
     let (names, found) = resolve(around, |walk| walk.block(&parsed.tree));
     assert!(found.is_empty() && !names.stopped, "{found:?}");
-    let mut compiler = Compiler::new(&Mock, &mut globals);
-    let id = compiler.globals.next_program();
-    bind(&mut compiler, source, tree, &names, id)
+    let id = globals.next_program();
+    let mut context = BindContext { schema: &Mock, globals: &mut globals, value: None, explains: false };
+    bind(&mut context, source, tree, &names, id)
 }
 
 #[test]

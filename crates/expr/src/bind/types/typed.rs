@@ -11,26 +11,26 @@ use labspec_finding::Span;
 
 /// What is known of a text, part by part.
 #[derive(Default)]
-pub(in super::super) struct Typed {
+pub(in crate::bind) struct Typed {
     /// In the order of their places, once all are known; the last one of a place counts.
-    shapes: Vec<(Span, Shape)>,
-    idle: BTreeSet<Span>,
+    pub(super) shapes: Vec<(Span, Shape)>,
+    pub(super) idle: BTreeSet<Span>,
     /// Values that are needed for something.
-    pub(in super::super) wants: Vec<(Span, Want, Shape)>,
+    pub(in crate::bind) wants: Vec<(Span, Want, Shape)>,
 }
 
 /// What is known of a value.
 #[derive(Clone)]
-pub(in super::super) struct Shape {
-    pub(in super::super) ty: Type,
+pub(in crate::bind) struct Shape {
+    pub(in crate::bind) ty: Type,
     /// The value, where it is known.
-    pub(in super::super) known: Option<Value>,
+    pub(in crate::bind) known: Option<Value>,
     /// The element of a field of the host that it is.
-    pub(in super::super) element: Option<(FieldKey, usize)>,
+    pub(in crate::bind) element: Option<(FieldKey, usize)>,
 }
 
 /// What a value is needed for.
-pub(in super::super) enum Want {
+pub(in crate::bind) enum Want {
     /// A number, by a function.
     Number(String),
     /// An angle, by a function.
@@ -40,12 +40,12 @@ pub(in super::super) enum Want {
 }
 
 impl Shape {
-    fn of(ir: &Ir) -> Shape {
+    pub(super) fn of(ir: &Ir) -> Shape {
         Shape { ty: ir.ty, known: ir.known().cloned(), element: element(ir) }
     }
 
     /// The value, where it is a known number.
-    pub(in super::super) fn number(&self) -> Option<f64> {
+    pub(in crate::bind) fn number(&self) -> Option<f64> {
         match self.known {
             Some(Value::Number(x)) => Some(x),
             _ => None,
@@ -69,37 +69,14 @@ impl Typed {
     }
 
     /// What is known of the expression at a place.
-    pub(in super::super) fn shape(&self, span: Span) -> Option<&Shape> {
+    pub(in crate::bind) fn shape(&self, span: Span) -> Option<&Shape> {
         let behind = self.shapes.partition_point(|(at, _)| *at <= span);
         let (at, shape) = self.shapes.get(behind.checked_sub(1)?)?;
         (*at == span).then_some(shape)
     }
 
     /// Whether the statement at a place does nothing.
-    pub(in super::super) fn is_idle(&self, span: Span) -> bool {
+    pub(in crate::bind) fn is_idle(&self, span: Span) -> bool {
         self.idle.contains(&span)
-    }
-}
-
-impl super::Binder<'_> {
-    /// Notes what an expression is.
-    pub(super) fn note(&mut self, span: Span, ir: &Ir) {
-        if self.site.is_none() {
-            self.typed.shapes.push((span, Shape::of(ir)));
-        }
-    }
-
-    /// Notes that a statement does nothing.
-    pub(super) fn idle(&mut self, span: Span) {
-        if self.site.is_none() {
-            self.typed.idle.insert(span);
-        }
-    }
-
-    /// Notes what a value is needed for.
-    pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Want) {
-        if self.site.is_none() {
-            self.typed.wants.push((span, want, Shape::of(ir)));
-        }
     }
 }

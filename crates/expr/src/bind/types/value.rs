@@ -1,8 +1,9 @@
 //! Values: operators, their types, and the mistakes that JavaScript turns into NaN without a word.
 
+use super::binder::{Attempt, Binder, Reported, Thing};
 use super::member::quoted;
-use super::{Attempt, Binder, Mode, Reported, Thing};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
+use crate::bind::source::Mode;
 use crate::ir::{Index, Ir, Kind};
 use crate::rules;
 use crate::types::Type;

@@ -1,37 +1,18 @@
 //! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
 //! and places of their own; what is wrong there is told in words, at the call.
 
+use super::binder::{Attempt, Binder, Meaning, Reported, Site, Thing};
+use super::facts::What;
 use std::sync::OnceLock;
 
-use super::function::ends;
-use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing, What};
 use crate::ast::{Body, Expr, Function, Name, Pattern};
-use crate::bind::Mode;
 use crate::bind::names::{Names, Surroundings, resolve};
+use crate::bind::source::Mode;
 use crate::globals::Globals;
-use crate::ir::{Ir, Kind, Step};
+use crate::ir::{Ir, Kind, Step, always_return};
 use crate::natives::{self, Native};
 use crate::types::Type;
 use labspec_finding::Span;
-
-/// The call of a written method.
-#[derive(Clone, Copy)]
-pub(super) struct Site {
-    /// Tells its variables from those of other calls.
-    pub(super) id: usize,
-    /// Where the text calls it.
-    pub(super) call: Span,
-    row: &'static Native,
-    pub(super) names: &'static Names,
-}
-
-impl Site {
-    /// The method as it is called: `.map`.
-    pub(super) fn called(&self) -> String {
-        self.row.title()
-    }
-}
 
 /// What the names of a written function mean.
 fn names_of(function: &Function) -> &'static Names {
@@ -95,7 +76,7 @@ impl<'a> Binder<'a> {
         let body = self.block(statements);
         self.loops = loops;
         self.returns.pop();
-        if !ends(&body) {
+        if !always_return(&body) {
             self.facts.see(key, Type::Undefined);
         }
         let result = self.new_local(key, false);

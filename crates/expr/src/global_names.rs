@@ -4,12 +4,12 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The first names of a list. Its clone costs nothing; where two clones grow apart, the second to grow takes a copy.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Known {
+pub(crate) struct GlobalNames {
     list: Arc<Mutex<Vec<Arc<str>>>>,
     count: usize,
 }
 
-impl Known {
+impl GlobalNames {
     /// How many names are known.
     pub(crate) fn len(&self) -> usize {
         self.count
@@ -48,13 +48,13 @@ fn held(list: &Mutex<Vec<Arc<str>>>) -> MutexGuard<'_, Vec<Arc<str>>> {
 mod tests {
     use super::*;
 
-    fn names(known: &Known, since: usize) -> Vec<(u32, String)> {
+    fn names(known: &GlobalNames, since: usize) -> Vec<(u32, String)> {
         known.since(since).into_iter().map(|(slot, name)| (slot, name.to_string())).collect()
     }
 
     #[test]
     fn clones_share_what_they_have_in_common_and_grow_apart() {
-        let mut first = Known::default();
+        let mut first = GlobalNames::default();
         first.push("a");
         let early = first.clone();
         let mut other = first.clone();
