@@ -42,11 +42,8 @@ fn imports(code: &str) -> Vec<String> {
     }
     let mut out = Vec::new();
     for part in code.split("use ").skip(1) {
-        // Without the names that `as` gives.
-        let mut pieces = part.split(';').next().unwrap_or("").split(" as ");
-        let mut path = pieces.next().unwrap_or("").to_owned();
-        pieces.for_each(|p| path.push_str(p.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_')));
-        path.retain(|c| !c.is_whitespace());
+        let path: String =
+            part.split(';').next().unwrap_or("").chars().filter(|c| !c.is_whitespace()).collect();
         written_out("", &path, &mut out);
     }
     // What is named by its whole path where it is used.

@@ -2,7 +2,7 @@
 
 use super::env::{Env, Trouble, arg, integer};
 use super::native::{Native, Outcome, table};
-use crate::number as convert;
+use crate::number;
 use crate::rules;
 use crate::value::Value;
 
@@ -80,7 +80,7 @@ fn fraction_bits(x: f64) -> i64 {
 /// JavaScript's `x.toFixed(digits)`: the exact value rounded, and a tie away from zero.
 pub fn to_fixed(x: f64, digits: usize) -> String {
     if !x.is_finite() || x.abs() >= 1e21 {
-        return convert::to_text(x);
+        return number::to_text(x);
     }
     let sign = if x < 0.0 { "-" } else { "" };
     let x = x.abs();
@@ -152,7 +152,7 @@ fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
 fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let x = own(x);
     if !x.is_finite() {
-        return env.string(convert::to_text(x));
+        return env.string(number::to_text(x));
     }
     let digits = digits(env, args, 0.0)?;
     let sign = if x < 0.0 { "-" } else { "" };
@@ -170,9 +170,9 @@ fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcom
 fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
     let x = own(x);
     if !x.is_finite() {
-        return env.string(convert::to_text(x));
+        return env.string(number::to_text(x));
     }
-    let Some(precision) = digits(env, args, 1.0)? else { return env.string(convert::to_text(x)) };
+    let Some(precision) = digits(env, args, 1.0)? else { return env.string(number::to_text(x)) };
     let sign = if x < 0.0 { "-" } else { "" };
     let (mantissa, exponent) = scientific(x, precision - 1);
     if exponent < -6 || exponent >= precision as i32 {
@@ -194,12 +194,12 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
         radix => integer(env.number(radix)?),
     };
     if !(2.0..=36.0).contains(&radix) {
-        let message = format!("base {} is not allowed: the range is 2 to 36", convert::to_text(radix));
+        let message = format!("base {} is not allowed: the range is 2 to 36", number::to_text(radix));
         return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
     }
     let x = own(x);
     if radix == 10.0 || !x.is_finite() {
-        return env.string(convert::to_text(x));
+        return env.string(number::to_text(x));
     }
     let sign = if x < 0.0 { "-" } else { "" };
     let (fraction, carries) = fraction_in(x.abs(), radix);
@@ -296,7 +296,7 @@ fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 
 fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let text = env.text(arg(args, 0))?;
-    let text = text.trim_start_matches(convert::is_space);
+    let text = text.trim_start_matches(number::is_space);
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     if unsigned.starts_with("Infinity") {
         return Ok(Value::Number(if text.starts_with('-') { f64::NEG_INFINITY } else { f64::INFINITY }));
@@ -323,12 +323,12 @@ fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 
 fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let text = env.text(arg(args, 0))?;
-    let text = text.trim_start_matches(convert::is_space);
+    let text = text.trim_start_matches(number::is_space);
     let (sign, text) = match text.strip_prefix('-') {
         Some(rest) => (-1.0, rest),
         None => (1.0, text.strip_prefix('+').unwrap_or(text)),
     };
-    let mut radix = convert::to_int32(env.number(arg(args, 1))?);
+    let mut radix = number::to_int32(env.number(arg(args, 1))?);
     let prefixed = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
     let text = match prefixed {
         Some(rest) if radix == 0 || radix == 16 => {
@@ -346,7 +346,7 @@ fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let x = match radix {
         _ if digits.is_empty() => f64::NAN,
         10 => digits.parse().unwrap_or(f64::NAN),
-        2 | 4 | 8 | 16 | 32 => convert::from_digits(digits, radix as u32).unwrap_or(f64::NAN),
+        2 | 4 | 8 | 16 | 32 => number::from_digits(digits, radix as u32).unwrap_or(f64::NAN),
         _ => digits
             .chars()
             .fold(0.0, |x, c| x * f64::from(radix) + f64::from(c.to_digit(radix as u32).unwrap_or(0))),
