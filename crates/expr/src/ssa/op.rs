@@ -128,8 +128,13 @@ pub(crate) enum OperandUse<'o> {
     ReadsValues(Args),
 }
 
+#[inline]
+fn each_use<const N: usize>(f: &mut impl FnMut(OperandUse<'_>), uses: [OperandUse<'_>; N]) {
+    uses.into_iter().for_each(f);
+}
+
 impl Op {
-    /// Every operand, with what is done to it.
+    /// Every operand, with what is done to it. One table, complete, so that a new operation is not forgotten.
     pub(crate) fn each(&mut self, f: &mut impl FnMut(OperandUse<'_>)) {
         use OperandUse::{Gives, GivesValue, Reads, ReadsAll, ReadsValue, ReadsValues};
         match self {
@@ -137,100 +142,48 @@ impl Op {
             Op::GlobalNumber(d, _) | Op::TakeNumber(d) => f(Gives(d)),
             Op::Input(d) | Op::Global(d, _) | Op::LoadValue(d, ..) | Op::TakeValue(d) => f(GivesValue(d)),
             Op::EmptyCell(d) | Op::NewRecord(d) => f(GivesValue(d)),
-            Op::LoadAt(d, _, a) | Op::Unary(d, _, a) | Op::Move(d, a) => {
-                f(Gives(d));
-                f(Reads(a));
-            }
+            Op::LoadAt(d, _, a) | Op::Unary(d, _, a) | Op::Move(d, a) => each_use(f, [Gives(d), Reads(a)]),
             Op::LoadValueAt(d, _, a) | Op::BoxNumber(d, a) | Op::BoxBoolean(d, a) => {
-                f(GivesValue(d));
-                f(Reads(a));
+                each_use(f, [GivesValue(d), Reads(a)])
             }
             Op::ToNumber(d, a) | Op::ToIndex(d, a) | Op::Truthy(d, a) => {
-                f(Gives(d));
-                f(ReadsValue(a));
+                each_use(f, [Gives(d), ReadsValue(a)])
             }
-            Op::MathOver(d, _, a) | Op::PickNumber(d, _, a) => {
-                f(Gives(d));
-                f(ReadsValue(a));
-            }
+            Op::MathOver(d, _, a) | Op::PickNumber(d, _, a) => each_use(f, [Gives(d), ReadsValue(a)]),
             Op::GlobalNamed(d, a) | Op::ToText(d, a) | Op::TypeOf(d, a) | Op::MoveValue(d, a) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
+                each_use(f, [GivesValue(d), ReadsValue(a)])
             }
             Op::NewCell(d, a) | Op::CellGet(d, a) | Op::Member(d, a, _) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
+                each_use(f, [GivesValue(d), ReadsValue(a)])
             }
-            Op::NativeList(d, _, a) | Op::Pick(d, _, a) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
-            }
-            Op::Binary(d, _, a, b) => {
-                f(Gives(d));
-                f(Reads(a));
-                f(Reads(b));
-            }
-            Op::Select(d, a, b, c) => {
-                f(Gives(d));
-                f(Reads(a));
-                f(Reads(b));
-                f(Reads(c));
-            }
-            Op::Compare(d, _, a, b) => {
-                f(Gives(d));
-                f(ReadsValue(a));
-                f(ReadsValue(b));
-            }
+            Op::NativeList(d, _, a) | Op::Pick(d, _, a) => each_use(f, [GivesValue(d), ReadsValue(a)]),
+            Op::Binary(d, _, a, b) => each_use(f, [Gives(d), Reads(a), Reads(b)]),
+            Op::Select(d, a, b, c) => each_use(f, [Gives(d), Reads(a), Reads(b), Reads(c)]),
+            Op::Compare(d, _, a, b) => each_use(f, [Gives(d), ReadsValue(a), ReadsValue(b)]),
             Op::Plus(d, a, b) | Op::Element(d, a, b) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
-                f(ReadsValue(b));
+                each_use(f, [GivesValue(d), ReadsValue(a), ReadsValue(b)])
             }
             Op::InvokeList(d, a, b) | Op::MethodList(d, _, a, b) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
-                f(ReadsValue(b));
+                each_use(f, [GivesValue(d), ReadsValue(a), ReadsValue(b)])
             }
-            Op::ElementAt(d, a, b) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
-                f(Reads(b));
-            }
-            Op::Math(d, _, args) => {
-                f(Gives(d));
-                f(ReadsAll(*args));
-            }
-            Op::Invoke(d, a, args) => {
-                f(GivesValue(d));
-                f(ReadsValue(a));
-                f(ReadsValues(*args));
-            }
+            Op::ElementAt(d, a, b) => each_use(f, [GivesValue(d), ReadsValue(a), Reads(b)]),
+            Op::Math(d, _, args) => each_use(f, [Gives(d), ReadsAll(*args)]),
+            Op::Invoke(d, a, args) => each_use(f, [GivesValue(d), ReadsValue(a), ReadsValues(*args)]),
             Op::CallHost(d, _, args) | Op::Closure(d, _, args) | Op::List(d, args) => {
-                f(GivesValue(d));
-                f(ReadsValues(*args));
+                each_use(f, [GivesValue(d), ReadsValues(*args)])
             }
             Op::Method(d, _, args) | Op::Native(d, _, args) => {
-                f(GivesValue(d));
-                f(ReadsValues(*args));
+                each_use(f, [GivesValue(d), ReadsValues(*args)])
             }
             Op::Store(_, _, a) | Op::Fill(_, a) | Op::PassNumber(_, a) | Op::JumpIf(_, a, _) => f(Reads(a)),
-            Op::StoreAt(_, a, b) => {
-                f(Reads(a));
-                f(Reads(b));
-            }
+            Op::StoreAt(_, a, b) => each_use(f, [Reads(a), Reads(b)]),
             Op::StoreGlobal(_, a) | Op::PassValue(_, a) | Op::JumpIfNothing(_, a, _) => f(ReadsValue(a)),
             Op::StoreGlobalNamed(a, b) | Op::CellSet(a, b, _) | Op::Append(a, b, _) => {
-                f(ReadsValue(a));
-                f(ReadsValue(b));
+                each_use(f, [ReadsValue(a), ReadsValue(b)])
             }
-            Op::PutAll(a, b) | Op::StoreMember(a, _, b, _) => {
-                f(ReadsValue(a));
-                f(ReadsValue(b));
-            }
+            Op::PutAll(a, b) | Op::StoreMember(a, _, b, _) => each_use(f, [ReadsValue(a), ReadsValue(b)]),
             Op::Put(a, b, c) | Op::StoreItem(a, b, c, _) => {
-                f(ReadsValue(a));
-                f(ReadsValue(b));
-                f(ReadsValue(c));
+                each_use(f, [ReadsValue(a), ReadsValue(b), ReadsValue(c)])
             }
             Op::Call(_) | Op::Formula(_) | Op::Jump(_) | Op::Again(..) | Op::Return => {}
         }

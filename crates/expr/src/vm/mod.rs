@@ -4,9 +4,13 @@
 //! before the first operation of a function. Every jump back counts the operations that it repeats, every call those of the
 //! function, so every run ends, and what it cost is known.
 
+mod calls;
+mod collections;
+mod fields;
+mod index;
 mod machine;
 mod noting;
 mod operands;
-mod parts;
+mod step;
 
 pub(crate) use machine::{MAX_WORK, run};

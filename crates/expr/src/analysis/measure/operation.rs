@@ -6,8 +6,7 @@ use super::natives as handed;
 use crate::analysis::effects::{element, whole};
 use crate::dimension::{Dimension, Measure};
 use crate::effects::Access;
-use crate::ir::MethodId;
-use crate::ir::UnitId;
+use crate::ir::{MethodId, UnitId};
 use crate::math;
 use crate::operators::{BinaryOp, UnaryOp};
 use crate::ssa::{Args, Num, Op, Operand, OperandUse, Slot, Val};
@@ -15,6 +14,7 @@ use crate::value::Value;
 use labspec_finding::Span;
 
 impl Work<'_> {
+    /// What an operation on numbers and variables gives.
     pub(super) fn op(&mut self, op: &Op, span: &Span) {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
@@ -62,6 +62,14 @@ impl Work<'_> {
                 self.clash(span, self.value(a), self.value(b));
                 self.set(number(d), Measure::NUMBER);
             }
+            _ => self.host_op(op, span),
+        }
+    }
+
+    /// Operations that reach out of the text: calls of the host, and what it stores.
+    fn host_op(&mut self, op: &Op, span: &Span) {
+        let (number, value) = (Operand::Number, Operand::Value);
+        match *op {
             Op::CallHost(d, function, args) => {
                 let args = args.of(&self.unit.args);
                 let first = args.first().and_then(|v| self.unit.known_value(Val(*v)));
@@ -87,12 +95,12 @@ impl Work<'_> {
                 let before = self.found.variables.entry(slot).or_insert(Measure::Anything);
                 *before = before.or(measure);
             }
-            _ => self.shared(op),
+            _ => self.collection_op(op),
         }
     }
 
-    /// Operations on lists, records, texts and functions.
-    fn shared(&mut self, op: &Op) {
+    /// Operations on lists, records and texts.
+    fn collection_op(&mut self, op: &Op) {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
             Op::List(d, args) => {
@@ -140,6 +148,14 @@ impl Work<'_> {
             Op::NativeList(d, function, list) => {
                 self.set(value(d), handed::free(function, &[self.value(list)]));
             }
+            _ => self.call_op(op),
+        }
+    }
+
+    /// Functions of the text, and their calls.
+    fn call_op(&mut self, op: &Op) {
+        let (number, value) = (Operand::Number, Operand::Value);
+        match *op {
             Op::Closure(d, unit, args) => {
                 let used = args.of(&self.unit.args).iter().map(|v| Val(*v)).collect();
                 self.closures.insert(self.unit.same.value(d).0, (unit, used));

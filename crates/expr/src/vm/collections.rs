@@ -1,150 +1,72 @@
-//! Operations on lists, records and functions.
+//! Operations on lists and records.
 
 use std::sync::Arc;
 
-use super::machine::{Frame, Machine, Stop, index_of, taken, what, whole_index};
+use super::index::{index_of, whole_index};
+use super::machine::{Frame, Machine, Stop};
 use crate::code::{Code, CodeUnit};
 use crate::heap::Object;
-use crate::ir::{MethodId, Picks};
+use crate::ir::Picks;
+use crate::math;
 use crate::natives::{self, Trouble};
 use crate::rules;
-use crate::ssa::{Args, Op, Slot, Val};
+use crate::ssa::{Args, Num, Op, Val};
 use crate::value::{Value, View};
 
 impl Machine<'_> {
-    pub(super) fn part(&mut self, op: Op, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Result<(), Stop> {
+    /// Operations on lists, records and functions. One `match`, so that each is found at once; what is longer than a few
+    /// lines is a function of its own.
+    pub(super) fn step_collection(
+        &mut self,
+        op: Op,
+        code: &Arc<Code>,
+        unit: &CodeUnit,
+        f: Frame,
+    ) -> Result<(), Stop> {
         self.tidy();
         match op {
-            Op::MathOver(dst, function, list) => {
-                let list = self.val(f, list).clone();
-                let mut env = self.env(code);
-                let items = env.spread(&list)?;
-                let mut numbers = Vec::with_capacity(items.len());
-                for item in &items {
-                    numbers.push(env.number(item)?);
-                }
-                self.put(f, dst, function.apply(&numbers));
-            }
+            Op::MathOver(dst, function, list) => self.math_over(code, dst, function, list, f)?,
             Op::List(dst, items) => {
-                let items = self.all(items, unit, f);
+                let items = self.operand_values(items, unit, f);
                 let list = self.context.heap.list(items)?;
                 self.put_value(f, dst, list);
             }
-            Op::Append(list, item, spread) => {
-                let (list, item) = (self.val(f, list).clone(), self.val(f, item).clone());
-                let mut env = self.env(code);
-                let items = if spread { env.spread(&item)? } else { vec![item] };
-                for item in &items {
-                    env.heap.grow(item)?;
-                }
-                if let Some(Object::List(all)) = env.heap.object_mut(&list) {
-                    all.extend(items);
-                }
-            }
+            Op::Append(list, item, spread) => self.append(code, list, item, spread, f)?,
             Op::NewRecord(dst) => {
                 let record = self.context.heap.record(Vec::new())?;
                 self.put_value(f, dst, record);
             }
-            Op::Put(record, key, value) => {
-                let (record, value) = (self.val(f, record).clone(), self.val(f, value).clone());
-                let key = self.key(code, f, key)?;
-                self.put_member(&record, key, value)?;
-            }
-            Op::PutAll(record, from) => {
-                let (record, from) = (self.val(f, record).clone(), self.val(f, from).clone());
-                let entries = match self.context.heap.object(&from) {
-                    Object::Record(entries) => entries.clone(),
-                    _ if from.is_nothing() => Vec::new(),
-                    _ => {
-                        let items = self.env(code).spread(&from).unwrap_or_default();
-                        items.into_iter().enumerate().map(|(i, v)| (i.to_string().into(), v)).collect()
-                    }
-                };
-                self.env(code).spend(entries.len())?;
-                for (key, value) in entries {
-                    self.put_member(&record, key, value)?;
-                }
-            }
+            Op::Put(record, key, value) => self.put_entry(code, record, key, value, f)?,
+            Op::PutAll(record, from) => self.put_all(code, record, from, f)?,
             Op::Element(dst, object, index) => {
                 let value = self.item(code, f, object, index)?;
                 self.put_value(f, dst, value);
             }
-            Op::ElementAt(dst, object, index) => {
-                let x = self.num(f, index);
-                let object = self.val(f, object);
-                let value = match object {
-                    Value::List(_) => match self.context.heap.object(object) {
-                        Object::List(items) => {
-                            whole_index(x).and_then(|i| items.get(i).cloned()).unwrap_or_default()
-                        }
-                        Object::Numbers(items, _) => whole_index(x)
-                            .and_then(|i| items.get(i))
-                            .map_or(Value::Undefined, |x| Value::Number(*x)),
-                        _ => Value::Undefined,
-                    },
-                    _ => {
-                        let object = object.clone();
-                        self.item_of(code, &object, &Value::Number(x))?
-                    }
-                };
-                self.put_value(f, dst, value);
-            }
-            Op::Member(dst, object, name) => {
-                let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
-                let object = self.val(f, object).clone();
-                let value = self.member(code, &object, &name)?;
-                self.put_value(f, dst, value);
-            }
-            Op::StoreItem(object, index, value, _) => {
-                let (object, index) = (self.val(f, object).clone(), self.val(f, index).clone());
-                let value = self.val(f, value).clone();
-                self.store_item(code, &object, &index, value)?;
-            }
-            Op::StoreMember(object, name, value, _) => {
-                let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
-                let (object, value) = (self.val(f, object).clone(), self.val(f, value).clone());
-                self.store_member(code, &object, name, value)?;
-            }
-            Op::Method(dst, name, args) => {
-                let args = self.all(args, unit, f);
-                let Some((receiver, args)) = args.split_first() else { return Ok(()) };
-                let value = self.method(code, unit, f, name, receiver, args)?;
-                self.put_value(f, dst, value);
-            }
+            Op::ElementAt(dst, object, index) => self.element_at(code, dst, object, index, f)?,
+            Op::Member(dst, object, name) => self.read_member(code, dst, object, name, f)?,
+            Op::StoreItem(object, index, value, _) => self.assign_item(code, object, index, value, f)?,
+            Op::StoreMember(object, name, value, _) => self.assign_member(code, object, name, value, f)?,
+            Op::Method(dst, name, args) => self.call_method(code, unit, dst, name, args, f)?,
             Op::MethodList(dst, name, receiver, list) => {
-                let (receiver, list) = (self.val(f, receiver).clone(), self.val(f, list).clone());
-                let args = self.env(code).items(&list)?;
-                let value = self.method(code, unit, f, name, &receiver, &args)?;
-                self.put_value(f, dst, value);
+                self.call_method_with_list(code, unit, dst, name, (receiver, list), f)?
             }
             Op::Native(dst, function, args) => {
-                let args = self.all(args, unit, f);
+                let args = self.operand_values(args, unit, f);
                 let value = natives::call_free(&mut self.env(code), function, &args)?;
                 self.put_value(f, dst, value);
             }
-            Op::NativeList(dst, function, list) => {
-                let list = self.val(f, list).clone();
-                let mut env = self.env(code);
-                let args = env.items(&list)?;
-                let value = natives::call_free(&mut env, function, &args)?;
-                self.put_value(f, dst, value);
-            }
+            Op::NativeList(dst, function, list) => self.call_free_with_list(code, dst, function, list, f)?,
             Op::Closure(dst, callee, captures) => {
-                let captures = self.all(captures, unit, f);
+                let captures = self.operand_values(captures, unit, f);
                 let value = self.context.heap.closure(code.clone(), callee, captures)?;
                 self.put_value(f, dst, value);
             }
             Op::Invoke(dst, callee, args) => {
-                let (callee, args) = (self.val(f, callee).clone(), self.all(args, unit, f));
+                let (callee, args) = (self.val(f, callee).clone(), self.operand_values(args, unit, f));
                 let value = self.invoke_with(unit, f, &callee, &args)?;
                 self.put_value(f, dst, value);
             }
-            Op::InvokeList(dst, callee, list) => {
-                let (callee, list) = (self.val(f, callee).clone(), self.val(f, list).clone());
-                let args = self.env(code).items(&list)?;
-                let value = self.invoke_with(unit, f, &callee, &args)?;
-                self.put_value(f, dst, value);
-            }
+            Op::InvokeList(dst, callee, list) => self.invoke_with_list(code, unit, dst, callee, list, f)?,
             Op::NewCell(dst, src) => {
                 let value = self.val(f, src).clone();
                 let cell = self.context.heap.cell(Some(value))?;
@@ -154,38 +76,181 @@ impl Machine<'_> {
                 let cell = self.context.heap.cell(None)?;
                 self.put_value(f, dst, cell);
             }
-            Op::CellGet(dst, cell) => {
-                let value = match self.context.heap.object(self.val(f, cell)) {
-                    Object::Cell(Some(value)) => value.clone(),
-                    _ => return Err(too_early().into()),
-                };
-                self.put_value(f, dst, value);
-            }
-            Op::CellSet(cell, src, declares) => {
-                let (cell, value) = (self.val(f, cell).clone(), self.val(f, src).clone());
-                match self.context.heap.object_mut(&cell) {
-                    Some(Object::Cell(place)) if declares || place.is_some() => *place = Some(value),
-                    _ => return Err(too_early().into()),
-                }
-            }
+            Op::CellGet(dst, cell) => self.read_cell(dst, cell, f)?,
+            Op::CellSet(cell, src, declares) => self.write_cell(cell, src, declares, f)?,
             Op::Pick(dst, table, name) => {
                 let value = self.pick(code, f, table, name)?;
                 self.put_value(f, dst, value);
             }
-            Op::PickNumber(dst, table, name) => {
-                let x = match self.pick(code, f, table, name)? {
-                    Value::View(view) => self.host.get(view.field, view.first as usize).unwrap_or(f64::NAN),
-                    other => other.to_number(),
-                };
-                self.put(f, dst, x);
-            }
+            Op::PickNumber(dst, table, name) => self.pick_number(code, dst, table, name, f)?,
             _ => {} // see `execute` and `step`
         }
         Ok(())
     }
 
+    /// Stores a member of a record that is being made.
+    #[inline]
+    fn put_entry(
+        &mut self,
+        code: &Arc<Code>,
+        record: Val,
+        key: Val,
+        value: Val,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let (record, value) = (self.val(f, record).clone(), self.val(f, value).clone());
+        let key = self.key(code, f, key)?;
+        self.put_member(&record, key, value)
+    }
+
+    #[inline]
+    fn read_member(
+        &mut self,
+        code: &Arc<Code>,
+        dst: Val,
+        object: Val,
+        name: u32,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
+        let object = self.val(f, object).clone();
+        let value = self.member(code, &object, &name)?;
+        self.put_value(f, dst, value);
+        Ok(())
+    }
+
+    #[inline]
+    fn assign_item(
+        &mut self,
+        code: &Arc<Code>,
+        object: Val,
+        index: Val,
+        value: Val,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let (object, index) = (self.val(f, object).clone(), self.val(f, index).clone());
+        let value = self.val(f, value).clone();
+        self.store_item(code, &object, &index, value)
+    }
+
+    #[inline]
+    fn assign_member(
+        &mut self,
+        code: &Arc<Code>,
+        object: Val,
+        name: u32,
+        value: Val,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
+        let (object, value) = (self.val(f, object).clone(), self.val(f, value).clone());
+        self.store_member(code, &object, name, value)
+    }
+
+    /// A function of `Math` over all elements of a list.
+    #[inline]
+    fn math_over(
+        &mut self,
+        code: &Code,
+        dst: Num,
+        function: math::Function,
+        list: Val,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let list = self.val(f, list).clone();
+        let mut env = self.env(code);
+        let items = env.spread(&list)?;
+        let mut numbers = Vec::with_capacity(items.len());
+        for item in &items {
+            numbers.push(env.number(item)?);
+        }
+        self.put(f, dst, function.apply(&numbers));
+        Ok(())
+    }
+
+    /// Adds a value, or its elements, to a list that is being made.
+    #[inline]
+    fn append(&mut self, code: &Code, list: Val, item: Val, spread: bool, f: Frame) -> Result<(), Trouble> {
+        let (list, item) = (self.val(f, list).clone(), self.val(f, item).clone());
+        let mut env = self.env(code);
+        let items = if spread { env.spread(&item)? } else { vec![item] };
+        for item in &items {
+            env.heap.grow(item)?;
+        }
+        if let Some(Object::List(all)) = env.heap.object_mut(&list) {
+            all.extend(items);
+        }
+        Ok(())
+    }
+
+    /// Copies the members of one record into another.
+    #[inline]
+    fn put_all(&mut self, code: &Code, record: Val, from: Val, f: Frame) -> Result<(), Trouble> {
+        let (record, from) = (self.val(f, record).clone(), self.val(f, from).clone());
+        let entries = match self.context.heap.object(&from) {
+            Object::Record(entries) => entries.clone(),
+            _ if from.is_nothing() => Vec::new(),
+            _ => {
+                let items = self.env(code).spread(&from).unwrap_or_default();
+                items.into_iter().enumerate().map(|(i, v)| (i.to_string().into(), v)).collect()
+            }
+        };
+        self.env(code).spend(entries.len())?;
+        for (key, value) in entries {
+            self.put_member(&record, key, value)?;
+        }
+        Ok(())
+    }
+
+    /// `object[index]` with a number as the index.
+    #[inline]
+    fn element_at(
+        &mut self,
+        code: &Arc<Code>,
+        dst: Val,
+        object: Val,
+        index: Num,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let x = self.num(f, index);
+        let object = self.val(f, object);
+        let value = match object {
+            Value::List(_) => match self.context.heap.object(object) {
+                Object::List(items) => whole_index(x).and_then(|i| items.get(i).cloned()).unwrap_or_default(),
+                Object::Numbers(items, _) => {
+                    whole_index(x).and_then(|i| items.get(i)).map_or(Value::Undefined, |x| Value::Number(*x))
+                }
+                _ => Value::Undefined,
+            },
+            _ => {
+                let object = object.clone();
+                self.item_of(code, &object, &Value::Number(x))?
+            }
+        };
+        self.put_value(f, dst, value);
+        Ok(())
+    }
+
+    /// The number that belongs to the object of a computed name.
+    #[inline]
+    fn pick_number(
+        &mut self,
+        code: &Arc<Code>,
+        dst: Num,
+        table: u32,
+        name: Val,
+        f: Frame,
+    ) -> Result<(), Trouble> {
+        let x = match self.pick(code, f, table, name)? {
+            Value::View(view) => self.host.get(view.field, view.first as usize).unwrap_or(f64::NAN),
+            other => other.to_number(),
+        };
+        self.put(f, dst, x);
+        Ok(())
+    }
+
     /// The values of a list of operands.
-    fn all(&self, args: Args, unit: &CodeUnit, f: Frame) -> Vec<Value> {
+    pub(super) fn operand_values(&self, args: Args, unit: &CodeUnit, f: Frame) -> Vec<Value> {
         args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
     }
 
@@ -363,7 +428,7 @@ impl Machine<'_> {
                 Ok(())
             }
             other => {
-                let what = what(other, self.context.heap.object(other));
+                let what = describe(other, self.context.heap.object(other));
                 Err(Trouble::new(
                     rules::NO_PARTS,
                     format!("`{name}` of {what} was assigned, but it has no members"),
@@ -371,67 +436,12 @@ impl Machine<'_> {
             }
         }
     }
-
-    /// `receiver.name(args)`: a method, or a function that a record holds.
-    fn method(
-        &mut self,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
-        name: MethodId,
-        receiver: &Value,
-        args: &[Value],
-    ) -> Result<Value, Stop> {
-        if let Value::Record(_) = receiver
-            && let Some(function @ Value::Function(_)) = self.context.heap.get(receiver, name.text())
-        {
-            return self.invoke_with(unit, f, &function, args);
-        }
-        Ok(natives::call(&mut self.env(code), name, receiver, args)?)
-    }
-
-    /// Calls whatever function a value is.
-    fn invoke_with(
-        &mut self,
-        unit: &CodeUnit,
-        f: Frame,
-        callee: &Value,
-        args: &[Value],
-    ) -> Result<Value, Stop> {
-        let (code, at, captures) = match self.context.heap.object(callee) {
-            Object::Closure { code, unit, captures } => (code.clone(), *unit, captures.clone()),
-            object => {
-                let message = format!("{} is called but is not a function", what(callee, object));
-                return Err(Trouble::new(rules::NOT_CALLABLE, message).into());
-            }
-        };
-        let Some(function) = code.units.get(at as usize) else { return Ok(Value::Undefined) };
-        self.enter(function)?;
-        let frame = Frame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
-        self.make_room(function, frame);
-        let (mut n, mut v) = (frame.n + 1, frame.v + 1);
-        let params =
-            function.params.iter().enumerate().map(|(i, s)| (s, args.get(i).cloned().unwrap_or_default()));
-        let captured = function.captures.iter().zip(captures);
-        for (slot, value) in params.chain(captured) {
-            match slot {
-                Slot::Value => {
-                    self.context.values[v] = value;
-                    v += 1;
-                }
-                Slot::Number | Slot::Boolean => {
-                    self.context.numbers[n] = value.to_number();
-                    n += 1;
-                }
-            }
-        }
-        let result = self.execute(&code, function, frame);
-        self.depth -= 1;
-        result.map_err(Stop::Inside)?;
-        Ok(taken(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
-    }
 }
 
-fn too_early() -> Trouble {
-    Trouble::new(rules::USED_TOO_EARLY, "a name is used before its declaration runs")
+/// What a value is, for a message.
+pub(super) fn describe(value: &Value, object: &Object) -> String {
+    match (value, object) {
+        (Value::Undefined | Value::Null, _) => value.to_string(),
+        _ => value.type_of().describe().to_owned(),
+    }
 }
