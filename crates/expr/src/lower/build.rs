@@ -2,7 +2,7 @@
 //! value of any type, or only for whether it is true. A numeric expression so never becomes a value.
 
 use super::builder::{Build, Exits};
-use crate::ir::{Entry, Index, Ir, Item, Kind, LocalId};
+use crate::ir::{Entry, Index, Ir, Item, Kind, LocalId, UnitId};
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
 use crate::ssa::{Args, Edge, End, Num, Op, Operand, Slot, Val};
 use crate::types::Type;
@@ -107,28 +107,27 @@ impl Build<'_> {
                 self.steps(steps);
                 self.value(value)
             }
-            (Kind::Invoke(unit, args), _) => {
-                self.invoke(*unit, args, span);
-                match self.result_slot(*unit) {
-                    Slot::Value => self.value_of(span, Op::TakeValue),
-                    slot => {
-                        let number = self.number_by(span, Op::TakeNumber);
-                        self.boxed(number, slot, span)
-                    }
-                }
-            }
+            (Kind::Invoke(unit, args), _) => self.invoked_value(*unit, args, span),
             (Kind::Pick(picks, name), _) if !picks.scalar => {
                 let name = self.value(name);
                 let table = self.table(picks);
                 self.value_of(span, |dst| Op::Pick(dst, table, name))
             }
-            (Kind::InvokeValue(callee, args), _) => self.invoke_value(callee, args, span),
-            (Kind::Method(name, receiver, args), _) => self.method(*name, receiver, args, span),
-            (Kind::Native(function, args), _) => self.native(*function, args, span),
-            (Kind::Closure(unit), _) => self.closure(*unit, span),
-            (Kind::List(items), _) => self.list(items, span),
-            (Kind::Record(entries), _) => self.record(entries, span),
-            (Kind::Element(object, index), _) => {
+            _ => self.value_of_parts(ir),
+        }
+    }
+
+    /// Lists, records, their parts, calls of them, and texts.
+    fn value_of_parts(&mut self, ir: &Ir) -> Val {
+        let span = ir.span;
+        match &ir.kind {
+            Kind::InvokeValue(callee, args) => self.invoke_value(callee, args, span),
+            Kind::Method(name, receiver, args) => self.method(*name, receiver, args, span),
+            Kind::Native(function, args) => self.native(*function, args, span),
+            Kind::Closure(unit) => self.closure(*unit, span),
+            Kind::List(items) => self.list(items, span),
+            Kind::Record(entries) => self.record(entries, span),
+            Kind::Element(object, index) => {
                 let object = self.value(object);
                 if index.ty == Type::Number {
                     let index = self.number(index);
@@ -137,36 +136,35 @@ impl Build<'_> {
                 let index = self.value(index);
                 self.value_of(span, |dst| Op::Element(dst, object, index))
             }
-            (Kind::Member(object, name), _) => {
+            Kind::Member(object, name) => {
                 let object = self.value(object);
                 let name = self.text(name);
                 self.value_of(span, |dst| Op::Member(dst, object, name))
             }
-            (Kind::ToText(a), _) => {
+            Kind::ToText(a) => {
                 let a = self.value(a);
                 self.value_of(span, |dst| Op::ToText(dst, a))
             }
-            (Kind::TypeOf(a), _) => {
+            Kind::TypeOf(a) => {
                 let a = self.value(a);
                 self.value_of(span, |dst| Op::TypeOf(dst, a))
             }
-            (Kind::GlobalNamed(name), _) => {
+            Kind::GlobalNamed(name) => {
                 let name = self.value(name);
                 self.value_of(span, |dst| Op::GlobalNamed(dst, name))
             }
-            (Kind::Chain(inner), _) => self.chain(inner, span),
+            Kind::Chain(inner) => self.chain(inner, span),
             // A number register cannot tell `undefined` from NaN.
-            (Kind::Logical(op @ LogicalOp::Nullish, a, b), _) => self.logical_value(*op, a, b, span),
-            (Kind::Present(object), _) => {
-                let value = self.value(object);
-                let mark = self.chains.last().map_or(0, |chain| chain.mark);
-                let way = self.jump_if(End::IfNothing(true, value, Edge::default()), mark, span);
-                // A chain is around it.
-                if let Some(chain) = self.chains.last_mut() {
-                    chain.exits.extend(way);
-                }
-                value
-            }
+            Kind::Logical(op @ LogicalOp::Nullish, a, b) => self.logical_value(*op, a, b, span),
+            Kind::Present(object) => self.present(object, span),
+            _ => self.value_by_type(ir),
+        }
+    }
+
+    /// What is a number or a truth value for sure is computed as one; all else as a value of any type.
+    fn value_by_type(&mut self, ir: &Ir) -> Val {
+        let span = ir.span;
+        match (&ir.kind, ir.ty) {
             (_, Type::Number) => {
                 let src = self.number(ir);
                 self.boxed(src, Slot::Number, span)
@@ -200,6 +198,30 @@ impl Build<'_> {
                 self.boxed(src, Slot::Number, span)
             }
         }
+    }
+
+    /// Calls a function of the text; gives what it returns as a value.
+    fn invoked_value(&mut self, unit: UnitId, args: &[Ir], span: Span) -> Val {
+        self.invoke(unit, args, span);
+        match self.result_slot(unit) {
+            Slot::Value => self.value_of(span, Op::TakeValue),
+            slot => {
+                let number = self.number_by(span, Op::TakeNumber);
+                self.boxed(number, slot, span)
+            }
+        }
+    }
+
+    /// What stands before `?.`: where it is nothing, the chain around it ends.
+    fn present(&mut self, object: &Ir, span: Span) -> Val {
+        let value = self.value(object);
+        let mark = self.chains.last().map_or(0, |chain| chain.mark);
+        let way = self.jump_if(End::IfNothing(true, value, Edge::default()), mark, span);
+        // A chain is around it.
+        if let Some(chain) = self.chains.last_mut() {
+            chain.exits.extend(way);
+        }
+        value
     }
 
     fn logical_value(&mut self, op: LogicalOp, a: &Ir, b: &Ir, span: Span) -> Val {

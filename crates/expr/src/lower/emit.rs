@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::pure;
+use super::registers::{RegisterFile, order_moves};
 use crate::code::{Code, CodeUnit, OPERATION};
 use crate::row::{Row, Wanted};
 use crate::ssa::{
@@ -25,7 +26,8 @@ pub(crate) fn emit(form: SsaProgram, often: bool) -> Code {
 
 /// The code of a function.
 fn emit_function(form: &SsaFunction, often: bool) -> CodeUnit {
-    let (numbers, values) = (File::of(form.same.numbers.len()), File::of(form.same.values.len()));
+    let (numbers, values) =
+        (RegisterFile::of(form.same.numbers.len()), RegisterFile::of(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
     let code = CodeUnit { ops, spans, ..CodeUnit::default() };
@@ -39,53 +41,14 @@ fn emit_function(form: &SsaFunction, often: bool) -> CodeUnit {
     emit.finish()
 }
 
-/// Registers of one kind.
-struct File {
-    /// By name: how often it is used, and its register.
-    uses: Vec<u32>,
-    registers: Vec<Option<u32>>,
-    count: u32,
-}
-
-impl File {
-    fn of(names: usize) -> File {
-        File { uses: vec![0; names], registers: vec![None; names], count: 1 }
-    }
-
-    fn used(&mut self, name: u32) {
-        if let Some(uses) = self.uses.get_mut(name as usize) {
-            *uses += 1;
-        }
-    }
-
-    fn uses(&self, name: u32) -> u32 {
-        self.uses.get(name as usize).copied().unwrap_or(0)
-    }
-
-    /// The register of a name.
-    fn register(&mut self, name: u32) -> u32 {
-        let Some(place) = self.registers.get_mut(name as usize) else { return 0 };
-        *place.get_or_insert_with(|| {
-            self.count += 1;
-            self.count - 1
-        })
-    }
-
-    fn set(&mut self, name: u32, register: u32) {
-        if let Some(place) = self.registers.get_mut(name as usize) {
-            *place = Some(register);
-        }
-    }
-}
-
 /// The work on one function.
 struct Emit<'f> {
     /// Operations that make a formula.
     worth: usize,
     form: &'f SsaFunction,
     code: CodeUnit,
-    numbers: File,
-    values: File,
+    numbers: RegisterFile,
+    values: RegisterFile,
     /// Operations that something needs.
     kept: Vec<bool>,
     /// Where each block begins in the code, if anything leads to it.
@@ -431,10 +394,10 @@ impl<'f> Emit<'f> {
                 _ => {}
             }
         }
-        for (to, from) in in_order(numbers, &mut self.numbers.count) {
+        for (to, from) in order_moves(numbers, &mut self.numbers.count) {
             self.push(Op::Move(Num(to), Num(from)), span);
         }
-        for (to, from) in in_order(values, &mut self.values.count) {
+        for (to, from) in order_moves(values, &mut self.values.count) {
             self.push(Op::MoveValue(Val(to), Val(from)), span);
         }
     }
@@ -451,7 +414,7 @@ impl<'f> Emit<'f> {
         }
         let Emit { form, mut code, numbers, values, .. } = self;
         // Constants stand in registers where something else than a formula reads them.
-        let register = |file: &File, name: u32| file.registers.get(name as usize).copied().flatten();
+        let register = |file: &RegisterFile, name: u32| file.registers.get(name as usize).copied().flatten();
         let constants = form.numbers.iter().filter_map(|(n, x)| Some((Num(register(&numbers, n.0)?), *x)));
         code.numbers.extend(constants);
         let constants =
@@ -481,38 +444,5 @@ fn edge(end: &End) -> Option<&Edge> {
     match end {
         End::Jump(edge) | End::Again(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) => Some(edge),
         End::Return(_) => None,
-    }
-}
-
-/// Moves, to and from, in an order in which none overwrites what another still reads. A circle is broken by one more
-/// register (Boissinot et al., "Revisiting out-of-SSA translation for correctness, code quality and efficiency", 2009).
-fn in_order(mut moves: Vec<(u32, u32)>, count: &mut u32) -> Vec<(u32, u32)> {
-    moves.retain(|(to, from)| to != from);
-    if moves.len() < 2 {
-        return moves;
-    }
-    let mut left: BTreeMap<u32, u32> = moves.iter().copied().collect();
-    let mut readers = BTreeMap::new();
-    moves.iter().for_each(|(_, from)| *readers.entry(*from).or_insert(0u32) += 1);
-    let mut free: Vec<u32> = moves.iter().map(|(to, _)| *to).filter(|to| !readers.contains_key(to)).collect();
-    let mut done = Vec::with_capacity(moves.len());
-    loop {
-        while let Some(to) = free.pop() {
-            let Some(from) = left.remove(&to) else { continue };
-            done.push((to, from));
-            if let Some(n) = readers.get_mut(&from) {
-                *n -= 1;
-                if *n == 0 {
-                    free.push(from);
-                }
-            }
-        }
-        // Only circles are left, in which each is read once.
-        let Some((&to, _)) = left.first_key_value() else { return done };
-        let aside = *count;
-        *count += 1;
-        done.push((aside, to));
-        left.values_mut().filter(|from| **from == to).for_each(|from| *from = aside);
-        free.push(to);
     }
 }

@@ -9,6 +9,7 @@ mod fold;
 mod function;
 mod place;
 mod pure;
+mod registers;
 mod step;
 
 pub(crate) use emit::emit;

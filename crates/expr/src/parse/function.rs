@@ -1,15 +1,12 @@
 //! Functions of a text's own, and the patterns that take lists and records apart.
 
-use super::expr::Node;
+use super::node::{ASSIGNMENT, Node};
 use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
 use super::refuse;
 use crate::ast::{Body, Element, ExprKind, Function, Name, Pattern, Stmt, StmtKind};
 use crate::lex::Tok;
 use crate::rules;
 use labspec_finding::{Finding, Span};
-
-/// The binding power of an assignment, the loosest.
-const ASSIGNMENT: u8 = 1;
 
 /// Parameters that a function may have.
 const MAX_PARAMS: usize = 16;

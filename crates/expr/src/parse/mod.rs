@@ -4,11 +4,17 @@
 //! One mistake does not hide the next: a mistake between brackets or commas is skipped to the bracket or
 //! comma, any other to the end of its statement, and reading goes on from there.
 
+mod brackets;
+mod declaration;
 mod expr;
 mod function;
+mod node;
 mod parser;
+mod primary;
+mod recovery;
 mod refuse;
 mod stmt;
+mod unexpected;
 
 pub use parser::{MAX_DEPTH, MAX_SOURCE, Parsed, parse_expression, parse_statements};
 pub(crate) use parser::{MAX_DIAGNOSTICS, expression, in_order, statements};

@@ -101,7 +101,7 @@ impl Work<'_> {
 
     /// Operations on lists, records and texts.
     fn collection_op(&mut self, op: &Op) {
-        let (number, value) = (Operand::Number, Operand::Value);
+        let value = Operand::Value;
         match *op {
             Op::List(d, args) => {
                 for v in args.of(&self.unit.args) {

@@ -137,17 +137,7 @@ impl<'a> NameWalk<'a, '_> {
             }
             ExprKind::Array(items) => self.values(items),
             ExprKind::Template { values, .. } => self.values(values),
-            ExprKind::Object(properties) => {
-                for property in properties {
-                    match property {
-                        Property::Named { value, .. } | Property::Spread(value) => self.value(value),
-                        Property::Computed { key, value } => {
-                            self.value(key);
-                            self.value(value);
-                        }
-                    }
-                }
-            }
+            ExprKind::Object(properties) => properties.iter().for_each(|property| self.property(property)),
             ExprKind::Chain(inner) => self.expr(inner, used),
             ExprKind::Spread(inner) => self.value(inner),
             // A text that only reads is refused an assignment as a whole.
@@ -164,6 +154,16 @@ impl<'a> NameWalk<'a, '_> {
             | ExprKind::Error => {}
         }
         self.levels -= 1;
+    }
+
+    fn property(&mut self, property: &'a Property) {
+        match property {
+            Property::Named { value, .. } | Property::Spread(value) => self.value(value),
+            Property::Computed { key, value } => {
+                self.value(key);
+                self.value(value);
+            }
+        }
     }
 
     /// A condition; an assignment in its place is refused as a whole.

@@ -5,13 +5,13 @@ use super::binder::{Attempt, Binder, Reported, Thing};
 use super::member::quoted;
 use super::typed::Want;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{FreeFunctionId, Ir, Item, Kind, Step, Tree, Unit};
+use crate::ir::{FreeFunctionId, Ir, Item, Kind, Picks, Step, Tree, Unit};
 use crate::math;
 use crate::natives;
 use crate::program::{Aggregate, Program};
 use crate::rules;
 use crate::schema::{FunctionInfo, Help, Param, signature};
-use crate::types::{FunctionId, Type};
+use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use crate::value::Value;
 use labspec_finding::{Finding, Span};
 
@@ -150,15 +150,7 @@ impl<'a> Binder<'a> {
         let args = self.taken(args, function.arity().1.unwrap_or(usize::MAX));
         // A method that calls a function for every element hands over the index and the list as well.
         if let Some(site) = self.site.filter(|_| args.len() > 2 && function.arity().1.is_none()) {
-            let called = site.called();
-            let report = Finding::error(
-                rules::ARGUMENT_TYPE,
-                span,
-                format!("`{path}` would also receive the index and the whole list"),
-            )
-            .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
-            .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"));
-            return self.refuse(report);
+            return self.refuse(report_extra_arguments(&path, &site.called(), span));
         }
         self.explain(span, || Help {
             title: format!("{title}(…)"), lines: vec![function.doc().to_owned()]
@@ -324,38 +316,8 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Option<Ir>> {
         let span = arg.span;
         match param {
-            Param::Object(wanted) => {
-                if matches!(self.thing(arg)?, Thing::Object(id) if id == wanted) {
-                    return Ok(None);
-                }
-                let object = self.schema.describe(wanted);
-                let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
-                self.refuse(
-                    Finding::error(rules::ARGUMENT_TYPE, span, message)
-                        .why("there is only one such object, and it belongs in this position")
-                        .help(format!("write `{}`", self.signature(info))),
-                )
-            }
-            Param::Name(collection) => {
-                match self.object_name(collection, arg)? {
-                    Chosen::Known(object) => Ok(Some(Ir::number(f64::from(object.0), span))),
-                    // By name while running: the numbers of all objects of the collection.
-                    Chosen::Computed(name) => {
-                        let noun = self.schema.noun(collection).to_owned();
-                        let names = self.schema.names(collection);
-                        let id = |n: &String| {
-                            Some((
-                                n.as_str().into(),
-                                Value::Number(f64::from(self.schema.lookup(collection, n)?.0)),
-                            ))
-                        };
-                        let mut of: Vec<_> = names.iter().filter_map(id).collect();
-                        of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
-                        let picks = crate::ir::Picks { noun, of, scalar: false };
-                        Ok(Some(Ir::new(Kind::Pick(picks.into(), Box::new(name)), Type::Number, span)))
-                    }
-                }
-            }
+            Param::Object(wanted) => self.object_argument(info, i, wanted, arg).map(|()| None),
+            Param::Name(collection) => self.name_argument(collection, arg).map(Some),
             Param::Number | Param::Angle => {
                 let ir = self.operand(arg)?;
                 if ir.ty == Type::String {
@@ -373,28 +335,70 @@ impl<'a> Binder<'a> {
                 }
                 Ok(Some(Ir::to_text(ir, span)))
             }
-            Param::Numbers => {
-                let ir = self.value(arg)?;
-                match ir.ty {
-                    Type::List | Type::View | Type::Any | Type::Never => {}
-                    _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
-                }
-                // A copy, so that the function sees one kind of list only.
-                let copy = natives::free("Array.from").filter(|_| ir.ty != Type::List);
-                Ok(Some(match copy {
-                    Some(copy) => {
-                        let item = Item { value: ir, spread: false };
-                        Ir::new(Kind::Native(copy, vec![item]), Type::List, span)
-                    }
-                    None => ir,
-                }))
-            }
+            Param::Numbers => self.numbers_argument(info, i, arg).map(Some),
             Param::Boolean => {
                 let ir = self.value(arg)?;
                 Ok(Some(Ir::not(Ir::not(ir, span), span)))
             }
             Param::Any | Param::Lazy => self.value(arg).map(Some),
         }
+    }
+
+    /// An argument that must be an object of the host.
+    fn object_argument(
+        &mut self,
+        info: &FunctionInfo,
+        i: usize,
+        wanted: ObjectId,
+        arg: &'a Expr,
+    ) -> Attempt<()> {
+        if matches!(self.thing(arg)?, Thing::Object(id) if id == wanted) {
+            return Ok(());
+        }
+        let object = self.schema.describe(wanted);
+        let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
+        self.refuse(
+            Finding::error(rules::ARGUMENT_TYPE, arg.span, message)
+                .why("there is only one such object, and it belongs in this position")
+                .help(format!("write `{}`", self.signature(info))),
+        )
+    }
+
+    /// The name of an object of a collection, as its number.
+    fn name_argument(&mut self, collection: CollectionId, arg: &'a Expr) -> Attempt<Ir> {
+        match self.object_name(collection, arg)? {
+            Chosen::Known(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
+            // By name while running: the numbers of all objects of the collection.
+            Chosen::Computed(name) => {
+                let noun = self.schema.noun(collection).to_owned();
+                let names = self.schema.names(collection);
+                let id = |n: &String| {
+                    Some((n.as_str().into(), Value::Number(f64::from(self.schema.lookup(collection, n)?.0))))
+                };
+                let mut of: Vec<_> = names.iter().filter_map(id).collect();
+                of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
+                let picks = Picks { noun, of, scalar: false };
+                Ok(Ir::new(Kind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
+            }
+        }
+    }
+
+    /// A list of numbers.
+    fn numbers_argument(&mut self, info: &FunctionInfo, i: usize, arg: &'a Expr) -> Attempt<Ir> {
+        let ir = self.value(arg)?;
+        match ir.ty {
+            Type::List | Type::View | Type::Any | Type::Never => {}
+            _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
+        }
+        // A copy, so that the function sees one kind of list only.
+        let copy = natives::free("Array.from").filter(|_| ir.ty != Type::List);
+        Ok(match copy {
+            Some(copy) => {
+                let item = Item { value: ir, spread: false };
+                Ir::new(Kind::Native(copy, vec![item]), Type::List, arg.span)
+            }
+            None => ir,
+        })
     }
 
     fn wrong_type<T>(&mut self, info: &FunctionInfo, i: usize, ir: &Ir, wanted: &str) -> Attempt<T> {
@@ -472,4 +476,15 @@ impl<'a> Binder<'a> {
 /// `1 argument`, `2 arguments`
 pub(super) fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
+}
+
+/// The finding for a function of `Math` that a method would call with the index and the list.
+fn report_extra_arguments(path: &str, called: &str, span: Span) -> Finding {
+    Finding::error(
+        rules::ARGUMENT_TYPE,
+        span,
+        format!("`{path}` would also receive the index and the whole list"),
+    )
+    .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
+    .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"))
 }

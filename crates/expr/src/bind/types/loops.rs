@@ -1,16 +1,17 @@
 //! Loops, and what is known of the numbers that count them.
 
-use super::access::past_the_end;
+use super::access::{past_the_end, range};
 use super::binder::{Attempt, Binder, Reported, Thing};
 use super::facts::What;
+use super::member::view_of;
 use crate::ast::{BinaryOp, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::bind::names::{Declared, names_of};
-use crate::ir::{Ir, Item, Kind, Loop, Place, Step, UpdateResult};
-use crate::number;
+use crate::ir::{Index, Ir, Item, Kind, LocalId, Loop, Place, Step, UpdateResult};
 use crate::rules;
 use crate::schema::Field;
 use crate::types::Type;
 use crate::value::Value;
+use crate::{natives, number};
 use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
@@ -103,62 +104,17 @@ impl<'a> Binder<'a> {
         let list = self.thing(items);
         let known = self.known.len();
         // The list, how long it is and where the loop stands are kept in places without names.
-        let at = |me: &mut Self, what: What, ty: Type| {
-            let key = me.key(span.start, what);
-            me.facts.see(key, ty);
-            me.new_local(key, false)
-        };
-        let counter = at(self, What::Counter, Type::Number);
+        let counter = self.unnamed_local(span, What::Counter, Type::Number);
         let read_counter = Ir::new(Kind::Local(counter), Type::Number, items.span);
-        let one_more = |span| {
-            Step::Effect(Ir::new(
-                Kind::Update(Box::new(Place::Local(counter)), 1.0, UpdateResult::New),
-                Type::Number,
-                span,
-            ))
-        };
-        let mut turn = Vec::new();
-        let (length, item) = match list {
+        let elements = match list {
             Ok(Thing::Field(field)) if !field.is_scalar() => {
-                let length = match field.len() {
-                    Some(n) => Ir::number(n as f64, items.span),
-                    None => Ir::new(Kind::Length(super::member::view_of(&field)), Type::Number, items.span),
-                };
-                let index = crate::ir::Index::Computed(Box::new(read_counter.clone()));
-                let known = field.len().is_some();
-                let mut item = self.load(&field, index, items.span);
-                // The counter stays below the length.
-                item.ty = if known { Type::Number } else { item.ty };
-                (length, item)
+                Ok(self.elements_of_field(&field, &read_counter, items.span))
             }
-            Ok(thing) => {
-                let Ok(value) = self.value_of(thing, items.span) else {
-                    return self.dead_loop(target, body, known);
-                };
-                if self.expect_elements(&value).is_err() {
-                    return self.dead_loop(target, body, known);
-                }
-                // A text is taken apart into its characters, of which some take two units.
-                let function = crate::natives::free("_parts");
-                let value = match (value.ty, function) {
-                    (Type::List | Type::View, _) | (_, None) => value,
-                    (_, Some(function)) => {
-                        let whole = Item { value, spread: false };
-                        Ir::new(Kind::Native(function, vec![whole]), Type::List, items.span)
-                    }
-                };
-                let ty = value.ty;
-                let list = at(self, What::List, ty);
-                steps.push(Step::Declare(list, value));
-                let list = Ir::new(Kind::Local(list), ty, items.span);
-                let length =
-                    Ir::new(Kind::Member(Box::new(list.clone()), "length".into()), Type::Number, items.span);
-                let element = if ty == Type::View { Type::Element } else { Type::Any };
-                let item = Kind::Element(Box::new(list), Box::new(read_counter.clone()));
-                (length, Ir::new(item, element, items.span))
-            }
-            Err(Reported) => return self.dead_loop(target, body, known),
+            Ok(thing) => self.elements_of_value(thing, &read_counter, items.span, span, steps),
+            Err(Reported) => Err(Reported),
         };
+        let Ok((length, item)) = elements else { return self.dead_loop(target, body, known) };
+        let mut turn = Vec::new();
         steps.push(Step::Declare(counter, Ir::number(0.0, items.span)));
         let test = Ir::binary(BinaryOp::Less, read_counter, length, items.span);
         self.hoist_pattern(target, &mut turn);
@@ -172,9 +128,61 @@ impl<'a> Binder<'a> {
         self.guards += 1;
         turn.extend(self.body_of_loop(body));
         self.guards -= 1;
-        let update = vec![one_more(items.span)];
+        let one_more = Kind::Update(Box::new(Place::Local(counter)), 1.0, UpdateResult::New);
+        let update = vec![Step::Effect(Ir::new(one_more, Type::Number, items.span))];
         steps.push(Step::Loop(Box::new(Loop { test: Some(test), late: false, body: turn, update, span })));
         self.leave(known);
+    }
+
+    /// A place that has no name in the text.
+    fn unnamed_local(&mut self, span: Span, what: What, ty: Type) -> LocalId {
+        let key = self.key(span.start, what);
+        self.facts.see(key, ty);
+        self.new_local(key, false)
+    }
+
+    /// The number of elements of an array of the host, and the element at the counter of a loop.
+    fn elements_of_field(&mut self, field: &Field, counter: &Ir, span: Span) -> (Ir, Ir) {
+        let length = match field.len() {
+            Some(n) => Ir::number(n as f64, span),
+            None => Ir::new(Kind::Length(view_of(field)), Type::Number, span),
+        };
+        let index = Index::Computed(Box::new(counter.clone()));
+        let known = field.len().is_some();
+        let mut item = self.load(field, index, span);
+        // The counter stays below the length.
+        item.ty = if known { Type::Number } else { item.ty };
+        (length, item)
+    }
+
+    /// The same of any other list, which is kept in a place of its own.
+    fn elements_of_value(
+        &mut self,
+        list: Thing,
+        counter: &Ir,
+        span: Span,
+        site: Span,
+        steps: &mut Vec<Step>,
+    ) -> Attempt<(Ir, Ir)> {
+        let value = self.value_of(list, span)?;
+        self.expect_elements(&value)?;
+        // A text is taken apart into its characters, of which some take two units.
+        let function = natives::free("_parts");
+        let value = match (value.ty, function) {
+            (Type::List | Type::View, _) | (_, None) => value,
+            (_, Some(function)) => {
+                let whole = Item { value, spread: false };
+                Ir::new(Kind::Native(function, vec![whole]), Type::List, span)
+            }
+        };
+        let ty = value.ty;
+        let list = self.unnamed_local(site, What::List, ty);
+        steps.push(Step::Declare(list, value));
+        let list = Ir::new(Kind::Local(list), ty, span);
+        let length = Ir::new(Kind::Member(Box::new(list.clone()), "length".into()), Type::Number, span);
+        let element = if ty == Type::View { Type::Element } else { Type::Any };
+        let item = Kind::Element(Box::new(list), Box::new(counter.clone()));
+        Ok((length, Ir::new(item, element, span)))
     }
 
     /// A loop over something that is a mistake: its body may hold more of them.
@@ -288,11 +296,7 @@ impl<'a> Binder<'a> {
                     format!("in the loop, `{}` becomes {shown}, which is negative", self.text(index.span)),
                 )
                 .why("indexes start at 0; JavaScript gives `undefined` here")
-                .help(format!(
-                    "indexes of `{}` are{}",
-                    field.path,
-                    super::access::range(field)
-                )),
+                .help(format!("indexes of `{}` are{}", field.path, range(field))),
             );
         }
         Ok(())

@@ -180,26 +180,10 @@ impl<'a> Binder<'a> {
                 if rest.len() < 2 && !items.iter().any(|i| matches!(i.kind, ExprKind::Spread(_))) =>
             {
                 let assignable = self.check_assignable(field, span);
-                let offset = match rest.first() {
-                    Some(offset) => {
-                        let ir = self.operand(offset)?;
-                        match ir.known() {
-                            Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => *x as usize,
-                            Some(_) => {
-                                let report = Finding::error(
-                                    rules::ARGUMENT_TYPE,
-                                    offset.span,
-                                    "the second argument of `.set` must be an integer from 0 on",
-                                )
-                                .why("it is the index of the first stored element")
-                                .help("write the number, as `.set([0, 0, 1], 7)`");
-                                return self.refuse(report);
-                            }
-                            // Known only while running: the general method.
-                            None => return Ok(None),
-                        }
-                    }
-                    None => 0,
+                // Known only while running: the general method.
+                let Some(offset) = rest.first().map_or(Ok(Some(0)), |offset| self.known_offset(offset))?
+                else {
+                    return Ok(None);
                 };
                 let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.operand(item)).collect();
                 let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
@@ -225,6 +209,25 @@ impl<'a> Binder<'a> {
             _ => return Ok(None),
         };
         Ok(Some(Ir::new(kind, Type::Void, span)))
+    }
+
+    /// The second argument of `.set`, where it is known.
+    fn known_offset(&mut self, offset: &'a Expr) -> Attempt<Option<usize>> {
+        let ir = self.operand(offset)?;
+        match ir.known() {
+            Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => Ok(Some(*x as usize)),
+            Some(_) => {
+                let report = Finding::error(
+                    rules::ARGUMENT_TYPE,
+                    offset.span,
+                    "the second argument of `.set` must be an integer from 0 on",
+                )
+                .why("it is the index of the first stored element")
+                .help("write the number, as `.set([0, 0, 1], 7)`");
+                self.refuse(report)
+            }
+            None => Ok(None),
+        }
     }
 
     fn check_fits(&mut self, field: &Field, count: usize, offset: usize, span: Span) -> Attempt<()> {
