@@ -1,7 +1,7 @@
 //! The code of a program: what the machine runs, and what the heap keeps of functions.
 
 use crate::row::Row;
-use crate::ssa::{Num, Op, Slot, SsaProgram, Val};
+use crate::ssa::{Num, Op, Representation, SsaProgram, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
@@ -10,17 +10,17 @@ pub(crate) const OPERATION: u64 = 2;
 
 /// A program for the machine.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Code {
+pub(crate) struct MachineCode {
     /// What it was made from, with the names, tables and arrays that its operations name by number.
     pub(crate) form: SsaProgram,
     /// The functions; the first is the text itself.
-    pub(crate) units: Vec<CodeUnit>,
+    pub(crate) units: Vec<MachineFunction>,
 }
 
 /// A function for the machine. Its first registers hold its result, the next its parameters and what it uses of
 /// the functions around it.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct CodeUnit {
+pub(crate) struct MachineFunction {
     pub(crate) ops: Vec<Op>,
     /// Where each operation comes from.
     pub(crate) spans: Vec<Span>,
@@ -36,7 +36,7 @@ pub(crate) struct CodeUnit {
     /// Registers used.
     pub(crate) number_count: u32,
     pub(crate) value_count: u32,
-    pub(crate) params: Vec<Slot>,
-    pub(crate) captures: Vec<Slot>,
-    pub(crate) result: Slot,
+    pub(crate) params: Vec<Representation>,
+    pub(crate) captures: Vec<Representation>,
+    pub(crate) result: Representation,
 }

@@ -14,9 +14,9 @@ pub(crate) type StepId = u32;
 
 /// A constant, by its bits: zeros of both signs are equal, but not the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Bits(u64);
+pub(crate) struct ConstantBits(u64);
 
-impl Bits {
+impl ConstantBits {
     #[inline]
     pub(crate) fn number(self) -> f64 {
         f64::from_bits(self.0)
@@ -25,33 +25,33 @@ impl Bits {
 
 /// One operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Step {
-    Constant(Bits),
+pub(crate) enum FormulaStep {
+    Constant(ConstantBits),
     Load(FieldKey, u32),
     /// A number of the program around it.
     Input(u32),
     Unary(UnaryOp, StepId),
     Binary(BinaryOp, StepId, StepId),
     /// With a constant on the right, or on the left.
-    Right(BinaryOp, StepId, Bits),
-    Left(BinaryOp, Bits, StepId),
+    Right(BinaryOp, StepId, ConstantBits),
+    Left(BinaryOp, ConstantBits, StepId),
     /// By the truth of the first: the second or the third.
     Select(StepId, StepId, StepId),
     /// First and number of its arguments in the list of arguments.
-    Math(math::Function, u32, u32),
+    Math(math::MathFunction, u32, u32),
 }
 
 /// An expression as a list of operations.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Formula {
-    pub(crate) steps: Vec<Step>,
+    pub(crate) steps: Vec<FormulaStep>,
     args: Vec<StepId>,
     pub(crate) output: StepId,
     /// It gives 1 or 0 for a truth value.
     pub(crate) truth: bool,
     /// Operations that are there already; of functions, by their arguments.
-    known: BTreeMap<Step, StepId>,
-    known_math: BTreeMap<(math::Function, Vec<StepId>), StepId>,
+    known: BTreeMap<FormulaStep, StepId>,
+    known_math: BTreeMap<(math::MathFunction, Vec<StepId>), StepId>,
 }
 
 impl Formula {
@@ -63,13 +63,13 @@ impl Formula {
     /// The constant that a step is.
     pub(crate) fn constant_at(&self, at: StepId) -> Option<f64> {
         match self.steps.get(at as usize) {
-            Some(Step::Constant(k)) => Some(k.number()),
+            Some(FormulaStep::Constant(k)) => Some(k.number()),
             _ => None,
         }
     }
 
     /// An operation, or the same one that is there already.
-    pub(crate) fn step(&mut self, step: Step) -> StepId {
+    pub(crate) fn step(&mut self, step: FormulaStep) -> StepId {
         if let Some(at) = self.known.get(&step) {
             return *at;
         }
@@ -78,31 +78,31 @@ impl Formula {
         at
     }
 
-    fn push(&mut self, step: Step) -> StepId {
+    fn push(&mut self, step: FormulaStep) -> StepId {
         self.steps.push(step);
         (self.steps.len() - 1) as StepId
     }
 
     pub(crate) fn constant(&mut self, x: f64) -> StepId {
-        self.step(Step::Constant(Bits(x.to_bits())))
+        self.step(FormulaStep::Constant(ConstantBits(x.to_bits())))
     }
 
     pub(crate) fn unary(&mut self, op: UnaryOp, a: StepId) -> StepId {
-        self.step(Step::Unary(op, a))
+        self.step(FormulaStep::Unary(op, a))
     }
 
     /// Constants become part of the operation. What can be turned round is, and `x - k` is `x + -k` and `x ** 2` is `x * x`,
     /// to the bit.
     pub(crate) fn binary(&mut self, op: BinaryOp, a: StepId, b: StepId) -> StepId {
         let turns = matches!(op, BinaryOp::Add | BinaryOp::Multiply);
-        let bits = |k: f64| Bits(k.to_bits());
+        let bits = |k: f64| ConstantBits(k.to_bits());
         let step = match (op, self.constant_at(a), self.constant_at(b)) {
-            (BinaryOp::Power, _, Some(2.0)) => Step::Binary(BinaryOp::Multiply, a, a),
-            (BinaryOp::Subtract, _, Some(k)) if !k.is_nan() => Step::Right(BinaryOp::Add, a, bits(-k)),
-            (_, _, Some(k)) => Step::Right(op, a, bits(k)),
-            (_, Some(k), _) if turns && !k.is_nan() => Step::Right(op, b, bits(k)),
-            (_, Some(k), _) => Step::Left(op, bits(k), b),
-            _ => Step::Binary(op, a, b),
+            (BinaryOp::Power, _, Some(2.0)) => FormulaStep::Binary(BinaryOp::Multiply, a, a),
+            (BinaryOp::Subtract, _, Some(k)) if !k.is_nan() => FormulaStep::Right(BinaryOp::Add, a, bits(-k)),
+            (_, _, Some(k)) => FormulaStep::Right(op, a, bits(k)),
+            (_, Some(k), _) if turns && !k.is_nan() => FormulaStep::Right(op, b, bits(k)),
+            (_, Some(k), _) => FormulaStep::Left(op, bits(k), b),
+            _ => FormulaStep::Binary(op, a, b),
         };
         self.step(step)
     }
@@ -111,17 +111,17 @@ impl Formula {
         match self.constant_at(test) {
             _ if yes == no => yes,
             Some(x) if !x.is_nan() => select(x, yes, no),
-            _ => self.step(Step::Select(test, yes, no)),
+            _ => self.step(FormulaStep::Select(test, yes, no)),
         }
     }
 
-    pub(crate) fn math(&mut self, function: math::Function, args: Vec<StepId>) -> StepId {
+    pub(crate) fn math(&mut self, function: math::MathFunction, args: Vec<StepId>) -> StepId {
         if let Some(at) = self.known_math.get(&(function, args.clone())) {
             return *at;
         }
         let first = self.args.len() as u32;
         self.args.extend(&args);
-        let at = self.push(Step::Math(function, first, args.len() as u32));
+        let at = self.push(FormulaStep::Math(function, first, args.len() as u32));
         self.known_math.insert((function, args), at);
         at
     }
@@ -159,15 +159,15 @@ impl Formula {
     }
 }
 
-impl Step {
+impl FormulaStep {
     /// The operations whose results it uses.
     fn each(&mut self, args: &mut [StepId], f: &mut impl FnMut(&mut StepId)) {
         match self {
-            Step::Constant(_) | Step::Load(..) | Step::Input(_) => {}
-            Step::Unary(_, a) | Step::Right(_, a, _) | Step::Left(_, _, a) => f(a),
-            Step::Binary(_, a, b) => [a, b].into_iter().for_each(f),
-            Step::Select(a, b, c) => [a, b, c].into_iter().for_each(f),
-            Step::Math(_, first, count) => {
+            FormulaStep::Constant(_) | FormulaStep::Load(..) | FormulaStep::Input(_) => {}
+            FormulaStep::Unary(_, a) | FormulaStep::Right(_, a, _) | FormulaStep::Left(_, _, a) => f(a),
+            FormulaStep::Binary(_, a, b) => [a, b].into_iter().for_each(f),
+            FormulaStep::Select(a, b, c) => [a, b, c].into_iter().for_each(f),
+            FormulaStep::Math(_, first, count) => {
                 let (first, count) = (*first as usize, *count as usize);
                 args.get_mut(first..first + count).into_iter().flatten().for_each(f);
             }

@@ -20,7 +20,7 @@ pub struct Globals {
     known: GlobalNames,
     /// The host itself stores the variable.
     given: Vec<bool>,
-    uses: Vec<Use>,
+    uses: Vec<GlobalUse>,
     /// Beginnings of names that some program computes.
     computed: Vec<String>,
     programs: u32,
@@ -28,14 +28,14 @@ pub struct Globals {
 
 /// A point in the work on a lab, to go back to.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mark {
+pub(crate) struct GlobalsMark {
     uses: usize,
     computed: usize,
 }
 
 /// One mention of a variable.
 #[derive(Clone, Copy, Debug)]
-struct Use {
+struct GlobalUse {
     slot: u32,
     program: ProgramId,
     span: Span,
@@ -130,19 +130,19 @@ impl Globals {
         &self.known
     }
 
-    pub(crate) fn mark(&self) -> Mark {
-        Mark { uses: self.uses.len(), computed: self.computed.len() }
+    pub(crate) fn mark(&self) -> GlobalsMark {
+        GlobalsMark { uses: self.uses.len(), computed: self.computed.len() }
     }
 
     /// Forgets the uses since a mark. Names keep their slots.
-    pub(crate) fn back_to(&mut self, mark: Mark) {
+    pub(crate) fn back_to(&mut self, mark: GlobalsMark) {
         self.uses.truncate(mark.uses);
         self.computed.truncate(mark.computed);
     }
 
     pub(crate) fn mention(&mut self, name: &str, program: ProgramId, span: Span, stores: bool) -> u32 {
         let slot = self.intern(name);
-        self.uses.push(Use { slot, program, span, stores });
+        self.uses.push(GlobalUse { slot, program, span, stores });
         slot
     }
 

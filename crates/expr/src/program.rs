@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::analysis::measure::{Given, Measured, measured};
-use crate::analysis::{self, Order};
-use crate::code::Code;
+use crate::analysis::{self, WriteOrder};
+use crate::code::MachineCode;
 use crate::context::Context;
 use crate::dimension::Measure;
 use crate::effects::{Access, Effects};
@@ -12,7 +12,7 @@ use crate::formula::Formula;
 use crate::global_names::GlobalNames;
 use crate::globals::Globals;
 use crate::host::Host;
-use crate::ir::Tree;
+use crate::ir::IrProgram;
 use crate::lower::{emit, lower, whole_formula};
 use crate::row::Row;
 use crate::rules;
@@ -48,11 +48,11 @@ impl Aggregate {
 /// A compiled text.
 #[derive(Clone, Debug)]
 pub struct Program {
-    pub(crate) code: Arc<Code>,
+    pub(crate) code: Arc<MachineCode>,
     pub(crate) effects: Effects,
     pub(crate) result: Type,
     pub(crate) aggregates: Vec<Aggregate>,
-    pub(crate) order: Order,
+    pub(crate) order: WriteOrder,
     /// The variables that were named when it was compiled.
     pub(crate) known: GlobalNames,
     /// What the numbers of its fields and elements are of ([`crate::Schema::identity`]).
@@ -66,7 +66,7 @@ pub struct Program {
 impl Program {
     /// The code of a tree that was bound to a schema, with the variables that are named by then.
     pub(crate) fn new(
-        tree: &Tree,
+        tree: &IrProgram,
         schema: &dyn Schema,
         result: Type,
         aggregates: Vec<Aggregate>,
@@ -76,7 +76,7 @@ impl Program {
         let effects = analysis::effects(&form, schema);
         let formula = form.units.first().and_then(whole_formula).map(Arc::new);
         let row = formula.as_deref().and_then(Row::of).map(Arc::new);
-        let order = Order::of(&form, &effects);
+        let order = WriteOrder::of(&form, &effects);
         Program {
             code: emit(form, row.is_none()).into(),
             effects,

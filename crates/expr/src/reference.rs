@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::ast::{BinaryOp, LogicalOp};
 use crate::math;
-use crate::natives::{self, On};
+use crate::natives::{self, ReceiverKind};
 use crate::parse;
 use crate::words::Words;
 
@@ -47,10 +47,10 @@ struct Native {
     example: (String, &'static str),
 }
 
-fn rows(of: &[On], array: &str) -> Vec<Native> {
+fn rows(of: &[ReceiverKind], array: &str) -> Vec<Native> {
     let natives = natives::rows().filter(|r| of.contains(&r.on));
     let name = |row: &natives::Native| match row.calls() {
-        true if row.on == On::Nothing => format!("{}(v, f)", row.name),
+        true if row.on == ReceiverKind::Nothing => format!("{}(v, f)", row.name),
         true => format!("{}(f)", row.name),
         false => row.name.to_owned(),
     };
@@ -97,10 +97,13 @@ pub fn language_page(words: &Words) -> String {
     }
     out.push_str("\n`**` groups from the right, all others from the left; a sign directly before `**` is rejected, as in JavaScript.\n");
     let sections = [
-        ("Methods of lists and arrays", &[On::List, On::Growing, On::Untyped][..]),
-        ("Methods of texts", &[On::Text]),
-        ("Methods of numbers", &[On::Number]),
-        ("Functions", &[On::Nothing]),
+        (
+            "Methods of lists and arrays",
+            &[ReceiverKind::List, ReceiverKind::Growing, ReceiverKind::Untyped][..],
+        ),
+        ("Methods of texts", &[ReceiverKind::Text]),
+        ("Methods of numbers", &[ReceiverKind::Number]),
+        ("Functions", &[ReceiverKind::Nothing]),
     ];
     for (title, of) in sections {
         table(&mut out, title, rows(of, words.array));
@@ -129,7 +132,17 @@ mod tests {
 
     #[test]
     fn the_examples_give_what_they_say() {
-        let all = rows(&[On::List, On::Growing, On::Untyped, On::Text, On::Number, On::Nothing], "data.qpos");
+        let all = rows(
+            &[
+                ReceiverKind::List,
+                ReceiverKind::Growing,
+                ReceiverKind::Untyped,
+                ReceiverKind::Text,
+                ReceiverKind::Number,
+                ReceiverKind::Nothing,
+            ],
+            "data.qpos",
+        );
         for Native { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");

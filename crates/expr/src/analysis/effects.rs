@@ -3,12 +3,13 @@
 use crate::effects::{Access, Effects};
 use crate::ir::UnitId;
 use crate::schema::Schema;
-use crate::ssa::{Args, End, Op, SsaFunction, SsaProgram, Val};
+use crate::ssa::{Args, Op, SsaFunction, SsaProgram, Terminator, Val};
 use crate::value::{Value, View};
 
 /// The effects of a text: of everything that it may come to, in the order in which it comes there first.
 pub(crate) fn effects(form: &SsaProgram, schema: &dyn Schema) -> Effects {
-    let mut look = Look { form, schema, effects: Effects::default(), seen: vec![false; form.units.len()] };
+    let mut look =
+        EffectWalk { form, schema, effects: Effects::default(), seen: vec![false; form.units.len()] };
     look.unit(0);
     let mut effects = look.effects;
     // Arrays that became values may be read, and stored to when anything is stored through a value.
@@ -57,7 +58,7 @@ pub(super) fn stores_items(op: &Op) -> bool {
     }
 }
 
-struct Look<'f> {
+struct EffectWalk<'f> {
     form: &'f SsaProgram,
     schema: &'f dyn Schema,
     effects: Effects,
@@ -65,7 +66,7 @@ struct Look<'f> {
     seen: Vec<bool>,
 }
 
-impl Look<'_> {
+impl EffectWalk<'_> {
     fn unit(&mut self, id: UnitId) {
         let Some(unit) = self.form.units.get(id as usize) else { return };
         if self.seen.get_mut(id as usize).is_none_or(|seen| std::mem::replace(seen, true)) {
@@ -73,7 +74,7 @@ impl Look<'_> {
         }
         unit.ops.iter().for_each(|op| self.op(op, unit));
         // A loop may be stopped.
-        self.effects.can_throw |= unit.blocks.iter().any(|b| matches!(b.end, End::Again(_)));
+        self.effects.can_throw |= unit.blocks.iter().any(|b| matches!(b.end, Terminator::Again(_)));
     }
 
     fn op(&mut self, op: &Op, unit: &SsaFunction) {

@@ -5,4 +5,4 @@ pub(crate) mod measure;
 mod order;
 
 pub(crate) use effects::effects;
-pub(crate) use order::Order;
+pub(crate) use order::WriteOrder;

@@ -5,13 +5,13 @@
 use super::effects::{receiver, stores_items, whole, written};
 use crate::effects::{Access, Effects};
 use crate::ir::UnitId;
-use crate::ssa::{End, Op, SsaFunction, SsaProgram};
+use crate::ssa::{Op, SsaFunction, SsaProgram, Terminator};
 use crate::types::FunctionId;
 use crate::value::View;
 
 /// Something that a program does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Event {
+enum OrderedEvent {
     /// It stores elements itself, rather than through a function of the host.
     Write(Access),
     /// It calls a function of the host.
@@ -22,33 +22,33 @@ enum Event {
 
 /// What a program does, in order; `true` beside what every run does that does not end early.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Order {
-    events: Vec<(Event, bool)>,
+pub(crate) struct WriteOrder {
+    events: Vec<(OrderedEvent, bool)>,
 }
 
 /// Operations that are looked at: a function of the text that is called twice counts twice.
 const MOST_PARTS: usize = 20_000;
 
-impl Order {
-    pub(crate) fn of(form: &SsaProgram, effects: &Effects) -> Order {
+impl WriteOrder {
+    pub(crate) fn of(form: &SsaProgram, effects: &Effects) -> WriteOrder {
         // Most texts write nothing and call nothing.
         if effects.writes.is_empty() && effects.calls.is_empty() {
-            return Order::default();
+            return WriteOrder::default();
         }
-        let mut walk = Walk { form, events: Vec::new(), within: Vec::new(), parts: 0 };
+        let mut walk = OrderWalk { form, events: Vec::new(), within: Vec::new(), parts: 0 };
         walk.unit(0, true);
         if walk.parts > MOST_PARTS {
             // Not seen to the end: nothing is certain of the order.
             walk.events.iter_mut().for_each(|(_, certain)| *certain = false);
-            walk.events.push((Event::Anything, false));
+            walk.events.push((OrderedEvent::Anything, false));
         }
-        Order { events: walk.events }
+        WriteOrder { events: walk.events }
     }
 
     /// What every run stores after the last call of `function` that it may make; `None` when it makes none.
     pub(crate) fn writes_after(&self, function: FunctionId) -> Option<Vec<Access>> {
-        self.events.iter().position(|(e, _)| *e == Event::Call(function))?;
-        let may_call = |e: &Event| *e == Event::Call(function) || *e == Event::Anything;
+        self.events.iter().position(|(e, _)| *e == OrderedEvent::Call(function))?;
+        let may_call = |e: &OrderedEvent| *e == OrderedEvent::Call(function) || *e == OrderedEvent::Anything;
         let last = self.events.iter().rposition(|(e, _)| may_call(e))?;
         Some(self.events.get(last..)?.iter().filter(|(_, certain)| *certain).filter_map(store).collect())
     }
@@ -65,19 +65,19 @@ impl Order {
     }
 }
 
-fn store((event, _): &(Event, bool)) -> Option<Access> {
-    if let Event::Write(access) = event { Some(*access) } else { None }
+fn store((event, _): &(OrderedEvent, bool)) -> Option<Access> {
+    if let OrderedEvent::Write(access) = event { Some(*access) } else { None }
 }
 
-struct Walk<'f> {
+struct OrderWalk<'f> {
     form: &'f SsaProgram,
-    events: Vec<(Event, bool)>,
+    events: Vec<(OrderedEvent, bool)>,
     /// Functions around: one that calls itself is looked at once.
     within: Vec<UnitId>,
     parts: usize,
 }
 
-impl Walk<'_> {
+impl OrderWalk<'_> {
     fn unit(&mut self, id: UnitId, certain: bool) {
         let Some(unit) = self.form.units.get(id as usize).filter(|_| !self.within.contains(&id)) else {
             return;
@@ -96,14 +96,14 @@ impl Walk<'_> {
 
     fn op(&mut self, op: &Op, unit: &SsaFunction, certain: bool) {
         if let Some(access) = written(op, unit) {
-            self.events.push((Event::Write(access), certain));
+            self.events.push((OrderedEvent::Write(access), certain));
         }
         if stores_items(op) {
             self.through_values(receiver(op, unit));
         }
         match *op {
-            Op::CallHost(_, function, _) => self.events.push((Event::Call(function), certain)),
-            Op::Invoke(..) | Op::InvokeList(..) => self.events.push((Event::Anything, certain)),
+            Op::CallHost(_, function, _) => self.events.push((OrderedEvent::Call(function), certain)),
+            Op::Invoke(..) | Op::InvokeList(..) => self.events.push((OrderedEvent::Anything, certain)),
             Op::Call(id) => self.unit(id, certain),
             // It may run whenever somebody calls it, from here on.
             Op::Closure(_, id, _) => self.unit(id, false),
@@ -114,7 +114,7 @@ impl Walk<'_> {
     /// A store into an array that is a value: into this one, or into whichever became one.
     fn through_values(&mut self, view: Option<View>) {
         for shown in self.form.views.iter().filter(|s| s.assignable && view.is_none_or(|v| v == s.view)) {
-            self.events.push((Event::Write(whole(shown.view)), false));
+            self.events.push((OrderedEvent::Write(whole(shown.view)), false));
         }
     }
 }
@@ -138,13 +138,13 @@ fn passed(unit: &SsaFunction) -> Vec<bool> {
             }
         };
         match &block.end {
-            End::Jump(edge) => lead(edge.to as usize),
-            End::If(_, _, edge) | End::IfNothing(_, _, edge) => {
+            Terminator::Jump(edge) => lead(edge.to as usize),
+            Terminator::If(_, _, edge) | Terminator::IfNothing(_, _, edge) => {
                 lead(at + 1);
                 lead(edge.to as usize);
             }
-            End::Return(_) => lead(end),
-            End::Again(_) => {}
+            Terminator::Return(_) => lead(end),
+            Terminator::Again(_) => {}
         }
     }
     all

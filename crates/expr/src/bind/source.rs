@@ -28,18 +28,18 @@ pub(super) enum SourceTree<'t> {
 
 /// What kind of text is bound; decides what an assignment in it means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mode {
+pub(super) enum TextKind {
     Expression,
     Statements,
     Target,
 }
 
 impl SourceTree<'_> {
-    pub(super) fn mode(self) -> Mode {
+    pub(super) fn mode(self) -> TextKind {
         match self {
-            SourceTree::Expression(_) => Mode::Expression,
-            SourceTree::Statements(_) => Mode::Statements,
-            SourceTree::Target(_) => Mode::Target,
+            SourceTree::Expression(_) => TextKind::Expression,
+            SourceTree::Statements(_) => TextKind::Statements,
+            SourceTree::Target(_) => TextKind::Target,
         }
     }
 }

@@ -8,4 +8,4 @@ mod scan;
 mod token;
 
 pub(crate) use scan::{tokens, tokens_of};
-pub(crate) use token::{Tok, Token};
+pub(crate) use token::{Token, TokenKind};

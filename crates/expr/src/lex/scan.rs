@@ -12,7 +12,7 @@ use nom::{IResult, Parser};
 
 use super::blank::{blank, is_line_end, unclosed_comment};
 use super::literal;
-use super::token::{Raw, Tok, Token};
+use super::token::{RawToken, Token, TokenKind};
 use crate::operators::{BinaryOp, LogicalOp};
 use crate::rules;
 use labspec_finding::{Finding, Span};
@@ -40,12 +40,12 @@ static SYMBOLS: LazyLock<BTreeMap<char, Vec<String>>> = LazyLock::new(|| {
     all
 });
 
-/// All tokens of a text, the last one [`Tok::End`].
+/// All tokens of a text, the last one [`TokenKind::End`].
 pub(crate) fn tokens<'s>(source: &'s str, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
     tokens_of(source, Span::new(0, source.len()), diagnostics)
 }
 
-/// All tokens of a part of a text, the last one [`Tok::End`].
+/// All tokens of a part of a text, the last one [`TokenKind::End`].
 pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<Finding>) -> Vec<Token<'s>> {
     let mut input = part.text(source);
     // Three bytes a token are usual.
@@ -58,7 +58,7 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
         }
         let start = end - at.len();
         if at.is_empty() {
-            tokens.push(Token { kind: Tok::End, span: Span::new(start, start), newline, doubt: None });
+            tokens.push(Token { kind: TokenKind::End, span: Span::new(start, start), newline, doubt: None });
             return tokens;
         }
         // Only a template can fail: then it is never closed.
@@ -69,7 +69,7 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
             Some(raw) => token(raw, source, span, diagnostics),
             None => literal::unclosed_template(start, diagnostics),
         };
-        let fraction = matches!(kind, Tok::Number(_)) && is_fraction(&tokens, source, span);
+        let fraction = matches!(kind, TokenKind::Number(_)) && is_fraction(&tokens, source, span);
         let doubtful = fraction || at.starts_with(is_typographic);
         let doubt =
             if doubtful && diagnostics.len() > before { diagnostics.pop().map(Box::new) } else { None };
@@ -82,8 +82,8 @@ pub(crate) fn tokens_of<'s>(source: &'s str, part: Span, diagnostics: &mut Vec<F
 fn is_fraction(tokens: &[Token<'_>], source: &str, span: Span) -> bool {
     let [.., whole, comma] = tokens else { return false };
     let digits = |span: Span| span.text(source).bytes().all(|b| b.is_ascii_digit());
-    comma.kind == Tok::Symbol(",")
-        && matches!(whole.kind, Tok::Number(_))
+    comma.kind == TokenKind::Symbol(",")
+        && matches!(whole.kind, TokenKind::Number(_))
         && whole.span.end == comma.span.start
         && comma.span.end == span.start
         && digits(whole.span)
@@ -91,51 +91,51 @@ fn is_fraction(tokens: &[Token<'_>], source: &str, span: Span) -> bool {
 }
 
 /// One token at the beginning of `input`.
-fn raw(input: &str) -> IResult<&str, Raw<'_>> {
+fn raw(input: &str) -> IResult<&str, RawToken<'_>> {
     let mut chars = input.chars();
     let (first, second) = (chars.next().unwrap_or(' '), chars.next().unwrap_or(' '));
     match first {
-        c if is_word_start(c) => map(word, Raw::Word).parse(input),
+        c if is_word_start(c) => map(word, RawToken::Word).parse(input),
         '0'..='9' => number(input),
         '.' if second.is_ascii_digit() => number(input),
         '\'' | '"' => literal::string(first).parse(input),
         '`' => literal::template(input),
         _ => alt((
-            map(|input| symbol(first, input), Raw::Symbol),
-            map(typographic, Raw::Typographic),
-            map(anychar, Raw::Odd),
+            map(|input| symbol(first, input), RawToken::Symbol),
+            map(typographic, RawToken::Typographic),
+            map(anychar, RawToken::Odd),
         ))
         .parse(input),
     }
 }
 
-fn number(input: &str) -> IResult<&str, Raw<'_>> {
-    map((literal::number, take_while(is_word_part)), |(text, tail)| Raw::Number(text, tail)).parse(input)
+fn number(input: &str) -> IResult<&str, RawToken<'_>> {
+    map((literal::number, take_while(is_word_part)), |(text, tail)| RawToken::Number(text, tail)).parse(input)
 }
 
 /// What a token means, and what is wrong with it.
-fn token<'s>(raw: Raw<'s>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok<'s> {
+fn token<'s>(raw: RawToken<'s>, source: &str, span: Span, diagnostics: &mut Vec<Finding>) -> TokenKind<'s> {
     match raw {
-        Raw::Word(text) => Tok::Word(text),
-        Raw::Symbol(text) => Tok::Symbol(text),
-        Raw::Number(text, tail) => literal::number_of(text, tail, span, diagnostics),
-        Raw::Text(quote, parts, closed) => {
+        RawToken::Word(text) => TokenKind::Word(text),
+        RawToken::Symbol(text) => TokenKind::Symbol(text),
+        RawToken::Number(text, tail) => literal::number_of(text, tail, span, diagnostics),
+        RawToken::Text(quote, parts, closed) => {
             literal::text_of(quote, &parts, closed, (source, span), diagnostics)
         }
-        Raw::Template(parts) => literal::template_of(parts, source, diagnostics),
-        Raw::Typographic(text) => {
+        RawToken::Template(parts) => literal::template_of(parts, source, diagnostics),
+        RawToken::Typographic(text) => {
             diagnostics.push(
                 Finding::error(rules::BAD_CHARACTER, span, "typographic quotes do not make a string")
                     .why("word processors insert them instead of plain quotes")
                     .help("write `\"` or `'`")
                     .fix(span, format!("\"{text}\"")),
             );
-            Tok::Text(text.to_owned())
+            TokenKind::Text(text.to_owned())
         }
-        Raw::Odd(c) => {
+        RawToken::Odd(c) => {
             diagnostics.push(bad_character(c, span));
             // A look-alike of an operator is read as that operator, so that what follows is still understood.
-            look_alike(c).map_or(Tok::Bad, Tok::Symbol)
+            look_alike(c).map_or(TokenKind::Bad, TokenKind::Symbol)
         }
     }
 }
@@ -224,11 +224,11 @@ fn bad_character(c: char, span: Span) -> Finding {
 mod tests {
     use super::*;
 
-    fn kinds(source: &str) -> Vec<Tok<'_>> {
+    fn kinds(source: &str) -> Vec<TokenKind<'_>> {
         let mut found = Vec::new();
         let tokens = tokens(source, &mut found);
         assert!(found.is_empty(), "{found:?}");
-        tokens.into_iter().map(|t| t.kind).filter(|k| *k != Tok::End).collect()
+        tokens.into_iter().map(|t| t.kind).filter(|k| *k != TokenKind::End).collect()
     }
 
     #[test]
@@ -245,19 +245,25 @@ mod tests {
     fn a_question_mark_before_a_decimal_is_a_choice() {
         assert_eq!(
             kinds("a?.5:1"),
-            [Tok::Word("a"), Tok::Symbol("?"), Tok::Number(0.5), Tok::Symbol(":"), Tok::Number(1.0)]
+            [
+                TokenKind::Word("a"),
+                TokenKind::Symbol("?"),
+                TokenKind::Number(0.5),
+                TokenKind::Symbol(":"),
+                TokenKind::Number(1.0)
+            ]
         );
     }
 
     #[test]
     fn a_point_before_a_letter_chooses_a_member() {
-        let members = [Tok::Word("a"), Tok::Symbol("."), Tok::Word("_b")];
+        let members = [TokenKind::Word("a"), TokenKind::Symbol("."), TokenKind::Word("_b")];
         assert_eq!(kinds("a._b"), members);
     }
 
     #[test]
     fn comments_and_odd_white_space_are_blank() {
-        assert_eq!(kinds("\u{feff}1 // 2 /*\n\u{a0}/* 3 \n */"), [Tok::Number(1.0)]);
+        assert_eq!(kinds("\u{feff}1 // 2 /*\n\u{a0}/* 3 \n */"), [TokenKind::Number(1.0)]);
     }
 
     #[test]

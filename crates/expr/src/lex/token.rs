@@ -5,7 +5,7 @@ use labspec_finding::{Finding, Span};
 /// A piece of the source text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Token<'s> {
-    pub(crate) kind: Tok<'s>,
+    pub(crate) kind: TokenKind<'s>,
     pub(crate) span: Span,
     /// A line ends between the token before and this one.
     pub(crate) newline: bool,
@@ -16,7 +16,7 @@ pub(crate) struct Token<'s> {
 
 /// What a token is.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Tok<'s> {
+pub(crate) enum TokenKind<'s> {
     Number(f64),
     Text(String),
     Word(&'s str),
@@ -30,14 +30,14 @@ pub(crate) enum Tok<'s> {
 }
 
 /// A token, as it is written.
-pub(super) enum Raw<'a> {
+pub(super) enum RawToken<'a> {
     Word(&'a str),
     /// A number, and the letters that stand directly behind it.
     Number(&'a str, &'a str),
     Symbol(&'static str),
     /// A string: its quote, its parts, and whether it is closed.
-    Text(char, Vec<Part<'a>>, bool),
-    Template(Vec<Part<'a>>),
+    Text(char, Vec<LiteralPart<'a>>, bool),
+    Template(Vec<LiteralPart<'a>>),
     /// What stands between two typographic quotes.
     Typographic(&'a str),
     /// Any other character.
@@ -46,7 +46,7 @@ pub(super) enum Raw<'a> {
 
 /// A part of a string or a template.
 #[derive(Clone)]
-pub(super) enum Part<'a> {
+pub(super) enum LiteralPart<'a> {
     Plain(&'a str),
     /// What an escape stands for.
     Char(char),

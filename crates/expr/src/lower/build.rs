@@ -1,68 +1,68 @@
 //! Typed tree to form, in one walk. Each node is computed in the way that its surroundings ask for: as a number, as a
 //! value of any type, or only for whether it is true. A numeric expression so never becomes a value.
 
-use super::builder::{Build, Exits};
-use crate::ir::{Entry, Index, Ir, Item, Kind, LocalId, UnitId};
+use super::builder::{EarlyExits, FunctionBuilder};
+use crate::ir::{Index, Ir, IrEntry, IrItem, IrKind, LocalId, UnitId};
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
-use crate::ssa::{Args, Edge, End, Num, Op, Operand, Slot, Val};
+use crate::ssa::{Args, BlockEdge, Num, Op, Operand, Representation, Terminator, Val};
 use crate::types::Type;
 use crate::value::{Value, View};
 use labspec_finding::Span;
 
-impl Build<'_> {
+impl FunctionBuilder<'_> {
     /// The node as a number (JavaScript's `Number(x)`).
     pub(super) fn number(&mut self, ir: &Ir) -> Num {
         let span = ir.span;
         match &ir.kind {
-            Kind::Constant(value) if value.is_primitive() => self.constant(value.to_number()),
-            Kind::Load(view, index) => self.load(*view, index, span),
-            Kind::Length(view) => self.number_by(span, |dst| Op::Length(dst, *view)),
-            Kind::Aggregate(slot) => self.number_by(span, |dst| Op::Aggregate(dst, *slot)),
-            Kind::Global(slot) => self.number_by(span, |dst| Op::GlobalNumber(dst, *slot)),
-            Kind::Local(local) => match self.slot(*local) {
-                Slot::Value => self.number_of_value(ir),
+            IrKind::Constant(value) if value.is_primitive() => self.constant(value.to_number()),
+            IrKind::Load(view, index) => self.load(*view, index, span),
+            IrKind::Length(view) => self.number_by(span, |dst| Op::Length(dst, *view)),
+            IrKind::Aggregate(slot) => self.number_by(span, |dst| Op::Aggregate(dst, *slot)),
+            IrKind::Global(slot) => self.number_by(span, |dst| Op::GlobalNumber(dst, *slot)),
+            IrKind::Local(local) => match self.slot(*local) {
+                Representation::Value => self.number_of_value(ir),
                 _ => self.read_number(*local),
             },
-            Kind::Unary(op, a) => {
+            IrKind::Unary(op, a) => {
                 let (op, a) = (*op, if *op == UnaryOp::Not { self.truth(a) } else { self.number(a) });
                 self.number_by(span, |dst| Op::Unary(dst, op, a))
             }
-            Kind::ToNumber(a) => self.number(a),
-            Kind::Binary(op, a, b) => self.binary(*op, a, b, ir),
-            Kind::Logical(LogicalOp::Nullish, a, _) if matches!(a.ty, Type::Number | Type::Boolean) => {
+            IrKind::ToNumber(a) => self.number(a),
+            IrKind::Binary(op, a, b) => self.binary(*op, a, b, ir),
+            IrKind::Logical(LogicalOp::Nullish, a, _) if matches!(a.ty, Type::Number | Type::Boolean) => {
                 self.number(a)
             }
-            Kind::Logical(LogicalOp::Nullish, ..) => self.number_of_value(ir),
-            Kind::Logical(op, a, b) => self.logical(*op, a, b, span),
-            Kind::Choice(test, a, b) => {
+            IrKind::Logical(LogicalOp::Nullish, ..) => self.number_of_value(ir),
+            IrKind::Logical(op, a, b) => self.logical(*op, a, b, span),
+            IrKind::Choice(test, a, b) => {
                 let result = self.temporary();
                 self.choice(test, span, |s| s.number_to(a, result), |s| s.number_to(b, result));
                 self.read_number(result)
             }
-            Kind::Math(function, args) => {
+            IrKind::Math(function, args) => {
                 let names: Vec<u32> = args.iter().map(|arg| self.number(arg).0).collect();
                 let (function, args) = (*function, self.list_of(&names));
                 self.number_by(span, |dst| Op::Math(dst, function, args))
             }
-            Kind::MathOver(function, list) => {
+            IrKind::MathOver(function, list) => {
                 let (function, list) = (*function, self.value(list));
                 self.number_by(span, |dst| Op::MathOver(dst, function, list))
             }
-            Kind::Invoke(unit, args) if self.result_slot(*unit) != Slot::Value => {
+            IrKind::Invoke(unit, args) if self.result_slot(*unit) != Representation::Value => {
                 self.invoke(*unit, args, span);
                 self.number_by(span, Op::TakeNumber)
             }
-            Kind::Store(place, op, value) if self.is_plain_store(place, *op, value) => {
+            IrKind::Store(place, op, value) if self.is_plain_store(place, *op, value) => {
                 self.store(place, *op, value, span)
             }
-            Kind::Update(place, step, gives) if self.is_plain_place(place) => {
+            IrKind::Update(place, step, gives) if self.is_plain_place(place) => {
                 self.update(place, *step, *gives, span)
             }
-            Kind::Block(steps, value) => {
+            IrKind::Block(steps, value) => {
                 self.steps(steps);
                 self.number(value)
             }
-            Kind::Pick(picks, name) if picks.scalar => {
+            IrKind::Pick(picks, name) if picks.scalar => {
                 let name = self.value(name);
                 let table = self.table(picks);
                 self.number_by(span, |dst| Op::PickNumber(dst, table, name))
@@ -85,30 +85,30 @@ impl Build<'_> {
     pub(super) fn value(&mut self, ir: &Ir) -> Val {
         let span = ir.span;
         match (&ir.kind, ir.ty) {
-            (Kind::Constant(value), _) => self.constant_value(value),
-            (Kind::Fill(..) | Kind::StoreAll(..), _) => {
+            (IrKind::Constant(value), _) => self.constant_value(value),
+            (IrKind::Fill(..) | IrKind::StoreAll(..), _) => {
                 self.effect(ir);
                 self.constant_value(&Value::Undefined)
             }
-            (Kind::Call(function, args), _) => {
+            (IrKind::Call(function, args), _) => {
                 let (function, args) = (*function, self.values(args));
                 self.value_of(span, |dst| Op::CallHost(dst, function, args))
             }
-            (Kind::Input, _) => self.value_of(span, Op::Input),
-            (Kind::Local(local), _) => self.local_value(*local, span),
-            (Kind::Store(place, op, value), _) if !self.is_plain_store(place, *op, value) => {
+            (IrKind::Input, _) => self.value_of(span, Op::Input),
+            (IrKind::Local(local), _) => self.local_value(*local, span),
+            (IrKind::Store(place, op, value), _) if !self.is_plain_store(place, *op, value) => {
                 self.store_value(place, *op, value, span)
             }
-            (Kind::StoreIf(op, place, value), _) => self.store_if(*op, place, value, span),
-            (Kind::Update(place, step, gives), _) if !self.is_plain_place(place) => {
+            (IrKind::StoreIf(op, place, value), _) => self.store_if(*op, place, value, span),
+            (IrKind::Update(place, step, gives), _) if !self.is_plain_place(place) => {
                 self.update_value(place, *step, *gives, span)
             }
-            (Kind::Block(steps, value), _) => {
+            (IrKind::Block(steps, value), _) => {
                 self.steps(steps);
                 self.value(value)
             }
-            (Kind::Invoke(unit, args), _) => self.invoked_value(*unit, args, span),
-            (Kind::Pick(picks, name), _) if !picks.scalar => {
+            (IrKind::Invoke(unit, args), _) => self.invoked_value(*unit, args, span),
+            (IrKind::Pick(picks, name), _) if !picks.scalar => {
                 let name = self.value(name);
                 let table = self.table(picks);
                 self.value_of(span, |dst| Op::Pick(dst, table, name))
@@ -121,13 +121,13 @@ impl Build<'_> {
     fn value_of_parts(&mut self, ir: &Ir) -> Val {
         let span = ir.span;
         match &ir.kind {
-            Kind::InvokeValue(callee, args) => self.invoke_value(callee, args, span),
-            Kind::Method(name, receiver, args) => self.method(*name, receiver, args, span),
-            Kind::Native(function, args) => self.native(*function, args, span),
-            Kind::Closure(unit) => self.closure(*unit, span),
-            Kind::List(items) => self.list(items, span),
-            Kind::Record(entries) => self.record(entries, span),
-            Kind::Element(object, index) => {
+            IrKind::InvokeValue(callee, args) => self.invoke_value(callee, args, span),
+            IrKind::Method(name, receiver, args) => self.method(*name, receiver, args, span),
+            IrKind::Native(function, args) => self.native(*function, args, span),
+            IrKind::Closure(unit) => self.closure(*unit, span),
+            IrKind::List(items) => self.list(items, span),
+            IrKind::Record(entries) => self.record(entries, span),
+            IrKind::Element(object, index) => {
                 let object = self.value(object);
                 if index.ty == Type::Number {
                     let index = self.number(index);
@@ -136,27 +136,27 @@ impl Build<'_> {
                 let index = self.value(index);
                 self.value_of(span, |dst| Op::Element(dst, object, index))
             }
-            Kind::Member(object, name) => {
+            IrKind::Member(object, name) => {
                 let object = self.value(object);
                 let name = self.text(name);
                 self.value_of(span, |dst| Op::Member(dst, object, name))
             }
-            Kind::ToText(a) => {
+            IrKind::ToText(a) => {
                 let a = self.value(a);
                 self.value_of(span, |dst| Op::ToText(dst, a))
             }
-            Kind::TypeOf(a) => {
+            IrKind::TypeOf(a) => {
                 let a = self.value(a);
                 self.value_of(span, |dst| Op::TypeOf(dst, a))
             }
-            Kind::GlobalNamed(name) => {
+            IrKind::GlobalNamed(name) => {
                 let name = self.value(name);
                 self.value_of(span, |dst| Op::GlobalNamed(dst, name))
             }
-            Kind::Chain(inner) => self.chain(inner, span),
+            IrKind::Chain(inner) => self.chain(inner, span),
             // A number register cannot tell `undefined` from NaN.
-            Kind::Logical(op @ LogicalOp::Nullish, a, b) => self.logical_value(*op, a, b, span),
-            Kind::Present(object) => self.present(object, span),
+            IrKind::Logical(op @ LogicalOp::Nullish, a, b) => self.logical_value(*op, a, b, span),
+            IrKind::Present(object) => self.present(object, span),
             _ => self.value_by_type(ir),
         }
     }
@@ -167,27 +167,27 @@ impl Build<'_> {
         match (&ir.kind, ir.ty) {
             (_, Type::Number) => {
                 let src = self.number(ir);
-                self.boxed(src, Slot::Number, span)
+                self.boxed(src, Representation::Number, span)
             }
             (_, Type::Boolean) => {
                 let src = self.number(ir);
-                self.boxed(src, Slot::Boolean, span)
+                self.boxed(src, Representation::Boolean, span)
             }
-            (Kind::Load(view, Index::At(i)), _) if view.count().is_none_or(|n| *i < n) => {
+            (IrKind::Load(view, Index::At(i)), _) if view.count().is_none_or(|n| *i < n) => {
                 let index = u32::try_from(*i).unwrap_or(u32::MAX);
                 self.value_of(span, |dst| Op::LoadValue(dst, *view, index))
             }
-            (Kind::Load(view, index), _) => {
+            (IrKind::Load(view, index), _) => {
                 let index = self.index(index);
                 self.value_of(span, |dst| Op::LoadValueAt(dst, *view, index))
             }
-            (Kind::Global(slot), _) => self.value_of(span, |dst| Op::Global(dst, *slot)),
-            (Kind::Binary(_, a, b), _) => {
+            (IrKind::Global(slot), _) => self.value_of(span, |dst| Op::Global(dst, *slot)),
+            (IrKind::Binary(_, a, b), _) => {
                 let (a, b) = (self.value(a), self.value(b));
                 self.value_of(span, |dst| Op::Plus(dst, a, b))
             }
-            (Kind::Logical(op, a, b), _) => self.logical_value(*op, a, b, span),
-            (Kind::Choice(test, a, b), _) => {
+            (IrKind::Logical(op, a, b), _) => self.logical_value(*op, a, b, span),
+            (IrKind::Choice(test, a, b), _) => {
                 let result = self.temporary();
                 self.choice(test, span, |s| s.value_to(a, result), |s| s.value_to(b, result));
                 self.read_value(result)
@@ -195,7 +195,7 @@ impl Build<'_> {
             // All other kinds give numbers or booleans.
             _ => {
                 let src = self.number(ir);
-                self.boxed(src, Slot::Number, span)
+                self.boxed(src, Representation::Number, span)
             }
         }
     }
@@ -204,7 +204,7 @@ impl Build<'_> {
     fn invoked_value(&mut self, unit: UnitId, args: &[Ir], span: Span) -> Val {
         self.invoke(unit, args, span);
         match self.result_slot(unit) {
-            Slot::Value => self.value_of(span, Op::TakeValue),
+            Representation::Value => self.value_of(span, Op::TakeValue),
             slot => {
                 let number = self.number_by(span, Op::TakeNumber);
                 self.boxed(number, slot, span)
@@ -216,7 +216,7 @@ impl Build<'_> {
     fn present(&mut self, object: &Ir, span: Span) -> Val {
         let value = self.value(object);
         let mark = self.chains.last().map_or(0, |chain| chain.mark);
-        let way = self.jump_if(End::IfNothing(true, value, Edge::default()), mark, span);
+        let way = self.jump_if(Terminator::IfNothing(true, value, BlockEdge::default()), mark, span);
         // A chain is around it.
         if let Some(chain) = self.chains.last_mut() {
             chain.exits.extend(way);
@@ -233,12 +233,12 @@ impl Build<'_> {
     }
 
     /// The end of a block where `value op …` is the value.
-    pub(super) fn keeps(&mut self, op: LogicalOp, value: Val, span: Span) -> End {
+    pub(super) fn keeps(&mut self, op: LogicalOp, value: Val, span: Span) -> Terminator {
         if op == LogicalOp::Nullish {
-            return End::IfNothing(false, value, Edge::default());
+            return Terminator::IfNothing(false, value, BlockEdge::default());
         }
         let test = self.number_by(span, |dst| Op::Truthy(dst, value));
-        End::If(op == LogicalOp::Or, test, Edge::default())
+        Terminator::If(op == LogicalOp::Or, test, BlockEdge::default())
     }
 
     pub(super) fn value_to(&mut self, ir: &Ir, place: LocalId) {
@@ -252,7 +252,7 @@ impl Build<'_> {
             // A NaN is false, and stays one: a watched run sees that it decides.
             Some(Value::Number(x)) if x.is_nan() => self.constant(*x),
             Some(value) => self.constant(f64::from(u8::from(value.truthy()))),
-            None if ir.is_plain() && !matches!(ir.kind, Kind::Logical(LogicalOp::Nullish, ..)) => {
+            None if ir.is_plain() && !matches!(ir.kind, IrKind::Logical(LogicalOp::Nullish, ..)) => {
                 self.number(ir)
             }
             None => {
@@ -325,7 +325,7 @@ impl Build<'_> {
             (left, self.number_by(a.span, |dst| Op::Truthy(dst, value)))
         };
         self.write(result, Operand::Number(left));
-        let test = End::If(op == LogicalOp::Or, test, Edge::default());
+        let test = Terminator::If(op == LogicalOp::Or, test, BlockEdge::default());
         self.skip(test, span, |s| s.number_to(b, result));
         self.read_number(result)
     }
@@ -337,7 +337,7 @@ impl Build<'_> {
         then: impl FnOnce(&mut Self),
         otherwise: impl FnOnce(&mut Self),
     ) {
-        let test = End::If(false, self.truth(test), Edge::default());
+        let test = Terminator::If(false, self.truth(test), BlockEdge::default());
         self.fork(test, span, then, otherwise);
     }
 
@@ -346,14 +346,14 @@ impl Build<'_> {
         self.write(result, Operand::Value(nothing));
         let outer = self.chains.len();
         let work = |s: &mut Self, mark| {
-            s.chains.push(Exits { mark, result, exits: Vec::new() });
+            s.chains.push(EarlyExits { mark, result, exits: Vec::new() });
             s.value_to(inner, result);
         };
         self.region(span, work, |s| s.chains.drain(outer..).flat_map(|chain| chain.exits).collect());
         self.read_value(result)
     }
 
-    pub(super) fn list(&mut self, items: &[Item], span: Span) -> Val {
+    pub(super) fn list(&mut self, items: &[IrItem], span: Span) -> Val {
         if items.iter().all(|i| !i.spread) {
             let args = self.values(items.iter().map(|i| &i.value));
             return self.value_of(span, |dst| Op::List(dst, args));
@@ -366,20 +366,20 @@ impl Build<'_> {
         list
     }
 
-    fn record(&mut self, entries: &[Entry], span: Span) -> Val {
+    fn record(&mut self, entries: &[IrEntry], span: Span) -> Val {
         let record = self.value_of(span, Op::NewRecord);
         for entry in entries {
             match entry {
-                Entry::Named(key, value) => {
+                IrEntry::Named(key, value) => {
                     let key = self.constant_value(&Value::String(key.clone()));
                     let src = self.value(value);
                     self.emit(Op::Put(record, key, src), value.span);
                 }
-                Entry::Computed(key, value) => {
+                IrEntry::Computed(key, value) => {
                     let (key, src) = (self.value(key), self.value(value));
                     self.emit(Op::Put(record, key, src), value.span);
                 }
-                Entry::Spread(value) => {
+                IrEntry::Spread(value) => {
                     let src = self.value(value);
                     self.emit(Op::PutAll(record, src), value.span);
                 }

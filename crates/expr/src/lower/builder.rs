@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::ir::{LocalId, Picks, Tree};
-use crate::ssa::{Args, BlockId, Num, Op, Operand, Slot, SsaFunction, SsaProgram, Val};
+use crate::ir::{IrProgram, LocalId, MemberTable};
+use crate::ssa::{Args, BlockId, Num, Op, Operand, Representation, SsaFunction, SsaProgram, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
@@ -18,12 +18,12 @@ pub(super) struct Variables {
 }
 
 /// A way whose end is not known yet: the block that it leaves, and what was stored since a place in the log.
-pub(super) struct Way {
+pub(super) struct PendingEdge {
     pub(super) from: BlockId,
     pub(super) stored: Vec<(LocalId, Operand)>,
 }
 
-impl Way {
+impl PendingEdge {
     /// What was stored in a variable on the way.
     pub(super) fn held(&self, local: LocalId) -> Option<Operand> {
         let at = self.stored.binary_search_by_key(&local, |s| s.0).ok()?;
@@ -32,30 +32,30 @@ impl Way {
 }
 
 /// A loop around the place of the work.
-pub(super) struct Level {
+pub(super) struct LoopContext {
     pub(super) header: BlockId,
     /// What leads in.
-    pub(super) entry: Option<Way>,
+    pub(super) entry: Option<PendingEdge>,
     pub(super) mark: usize,
     /// Variables that are read or stored in it: the parameter, and what was held before.
     pub(super) params: BTreeMap<LocalId, (Operand, Operand)>,
-    pub(super) breaks: Vec<Way>,
-    pub(super) continues: Vec<Way>,
+    pub(super) breaks: Vec<PendingEdge>,
+    pub(super) continues: Vec<PendingEdge>,
     /// Ways out of what is around it, when it began.
     pub(super) returns: (usize, usize),
 }
 
 /// A part of the text that is left by more ways than its end, with a value: statements in the place of a call, or a
 /// chain with `?.`.
-pub(super) struct Exits {
+pub(super) struct EarlyExits {
     pub(super) mark: usize,
     pub(super) result: LocalId,
-    pub(super) exits: Vec<Way>,
+    pub(super) exits: Vec<PendingEdge>,
 }
 
 /// The work on one function.
-pub(super) struct Build<'t> {
-    pub(super) tree: &'t Tree,
+pub(super) struct FunctionBuilder<'t> {
+    pub(super) tree: &'t IrProgram,
     pub(super) form: &'t mut SsaProgram,
     pub(super) unit: SsaFunction,
     /// Nothing leads here.
@@ -64,16 +64,20 @@ pub(super) struct Build<'t> {
     pub(super) constants: BTreeMap<u64, Num>,
     pub(super) variables: Variables,
     pub(super) temporaries: u32,
-    pub(super) loops: Vec<Level>,
-    pub(super) inlines: Vec<Exits>,
-    pub(super) chains: Vec<Exits>,
+    pub(super) loops: Vec<LoopContext>,
+    pub(super) inlines: Vec<EarlyExits>,
+    pub(super) chains: Vec<EarlyExits>,
     /// Where all of it seems to stand.
     pub(super) site: Option<Span>,
 }
 
-impl<'t> Build<'t> {
-    pub(super) fn new(tree: &'t Tree, form: &'t mut SsaProgram, variables: Variables) -> Build<'t> {
-        let mut build = Build {
+impl<'t> FunctionBuilder<'t> {
+    pub(super) fn new(
+        tree: &'t IrProgram,
+        form: &'t mut SsaProgram,
+        variables: Variables,
+    ) -> FunctionBuilder<'t> {
+        let mut build = FunctionBuilder {
             tree,
             form,
             unit: SsaFunction::default(),
@@ -172,24 +176,24 @@ impl<'t> Build<'t> {
         dst
     }
 
-    pub(super) fn boxed(&mut self, src: Num, slot: Slot, span: Span) -> Val {
+    pub(super) fn boxed(&mut self, src: Num, slot: Representation, span: Span) -> Val {
         match slot {
-            Slot::Boolean => self.value_of(span, |dst| Op::BoxBoolean(dst, src)),
+            Representation::Boolean => self.value_of(span, |dst| Op::BoxBoolean(dst, src)),
             _ => self.value_of(span, |dst| Op::BoxNumber(dst, src)),
         }
     }
 
-    pub(super) fn table(&mut self, picks: &Arc<Picks>) -> u32 {
+    pub(super) fn table(&mut self, picks: &Arc<MemberTable>) -> u32 {
         self.form.picks.push(picks.clone());
         (self.form.picks.len() - 1) as u32
     }
 
     /// How a local of a type is handed over.
-    pub(super) fn slot(&self, local: LocalId) -> Slot {
+    pub(super) fn slot(&self, local: LocalId) -> Representation {
         match self.tree.locals.get(local as usize) {
-            Some(local) if local.shared => Slot::Value,
-            Some(local) => Slot::of(local.ty),
-            None => Slot::Value,
+            Some(local) if local.shared => Representation::Value,
+            Some(local) => Representation::of(local.ty),
+            None => Representation::Value,
         }
     }
 }

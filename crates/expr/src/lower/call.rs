@@ -1,18 +1,22 @@
 //! Calls of functions of the text, of methods, and functions as values.
 
-use super::builder::Build;
-use crate::ir::{FreeFunctionId, Ir, Item, LocalId, MethodId, UnitId};
-use crate::ssa::{Op, Operand, Slot, Val};
+use super::builder::FunctionBuilder;
+use crate::ir::{FreeFunctionId, Ir, IrItem, LocalId, MethodId, UnitId};
+use crate::ssa::{Op, Operand, Representation, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
-impl Build<'_> {
+impl FunctionBuilder<'_> {
     /// How a function hands over what it returns.
-    pub(super) fn result_slot(&self, unit: UnitId) -> Slot {
-        self.tree.units.get(unit as usize).and_then(|u| u.result).map_or(Slot::Value, Slot::of)
+    pub(super) fn result_slot(&self, unit: UnitId) -> Representation {
+        self.tree
+            .units
+            .get(unit as usize)
+            .and_then(|u| u.result)
+            .map_or(Representation::Value, Representation::of)
     }
 
-    fn params(&self, unit: UnitId) -> Vec<Slot> {
+    fn params(&self, unit: UnitId) -> Vec<Representation> {
         let params = self.tree.units.get(unit as usize).map(|u| u.params.as_slice()).unwrap_or(&[]);
         params.iter().map(|p| self.slot(*p)).collect()
     }
@@ -27,16 +31,18 @@ impl Build<'_> {
         let mut passed = Vec::new();
         for (i, slot) in self.params(unit).into_iter().enumerate() {
             passed.push(match (args.get(i), slot) {
-                (Some(arg), Slot::Number | Slot::Boolean) => Operand::Number(self.number(arg)),
-                (Some(arg), Slot::Value) => Operand::Value(self.value(arg)),
-                (None, Slot::Value) => Operand::Value(self.constant_value(&Value::Undefined)),
+                (Some(arg), Representation::Number | Representation::Boolean) => {
+                    Operand::Number(self.number(arg))
+                }
+                (Some(arg), Representation::Value) => Operand::Value(self.value(arg)),
+                (None, Representation::Value) => Operand::Value(self.constant_value(&Value::Undefined)),
                 (None, _) => Operand::Number(self.constant(f64::NAN)),
             });
         }
         for capture in self.captures(unit) {
             passed.push(match self.slot(capture) {
                 // The shared place itself, if it is one.
-                Slot::Value => Operand::Value(self.read_value(capture)),
+                Representation::Value => Operand::Value(self.read_value(capture)),
                 _ => Operand::Number(self.read_number(capture)),
             });
         }
@@ -70,7 +76,7 @@ impl Build<'_> {
         self.value_of(span, |dst| Op::Closure(dst, unit, args))
     }
 
-    pub(super) fn invoke_value(&mut self, callee: &Ir, args: &[Item], span: Span) -> Val {
+    pub(super) fn invoke_value(&mut self, callee: &Ir, args: &[IrItem], span: Span) -> Val {
         let callee = self.value(callee);
         if args.iter().any(|a| a.spread) {
             let list = self.list(args, span);
@@ -80,7 +86,7 @@ impl Build<'_> {
         self.value_of(span, |dst| Op::Invoke(dst, callee, args))
     }
 
-    pub(super) fn method(&mut self, name: MethodId, receiver: &Ir, args: &[Item], span: Span) -> Val {
+    pub(super) fn method(&mut self, name: MethodId, receiver: &Ir, args: &[IrItem], span: Span) -> Val {
         if args.iter().any(|a| a.spread) {
             let receiver = self.value(receiver);
             let list = self.list(args, span);
@@ -90,7 +96,7 @@ impl Build<'_> {
         self.value_of(span, |dst| Op::Method(dst, name, args))
     }
 
-    pub(super) fn native(&mut self, function: FreeFunctionId, args: &[Item], span: Span) -> Val {
+    pub(super) fn native(&mut self, function: FreeFunctionId, args: &[IrItem], span: Span) -> Val {
         if args.iter().any(|a| a.spread) {
             let list = self.list(args, span);
             return self.value_of(span, |dst| Op::NativeList(dst, function, list));

@@ -5,10 +5,11 @@ use std::collections::BTreeMap;
 
 use super::pure;
 use super::registers::{RegisterFile, order_moves};
-use crate::code::{Code, CodeUnit, OPERATION};
-use crate::row::{Row, Wanted};
+use crate::code::{MachineCode, MachineFunction, OPERATION};
+use crate::row::{Row, WantedResult};
 use crate::ssa::{
-    Args, Block, BlockId, Edge, End, Num, Op, Operand, OperandUse, Slot, SsaFunction, SsaProgram, Val,
+    Args, BasicBlock, BlockEdge, BlockId, Num, Op, Operand, OperandUse, Representation, SsaFunction,
+    SsaProgram, Terminator, Val,
 };
 use crate::value::Value;
 use labspec_finding::Span;
@@ -19,18 +20,18 @@ const WORTH: usize = 5;
 const MOST: usize = 64;
 
 /// The code of a program. `often`: it will run often enough for formulas within it.
-pub(crate) fn emit(form: SsaProgram, often: bool) -> Code {
+pub(crate) fn emit(form: SsaProgram, often: bool) -> MachineCode {
     let units = form.units.iter().map(|function| emit_function(function, often)).collect();
-    Code { form, units }
+    MachineCode { form, units }
 }
 
 /// The code of a function.
-fn emit_function(form: &SsaFunction, often: bool) -> CodeUnit {
+fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
     let (numbers, values) =
         (RegisterFile::of(form.same.numbers.len()), RegisterFile::of(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
-    let code = CodeUnit { ops, spans, ..CodeUnit::default() };
+    let code = MachineFunction { ops, spans, ..MachineFunction::default() };
     let worth = if often { WORTH } else { usize::MAX };
     let mut emit = Emit { worth, form, code, numbers, values, kept, starts, jumps: Vec::new() };
     emit.count_uses();
@@ -46,7 +47,7 @@ struct Emit<'f> {
     /// Operations that make a formula.
     worth: usize,
     form: &'f SsaFunction,
-    code: CodeUnit,
+    code: MachineFunction,
     numbers: RegisterFile,
     values: RegisterFile,
     /// Operations that something needs.
@@ -68,13 +69,13 @@ impl<'f> Emit<'f> {
                 Operand::Value(v) => values.used(v.0),
             };
             match &block.end {
-                End::If(_, test, _) => used(Operand::Number(form.same.number(*test))),
-                End::IfNothing(_, value, _) => used(Operand::Value(form.same.value(*value))),
-                End::Return(Some(at)) => used(form.same.at(*at)),
-                End::Return(None) | End::Jump(_) | End::Again(_) => {}
+                Terminator::If(_, test, _) => used(Operand::Number(form.same.number(*test))),
+                Terminator::IfNothing(_, value, _) => used(Operand::Value(form.same.value(*value))),
+                Terminator::Return(Some(at)) => used(form.same.at(*at)),
+                Terminator::Return(None) | Terminator::Jump(_) | Terminator::Again(_) => {}
             }
             if let Some(edge) = edge(&block.end) {
-                let back = matches!(block.end, End::Again(_));
+                let back = matches!(block.end, Terminator::Again(_));
                 let params = form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
                 for (param, arg) in params.iter().zip(&edge.args) {
                     let needed = match param {
@@ -121,7 +122,7 @@ impl<'f> Emit<'f> {
     fn first_registers(&mut self) {
         for slot in self.form.params.iter().chain(&self.form.captures) {
             match slot {
-                Slot::Value => self.values.register(self.values.count),
+                Representation::Value => self.values.register(self.values.count),
                 _ => self.numbers.register(self.numbers.count),
             };
         }
@@ -142,7 +143,7 @@ impl<'f> Emit<'f> {
 
     fn block(&mut self, at: BlockId) {
         let form: &'f SsaFunction = self.form;
-        let Some(Block { end, span, .. }) = form.blocks.get(at as usize) else { return };
+        let Some(BasicBlock { end, span, .. }) = form.blocks.get(at as usize) else { return };
         // A block that nothing leads to is left out. Ways lead forward, so they were seen before.
         let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
         if !reached {
@@ -208,7 +209,7 @@ impl<'f> Emit<'f> {
             let register = numbers.register(name.0);
             let Ok(register) = u8::try_from(register) else { return false };
             let at_once = !inputs.contains(&u32::from(register));
-            wanted.push(Wanted { step: *step, register, at_once });
+            wanted.push(WantedResult { step: *step, register, at_once });
         }
         // What is kept only within the formula stands behind the registers that are known so far.
         let free =
@@ -223,18 +224,22 @@ impl<'f> Emit<'f> {
     }
 
     /// Lets operations of a block put their results where its end wants them.
-    fn settle(&mut self, at: BlockId, end: &End) {
+    fn settle(&mut self, at: BlockId, end: &Terminator) {
         let mut wanted: Vec<(Operand, Operand)> = Vec::new();
         match end {
-            End::Jump(edge) | End::Again(edge) => wanted = self.moves(edge),
-            End::Return(Some(from @ Operand::Number(_))) => wanted.push((Operand::Number(Num(0)), *from)),
-            End::Return(Some(from @ Operand::Value(_))) => wanted.push((Operand::Value(Val(0)), *from)),
+            Terminator::Jump(edge) | Terminator::Again(edge) => wanted = self.moves(edge),
+            Terminator::Return(Some(from @ Operand::Number(_))) => {
+                wanted.push((Operand::Number(Num(0)), *from))
+            }
+            Terminator::Return(Some(from @ Operand::Value(_))) => {
+                wanted.push((Operand::Value(Val(0)), *from))
+            }
             _ => {}
         }
         if wanted.is_empty() {
             return;
         }
-        let again = matches!(end, End::Again(_));
+        let again = matches!(end, Terminator::Again(_));
         // From the last operation on: what was read behind an operation must still stand where it stood.
         let mut read: Vec<Operand> =
             if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
@@ -271,7 +276,7 @@ impl<'f> Emit<'f> {
     }
 
     /// Parameters of the block that an edge leads to, with what they get; both as names.
-    fn moves(&self, edge: &Edge) -> Vec<(Operand, Operand)> {
+    fn moves(&self, edge: &BlockEdge) -> Vec<(Operand, Operand)> {
         let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
         let needed = |param: &Operand| match param {
             Operand::Number(n) => self.numbers.uses(n.0) > 0,
@@ -330,13 +335,13 @@ impl<'f> Emit<'f> {
         self.push(op, span);
     }
 
-    fn end(&mut self, at: BlockId, end: &End, span: Span) {
+    fn end(&mut self, at: BlockId, end: &Terminator, span: Span) {
         if let Some(edge) = edge(end) {
             self.move_all(edge, span);
             let jump = match end {
-                End::If(when, test, _) => Op::JumpIf(*when, self.number(*test), 0),
-                End::IfNothing(when, value, _) => Op::JumpIfNothing(*when, self.value(*value), 0),
-                End::Again(_) => Op::Again(0, 0),
+                Terminator::If(when, test, _) => Op::JumpIf(*when, self.number(*test), 0),
+                Terminator::IfNothing(when, value, _) => Op::JumpIfNothing(*when, self.value(*value), 0),
+                Terminator::Again(_) => Op::Again(0, 0),
                 _ => Op::Jump(0),
             };
             let reach = |starts: &mut Vec<Option<u32>>, block: BlockId| {
@@ -344,10 +349,10 @@ impl<'f> Emit<'f> {
                     start.get_or_insert(0);
                 }
             };
-            if matches!(end, End::If(..) | End::IfNothing(..)) {
+            if matches!(end, Terminator::If(..) | Terminator::IfNothing(..)) {
                 reach(&mut self.starts, at + 1);
             }
-            if !matches!(end, End::Again(_)) {
+            if !matches!(end, Terminator::Again(_)) {
                 reach(&mut self.starts, edge.to);
             }
             if !(matches!(jump, Op::Jump(_)) && edge.to == at + 1) {
@@ -357,13 +362,13 @@ impl<'f> Emit<'f> {
             return;
         }
         match end {
-            End::Return(Some(Operand::Number(n))) => {
+            Terminator::Return(Some(Operand::Number(n))) => {
                 let from = self.number(*n);
                 if from.0 != 0 {
                     self.push(Op::Move(Num(0), from), span);
                 }
             }
-            End::Return(Some(Operand::Value(v))) => {
+            Terminator::Return(Some(Operand::Value(v))) => {
                 let from = self.value(*v);
                 if from.0 != 0 {
                     self.push(Op::MoveValue(Val(0), from), span);
@@ -380,7 +385,7 @@ impl<'f> Emit<'f> {
     }
 
     /// All parameters of a block get their values at once, whatever order the moves have.
-    fn move_all(&mut self, edge: &Edge, span: Span) {
+    fn move_all(&mut self, edge: &BlockEdge, span: Span) {
         let (mut numbers, mut values) = (Vec::new(), Vec::new());
         for (to, from) in self.moves(edge) {
             match (to, from) {
@@ -402,7 +407,7 @@ impl<'f> Emit<'f> {
         }
     }
 
-    fn finish(mut self) -> CodeUnit {
+    fn finish(mut self) -> MachineFunction {
         for (jump, to) in &self.jumps {
             let here = self.starts.get(*to as usize).copied().flatten().unwrap_or_default();
             if let Some(
@@ -440,9 +445,12 @@ impl<'f> Emit<'f> {
     }
 }
 
-fn edge(end: &End) -> Option<&Edge> {
+fn edge(end: &Terminator) -> Option<&BlockEdge> {
     match end {
-        End::Jump(edge) | End::Again(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) => Some(edge),
-        End::Return(_) => None,
+        Terminator::Jump(edge)
+        | Terminator::Again(edge)
+        | Terminator::If(_, _, edge)
+        | Terminator::IfNothing(_, _, edge) => Some(edge),
+        Terminator::Return(_) => None,
     }
 }

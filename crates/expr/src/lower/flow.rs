@@ -5,15 +5,15 @@
 
 use std::collections::BTreeMap;
 
-use super::builder::{Build, Exits, Level, Variables, Way};
+use super::builder::{EarlyExits, FunctionBuilder, LoopContext, PendingEdge, Variables};
 use crate::ir::LocalId;
 use crate::operation::truthy;
-use crate::ssa::{Block, BlockId, Edge, End, Num, Op, Operand, Val};
+use crate::ssa::{BasicBlock, BlockEdge, BlockId, Num, Op, Operand, Terminator, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
 /// The variables that ways store.
-fn stored_on<'w>(ways: impl IntoIterator<Item = &'w Way>) -> Vec<LocalId> {
+fn stored_on<'w>(ways: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalId> {
     let mut locals: Vec<LocalId> =
         ways.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
     locals.sort_unstable();
@@ -25,11 +25,11 @@ fn stored_on<'w>(ways: impl IntoIterator<Item = &'w Way>) -> Vec<LocalId> {
 const LITTLE: usize = 4;
 
 /// A question about a number: the answer that leads further off.
-fn question(end: &End) -> Option<(bool, Num)> {
-    if let End::If(when, test, _) = end { Some((*when, *test)) } else { None }
+fn question(end: &Terminator) -> Option<(bool, Num)> {
+    if let Terminator::If(when, test, _) = end { Some((*when, *test)) } else { None }
 }
 
-impl Build<'_> {
+impl FunctionBuilder<'_> {
     pub(super) fn mark(&self) -> usize {
         self.variables.log.len()
     }
@@ -116,8 +116,8 @@ impl Build<'_> {
     /// Begins a block.
     pub(super) fn begin(&mut self, after: BlockId) {
         let first = self.unit.ops.len() as u32;
-        let end = End::Return(None);
-        self.unit.blocks.push(Block { first, params: Vec::new(), after, end, span: Span::default() });
+        let end = Terminator::Return(None);
+        self.unit.blocks.push(BasicBlock { first, params: Vec::new(), after, end, span: Span::default() });
         self.dead = false;
     }
 
@@ -131,7 +131,7 @@ impl Build<'_> {
     }
 
     /// Ends the block; nothing follows.
-    pub(super) fn end(&mut self, end: End, span: Span) {
+    pub(super) fn end(&mut self, end: Terminator, span: Span) {
         let span = self.site.unwrap_or(span);
         if let Some(block) = self.unit.blocks.last_mut().filter(|_| !self.dead) {
             (block.end, block.span) = (end, span);
@@ -140,44 +140,45 @@ impl Build<'_> {
     }
 
     /// Ends the block; on to a place that is not known yet. `mark`: what was stored since goes along.
-    pub(super) fn jump(&mut self, mark: usize, span: Span) -> Option<Way> {
-        let way = (!self.dead).then(|| Way { from: self.here(), stored: self.stored_since(mark) });
-        self.end(End::Jump(Edge::default()), span);
+    pub(super) fn jump(&mut self, mark: usize, span: Span) -> Option<PendingEdge> {
+        let way = (!self.dead).then(|| PendingEdge { from: self.here(), stored: self.stored_since(mark) });
+        self.end(Terminator::Jump(BlockEdge::default()), span);
         way
     }
 
     /// Ends the block with a question; the work goes on where the answer is the other one.
-    pub(super) fn jump_if(&mut self, end: End, mark: usize, span: Span) -> Option<Way> {
+    pub(super) fn jump_if(&mut self, end: Terminator, mark: usize, span: Span) -> Option<PendingEdge> {
         if self.dead {
             return None;
         }
-        if let End::If(when, test, _) = end
+        if let Terminator::If(when, test, _) = end
             && let Some(x) = self.unit.known(test)
             && !x.is_nan()
         {
             // The answer is known: there is one way.
             return if truthy(x) == when { self.jump(mark, span) } else { None };
         }
-        let way = Way { from: self.here(), stored: self.stored_since(mark) };
+        let way = PendingEdge { from: self.here(), stored: self.stored_since(mark) };
         let after = way.from;
         self.end(end, span);
         self.begin(after);
         Some(way)
     }
 
-    fn edge(&mut self, from: BlockId) -> Option<&mut Edge> {
+    fn edge(&mut self, from: BlockId) -> Option<&mut BlockEdge> {
         match &mut self.unit.blocks.get_mut(from as usize)?.end {
-            End::Jump(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) | End::Again(edge) => {
-                Some(edge)
-            }
-            End::Return(_) => None,
+            Terminator::Jump(edge)
+            | Terminator::If(_, _, edge)
+            | Terminator::IfNothing(_, _, edge)
+            | Terminator::Again(edge) => Some(edge),
+            Terminator::Return(_) => None,
         }
     }
 
     /// The ways come together here. `after`: the block that all of them passed last. Variables hold what they held
     /// there; what they hold now follows from the ways.
-    pub(super) fn land(&mut self, after: BlockId, ways: impl IntoIterator<Item = Option<Way>>) {
-        let ways: Vec<Way> = ways.into_iter().flatten().collect();
+    pub(super) fn land(&mut self, after: BlockId, ways: impl IntoIterator<Item = Option<PendingEdge>>) {
+        let ways: Vec<PendingEdge> = ways.into_iter().flatten().collect();
         if ways.is_empty() {
             self.dead = true;
             return;
@@ -217,7 +218,7 @@ impl Build<'_> {
     /// Where a question leads two ways that come together again.
     pub(super) fn fork(
         &mut self,
-        test: End,
+        test: Terminator,
         span: Span,
         next: impl FnOnce(&mut Self),
         there: impl FnOnce(&mut Self),
@@ -235,7 +236,7 @@ impl Build<'_> {
     }
 
     /// The same where the second way has nothing on it.
-    pub(super) fn skip(&mut self, test: End, span: Span, next: impl FnOnce(&mut Self)) {
+    pub(super) fn skip(&mut self, test: Terminator, span: Span, next: impl FnOnce(&mut Self)) {
         let (mark, from, question) = (self.mark(), self.here(), question(&test));
         let way = self.jump_if(test, mark, span);
         next(self);
@@ -246,7 +247,13 @@ impl Build<'_> {
 
     /// Two ways of a question come together. Where little was computed on them, and nothing else done, there is no
     /// question any more: both are computed, and one is chosen.
-    fn meet(&mut self, from: BlockId, question: Option<(bool, Num)>, there: Option<Way>, next: Option<Way>) {
+    fn meet(
+        &mut self,
+        from: BlockId,
+        question: Option<(bool, Num)>,
+        there: Option<PendingEdge>,
+        next: Option<PendingEdge>,
+    ) {
         if let (Some((when, test)), Some(there), Some(next)) = (question, &there, &next)
             && self.is_little(from)
             && let Some(held) = self.numbers_of(there, next)
@@ -270,12 +277,12 @@ impl Build<'_> {
         let ways = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
         let first = ways.first().map_or(self.unit.ops.len(), |b| b.first as usize);
         let ops = self.unit.ops.get(first..).unwrap_or(&[]);
-        let plain = ways.iter().all(|b| matches!(b.end, End::Jump(_)) && b.params.is_empty());
+        let plain = ways.iter().all(|b| matches!(b.end, Terminator::Jump(_)) && b.params.is_empty());
         ways.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
     }
 
     /// What variables that differ hold at the end of two ways; `None` when one holds something else than a number.
-    fn numbers_of(&mut self, there: &Way, next: &Way) -> Option<Vec<(LocalId, Num, Num)>> {
+    fn numbers_of(&mut self, there: &PendingEdge, next: &PendingEdge) -> Option<Vec<(LocalId, Num, Num)>> {
         let mut all = Vec::new();
         for local in stored_on([there, next]) {
             let (there, next) = (there.held(local), next.held(local));
@@ -295,7 +302,7 @@ impl Build<'_> {
         &mut self,
         span: Span,
         work: impl FnOnce(&mut Self, usize),
-        exits: impl FnOnce(&mut Self) -> Vec<Way>,
+        exits: impl FnOnce(&mut Self) -> Vec<PendingEdge>,
     ) {
         let (mark, from) = (self.mark(), self.here());
         work(self, mark);
@@ -313,7 +320,7 @@ impl Build<'_> {
         let dead = entry.is_none();
         self.begin(from);
         self.dead = dead;
-        let ways = |all: &[Exits]| all.last().map_or(0, |e| e.exits.len());
+        let ways = |all: &[EarlyExits]| all.last().map_or(0, |e| e.exits.len());
         let returns = (ways(&self.inlines), ways(&self.chains));
         let (header, params) = (self.here(), BTreeMap::new());
         let (breaks, continues) = (Vec::new(), Vec::new());
@@ -322,7 +329,7 @@ impl Build<'_> {
         {
             edge.to = header;
         }
-        self.loops.push(Level { header, entry, mark, params, breaks, continues, returns });
+        self.loops.push(LoopContext { header, entry, mark, params, breaks, continues, returns });
     }
 
     /// Leaves the innermost loop, or goes on to its next turn.
@@ -348,7 +355,7 @@ impl Build<'_> {
     /// The question whether a loop goes on.
     pub(super) fn loop_test(&mut self, holds: Num, span: Span) {
         let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
-        let way = self.jump_if(End::If(false, holds, Edge::default()), mark, span);
+        let way = self.jump_if(Terminator::If(false, holds, BlockEdge::default()), mark, span);
         if let Some(level) = self.loops.last_mut() {
             level.breaks.extend(way);
         }
@@ -387,7 +394,7 @@ impl Build<'_> {
         }
         if let Some(block) = back.and_then(|way| self.unit.blocks.get_mut(way.from as usize)) {
             let args = kept.iter().map(|k| k.3).collect();
-            block.end = End::Again(Edge { to: level.header, args });
+            block.end = Terminator::Again(BlockEdge { to: level.header, args });
         }
         for (local, param, ..) in &kept {
             self.write(*local, *param);

@@ -6,7 +6,7 @@ use crate::operation::select;
 use crate::ssa::{Num, Op, Operand, SsaFunction};
 
 /// What an operation gives.
-enum Gives {
+enum Folded {
     Known(f64),
     /// The same as another number.
     Same(Num),
@@ -18,11 +18,11 @@ pub(super) fn fold(unit: &mut SsaFunction) {
     for i in 0..unit.ops.len() {
         let Some((name, gives)) = unit.ops.get(i).and_then(|op| result(unit, op)) else { continue };
         match gives {
-            Gives::Known(x) => {
+            Folded::Known(x) => {
                 let at = unit.numbers.partition_point(|(n, _)| *n < name);
                 unit.numbers.insert(at, (name, x));
             }
-            Gives::Same(other) => unit.same.join(Operand::Number(name), Operand::Number(other)),
+            Folded::Same(other) => unit.same.join(Operand::Number(name), Operand::Number(other)),
         }
         gone.push(i as u32);
     }
@@ -40,7 +40,7 @@ pub(super) fn fold(unit: &mut SsaFunction) {
 }
 
 /// What a numeric operation gives, with its name, where that is known.
-fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Gives)> {
+fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
     let known = |n: Num| unit.known(unit.same.number(n));
     Some(match *op {
         Op::Unary(name, op, a) => (name, kept(&[known(a)?], op.on_number(known(a)?))?),
@@ -49,7 +49,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Gives)> {
             (name, kept(&operands, op.on_numbers(operands[0], operands[1]))?)
         }
         Op::Select(_, test, ..) if known(test)?.is_nan() => return None,
-        Op::Select(name, test, a, b) => (name, Gives::Same(select(known(test)?, a, b))),
+        Op::Select(name, test, a, b) => (name, Folded::Same(select(known(test)?, a, b))),
         Op::Math(name, function, args) => {
             let numbers: Option<Vec<f64>> = args.of(&unit.args).iter().map(|n| known(Num(*n))).collect();
             let numbers = numbers?;
@@ -59,7 +59,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Gives)> {
             (
                 name,
                 if function.gives_boolean() {
-                    Gives::Known(x)
+                    Folded::Known(x)
                 } else {
                     kept(&numbers, x).filter(|_| some)?
                 },
@@ -70,9 +70,9 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Gives)> {
 }
 
 /// A known result, unless a NaN was lost on the way to it: a run shows where ([`crate::Watch`]).
-fn kept(operands: &[f64], x: f64) -> Option<Gives> {
+fn kept(operands: &[f64], x: f64) -> Option<Folded> {
     let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
-    (!lost).then_some(Gives::Known(x))
+    (!lost).then_some(Folded::Known(x))
 }
 
 #[cfg(test)]

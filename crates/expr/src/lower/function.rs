@@ -1,17 +1,17 @@
 //! Typed tree to form, function after function.
 
-use super::builder::{Build, Variables};
+use super::builder::{FunctionBuilder, Variables};
 use super::fold::fold;
-use crate::ir::{self, LocalId, Tree};
-use crate::ssa::{End, Op, Operand, Slot, SsaProgram};
+use crate::ir::{self, IrProgram, LocalId};
+use crate::ssa::{Op, Operand, Representation, SsaProgram, Terminator};
 use labspec_finding::Span;
 
 /// The form of a text.
-pub(crate) fn lower(tree: &Tree) -> SsaProgram {
+pub(crate) fn lower(tree: &IrProgram) -> SsaProgram {
     let mut form = SsaProgram { views: tree.views.clone(), ..SsaProgram::default() };
     let mut variables = Variables::default();
     for unit in &tree.units {
-        let mut build = Build::new(tree, &mut form, variables);
+        let mut build = FunctionBuilder::new(tree, &mut form, variables);
         build.whole(unit);
         build.back_to(0);
         let mut done = build.unit;
@@ -23,9 +23,9 @@ pub(crate) fn lower(tree: &Tree) -> SsaProgram {
     form
 }
 
-impl Build<'_> {
-    fn whole(&mut self, unit: &ir::Unit) {
-        self.unit.result = unit.result.map_or(Slot::Value, Slot::of);
+impl FunctionBuilder<'_> {
+    fn whole(&mut self, unit: &ir::IrFunction) {
+        self.unit.result = unit.result.map_or(Representation::Value, Representation::of);
         self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
         self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
         let given: Vec<(LocalId, Operand)> =
@@ -41,14 +41,14 @@ impl Build<'_> {
             self.write(local, at);
         }
         self.steps(&unit.body);
-        self.end(End::Return(None), Span::default());
+        self.end(Terminator::Return(None), Span::default());
     }
 
     /// The name of a parameter.
     fn given(&mut self, local: LocalId) -> Operand {
         match self.slot(local) {
-            Slot::Value => Operand::Value(self.new_value()),
-            Slot::Number | Slot::Boolean => Operand::Number(self.new_number()),
+            Representation::Value => Operand::Value(self.new_value()),
+            Representation::Number | Representation::Boolean => Operand::Number(self.new_number()),
         }
     }
 }

@@ -1,15 +1,15 @@
 //! Assignments: to elements of fields, to variables, and to parts of lists and records.
 
-use super::builder::Build;
-use crate::ir::{Index, Ir, LocalId, Place, UpdateResult};
+use super::builder::FunctionBuilder;
+use crate::ir::{AssignmentTarget, Index, Ir, LocalId, UpdateResult};
 use crate::operators::{BinaryOp, LogicalOp};
-use crate::ssa::{Num, Op, Operand, Slot, Val};
+use crate::ssa::{Num, Op, Operand, Representation, Val};
 use crate::types::Type;
 use crate::value::View;
 use labspec_finding::Span;
 
 /// A place whose parts are computed, so that it can be read and then stored.
-enum Found {
+enum ResolvedTarget {
     Element(View, Num),
     Fixed(View, u32),
     Global(u32),
@@ -20,18 +20,23 @@ enum Found {
     Member(Val, u32, bool),
 }
 
-impl Build<'_> {
+impl FunctionBuilder<'_> {
     /// Whether a place holds numbers and nothing else.
-    pub(super) fn is_plain_place(&mut self, place: &Place) -> bool {
+    pub(super) fn is_plain_place(&mut self, place: &AssignmentTarget) -> bool {
         match place {
-            Place::Element(..) => true,
-            Place::Local(id) => self.slot(*id) == Slot::Number,
+            AssignmentTarget::Element(..) => true,
+            AssignmentTarget::Local(id) => self.slot(*id) == Representation::Number,
             _ => false,
         }
     }
 
     /// Whether what an assignment stores and gives is a number for sure, so that it needs no value register.
-    pub(super) fn is_plain_store(&mut self, place: &Place, op: Option<BinaryOp>, value: &Ir) -> bool {
+    pub(super) fn is_plain_store(
+        &mut self,
+        place: &AssignmentTarget,
+        op: Option<BinaryOp>,
+        value: &Ir,
+    ) -> bool {
         let number = match op {
             None => value.ty == Type::Number,
             Some(BinaryOp::Add) => value.is_plain(),
@@ -40,32 +45,32 @@ impl Build<'_> {
         number && self.is_plain_place(place)
     }
 
-    fn place(&mut self, place: &Place) -> Found {
+    fn place(&mut self, place: &AssignmentTarget) -> ResolvedTarget {
         match place {
-            Place::Element(view, Index::At(i)) if view.count().is_some() => {
-                Found::Fixed(*view, view.first.saturating_add(u32::try_from(*i).unwrap_or(u32::MAX)))
+            AssignmentTarget::Element(view, Index::At(i)) if view.count().is_some() => {
+                ResolvedTarget::Fixed(*view, view.first.saturating_add(u32::try_from(*i).unwrap_or(u32::MAX)))
             }
-            Place::Element(view, index) => {
+            AssignmentTarget::Element(view, index) => {
                 // The index is computed before the value, and once.
-                Found::Element(*view, self.index(index))
+                ResolvedTarget::Element(*view, self.index(index))
             }
-            Place::Global(slot) => Found::Global(*slot),
-            Place::GlobalNamed(name) => Found::GlobalNamed(self.value(name)),
-            Place::Local(id) => Found::Local(*id),
-            Place::Item(object, index) => {
-                Found::Item(self.value(object), self.value(index), object.ty == Type::Record)
+            AssignmentTarget::Global(slot) => ResolvedTarget::Global(*slot),
+            AssignmentTarget::GlobalNamed(name) => ResolvedTarget::GlobalNamed(self.value(name)),
+            AssignmentTarget::Local(id) => ResolvedTarget::Local(*id),
+            AssignmentTarget::Item(object, index) => {
+                ResolvedTarget::Item(self.value(object), self.value(index), object.ty == Type::Record)
             }
-            Place::Member(object, name) => {
-                Found::Member(self.value(object), self.text(name), object.ty == Type::Record)
+            AssignmentTarget::Member(object, name) => {
+                ResolvedTarget::Member(self.value(object), self.text(name), object.ty == Type::Record)
             }
         }
     }
 
-    fn load_number(&mut self, found: &Found, span: Span) -> Num {
+    fn load_number(&mut self, found: &ResolvedTarget, span: Span) -> Num {
         match found {
-            Found::Fixed(view, at) => self.number_by(span, |dst| Op::Load(dst, view.field, *at)),
-            Found::Element(view, at) => self.number_by(span, |dst| Op::LoadAt(dst, *view, *at)),
-            Found::Local(id) if self.slot(*id) != Slot::Value => self.read_number(*id),
+            ResolvedTarget::Fixed(view, at) => self.number_by(span, |dst| Op::Load(dst, view.field, *at)),
+            ResolvedTarget::Element(view, at) => self.number_by(span, |dst| Op::LoadAt(dst, *view, *at)),
+            ResolvedTarget::Local(id) if self.slot(*id) != Representation::Value => self.read_number(*id),
             _ => {
                 let value = self.load_found(found, span);
                 self.number_by(span, |dst| Op::ToNumber(dst, value))
@@ -73,55 +78,67 @@ impl Build<'_> {
         }
     }
 
-    fn load_found(&mut self, found: &Found, span: Span) -> Val {
+    fn load_found(&mut self, found: &ResolvedTarget, span: Span) -> Val {
         match *found {
-            Found::Fixed(view, at) => {
+            ResolvedTarget::Fixed(view, at) => {
                 let number = self.number_by(span, |dst| Op::Load(dst, view.field, at));
-                self.boxed(number, Slot::Number, span)
+                self.boxed(number, Representation::Number, span)
             }
-            Found::Element(view, at) => self.value_of(span, |dst| Op::LoadValueAt(dst, view, at)),
-            Found::Global(slot) => self.value_of(span, |dst| Op::Global(dst, slot)),
-            Found::GlobalNamed(name) => self.value_of(span, |dst| Op::GlobalNamed(dst, name)),
-            Found::Local(id) => self.local_value(id, span),
-            Found::Item(object, index, _) => self.value_of(span, |dst| Op::Element(dst, object, index)),
-            Found::Member(object, name, _) => self.value_of(span, |dst| Op::Member(dst, object, name)),
+            ResolvedTarget::Element(view, at) => self.value_of(span, |dst| Op::LoadValueAt(dst, view, at)),
+            ResolvedTarget::Global(slot) => self.value_of(span, |dst| Op::Global(dst, slot)),
+            ResolvedTarget::GlobalNamed(name) => self.value_of(span, |dst| Op::GlobalNamed(dst, name)),
+            ResolvedTarget::Local(id) => self.local_value(id, span),
+            ResolvedTarget::Item(object, index, _) => {
+                self.value_of(span, |dst| Op::Element(dst, object, index))
+            }
+            ResolvedTarget::Member(object, name, _) => {
+                self.value_of(span, |dst| Op::Member(dst, object, name))
+            }
         }
     }
 
-    fn store_number(&mut self, found: &Found, src: Num, span: Span) {
+    fn store_number(&mut self, found: &ResolvedTarget, src: Num, span: Span) {
         match *found {
-            Found::Fixed(view, at) => self.emit(Op::Store(view.field, at, src), span),
-            Found::Element(view, at) => self.emit(Op::StoreAt(view, at, src), span),
-            Found::Local(id) if self.slot(id) != Slot::Value => self.write(id, Operand::Number(src)),
+            ResolvedTarget::Fixed(view, at) => self.emit(Op::Store(view.field, at, src), span),
+            ResolvedTarget::Element(view, at) => self.emit(Op::StoreAt(view, at, src), span),
+            ResolvedTarget::Local(id) if self.slot(id) != Representation::Value => {
+                self.write(id, Operand::Number(src))
+            }
             _ => {
-                let boxed = self.boxed(src, Slot::Number, span);
+                let boxed = self.boxed(src, Representation::Number, span);
                 self.store_found(found, boxed, span);
             }
         }
     }
 
-    fn store_found(&mut self, found: &Found, src: Val, span: Span) {
+    fn store_found(&mut self, found: &ResolvedTarget, src: Val, span: Span) {
         let op = match *found {
-            Found::Fixed(..) | Found::Element(..) => {
+            ResolvedTarget::Fixed(..) | ResolvedTarget::Element(..) => {
                 let number = self.number_by(span, |dst| Op::ToNumber(dst, src));
                 return self.store_number(found, number, span);
             }
-            Found::Local(id) if self.slot(id) != Slot::Value => {
+            ResolvedTarget::Local(id) if self.slot(id) != Representation::Value => {
                 let number = self.number_by(span, |dst| Op::ToNumber(dst, src));
                 return self.write(id, Operand::Number(number));
             }
-            Found::Local(id) if self.is_shared(id) => Op::CellSet(self.read_value(id), src, false),
-            Found::Local(id) => return self.write(id, Operand::Value(src)),
-            Found::Global(slot) => Op::StoreGlobal(slot, src),
-            Found::GlobalNamed(name) => Op::StoreGlobalNamed(name, src),
-            Found::Item(object, index, record) => Op::StoreItem(object, index, src, record),
-            Found::Member(object, name, record) => Op::StoreMember(object, name, src, record),
+            ResolvedTarget::Local(id) if self.is_shared(id) => Op::CellSet(self.read_value(id), src, false),
+            ResolvedTarget::Local(id) => return self.write(id, Operand::Value(src)),
+            ResolvedTarget::Global(slot) => Op::StoreGlobal(slot, src),
+            ResolvedTarget::GlobalNamed(name) => Op::StoreGlobalNamed(name, src),
+            ResolvedTarget::Item(object, index, record) => Op::StoreItem(object, index, src, record),
+            ResolvedTarget::Member(object, name, record) => Op::StoreMember(object, name, src, record),
         };
         self.emit(op, span);
     }
 
     /// Stores a number; gives the register of what was stored.
-    pub(super) fn store(&mut self, place: &Place, op: Option<BinaryOp>, value: &Ir, span: Span) -> Num {
+    pub(super) fn store(
+        &mut self,
+        place: &AssignmentTarget,
+        op: Option<BinaryOp>,
+        value: &Ir,
+        span: Span,
+    ) -> Num {
         let found = self.place(place);
         let new = match op {
             None => self.number(value),
@@ -136,7 +153,13 @@ impl Build<'_> {
     }
 
     /// Stores a value of any type; gives the register of what was stored.
-    pub(super) fn store_value(&mut self, place: &Place, op: Option<BinaryOp>, value: &Ir, span: Span) -> Val {
+    pub(super) fn store_value(
+        &mut self,
+        place: &AssignmentTarget,
+        op: Option<BinaryOp>,
+        value: &Ir,
+        span: Span,
+    ) -> Val {
         let found = self.place(place);
         let new = match op {
             None => self.value(value),
@@ -149,7 +172,7 @@ impl Build<'_> {
                 let old = self.load_number(&found, span);
                 let value = self.number(value);
                 let result = self.number_by(span, |dst| Op::Binary(dst, op, old, value));
-                self.boxed(result, Slot::Number, span)
+                self.boxed(result, Representation::Number, span)
             }
         };
         self.store_found(&found, new, span);
@@ -157,7 +180,13 @@ impl Build<'_> {
     }
 
     /// `place ||= value` and its like.
-    pub(super) fn store_if(&mut self, op: LogicalOp, place: &Place, value: &Ir, span: Span) -> Val {
+    pub(super) fn store_if(
+        &mut self,
+        op: LogicalOp,
+        place: &AssignmentTarget,
+        value: &Ir,
+        span: Span,
+    ) -> Val {
         let found = self.place(place);
         let (result, old) = (self.temporary(), self.load_found(&found, span));
         self.write(result, Operand::Value(old));
@@ -171,7 +200,13 @@ impl Build<'_> {
     }
 
     /// `place++` of a number.
-    pub(super) fn update(&mut self, place: &Place, step: f64, gives: UpdateResult, span: Span) -> Num {
+    pub(super) fn update(
+        &mut self,
+        place: &AssignmentTarget,
+        step: f64,
+        gives: UpdateResult,
+        span: Span,
+    ) -> Num {
         let found = self.place(place);
         let step = self.constant(step);
         let old = self.load_number(&found, span);
@@ -181,16 +216,22 @@ impl Build<'_> {
     }
 
     /// `place++` of a value of any type, which becomes a number.
-    pub(super) fn update_value(&mut self, place: &Place, step: f64, gives: UpdateResult, span: Span) -> Val {
+    pub(super) fn update_value(
+        &mut self,
+        place: &AssignmentTarget,
+        step: f64,
+        gives: UpdateResult,
+        span: Span,
+    ) -> Val {
         let found = self.place(place);
         let old = self.load_number(&found, span);
         let step = self.constant(step);
         let new = self.number_by(span, |dst| Op::Binary(dst, BinaryOp::Add, old, step));
-        let boxed = self.boxed(new, Slot::Number, span);
+        let boxed = self.boxed(new, Representation::Number, span);
         self.store_found(&found, boxed, span);
         match gives {
             UpdateResult::New => boxed,
-            UpdateResult::Old => self.boxed(old, Slot::Number, span),
+            UpdateResult::Old => self.boxed(old, Representation::Number, span),
         }
     }
 }

@@ -3,15 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use crate::formula::{Formula, Step, StepId};
+use crate::formula::{Formula, FormulaStep, StepId};
 use crate::math::FEW;
-use crate::ssa::{Block, BlockId, Edge, End, Num, Op, Operand, Slot, SsaFunction};
+use crate::ssa::{BasicBlock, BlockEdge, BlockId, Num, Op, Operand, Representation, SsaFunction, Terminator};
 
 /// The formula of a text that gives a number or a truth value; `None` when its value depends on more than elements of
 /// fields at known indexes.
 pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
     let loads_and_numbers = |op: &Op| op.is_numeric() || matches!(op, Op::Load(..));
-    if unit.result == Slot::Value || !unit.ops.iter().all(loads_and_numbers) {
+    if unit.result == Representation::Value || !unit.ops.iter().all(loads_and_numbers) {
         return None;
     }
     let mut steps = Steps::of(unit);
@@ -23,7 +23,7 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
     let mut output = steps.chosen(0, unit.blocks.len() as BlockId, 0)?;
     let mut formula = steps.formula;
     formula.finish(std::slice::from_mut(&mut output));
-    (formula.output, formula.truth) = (output, unit.result == Slot::Boolean);
+    (formula.output, formula.truth) = (output, unit.result == Representation::Boolean);
     Some(formula)
 }
 
@@ -63,7 +63,7 @@ impl<'u> Steps<'u> {
         }
         let at = match (self.unit.known(name), &mut self.input) {
             (Some(x), _) => self.formula.constant(x),
-            (None, Some(input)) => self.formula.step(Step::Input(input(name))),
+            (None, Some(input)) => self.formula.step(FormulaStep::Input(input(name))),
             (None, None) => return None,
         };
         self.at.insert(name, at);
@@ -73,7 +73,7 @@ impl<'u> Steps<'u> {
     /// The step of an operation, with its name.
     fn op(&mut self, op: &Op) -> Option<(Num, StepId)> {
         let (name, at) = match *op {
-            Op::Load(name, field, index) => (name, self.formula.step(Step::Load(field, index))),
+            Op::Load(name, field, index) => (name, self.formula.step(FormulaStep::Load(field, index))),
             Op::Unary(name, op, a) => {
                 let a = self.find(a)?;
                 (name, self.formula.unary(op, a))
@@ -102,7 +102,7 @@ impl<'u> Steps<'u> {
     /// The parameters of a block.
     fn params(&mut self, to: BlockId) -> Option<()> {
         let unit = self.unit;
-        let Block { params, after, .. } = unit.blocks.get(to as usize)?;
+        let BasicBlock { params, after, .. } = unit.blocks.get(to as usize)?;
         for (i, param) in params.iter().enumerate() {
             let Operand::Number(name) = param else { return None };
             let at = self.chosen(*after, to, i)?;
@@ -120,14 +120,15 @@ impl<'u> Steps<'u> {
             let known = |from: &[Option<StepId>], block: BlockId| {
                 from.get((block - after) as usize).copied().flatten()
             };
-            let follow = |steps: &mut Self, from: &[Option<StepId>], edge: &Edge| match edge.args.get(param) {
-                Some(Operand::Number(name)) if edge.to == to => steps.find(*name),
-                _ if edge.to < to => known(from, edge.to),
-                _ => None,
-            };
+            let follow =
+                |steps: &mut Self, from: &[Option<StepId>], edge: &BlockEdge| match edge.args.get(param) {
+                    Some(Operand::Number(name)) if edge.to == to => steps.find(*name),
+                    _ if edge.to < to => known(from, edge.to),
+                    _ => None,
+                };
             let found = match &unit.blocks.get(at as usize)?.end {
-                End::Jump(edge) => follow(self, &from, edge),
-                End::If(when, test, edge) => {
+                Terminator::Jump(edge) => follow(self, &from, edge),
+                Terminator::If(when, test, edge) => {
                     let (there, next) = (follow(self, &from, edge), known(&from, at + 1));
                     match (there, next) {
                         (Some(there), Some(next)) => {
@@ -138,11 +139,11 @@ impl<'u> Steps<'u> {
                         (one, other) => one.or(other),
                     }
                 }
-                End::Return(Some(Operand::Number(name))) if to as usize == unit.blocks.len() => {
+                Terminator::Return(Some(Operand::Number(name))) if to as usize == unit.blocks.len() => {
                     self.find(*name)
                 }
-                End::Return(_) => None,
-                End::IfNothing(..) | End::Again(_) => return None,
+                Terminator::Return(_) => None,
+                Terminator::IfNothing(..) | Terminator::Again(_) => return None,
             };
             if let Some(place) = from.get_mut((at - after) as usize) {
                 *place = found;

@@ -1,27 +1,27 @@
 //! Statements: declarations, conditions, loops and jumps.
 
-use super::builder::{Build, Exits};
-use crate::ir::{Ir, Kind, LocalId, Loop, Step, UpdateResult};
-use crate::ssa::{End, Num, Op, Operand, Slot, Val};
+use super::builder::{EarlyExits, FunctionBuilder};
+use crate::ir::{Ir, IrKind, IrLoop, IrStatement, LocalId, UpdateResult};
+use crate::ssa::{Num, Op, Operand, Representation, Terminator, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
-impl Build<'_> {
-    pub(super) fn steps(&mut self, steps: &[Step]) {
+impl FunctionBuilder<'_> {
+    pub(super) fn steps(&mut self, steps: &[IrStatement]) {
         for step in steps {
             self.step(step);
         }
     }
 
-    fn step(&mut self, step: &Step) {
+    fn step(&mut self, step: &IrStatement) {
         match step {
-            Step::Effect(ir) => self.effect(ir),
-            Step::Declare(local, value) => self.declare(*local, value),
-            Step::Reserve(local) => {
+            IrStatement::Effect(ir) => self.effect(ir),
+            IrStatement::Declare(local, value) => self.declare(*local, value),
+            IrStatement::Reserve(local) => {
                 let cell = self.value_of(Span::default(), Op::EmptyCell);
                 self.write(*local, Operand::Value(cell));
             }
-            Step::Renew(local) => {
+            IrStatement::Renew(local) => {
                 if self.is_shared(*local) && self.has(*local) {
                     let cell = self.read_value(*local);
                     let old = self.value_of(Span::default(), |dst| Op::CellGet(dst, cell));
@@ -29,25 +29,25 @@ impl Build<'_> {
                     self.write(*local, Operand::Value(new));
                 }
             }
-            Step::If(test, then, otherwise) => {
+            IrStatement::If(test, then, otherwise) => {
                 let span = test.span;
                 self.choice(test, span, |s| s.steps(then), |s| s.steps(otherwise));
             }
-            Step::Loop(inner) => self.repeat(inner),
-            Step::Break | Step::Continue => self.leave_turn(*step == Step::Break),
-            Step::Return(value) => self.give_back(value),
-            Step::Inline(result, body, span) => self.inline(*result, body, *span),
+            IrStatement::Loop(inner) => self.repeat(inner),
+            IrStatement::Break | IrStatement::Continue => self.leave_turn(*step == IrStatement::Break),
+            IrStatement::Return(value) => self.give_back(value),
+            IrStatement::Inline(result, body, span) => self.inline(*result, body, *span),
         }
     }
 
     /// Computes the node and drops the result.
     pub(super) fn effect(&mut self, ir: &Ir) {
         match &ir.kind {
-            Kind::Fill(view, value) => {
+            IrKind::Fill(view, value) => {
                 let src = self.number(value);
                 self.emit(Op::Fill(*view, src), ir.span);
             }
-            Kind::StoreAll(view, offset, items) => {
+            IrKind::StoreAll(view, offset, items) => {
                 // All values first: an item may read what an earlier one overwrites.
                 let numbers: Vec<Num> = items.iter().map(|item| self.number(item)).collect();
                 for (i, src) in numbers.into_iter().enumerate() {
@@ -55,18 +55,18 @@ impl Build<'_> {
                     self.emit(Op::StoreAt(*view, index, src), ir.span);
                 }
             }
-            Kind::Store(place, op, value) if self.is_plain_store(place, *op, value) => {
+            IrKind::Store(place, op, value) if self.is_plain_store(place, *op, value) => {
                 self.store(place, *op, value, ir.span);
             }
-            Kind::Update(place, step, _) if self.is_plain_place(place) => {
+            IrKind::Update(place, step, _) if self.is_plain_place(place) => {
                 self.update(place, *step, UpdateResult::New, ir.span);
             }
-            Kind::Invoke(unit, args) => self.invoke(*unit, args, ir.span),
-            Kind::Block(steps, value) => {
+            IrKind::Invoke(unit, args) => self.invoke(*unit, args, ir.span),
+            IrKind::Block(steps, value) => {
                 self.steps(steps);
                 self.effect(value);
             }
-            Kind::Constant(_) | Kind::Local(_) => {}
+            IrKind::Constant(_) | IrKind::Local(_) => {}
             _ => {
                 self.value(ir);
             }
@@ -91,18 +91,18 @@ impl Build<'_> {
     /// A value in the way that a local is handed over.
     fn in_slot(&mut self, local: LocalId, value: &Ir) -> Operand {
         match self.slot(local) {
-            Slot::Value => Operand::Value(self.value(value)),
+            Representation::Value => Operand::Value(self.value(value)),
             _ => Operand::Number(self.number(value)),
         }
     }
 
     pub(super) fn local_value(&mut self, local: LocalId, span: Span) -> Val {
         match self.slot(local) {
-            Slot::Value if self.is_shared(local) => {
+            Representation::Value if self.is_shared(local) => {
                 let cell = self.read_value(local);
                 self.value_of(span, |dst| Op::CellGet(dst, cell))
             }
-            Slot::Value => self.read_value(local),
+            Representation::Value => self.read_value(local),
             slot => {
                 let number = self.read_number(local);
                 self.boxed(number, slot, span)
@@ -110,7 +110,7 @@ impl Build<'_> {
         }
     }
 
-    fn repeat(&mut self, inner: &Loop) {
+    fn repeat(&mut self, inner: &IrLoop) {
         self.enter_loop(inner.span);
         let test = |s: &mut Self| {
             if let Some(test) = &inner.test {
@@ -131,14 +131,14 @@ impl Build<'_> {
     }
 
     /// Statements in the place of a call: what they return is the value of a local.
-    fn inline(&mut self, result: LocalId, body: &[Step], span: Span) {
+    fn inline(&mut self, result: LocalId, body: &[IrStatement], span: Span) {
         let outer = self.site.replace(self.site.unwrap_or(span));
-        if self.slot(result) == Slot::Value {
+        if self.slot(result) == Representation::Value {
             let nothing = self.constant_value(&Value::Undefined);
             self.write(result, Operand::Value(nothing));
         }
         let work = |s: &mut Self, mark| {
-            s.inlines.push(Exits { mark, result, exits: Vec::new() });
+            s.inlines.push(EarlyExits { mark, result, exits: Vec::new() });
             s.steps(body);
         };
         self.region(span, work, |s| s.inlines.pop().map(|inline| inline.exits).unwrap_or_default());
@@ -149,10 +149,10 @@ impl Build<'_> {
         let span = value.span;
         let Some((result, mark)) = self.inlines.last().map(|i| (i.result, i.mark)) else {
             let at = match self.unit.result {
-                Slot::Value => Operand::Value(self.value(value)),
+                Representation::Value => Operand::Value(self.value(value)),
                 _ => Operand::Number(self.number(value)),
             };
-            return self.end(End::Return(Some(at)), span);
+            return self.end(Terminator::Return(Some(at)), span);
         };
         let at = self.in_slot(result, value);
         self.write(result, at);

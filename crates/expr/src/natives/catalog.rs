@@ -3,10 +3,10 @@
 use std::sync::OnceLock;
 
 use super::env::Env;
-use super::native::{Body, Native, On, Outcome, no_method};
+use super::native::{Implementation, Native, NativeOutcome, ReceiverKind, no_method};
 use super::{each, list, number, object, text};
 use crate::ast::{ExprKind, Function};
-use crate::heap::{Heap, Object};
+use crate::heap::{Heap, HeapObject};
 use crate::ir::{FreeFunctionId, MethodId};
 use crate::parse::parse_expression;
 use crate::types::Type;
@@ -37,12 +37,12 @@ pub(crate) fn rows() -> impl Iterator<Item = &'static Native> {
 
 /// The method of this name, whatever it belongs to.
 pub(crate) fn name(text: &str) -> Option<MethodId> {
-    first(text).filter(|(_, row)| row.on != On::Nothing).map(|(at, _)| MethodId(at))
+    first(text).filter(|(_, row)| row.on != ReceiverKind::Nothing).map(|(at, _)| MethodId(at))
 }
 
 /// The function of this name.
 pub(crate) fn free(text: &str) -> Option<FreeFunctionId> {
-    first(text).filter(|(_, row)| row.on == On::Nothing).map(|(at, _)| FreeFunctionId(at))
+    first(text).filter(|(_, row)| row.on == ReceiverKind::Nothing).map(|(at, _)| FreeFunctionId(at))
 }
 
 /// The rows that begin at a place and have one name.
@@ -82,7 +82,7 @@ impl Native {
     /// The function of the language that computes it with so many arguments.
     pub(crate) fn written(&self, arguments: usize) -> Option<&'static Function> {
         static READ: OnceLock<Vec<(&str, Function)>> = OnceLock::new();
-        let Body::Written(texts) = self.body else { return None };
+        let Implementation::Written(texts) = self.body else { return None };
         let (_, text) = texts.iter().find(|(n, _)| *n == arguments)?;
         let read = READ.get_or_init(|| {
             let texts = all().iter().flat_map(|row| row.texts());
@@ -107,33 +107,33 @@ fn function(text: &str) -> Option<Function> {
 
 /// The row by which the machine computes a method of a value, if it has it.
 pub(crate) fn row_of(heap: &Heap, name: MethodId, receiver: &Value) -> Option<&'static Native> {
-    let list = matches!(heap.object(receiver), Object::List(_));
+    let list = matches!(heap.object(receiver), HeapObject::List(_));
     // A typed array alone has `set` and `subarray`.
     if list && matches!(name.text(), "set" | "subarray") {
         return None;
     }
     name.rows().filter(|row| !row.calls()).find(|row| match (row.on, receiver) {
-        (On::List, Value::List(_) | Value::View(_))
-        | (On::Text, Value::String(_))
-        | (On::Number, Value::Number(_)) => true,
-        (On::Growing | On::Untyped, Value::List(_)) => list,
+        (ReceiverKind::List, Value::List(_) | Value::View(_))
+        | (ReceiverKind::Text, Value::String(_))
+        | (ReceiverKind::Number, Value::Number(_)) => true,
+        (ReceiverKind::Growing | ReceiverKind::Untyped, Value::List(_)) => list,
         _ => false,
     })
 }
 
 /// Calls a method.
-pub(crate) fn call(env: &mut Env<'_>, name: MethodId, receiver: &Value, args: &[Value]) -> Outcome {
+pub(crate) fn call(env: &mut Env<'_>, name: MethodId, receiver: &Value, args: &[Value]) -> NativeOutcome {
     match row_of(env.heap, name, receiver).map(|row| &row.body) {
-        Some(Body::Run(run, ..)) => run(env, receiver, args),
+        Some(Implementation::Run(run, ..)) => run(env, receiver, args),
         _ => Err(no_method(receiver, name.text())),
     }
 }
 
 /// Calls a function.
-pub(crate) fn call_free(env: &mut Env<'_>, function: FreeFunctionId, args: &[Value]) -> Outcome {
+pub(crate) fn call_free(env: &mut Env<'_>, function: FreeFunctionId, args: &[Value]) -> NativeOutcome {
     match function.row().body {
-        Body::Run(run, ..) => run(env, &Value::Undefined, args),
-        Body::Written(_) => Ok(Value::Undefined), // not reached: the binder writes these out
+        Implementation::Run(run, ..) => run(env, &Value::Undefined, args),
+        Implementation::Written(_) => Ok(Value::Undefined), // not reached: the binder writes these out
     }
 }
 
@@ -141,7 +141,7 @@ pub(crate) fn call_free(env: &mut Env<'_>, function: FreeFunctionId, args: &[Val
 mod tests {
     use super::*;
     use crate::mock::World;
-    use crate::natives::native::Nan;
+    use crate::natives::native::NanBehaviour;
 
     /// What a row makes of `[9, element, 7]` and these arguments, with `X` in the place of each `element` and `argument`.
     fn outcome(row: &Native, element: f64, argument: f64, args: &[f64]) -> String {
@@ -155,7 +155,7 @@ mod tests {
                 other => other.to_string(),
             }
         }
-        let Body::Run(run, ..) = row.body else { return String::new() };
+        let Implementation::Run(run, ..) = row.body else { return String::new() };
         let (mut heap, mut host, mut budget) = (Heap::default(), World::new(), u64::MAX);
         let items = [9.0, element, 7.0].map(Value::Number);
         let receiver = match row.name {
@@ -185,11 +185,11 @@ mod tests {
             &[1.0, 2.0, 3.0],
         ];
         for row in all() {
-            let lists = matches!(row.on, On::List | On::Growing | On::Untyped);
+            let lists = matches!(row.on, ReceiverKind::List | ReceiverKind::Growing | ReceiverKind::Untyped);
             // Every function written in the language states it by its text, and those alone.
-            assert_eq!(row.nan == Nan::Written, row.calls(), "{}", row.name);
+            assert_eq!(row.nan == NanBehaviour::Written, row.calls(), "{}", row.name);
             // Names with an underscore are called with what the texts of methods hand them: a list, and its length.
-            if row.calls() || row.name.starts_with('_') || !(lists || row.on == On::Nothing) {
+            if row.calls() || row.name.starts_with('_') || !(lists || row.on == ReceiverKind::Nothing) {
                 continue;
             }
             let (least, most) = row.arity();
@@ -199,7 +199,7 @@ mod tests {
             let arguments = fitting().any(|args| of(8.5, 8.0, &args) != of(8.5, f64::NAN, &args));
             let moved = lists
                 && fitting().filter(|a| !a.contains(&8.5)).any(|a| of(8.5, 1.5, &a) != of(f64::NAN, 1.5, &a));
-            let asks = row.nan == Nan::Asks;
+            let asks = row.nan == NanBehaviour::Asks;
             assert!(row.nan.of_elements() || !moved || asks, "{} looks at elements", row.name);
             assert!(row.nan.of_arguments() || !arguments || asks, "{} looks at arguments", row.name);
             // What is said to look does.
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn the_machine_has_the_first_row_of_a_name() {
         // A function that the machine calls must not be one that is written out.
-        for row in all().iter().filter(|row| row.on == On::Nothing) {
+        for row in all().iter().filter(|row| row.on == ReceiverKind::Nothing) {
             assert!(!free(row.name).unwrap().row().calls(), "{}", row.name);
         }
         assert!(all().len() < 256);

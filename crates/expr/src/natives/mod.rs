@@ -12,8 +12,8 @@ mod object;
 mod text;
 
 pub(crate) use catalog::{call, call_free, free, name, row_of, rows, written};
-pub(crate) use env::{Env, Trouble, charge, out_of_steps, too_long};
-pub(crate) use native::{Nan, Native, NativeResult, On};
+pub(crate) use env::{Env, NativeError, charge, out_of_steps, too_long};
+pub(crate) use native::{NanBehaviour, Native, NativeResult, ReceiverKind};
 pub(crate) use number::NUMBER_CONSTANTS;
 pub use number::to_fixed;
 pub(crate) use text::whole;

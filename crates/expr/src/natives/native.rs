@@ -1,13 +1,13 @@
 //! One row of the table of methods and functions: what it is called, takes, gives and means, and how it is computed.
 
-use super::env::{Env, Trouble};
+use super::env::{Env, NativeError};
 use crate::rules;
 use crate::types::Type;
 use crate::value::Value;
 
 /// What a method belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum On {
+pub(crate) enum ReceiverKind {
     /// Lists, typed arrays and arrays of the host.
     List,
     /// Lists alone: what changes the number of elements.
@@ -39,7 +39,7 @@ pub(crate) enum NativeResult {
 /// What becomes of NaN, and of `undefined` where that counts, among the elements of what a method is called on and among its
 /// arguments ([`crate::Watch`]). What is looked at is lost, unless the result is NaN again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Nan {
+pub(crate) enum NanBehaviour {
     /// Elements and arguments decide the result, as comparisons and texts do.
     Looks,
     /// Elements are moved and none is looked at; the arguments say where.
@@ -52,22 +52,22 @@ pub(crate) enum Nan {
     Written,
 }
 
-impl Nan {
+impl NanBehaviour {
     /// Whether the elements of what it is called on are looked at.
     pub(crate) fn of_elements(self) -> bool {
-        self == Nan::Looks
+        self == NanBehaviour::Looks
     }
 
     /// Whether the arguments are looked at.
     pub(crate) fn of_arguments(self) -> bool {
-        matches!(self, Nan::Looks | Nan::Moves)
+        matches!(self, NanBehaviour::Looks | NanBehaviour::Moves)
     }
 }
 
 /// How a method is computed.
-pub(crate) enum Body {
+pub(crate) enum Implementation {
     /// By the machine, with at least and at most so many arguments.
-    Run(Run, usize, usize),
+    Run(NativeFunction, usize, usize),
     /// By functions of the language itself, with how many arguments each of them is called: what stands before the point
     /// is the first parameter. Where the method is called, the function is bound as if its text stood there, so that the
     /// types of that place decide how it is computed: a sum over an array of numbers never leaves the number registers.
@@ -77,21 +77,21 @@ pub(crate) enum Body {
 /// A method, or a function.
 pub(crate) struct Native {
     pub(crate) name: &'static str,
-    pub(crate) on: On,
+    pub(crate) on: ReceiverKind,
     pub(crate) gives: NativeResult,
     /// It changes the elements of what it is called on.
     pub(crate) changes: bool,
     /// What becomes of NaN.
-    pub(crate) nan: Nan,
+    pub(crate) nan: NanBehaviour,
     pub(crate) doc: &'static str,
     /// An expression and its value, as text. `{array}` stands for an array of the host.
     pub(super) example: (&'static str, &'static str),
-    pub(crate) body: Body,
+    pub(crate) body: Implementation,
 }
 
-pub(super) type Run = fn(&mut Env<'_>, &Value, &[Value]) -> Outcome;
+pub(super) type NativeFunction = fn(&mut Env<'_>, &Value, &[Value]) -> NativeOutcome;
 
-pub(super) type Outcome = Result<Value, Trouble>;
+pub(super) type NativeOutcome = Result<Value, NativeError>;
 
 /// Any number of arguments.
 pub(super) const MANY: usize = usize::MAX;
@@ -104,26 +104,26 @@ macro_rules! table {
         $example:literal => $value:literal, $doc:literal;)*) => {
         &[$(Native {
             name: $name,
-            on: $crate::natives::native::On::$on,
+            on: $crate::natives::native::ReceiverKind::$on,
             gives: $crate::natives::native::NativeResult::$gives,
             changes: !stringify!($($changes)?).is_empty(),
-            nan: $crate::natives::native::Nan::$nan,
+            nan: $crate::natives::native::NanBehaviour::$nan,
             doc: $doc,
             example: ($example, $value),
-            body: $crate::natives::native::Body::Run($run, $least, $most),
+            body: $crate::natives::native::Implementation::Run($run, $least, $most),
         },)*]
     };
     ($($name:literal $on:ident $($changes:ident)?: $example:literal => $value:literal, $doc:literal,
         $first:literal => $text:expr $(, $next:literal => $more:expr)?;)*) => {
         &[$(Native {
             name: $name,
-            on: $crate::natives::native::On::$on,
+            on: $crate::natives::native::ReceiverKind::$on,
             gives: $crate::natives::native::NativeResult::Any,
             changes: !stringify!($($changes)?).is_empty(),
-            nan: $crate::natives::native::Nan::Written,
+            nan: $crate::natives::native::NanBehaviour::Written,
             doc: $doc,
             example: ($example, $value),
-            body: $crate::natives::native::Body::Written(&[($first, $text) $(, ($next, $more))?]),
+            body: $crate::natives::native::Implementation::Written(&[($first, $text) $(, ($next, $more))?]),
         },)*]
     };
 }
@@ -134,11 +134,11 @@ impl Native {
     pub(crate) fn is_of(&self, ty: Type) -> bool {
         matches!(ty, Type::Any | Type::Never)
             || match self.on {
-                On::List => matches!(ty, Type::List | Type::View),
-                On::Growing | On::Untyped => ty == Type::List,
-                On::Text => ty == Type::String,
-                On::Number => matches!(ty, Type::Number | Type::Element),
-                On::Nothing => false,
+                ReceiverKind::List => matches!(ty, Type::List | Type::View),
+                ReceiverKind::Growing | ReceiverKind::Untyped => ty == Type::List,
+                ReceiverKind::Text => ty == Type::String,
+                ReceiverKind::Number => matches!(ty, Type::Number | Type::Element),
+                ReceiverKind::Nothing => false,
             }
     }
 
@@ -160,15 +160,15 @@ impl Native {
 
     /// How it is called, in short: `.map`, `Array.from`.
     pub(crate) fn title(&self) -> String {
-        let point = if self.on == On::Nothing { "" } else { "." };
+        let point = if self.on == ReceiverKind::Nothing { "" } else { "." };
         format!("{point}{}", self.name)
     }
 
     /// The least and the largest number of arguments.
     pub(crate) fn arity(&self) -> (usize, usize) {
         match self.body {
-            Body::Run(_, least, most) => (least, most),
-            Body::Written(texts) => {
+            Implementation::Run(_, least, most) => (least, most),
+            Implementation::Written(texts) => {
                 (texts.first().map_or(0, |(n, _)| *n), texts.last().map_or(0, |(n, _)| *n))
             }
         }
@@ -176,7 +176,7 @@ impl Native {
 
     /// Whether it calls a function for every element.
     pub(crate) fn calls(&self) -> bool {
-        matches!(self.body, Body::Written(_))
+        matches!(self.body, Implementation::Written(_))
     }
 
     /// The example and its value, with an array of the host.
@@ -186,13 +186,13 @@ impl Native {
 
     /// The texts of the functions that compute it.
     pub(super) fn texts(&self) -> &'static [(usize, &'static str)] {
-        if let Body::Written(texts) = self.body { texts } else { &[] }
+        if let Implementation::Written(texts) = self.body { texts } else { &[] }
     }
 }
 
 /// Why a method is not called.
-pub(super) fn no_method(receiver: &Value, name: &str) -> Trouble {
+pub(super) fn no_method(receiver: &Value, name: &str) -> NativeError {
     let what = receiver.type_of().describe();
     let what = if receiver.is_nothing() { receiver.to_string() } else { what.to_owned() };
-    Trouble::new(rules::NOT_CALLABLE, format!("{what} has no method `{name}`"))
+    NativeError::new(rules::NOT_CALLABLE, format!("{what} has no method `{name}`"))
 }

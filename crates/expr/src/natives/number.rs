@@ -1,7 +1,7 @@
 //! Methods of numbers, and functions that make numbers, texts and truth values (ECMAScript, "Number Objects", "parseFloat", "parseInt").
 
-use super::env::{Env, Trouble, arg, integer};
-use super::native::{Native, Outcome, table};
+use super::env::{Env, NativeError, arg, integer};
+use super::native::{Native, NativeOutcome, table};
 use crate::number;
 use crate::rules;
 use crate::value::Value;
@@ -55,14 +55,14 @@ fn own(value: &Value) -> f64 {
 }
 
 /// An argument that counts digits, from `least` to 100.
-fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>, Trouble> {
+fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>, NativeError> {
     if *arg(args, 0) == Value::Undefined {
         return Ok(None);
     }
     let x = integer(env.number(arg(args, 0))?);
     if !(least..=100.0).contains(&x) {
         let message = format!("{x} digits are not allowed: the range is {least} to 100");
-        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
+        return Err(NativeError::new(rules::ARGUMENT_TYPE, message));
     }
     Ok(Some(x as usize))
 }
@@ -144,12 +144,12 @@ fn exponential(sign: &str, mantissa: &str, exponent: i32) -> String {
     format!("{sign}{mantissa}e{e}{}", exponent.abs())
 }
 
-fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let digits = digits(env, args, 0.0)?.unwrap_or(0);
     env.string(to_fixed(own(x), digits))
 }
 
-fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let x = own(x);
     if !x.is_finite() {
         return env.string(number::to_text(x));
@@ -167,7 +167,7 @@ fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcom
     env.string(exponential(sign, &mantissa, exponent))
 }
 
-fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let x = own(x);
     if !x.is_finite() {
         return env.string(number::to_text(x));
@@ -188,14 +188,14 @@ fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome 
     env.string(format!("{sign}{text}"))
 }
 
-fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let radix = match arg(args, 0) {
         Value::Undefined => 10.0,
         radix => integer(env.number(radix)?),
     };
     if !(2.0..=36.0).contains(&radix) {
         let message = format!("base {} is not allowed: the range is 2 to 36", number::to_text(radix));
-        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
+        return Err(NativeError::new(rules::ARGUMENT_TYPE, message));
     }
     let x = own(x);
     if radix == 10.0 || !x.is_finite() {
@@ -261,14 +261,14 @@ fn fraction_in(x: f64, radix: f64) -> (String, bool) {
     (format!(".{text}"), false)
 }
 
-fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Number(match args.first() {
         Some(value) => env.number(value)?,
         None => 0.0,
     }))
 }
 
-fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     match args.first() {
         Some(value) => {
             let text = env.text(value)?;
@@ -278,23 +278,23 @@ fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     }
 }
 
-fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(arg(args, 0).truthy()))
 }
 
-fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite())))
 }
 
-fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite() && x.fract() == 0.0)))
 }
 
-fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_nan())))
 }
 
-fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let text = env.text(arg(args, 0))?;
     let text = text.trim_start_matches(number::is_space);
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
@@ -321,7 +321,7 @@ fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Number(text.get(..end).and_then(|t| t.parse().ok()).unwrap_or(f64::NAN)))
 }
 
-fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let text = env.text(arg(args, 0))?;
     let text = text.trim_start_matches(number::is_space);
     let (sign, text) = match text.strip_prefix('-') {

@@ -1,15 +1,15 @@
 //! What stands in brackets, and what is reported where a bracket or a value is missing.
 
-use super::node::{ASSIGNMENT, Node, error_node, infix};
+use super::node::{ASSIGNMENT, ExprNode, error_node, infix};
 use super::parser::{Attempt, Parser, Reported};
 use crate::ast::{Expr, ExprKind};
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
     /// One expression and its closing bracket; a mistake inside is skipped to the bracket.
-    pub(super) fn enclosed(&mut self, opener: Span, closer: &str, power: u8) -> Attempt<(Node, Span)> {
+    pub(super) fn enclosed(&mut self, opener: Span, closer: &str, power: u8) -> Attempt<(ExprNode, Span)> {
         if self.is(closer) {
             let span = opener.to(self.bump());
             let what = if closer == "]" { "an index" } else { "an expression" };
@@ -71,7 +71,7 @@ impl Parser<'_> {
     }
 
     /// An item or argument, possibly a spread.
-    pub(super) fn item(&mut self) -> Attempt<Node> {
+    pub(super) fn item(&mut self) -> Attempt<ExprNode> {
         let Some(dots) = self.eat("...") else { return self.expression(ASSIGNMENT) };
         let value = self.expression(ASSIGNMENT)?;
         let span = dots.to(value.expr.span);
@@ -81,7 +81,7 @@ impl Parser<'_> {
     /// The finding when something else stands where a bracket must close.
     pub(super) fn unclosed(&mut self, opener: Span, closer: &str, before: Span) -> Option<Finding> {
         // An index holds no assignment, so `=` shows that its bracket should have been closed.
-        let ends = self.ended() || matches!(self.peek(), Tok::Symbol(";" | ")" | "]" | "}" | "="));
+        let ends = self.ended() || matches!(self.peek(), TokenKind::Symbol(";" | ")" | "]" | "}" | "="));
         if !ends {
             return self.unexpected_behind(before);
         }
@@ -105,10 +105,10 @@ impl Parser<'_> {
         }
         report = match self.peek() {
             // `a = == b`, `a * * b`: two operators in a row.
-            Tok::Symbol(symbol) if infix(symbol).is_some() && before.is_empty() => {
+            TokenKind::Symbol(symbol) if infix(symbol).is_some() && before.is_empty() => {
                 report.help(format!("write the value before `{symbol}`, or remove it"))
             }
-            Tok::Symbol(symbol) if infix(symbol).is_some() => report.help(format!(
+            TokenKind::Symbol(symbol) if infix(symbol).is_some() => report.help(format!(
                 "remove one of the operators, or write the value between `{before}` and `{symbol}`"
             )),
             _ => report.help(format!(

@@ -3,14 +3,14 @@
 use super::parser::{Attempt, Parser};
 use super::refuse;
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, StmtKind};
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
     /// The declaration that stands for `class name`, so that uses of the name are not mistakes of their own.
     pub(super) fn class_name(&self) -> Option<StmtKind> {
-        let (Tok::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
+        let (TokenKind::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
         let span = self.tokens.get(self.at + 1)?.span;
         let value = Some(Expr { kind: ExprKind::Error, span });
         let target = Pattern::Name(Name { text: (*text).to_owned(), span });
@@ -58,7 +58,7 @@ impl Parser<'_> {
 
     pub(super) fn declarator(&mut self, constant: bool, opener: Span) -> Attempt<Declarator> {
         let span = self.span();
-        if !matches!(self.peek(), Tok::Word(_) | Tok::Bad | Tok::Symbol("[" | "{")) {
+        if !matches!(self.peek(), TokenKind::Word(_) | TokenKind::Bad | TokenKind::Symbol("[" | "{")) {
             let report =
                 Finding::error(rules::MISSING_NAME, span, format!("expected a name, found {}", self.shown()))
                     .why(format!("`{}` declares a name", opener.text(self.source)))

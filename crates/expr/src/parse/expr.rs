@@ -3,11 +3,11 @@
 //! The height of every tree is counted while it is built, so that no later stage, which walks trees by
 //! recursion, can run out of stack.
 
-use super::node::{ASSIGNMENT, CHOICE, Infix, Node, infix};
+use super::node::{ASSIGNMENT, CHOICE, ExprNode, Infix, infix};
 use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
 use super::refuse;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Name};
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
@@ -33,7 +33,7 @@ impl Parser<'_> {
     }
 
     /// An expression whose operators bind at least as tightly as `power`.
-    pub(super) fn expression(&mut self, power: u8) -> Attempt<Node> {
+    pub(super) fn expression(&mut self, power: u8) -> Attempt<ExprNode> {
         if self.depth >= MAX_DEPTH {
             let span = self.span();
             return self.too_deep(span);
@@ -41,7 +41,7 @@ impl Parser<'_> {
         self.depth += 1;
         let result = self.prefix().and_then(|left| self.continuation(left, power));
         self.depth -= 1;
-        result.map(Node::whole_chain)
+        result.map(ExprNode::whole_chain)
     }
 
     pub(super) fn too_deep<T>(&mut self, span: Span) -> Attempt<T> {
@@ -53,18 +53,18 @@ impl Parser<'_> {
     }
 
     /// A node from its parts, if the tree does not become too high.
-    pub(super) fn node(&mut self, kind: ExprKind, span: Span, below: usize) -> Attempt<Node> {
+    pub(super) fn node(&mut self, kind: ExprKind, span: Span, below: usize) -> Attempt<ExprNode> {
         if below >= MAX_DEPTH {
             return self.too_deep(span);
         }
         self.tallest = self.tallest.max(below + 1);
-        Ok(Node { expr: Expr { kind, span }, height: below + 1, closed: false, chain: false })
+        Ok(ExprNode { expr: Expr { kind, span }, height: below + 1, closed: false, chain: false })
     }
 
     /// What follows `left`, as long as it binds tightly enough.
-    fn continuation(&mut self, mut left: Node, power: u8) -> Attempt<Node> {
+    fn continuation(&mut self, mut left: ExprNode, power: u8) -> Attempt<ExprNode> {
         loop {
-            let Tok::Symbol(symbol) = *self.peek() else { return Ok(left) };
+            let TokenKind::Symbol(symbol) = *self.peek() else { return Ok(left) };
             if matches!(symbol, "." | "[" | "(" | "?.") {
                 left = self.postfix(left, symbol)?;
                 continue;
@@ -90,11 +90,11 @@ impl Parser<'_> {
     }
 
     /// `.name`, `[index]` or `(arguments)`, each with `?.` before it or not.
-    fn postfix(&mut self, left: Node, symbol: &str) -> Attempt<Node> {
+    fn postfix(&mut self, left: ExprNode, symbol: &str) -> Attempt<ExprNode> {
         let mut opener = self.bump();
         let optional = symbol == "?.";
         let symbol = match *self.peek() {
-            Tok::Symbol(bracket @ ("[" | "(")) if optional => {
+            TokenKind::Symbol(bracket @ ("[" | "(")) if optional => {
                 opener = self.bump();
                 bracket
             }
@@ -123,18 +123,18 @@ impl Parser<'_> {
                 self.node(ExprKind::Call { callee: object, args, optional }, start.to(closer), height)
             }
         };
-        Ok(Node { chain, ..node? })
+        Ok(ExprNode { chain, ..node? })
     }
 
     fn member_name(&mut self) -> Attempt<Name> {
         let span = self.span();
         match self.peek() {
-            Tok::Word(word) => {
+            TokenKind::Word(word) => {
                 let text = (*word).to_owned();
                 self.bump();
                 Ok(Name { text, span })
             }
-            Tok::Bad => Err(Reported),
+            TokenKind::Bad => Err(Reported),
             _ => {
                 let message = format!("expected a name after `.`, found {}", self.shown());
                 let report = Finding::error(rules::MISSING_NAME, span, message).help(format!(
@@ -146,14 +146,14 @@ impl Parser<'_> {
         }
     }
 
-    fn update_behind(&mut self, left: Node) -> Attempt<Node> {
+    fn update_behind(&mut self, left: ExprNode) -> Attempt<ExprNode> {
         let increment = self.is("++");
         let span = left.expr.span.to(self.bump());
         let kind = ExprKind::Update { target: Box::new(left.expr), increment, prefix: false };
         self.node(kind, span, left.height)
     }
 
-    fn binary(&mut self, left: Node, operator: Infix, binds: u8) -> Attempt<Node> {
+    fn binary(&mut self, left: ExprNode, operator: Infix, binds: u8) -> Attempt<ExprNode> {
         let power = matches!(operator, Infix::Binary(BinaryOp::Power));
         let op_span = self.bump();
         // `**` groups from the right, all others from the left.
@@ -173,7 +173,7 @@ impl Parser<'_> {
             self.diagnostics.push(report); // and read on, as if it were the second
         }
         if let Infix::Logical(op) = operator {
-            let mixes = |side: &Node| {
+            let mixes = |side: &ExprNode| {
                 let nullish = LogicalOp::Nullish;
                 matches!(&side.expr.kind, ExprKind::Logical { op: other, .. }
                     if !side.closed && (*other == nullish) != (op == nullish))
@@ -192,7 +192,7 @@ impl Parser<'_> {
         self.node(kind, span, height)
     }
 
-    fn choice(&mut self, test: Node) -> Attempt<Node> {
+    fn choice(&mut self, test: ExprNode) -> Attempt<ExprNode> {
         let question = self.bump();
         let then = self.expression(ASSIGNMENT)?;
         if self.eat(":").is_none() {
@@ -208,7 +208,7 @@ impl Parser<'_> {
         self.node(ExprKind::Conditional { test, then, otherwise }, span, height)
     }
 
-    fn assign(&mut self, target: Node, op: Option<BinaryOp>) -> Attempt<Node> {
+    fn assign(&mut self, target: ExprNode, op: Option<BinaryOp>) -> Attempt<ExprNode> {
         let op_span = self.bump();
         let value = self.expression(ASSIGNMENT)?;
         let span = target.expr.span.to(value.expr.span);
@@ -217,7 +217,7 @@ impl Parser<'_> {
         self.node(ExprKind::Assign { target, op, op_span, value }, span, height)
     }
 
-    fn assign_logical(&mut self, target: Node, op: LogicalOp) -> Attempt<Node> {
+    fn assign_logical(&mut self, target: ExprNode, op: LogicalOp) -> Attempt<ExprNode> {
         let op_span = self.bump();
         let value = self.expression(ASSIGNMENT)?;
         let span = target.expr.span.to(value.expr.span);

@@ -9,7 +9,7 @@ pub(super) const CHOICE: u8 = 2;
 pub(super) const SIGN: u8 = 15;
 
 /// An expression with what only the parser needs to know.
-pub(super) struct Node {
+pub(super) struct ExprNode {
     pub(super) expr: Expr,
     pub(super) height: usize,
     /// It stands between parentheses.
@@ -18,20 +18,20 @@ pub(super) struct Node {
     pub(super) chain: bool,
 }
 
-impl Node {
+impl ExprNode {
     /// Puts the mark of a chain around a finished one.
-    pub(super) fn whole_chain(self) -> Node {
+    pub(super) fn whole_chain(self) -> ExprNode {
         if !self.chain {
             return self;
         }
         let span = self.expr.span;
         let kind = ExprKind::Chain(Box::new(self.expr));
-        Node { expr: Expr { kind, span }, height: self.height + 1, chain: false, ..self }
+        ExprNode { expr: Expr { kind, span }, height: self.height + 1, chain: false, ..self }
     }
 }
 
-pub(super) fn error_node(span: Span) -> Node {
-    Node { expr: Expr { kind: ExprKind::Error, span }, height: 1, closed: true, chain: false }
+pub(super) fn error_node(span: Span) -> ExprNode {
+    ExprNode { expr: Expr { kind: ExprKind::Error, span }, height: 1, closed: true, chain: false }
 }
 
 /// What stands between two operands.

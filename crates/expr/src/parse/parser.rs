@@ -1,7 +1,7 @@
 //! The reader of tokens: its place, what it found wrong, and how a whole text is read.
 
 use crate::ast::{Expr, ExprKind, Stmt};
-use crate::lex::{self, Tok, Token};
+use crate::lex::{self, Token, TokenKind};
 use crate::rules;
 use crate::words::Words;
 use labspec_finding::{Finding, Span};
@@ -96,7 +96,7 @@ impl<'s> Parser<'s> {
         let tokens = if source.len() > MAX_SOURCE {
             let message = format!("the text has {} bytes, but the limit is {MAX_SOURCE}", source.len());
             diagnostics.push(Finding::error(rules::TOO_LONG, Span::default(), message).help(words.split));
-            vec![Token { kind: Tok::Bad, span: Span::default(), newline: false, doubt: None }]
+            vec![Token { kind: TokenKind::Bad, span: Span::default(), newline: false, doubt: None }]
         } else {
             lex::tokens(source, &mut diagnostics)
         };
@@ -109,7 +109,7 @@ impl<'s> Parser<'s> {
 
     /// What is wrong with typographic quotes is told, by us or by the host.
     pub(super) fn look_at_quotes(&mut self) {
-        for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, Tok::Number(_))) {
+        for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, TokenKind::Number(_))) {
             match token.doubt.take() {
                 Some(_) if self.tells => self.told = true,
                 doubt => self.diagnostics.extend(doubt.map(|finding| *finding)),
@@ -117,18 +117,18 @@ impl<'s> Parser<'s> {
         }
     }
 
-    pub(super) fn peek(&self) -> &Tok<'s> {
+    pub(super) fn peek(&self) -> &TokenKind<'s> {
         self.peek_at(0)
     }
 
-    /// The token `n` places ahead; [`Tok::End`] behind the last.
-    pub(super) fn peek_at(&self, n: usize) -> &Tok<'s> {
-        self.tokens.get(self.at + n).map_or(&Tok::End, |t| &t.kind)
+    /// The token `n` places ahead; [`TokenKind::End`] behind the last.
+    pub(super) fn peek_at(&self, n: usize) -> &TokenKind<'s> {
+        self.tokens.get(self.at + n).map_or(&TokenKind::End, |t| &t.kind)
     }
 
     /// The place of the next token; the end of the text is where its last token ends.
     pub(super) fn span(&self) -> Span {
-        let next = self.tokens.get(self.at).filter(|t| t.kind != Tok::End);
+        let next = self.tokens.get(self.at).filter(|t| t.kind != TokenKind::End);
         next.map_or(self.last_span().after(), |t| t.span)
     }
 
@@ -143,7 +143,7 @@ impl<'s> Parser<'s> {
     }
 
     pub(super) fn ended(&self) -> bool {
-        *self.peek() == Tok::End
+        *self.peek() == TokenKind::End
     }
 
     pub(super) fn bump(&mut self) -> Span {
@@ -153,11 +153,11 @@ impl<'s> Parser<'s> {
     }
 
     pub(super) fn is(&self, symbol: &str) -> bool {
-        matches!(self.peek(), Tok::Symbol(s) if *s == symbol)
+        matches!(self.peek(), TokenKind::Symbol(s) if *s == symbol)
     }
 
     pub(super) fn is_word(&self, word: &str) -> bool {
-        matches!(self.peek(), Tok::Word(w) if *w == word)
+        matches!(self.peek(), TokenKind::Word(w) if *w == word)
     }
 
     /// Takes the symbol if it is next.
@@ -174,8 +174,8 @@ impl<'s> Parser<'s> {
     /// The next token as an author sees it.
     pub(super) fn shown(&self) -> String {
         match self.peek() {
-            Tok::End => "the end of the text".into(),
-            Tok::Template(..) => "a template literal".into(),
+            TokenKind::End => "the end of the text".into(),
+            TokenKind::Template(..) => "a template literal".into(),
             _ => format!("`{}`", self.span().text(self.source)),
         }
     }
@@ -185,8 +185,8 @@ impl<'s> Parser<'s> {
     pub(super) fn skip_to(&mut self, stops: &[&str]) -> bool {
         loop {
             match *self.peek() {
-                Tok::Symbol(s) if stops.contains(&s) => return true,
-                Tok::End | Tok::Symbol(";" | ")" | "]" | "}") => return false,
+                TokenKind::Symbol(s) if stops.contains(&s) => return true,
+                TokenKind::End | TokenKind::Symbol(";" | ")" | "]" | "}") => return false,
                 _ => self.skip_group(),
             }
         }
@@ -197,9 +197,9 @@ impl<'s> Parser<'s> {
         let mut open = 0usize;
         loop {
             match *self.peek() {
-                Tok::End => return,
-                Tok::Symbol("(" | "[" | "{") => open += 1,
-                Tok::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
+                TokenKind::End => return,
+                TokenKind::Symbol("(" | "[" | "{") => open += 1,
+                TokenKind::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
                 _ => {}
             }
             self.bump();

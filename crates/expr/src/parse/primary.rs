@@ -1,34 +1,34 @@
 //! What an expression starts with: literals, names, signs, parentheses, templates and records.
 
-use super::node::{ASSIGNMENT, Node, SIGN, error_node};
+use super::node::{ASSIGNMENT, ExprNode, SIGN, error_node};
 use super::parser::{Attempt, Parser, Reported};
 use super::refuse;
 use crate::ast::{Expr, ExprKind, Name, Property, UnaryOp};
-use crate::lex::{self, Tok};
+use crate::lex::{self, TokenKind};
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
     /// What an expression starts with.
-    pub(super) fn prefix(&mut self) -> Attempt<Node> {
+    pub(super) fn prefix(&mut self) -> Attempt<ExprNode> {
         let span = self.span();
         let kind = match self.peek() {
-            Tok::Number(x) => {
+            TokenKind::Number(x) => {
                 let x = *x;
                 let doubt = self.tokens.get(self.at).and_then(|token| token.doubt.clone());
                 self.diagnostics.extend(doubt.map(|finding| *finding));
                 ExprKind::Number(x)
             }
-            Tok::Text(text) => ExprKind::String(text.clone()),
-            Tok::Template(texts, values) => {
+            TokenKind::Text(text) => ExprKind::String(text.clone()),
+            TokenKind::Template(texts, values) => {
                 let (texts, values) = (texts.clone(), values.clone());
                 return self.template(texts, values);
             }
-            Tok::Bad => return Err(Reported),
-            Tok::End => return self.expected_value(),
-            Tok::Symbol(symbol) => return self.prefix_symbol(symbol),
-            Tok::Word(_) if *self.peek_at(1) == Tok::Symbol("=>") => return self.arrow(),
-            Tok::Word(word) => match *word {
+            TokenKind::Bad => return Err(Reported),
+            TokenKind::End => return self.expected_value(),
+            TokenKind::Symbol(symbol) => return self.prefix_symbol(symbol),
+            TokenKind::Word(_) if *self.peek_at(1) == TokenKind::Symbol("=>") => return self.arrow(),
+            TokenKind::Word(word) => match *word {
                 "typeof" => return self.sign(UnaryOp::TypeOf),
                 "function" => return self.function_expression(),
                 "true" => ExprKind::Boolean(true),
@@ -36,7 +36,7 @@ impl Parser<'_> {
                 "null" => ExprKind::Null,
                 // A declaration in the middle of an expression.
                 "const" | "let" | "var" => return self.expected_value(),
-                "new" if *self.peek_at(1) == Tok::Word("Date") => {
+                "new" if *self.peek_at(1) == TokenKind::Word("Date") => {
                     return self.refuse(refuse::new_date(span, self.words));
                 }
                 word => match refuse::word(word, span, self.words) {
@@ -49,7 +49,7 @@ impl Parser<'_> {
         self.node(kind, span, 0)
     }
 
-    pub(super) fn prefix_symbol(&mut self, symbol: &'static str) -> Attempt<Node> {
+    pub(super) fn prefix_symbol(&mut self, symbol: &'static str) -> Attempt<ExprNode> {
         let span = self.span();
         let sign = [UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot]
             .into_iter()
@@ -81,7 +81,7 @@ impl Parser<'_> {
     }
 
     /// An operator before its operand.
-    pub(super) fn sign(&mut self, op: UnaryOp) -> Attempt<Node> {
+    pub(super) fn sign(&mut self, op: UnaryOp) -> Attempt<ExprNode> {
         let span = self.bump();
         let operand = self.expression(SIGN)?;
         let span = span.to(operand.expr.span);
@@ -89,18 +89,18 @@ impl Parser<'_> {
     }
 
     /// `(expression)`, or an arrow function.
-    pub(super) fn parenthesis(&mut self) -> Attempt<Node> {
+    pub(super) fn parenthesis(&mut self) -> Attempt<ExprNode> {
         if self.arrow_ahead() {
             return self.arrow();
         }
         let opener = self.bump();
         let (inner, closer) = self.enclosed(opener, ")", ASSIGNMENT)?;
         let span = opener.to(closer);
-        Ok(Node { expr: Expr { span, ..inner.expr }, closed: true, ..inner })
+        Ok(ExprNode { expr: Expr { span, ..inner.expr }, closed: true, ..inner })
     }
 
     /// The parts of a template literal, each read as a text of its own.
-    pub(super) fn template(&mut self, texts: Vec<String>, places: Vec<Span>) -> Attempt<Node> {
+    pub(super) fn template(&mut self, texts: Vec<String>, places: Vec<Span>) -> Attempt<ExprNode> {
         let span = self.bump();
         let mut values = Vec::new();
         let mut height = 0;
@@ -119,7 +119,7 @@ impl Parser<'_> {
         self.node(ExprKind::Template { texts, values }, span, height)
     }
 
-    pub(super) fn template_value(&mut self, place: Span) -> Attempt<Node> {
+    pub(super) fn template_value(&mut self, place: Span) -> Attempt<ExprNode> {
         if self.ended() {
             let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces")
                 .help(format!("write the value to insert into the text, as `${{{}}}`", self.words.number));
@@ -134,7 +134,7 @@ impl Parser<'_> {
     }
 
     /// `{key: value, …}`
-    pub(super) fn object(&mut self) -> Attempt<Node> {
+    pub(super) fn object(&mut self) -> Attempt<ExprNode> {
         let opener = self.bump();
         let mut properties = Vec::new();
         let mut height = 0;
@@ -179,10 +179,10 @@ impl Parser<'_> {
             return Ok((Property::Computed { key: key.expr, value: value.expr }, height));
         }
         let (text, word) = match self.peek() {
-            Tok::Word(text) => ((*text).to_owned(), true),
-            Tok::Text(text) => (text.clone(), false),
-            Tok::Number(x) => (crate::number::to_text(*x), false),
-            Tok::Bad => return Err(Reported),
+            TokenKind::Word(text) => ((*text).to_owned(), true),
+            TokenKind::Text(text) => (text.clone(), false),
+            TokenKind::Number(x) => (crate::number::to_text(*x), false),
+            TokenKind::Bad => return Err(Reported),
             _ => {
                 let message = format!("expected a key, found {}", self.shown());
                 let report = Finding::error(rules::MISSING_NAME, span, message)
@@ -201,7 +201,7 @@ impl Parser<'_> {
             let value = Expr { kind: ExprKind::Name(key.text.clone()), span };
             return Ok((Property::Named { key, value }, 1));
         }
-        if self.is("(") || matches!(self.peek(), Tok::Word(_)) {
+        if self.is("(") || matches!(self.peek(), TokenKind::Word(_)) {
             return self.refuse(refuse::member_function(span));
         }
         let report =

@@ -2,7 +2,7 @@
 
 use super::parser::Parser;
 use crate::ast::{Stmt, StmtKind};
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 
 impl Parser<'_> {
     /// A statement, or the mark of one that could not be read and has been skipped.
@@ -26,7 +26,7 @@ impl Parser<'_> {
     /// Whether the token before is this symbol.
     pub(super) fn at_behind(&self, symbol: &str) -> bool {
         let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
-        before.is_some_and(|t| matches!(t.kind, Tok::Symbol(s) if s == symbol))
+        before.is_some_and(|t| matches!(t.kind, TokenKind::Symbol(s) if s == symbol))
     }
 
     /// Skips what is left of a statement that started at token `first`: to behind its semicolon, to the next
@@ -47,7 +47,7 @@ impl Parser<'_> {
     pub(super) fn skip_construct(&mut self) {
         loop {
             let opener = match self.peek() {
-                Tok::Word(word) => *word,
+                TokenKind::Word(word) => *word,
                 _ => return,
             };
             self.bump();

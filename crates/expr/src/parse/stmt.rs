@@ -3,7 +3,7 @@
 use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
 use super::refuse;
 use crate::ast::{Expr, ExprKind, Pattern, Stmt, StmtKind};
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
@@ -49,9 +49,9 @@ impl Parser<'_> {
 
     fn statement_inside(&mut self) -> Attempt<StmtKind> {
         let word = match self.peek() {
-            Tok::Word(word) => *word,
-            Tok::Symbol("{") => return self.block().map(StmtKind::Block),
-            Tok::Symbol(")" | "]" | "}") => {
+            TokenKind::Word(word) => *word,
+            TokenKind::Symbol("{") => return self.block().map(StmtKind::Block),
+            TokenKind::Symbol(")" | "]" | "}") => {
                 let report = self.unexpected_behind(Span::default());
                 self.diagnostics.extend(report);
                 return Err(Reported);
@@ -67,7 +67,7 @@ impl Parser<'_> {
             "break" | "continue" => self.loop_exit(word == "break"),
             "return" => self.return_statement(),
             "function" => self.function_declaration(),
-            _ if *self.peek_at(1) == Tok::Symbol(":") => {
+            _ if *self.peek_at(1) == TokenKind::Symbol(":") => {
                 let report = refuse::label(self.span());
                 self.diagnostics.push(report);
                 self.bump();
@@ -110,7 +110,7 @@ impl Parser<'_> {
     /// `break` or `continue`.
     fn loop_exit(&mut self, breaks: bool) -> Attempt<StmtKind> {
         let span = self.bump();
-        if !self.newline() && matches!(self.peek(), Tok::Word(_)) {
+        if !self.newline() && matches!(self.peek(), TokenKind::Word(_)) {
             let report = refuse::label(self.span());
             return self.refuse(report);
         }
@@ -229,7 +229,7 @@ impl Parser<'_> {
             return Ok(StmtKind::ForOf { constant, target, items, body });
         }
         let init = match self.peek() {
-            Tok::Symbol(";") => None,
+            TokenKind::Symbol(";") => None,
             _ => {
                 let span = self.span();
                 let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
@@ -256,7 +256,7 @@ impl Parser<'_> {
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
         let behind = self.behind_group(usize::from(declares));
-        let of = |word: &str| matches!(self.peek_at(behind), Tok::Word(w) if *w == word);
+        let of = |word: &str| matches!(self.peek_at(behind), TokenKind::Word(w) if *w == word);
         if !of("of") && !of("in") {
             return Ok(None);
         }

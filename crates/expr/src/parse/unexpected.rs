@@ -2,14 +2,14 @@
 
 use super::parser::Parser;
 use super::refuse;
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::rules;
 use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
     /// The finding for a word that opens a statement, when an expression is wanted.
     pub(super) fn statement_keyword(&self) -> Option<Finding> {
-        let Tok::Word(word) = self.peek() else { return None };
+        let TokenKind::Word(word) = self.peek() else { return None };
         match *word {
             "const" | "let" | "var" => Some(
                 Finding::error(
@@ -48,29 +48,31 @@ impl Parser<'_> {
         let span = self.span();
         let shown = self.shown();
         match self.peek() {
-            Tok::Bad => None,
-            Tok::Symbol(",") => {
+            TokenKind::Bad => None,
+            TokenKind::Symbol(",") => {
                 let decimal = self.decimal_comma();
                 Some(refuse::comma(span, decimal))
             }
-            Tok::Symbol(closer @ (")" | "]" | "}")) => Some(
+            TokenKind::Symbol(closer @ (")" | "]" | "}")) => Some(
                 Finding::error(rules::UNOPENED, span, format!("`{closer}` closes nothing"))
                     .why("no bracket is open here")
                     .help("remove it, or write the bracket that it should close")
                     .guess(span, ""),
             ),
-            Tok::Symbol(":") => Some(
+            TokenKind::Symbol(":") => Some(
                 Finding::error(rules::HALF_CHOICE, span, "this `:` has no `?` before it")
                     .help("write a conditional expression as `test ? a : b`"),
             ),
-            Tok::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
+            TokenKind::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
                 refuse::symbol(text, span, self.words)
             }
-            Tok::Symbol(text) => Some(
+            TokenKind::Symbol(text) => Some(
                 Finding::error(rules::MISPLACED, span, format!("`{text}` is not allowed here"))
                     .help("remove it"),
             ),
-            Tok::Word(word) if matches!(*word, "in" | "instanceof") => refuse::word(word, span, self.words),
+            TokenKind::Word(word) if matches!(*word, "in" | "instanceof") => {
+                refuse::word(word, span, self.words)
+            }
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(
@@ -86,7 +88,7 @@ impl Parser<'_> {
     pub(super) fn decimal_comma(&self) -> Option<(Span, String)> {
         let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i))?;
         let behind = self.tokens.get(self.at + 1)?;
-        let numbers = matches!((&before.kind, &behind.kind), (Tok::Number(_), Tok::Number(_)));
+        let numbers = matches!((&before.kind, &behind.kind), (TokenKind::Number(_), TokenKind::Number(_)));
         let whole = before.span.text(self.source);
         let fraction = behind.span.text(self.source);
         let plain = |s: &str| s.chars().all(|c| c.is_ascii_digit());

@@ -2,7 +2,7 @@
 
 use super::printer::{ASSIGNMENT, Printer};
 use crate::ast::{Expr, Stmt, StmtKind};
-use crate::lex::{Tok, tokens};
+use crate::lex::{TokenKind, tokens};
 use crate::parse::{parse_expression, parse_statements};
 use labspec_finding::Finding;
 
@@ -67,7 +67,7 @@ fn has_comments(source: &str) -> bool {
     let opens = |text: &str| text.contains("//") || text.contains("/*");
     let mut at = 0;
     for token in tokens(source, &mut Vec::new()) {
-        let template = matches!(token.kind, Tok::Template(..)) && opens(token.span.text(source));
+        let template = matches!(token.kind, TokenKind::Template(..)) && opens(token.span.text(source));
         if template || opens(source.get(at..token.span.start).unwrap_or("")) {
             return true;
         }

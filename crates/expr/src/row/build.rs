@@ -1,13 +1,13 @@
 //! Formulas to rows: every step gets a register, and the number at hand goes on to the next operation where it can.
 
 use super::operation::RowOp;
-use super::run::{Element, REGISTERS, Row};
-use crate::formula::{Formula, Step, StepId};
-use crate::math::{Apply, FEW, Function};
+use super::run::{FieldElement, REGISTERS, Row};
+use crate::formula::{Formula, FormulaStep, StepId};
+use crate::math::{FEW, MathEvaluation, MathFunction};
 use crate::operators::BinaryOp;
 
 /// A step whose result is wanted in a register.
-pub(crate) struct Wanted {
+pub(crate) struct WantedResult {
     pub(crate) step: StepId,
     pub(crate) register: u8,
     /// Nothing reads behind the step what stood in the register before.
@@ -17,8 +17,9 @@ pub(crate) struct Wanted {
 impl Row {
     /// `None` when it needs too many registers.
     pub(crate) fn of(formula: &Formula) -> Option<Row> {
-        let load =
-            |step: &Step| if let Step::Load(field, index) = step { Some((*field, *index)) } else { None };
+        let load = |step: &FormulaStep| {
+            if let FormulaStep::Load(field, index) = step { Some((*field, *index)) } else { None }
+        };
         let mut elements: Vec<_> = formula.steps.iter().filter_map(load).collect();
         elements.sort_unstable();
         let loads = u8::try_from(elements.len()).ok()?;
@@ -30,7 +31,11 @@ impl Row {
 
     /// A part of a program, with the registers of its inputs. Results that are wanted go to registers of the program; what
     /// else it keeps goes to free ones.
-    pub(crate) fn part(formula: &Formula, wanted: &[Wanted], free: impl Iterator<Item = u8>) -> Option<Row> {
+    pub(crate) fn part(
+        formula: &Formula,
+        wanted: &[WantedResult],
+        free: impl Iterator<Item = u8>,
+    ) -> Option<Row> {
         let mut row = Row::with(formula, &[], wanted, free)?;
         row.start = row.begin();
         Some(row)
@@ -38,17 +43,17 @@ impl Row {
 
     fn with(
         formula: &Formula,
-        elements: &[Element],
-        wanted: &[Wanted],
+        elements: &[FieldElement],
+        wanted: &[WantedResult],
         mut free: impl Iterator<Item = u8>,
     ) -> Option<Row> {
         let mut homes = Vec::with_capacity(formula.steps.len());
         for (at, step) in (0..).zip(&formula.steps) {
             let home = match step {
-                Step::Load(field, index) => {
+                FormulaStep::Load(field, index) => {
                     u8::try_from(elements.binary_search(&(*field, *index)).ok()?).ok()
                 }
-                Step::Input(register) => u8::try_from(*register).ok(),
+                FormulaStep::Input(register) => u8::try_from(*register).ok(),
                 _ => match wanted.iter().find(|w| w.step == at && w.at_once) {
                     Some(wanted) => Some(wanted.register),
                     None => free.next(),
@@ -56,7 +61,7 @@ impl Row {
             };
             homes.push(home?);
         }
-        let mut build = Build { formula, homes, ops: Vec::new(), args: Vec::new(), at_hand: None };
+        let mut build = RowBuilder { formula, homes, ops: Vec::new(), args: Vec::new(), at_hand: None };
         for (at, step) in (0..).zip(&formula.steps) {
             build.step(at, *step)?;
         }
@@ -94,7 +99,7 @@ impl Row {
 }
 
 /// The work on one formula.
-struct Build<'f> {
+struct RowBuilder<'f> {
     formula: &'f Formula,
     /// The register of each step.
     homes: Vec<u8>,
@@ -104,7 +109,7 @@ struct Build<'f> {
     at_hand: Option<StepId>,
 }
 
-impl Build<'_> {
+impl RowBuilder<'_> {
     fn home(&self, at: StepId) -> Option<u8> {
         self.homes.get(at as usize).copied()
     }
@@ -133,25 +138,37 @@ impl Build<'_> {
     }
 
     /// An operation, kept for later in its register.
-    fn step(&mut self, at: StepId, step: Step) -> Option<()> {
+    fn step(&mut self, at: StepId, step: FormulaStep) -> Option<()> {
         let op = match step {
-            Step::Load(..) | Step::Input(_) => return Some(()),
-            Step::Constant(k) => {
+            FormulaStep::Load(..) | FormulaStep::Input(_) => return Some(()),
+            FormulaStep::Constant(k) => {
                 self.ops.push(RowOp::Put(self.home(at)?, k.number()));
                 return Some(());
             }
-            Step::Binary(BinaryOp::Add, a, b) => self.two(a, b, RowOp::Add, RowOp::Add)?,
-            Step::Binary(BinaryOp::Subtract, a, b) => self.two(a, b, RowOp::Subtract, RowOp::SubtractFrom)?,
-            Step::Binary(BinaryOp::Multiply, a, b) => self.two(a, b, RowOp::Multiply, RowOp::Multiply)?,
-            Step::Binary(BinaryOp::Divide, a, b) => self.two(a, b, RowOp::Divide, RowOp::DivideInto)?,
-            Step::Binary(op, a, b) => self.two(a, b, |r| RowOp::Binary(op, r), |r| RowOp::Round(op, r))?,
-            Step::Right(BinaryOp::Add, a, k) => self.one(a, RowOp::AddConstant(k.number()))?,
-            Step::Right(BinaryOp::Multiply, a, k) => self.one(a, RowOp::MultiplyConstant(k.number()))?,
-            Step::Right(op, a, k) => self.one(a, RowOp::Right(op, k.number()))?,
-            Step::Left(op, k, a) => self.one(a, RowOp::Left(op, k.number()))?,
-            Step::Unary(op, a) => self.one(a, RowOp::Unary(op))?,
-            Step::Select(test, yes, no) => self.one(test, RowOp::Select(self.home(yes)?, self.home(no)?))?,
-            Step::Math(function, first, count) => self.math(function, first, count)?,
+            FormulaStep::Binary(BinaryOp::Add, a, b) => self.two(a, b, RowOp::Add, RowOp::Add)?,
+            FormulaStep::Binary(BinaryOp::Subtract, a, b) => {
+                self.two(a, b, RowOp::Subtract, RowOp::SubtractFrom)?
+            }
+            FormulaStep::Binary(BinaryOp::Multiply, a, b) => {
+                self.two(a, b, RowOp::Multiply, RowOp::Multiply)?
+            }
+            FormulaStep::Binary(BinaryOp::Divide, a, b) => {
+                self.two(a, b, RowOp::Divide, RowOp::DivideInto)?
+            }
+            FormulaStep::Binary(op, a, b) => {
+                self.two(a, b, |r| RowOp::Binary(op, r), |r| RowOp::Round(op, r))?
+            }
+            FormulaStep::Right(BinaryOp::Add, a, k) => self.one(a, RowOp::AddConstant(k.number()))?,
+            FormulaStep::Right(BinaryOp::Multiply, a, k) => {
+                self.one(a, RowOp::MultiplyConstant(k.number()))?
+            }
+            FormulaStep::Right(op, a, k) => self.one(a, RowOp::Right(op, k.number()))?,
+            FormulaStep::Left(op, k, a) => self.one(a, RowOp::Left(op, k.number()))?,
+            FormulaStep::Unary(op, a) => self.one(a, RowOp::Unary(op))?,
+            FormulaStep::Select(test, yes, no) => {
+                self.one(test, RowOp::Select(self.home(yes)?, self.home(no)?))?
+            }
+            FormulaStep::Math(function, first, count) => self.math(function, first, count)?,
         };
         self.ops.extend([op, RowOp::Keep(self.home(at)?)]);
         self.at_hand = Some(at);
@@ -163,16 +180,16 @@ impl Build<'_> {
         Some(op)
     }
 
-    fn math(&mut self, function: Function, first: u32, count: u32) -> Option<RowOp> {
+    fn math(&mut self, function: MathFunction, first: u32, count: u32) -> Option<RowOp> {
         let args = self.formula.args(first, count);
         match (function.apply_by(), args) {
-            (Apply::One(f), [a, ..]) if function.gives_boolean() => self.one(*a, RowOp::Asks(f)),
-            (Apply::One(f), [a, ..]) => self.one(*a, RowOp::One(f)),
-            (Apply::Two(f), [a, b, ..]) => {
+            (MathEvaluation::One(f), [a, ..]) if function.gives_boolean() => self.one(*a, RowOp::Asks(f)),
+            (MathEvaluation::One(f), [a, ..]) => self.one(*a, RowOp::One(f)),
+            (MathEvaluation::Two(f), [a, b, ..]) => {
                 self.take(*a)?;
                 Some(RowOp::Two(f, self.home(*b)?))
             }
-            (Apply::Many(f), args) if args.len() <= FEW => {
+            (MathEvaluation::Many(f), args) if args.len() <= FEW => {
                 let first = u16::try_from(self.args.len()).ok()?;
                 for &a in args {
                     self.args.push(self.homes.get(a as usize).copied()?);
@@ -185,7 +202,7 @@ impl Build<'_> {
     }
 
     /// Leaves out what goes to registers that nothing reads.
-    fn drop_unread(&mut self, wanted: &[Wanted]) {
+    fn drop_unread(&mut self, wanted: &[WantedResult]) {
         let mut read = [false; REGISTERS];
         for r in wanted.iter().map(|w| w.register).chain(self.args.iter().copied()) {
             read[usize::from(r)] = true;

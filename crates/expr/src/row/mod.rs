@@ -6,5 +6,5 @@ mod build;
 mod operation;
 mod run;
 
-pub(crate) use build::Wanted;
+pub(crate) use build::WantedResult;
 pub(crate) use run::{REGISTERS, Row};

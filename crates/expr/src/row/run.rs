@@ -9,7 +9,7 @@ use crate::value::Value;
 use crate::watch::Watch;
 
 /// An element of a field, by its place in the whole field.
-pub(crate) type Element = (FieldKey, u32);
+pub(crate) type FieldElement = (FieldKey, u32);
 
 /// Number of registers: a byte names each of them, so none can be out of range.
 pub(crate) const REGISTERS: usize = 256;
@@ -21,7 +21,7 @@ pub(crate) type Registers = [f64; REGISTERS];
 #[derive(Clone, Debug)]
 pub(crate) struct Row {
     /// What is read, in the order of the fields; it goes into the first registers.
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Vec<FieldElement>,
     /// The register that is at hand first.
     pub(super) start: u8,
     pub(super) ops: Vec<RowOp>,
@@ -44,7 +44,7 @@ impl Row {
     #[inline]
     pub(crate) fn value(
         &self,
-        read: impl FnOnce(&[Element], &mut [f64]) -> bool,
+        read: impl FnOnce(&[FieldElement], &mut [f64]) -> bool,
         numbers: &mut Vec<f64>,
     ) -> Option<Value> {
         if numbers.len() < REGISTERS {
@@ -61,7 +61,7 @@ impl Row {
     /// The value now, as [`Row::value`]; the watch notes what happens on the way.
     pub(crate) fn watched_value(
         &self,
-        read: impl FnOnce(&[Element], &mut [f64]) -> bool,
+        read: impl FnOnce(&[FieldElement], &mut [f64]) -> bool,
         numbers: &mut Vec<f64>,
         watch: &mut Watch,
     ) -> Option<Value> {

@@ -4,4 +4,6 @@ mod op;
 mod program;
 
 pub(crate) use op::{Args, Num, Op, OperandUse, Val};
-pub(crate) use program::{Block, BlockId, Edge, End, Operand, Slot, SsaFunction, SsaProgram};
+pub(crate) use program::{
+    BasicBlock, BlockEdge, BlockId, Operand, Representation, SsaFunction, SsaProgram, Terminator,
+};

@@ -54,8 +54,8 @@ pub(crate) enum Op {
     Binary(Num, BinaryOp, Num, Num),
     /// By the truth of the first: the second or the third.
     Select(Num, Num, Num, Num),
-    Math(Num, math::Function, Args),
-    MathOver(Num, math::Function, Val),
+    Math(Num, math::MathFunction, Args),
+    MathOver(Num, math::MathFunction, Val),
     /// `+` of values.
     Plus(Val, Val, Val),
     /// A comparison of values.

@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::ir::{Picks, Shown};
+use crate::ir::{ExposedView, MemberTable};
 use crate::types::Type;
 use crate::value::Value;
 
@@ -21,15 +21,15 @@ pub(crate) struct SsaProgram {
     pub(crate) units: Vec<SsaFunction>,
     /// Names of members.
     pub(crate) texts: Vec<Arc<str>>,
-    pub(crate) picks: Vec<Arc<Picks>>,
+    pub(crate) picks: Vec<Arc<MemberTable>>,
     /// Arrays that become values.
-    pub(crate) views: Vec<Shown>,
+    pub(crate) views: Vec<ExposedView>,
 }
 
 /// A function. Its first names, from 1 on, are its parameters and what it uses of the functions around it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct SsaFunction {
-    pub(crate) blocks: Vec<Block>,
+    pub(crate) blocks: Vec<BasicBlock>,
     /// The operations of all blocks, one block after the other.
     pub(crate) ops: Vec<Op>,
     /// Where each comes from.
@@ -40,15 +40,15 @@ pub(crate) struct SsaFunction {
     pub(crate) numbers: Vec<(Num, f64)>,
     pub(crate) values: Vec<(Val, Value)>,
     /// What each name stands for: itself, or the name before it that turned out to be the same.
-    pub(crate) same: Names,
-    pub(crate) params: Vec<Slot>,
-    pub(crate) captures: Vec<Slot>,
-    pub(crate) result: Slot,
+    pub(crate) same: Aliases,
+    pub(crate) params: Vec<Representation>,
+    pub(crate) captures: Vec<Representation>,
+    pub(crate) result: Representation,
 }
 
 /// Names of numbers and of values, each with the name that it stands for.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Names {
+pub(crate) struct Aliases {
     pub(crate) numbers: Vec<u32>,
     pub(crate) values: Vec<u32>,
 }
@@ -64,40 +64,40 @@ pub(crate) type BlockId = u32;
 
 /// Operations that run one after the other.
 #[derive(Clone, Debug)]
-pub(crate) struct Block {
+pub(crate) struct BasicBlock {
     /// Its first operation.
     pub(crate) first: u32,
     pub(crate) params: Vec<Operand>,
     /// The last block that all ways to this one pass.
     pub(crate) after: BlockId,
-    pub(crate) end: End,
+    pub(crate) end: Terminator,
     /// Where its end stands.
     pub(crate) span: Span,
 }
 
 /// A way to a block, with what its parameters are.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Edge {
+pub(crate) struct BlockEdge {
     pub(crate) to: BlockId,
     pub(crate) args: Vec<Operand>,
 }
 
 /// Where a block leads.
 #[derive(Clone, Debug)]
-pub(crate) enum End {
-    Jump(Edge),
+pub(crate) enum Terminator {
+    Jump(BlockEdge),
     /// When the truth is this one; else on to the next block.
-    If(bool, Num, Edge),
+    If(bool, Num, BlockEdge),
     /// When the value is `undefined` or `null`, or is not; else on to the next block.
-    IfNothing(bool, Val, Edge),
+    IfNothing(bool, Val, BlockEdge),
     /// Back to the start of a loop.
-    Again(Edge),
+    Again(BlockEdge),
     Return(Option<Operand>),
 }
 
 /// How a value is handed over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) enum Slot {
+pub(crate) enum Representation {
     Number,
     /// As a number, 1 or 0.
     Boolean,
@@ -105,12 +105,12 @@ pub(crate) enum Slot {
     Value,
 }
 
-impl Slot {
-    pub(crate) fn of(ty: Type) -> Slot {
+impl Representation {
+    pub(crate) fn of(ty: Type) -> Representation {
         match ty {
-            Type::Number => Slot::Number,
-            Type::Boolean => Slot::Boolean,
-            _ => Slot::Value,
+            Type::Number => Representation::Number,
+            Type::Boolean => Representation::Boolean,
+            _ => Representation::Value,
         }
     }
 }
@@ -136,7 +136,7 @@ impl SsaFunction {
     }
 }
 
-impl Names {
+impl Aliases {
     pub(crate) fn number(&self, n: Num) -> Num {
         Num(last(&self.numbers, n.0))
     }

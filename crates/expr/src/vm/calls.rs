@@ -3,34 +3,34 @@
 use std::sync::Arc;
 
 use super::collections::describe;
-use super::machine::{Frame, Machine, Stop, taken};
-use crate::code::{Code, CodeUnit};
-use crate::heap::Object;
+use super::machine::{Machine, RegisterFrame, StepError, taken};
+use crate::code::{MachineCode, MachineFunction};
+use crate::heap::HeapObject;
 use crate::ir::{FreeFunctionId, MethodId};
-use crate::natives::{self, Trouble};
+use crate::natives::{self, NativeError};
 use crate::rules;
-use crate::ssa::{Args, Slot, Val};
+use crate::ssa::{Args, Representation, Val};
 use crate::value::Value;
 
 impl Machine<'_> {
     /// Calls whatever function a value is.
     pub(super) fn invoke_with(
         &mut self,
-        unit: &CodeUnit,
-        f: Frame,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         callee: &Value,
         args: &[Value],
-    ) -> Result<Value, Stop> {
+    ) -> Result<Value, StepError> {
         let (code, at, captures) = match self.context.heap.object(callee) {
-            Object::Closure { code, unit, captures } => (code.clone(), *unit, captures.clone()),
+            HeapObject::Closure { code, unit, captures } => (code.clone(), *unit, captures.clone()),
             object => {
                 let message = format!("{} is called but is not a function", describe(callee, object));
-                return Err(Trouble::new(rules::NOT_CALLABLE, message).into());
+                return Err(NativeError::new(rules::NOT_CALLABLE, message).into());
             }
         };
         let Some(function) = code.units.get(at as usize) else { return Ok(Value::Undefined) };
         self.enter(function)?;
-        let frame = Frame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
+        let frame = RegisterFrame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         self.make_room(function, frame);
         let (mut n, mut v) = (frame.n + 1, frame.v + 1);
         let params =
@@ -38,11 +38,11 @@ impl Machine<'_> {
         let captured = function.captures.iter().zip(captures);
         for (slot, value) in params.chain(captured) {
             match slot {
-                Slot::Value => {
+                Representation::Value => {
                     self.context.values[v] = value;
                     v += 1;
                 }
-                Slot::Number | Slot::Boolean => {
+                Representation::Number | Representation::Boolean => {
                     self.context.numbers[n] = value.to_number();
                     n += 1;
                 }
@@ -50,20 +50,20 @@ impl Machine<'_> {
         }
         let result = self.execute(&code, function, frame);
         self.depth -= 1;
-        result.map_err(Stop::Inside)?;
+        result.map_err(StepError::Inside)?;
         Ok(taken(function.result, self.context.numbers.get(frame.n), self.context.values.get(frame.v)))
     }
 
     /// `receiver.name(args)`: a method, or a function that a record holds.
     pub(super) fn method(
         &mut self,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         name: MethodId,
         receiver: &Value,
         args: &[Value],
-    ) -> Result<Value, Stop> {
+    ) -> Result<Value, StepError> {
         if let Value::Record(_) = receiver
             && let Some(function @ Value::Function(_)) = self.context.heap.get(receiver, name.text())
         {
@@ -74,9 +74,9 @@ impl Machine<'_> {
 
     /// The value of a variable that functions share.
     #[inline]
-    pub(super) fn read_cell(&mut self, dst: Val, cell: Val, f: Frame) -> Result<(), Trouble> {
+    pub(super) fn read_cell(&mut self, dst: Val, cell: Val, f: RegisterFrame) -> Result<(), NativeError> {
         let value = match self.context.heap.object(self.val(f, cell)) {
-            Object::Cell(Some(value)) => value.clone(),
+            HeapObject::Cell(Some(value)) => value.clone(),
             _ => return Err(too_early()),
         };
         self.put_value(f, dst, value);
@@ -90,11 +90,11 @@ impl Machine<'_> {
         cell: Val,
         src: Val,
         declares: bool,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let (cell, value) = (self.val(f, cell).clone(), self.val(f, src).clone());
         match self.context.heap.object_mut(&cell) {
-            Some(Object::Cell(place)) if declares || place.is_some() => *place = Some(value),
+            Some(HeapObject::Cell(place)) if declares || place.is_some() => *place = Some(value),
             _ => return Err(too_early()),
         }
         Ok(())
@@ -104,13 +104,13 @@ impl Machine<'_> {
     #[inline]
     pub(super) fn call_method(
         &mut self,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
         dst: Val,
         name: MethodId,
         args: Args,
-        f: Frame,
-    ) -> Result<(), Stop> {
+        f: RegisterFrame,
+    ) -> Result<(), StepError> {
         let args = self.operand_values(args, unit, f);
         let Some((receiver, args)) = args.split_first() else { return Ok(()) };
         let value = self.method(code, unit, f, name, receiver, args)?;
@@ -122,13 +122,13 @@ impl Machine<'_> {
     #[inline]
     pub(super) fn call_method_with_list(
         &mut self,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
         dst: Val,
         name: MethodId,
         (receiver, list): (Val, Val),
-        f: Frame,
-    ) -> Result<(), Stop> {
+        f: RegisterFrame,
+    ) -> Result<(), StepError> {
         let (receiver, list) = (self.val(f, receiver).clone(), self.val(f, list).clone());
         let args = self.env(code).items(&list)?;
         let value = self.method(code, unit, f, name, &receiver, &args)?;
@@ -140,12 +140,12 @@ impl Machine<'_> {
     #[inline]
     pub(super) fn call_free_with_list(
         &mut self,
-        code: &Code,
+        code: &MachineCode,
         dst: Val,
         function: FreeFunctionId,
         list: Val,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let list = self.val(f, list).clone();
         let mut env = self.env(code);
         let args = env.items(&list)?;
@@ -158,13 +158,13 @@ impl Machine<'_> {
     #[inline]
     pub(super) fn invoke_with_list(
         &mut self,
-        code: &Code,
-        unit: &CodeUnit,
+        code: &MachineCode,
+        unit: &MachineFunction,
         dst: Val,
         callee: Val,
         list: Val,
-        f: Frame,
-    ) -> Result<(), Stop> {
+        f: RegisterFrame,
+    ) -> Result<(), StepError> {
         let (callee, list) = (self.val(f, callee).clone(), self.val(f, list).clone());
         let args = self.env(code).items(&list)?;
         let value = self.invoke_with(unit, f, &callee, &args)?;
@@ -173,6 +173,6 @@ impl Machine<'_> {
     }
 }
 
-fn too_early() -> Trouble {
-    Trouble::new(rules::USED_TOO_EARLY, "a name is used before its declaration runs")
+fn too_early() -> NativeError {
+    NativeError::new(rules::USED_TOO_EARLY, "a name is used before its declaration runs")
 }

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::index::{index_of, whole_index};
-use super::machine::{Frame, Machine, Stop};
-use crate::code::{Code, CodeUnit};
-use crate::heap::Object;
-use crate::ir::Picks;
+use super::machine::{Machine, RegisterFrame, StepError};
+use crate::code::{MachineCode, MachineFunction};
+use crate::heap::HeapObject;
+use crate::ir::MemberTable;
 use crate::math;
-use crate::natives::{self, Trouble};
+use crate::natives::{self, NativeError};
 use crate::rules;
 use crate::ssa::{Args, Num, Op, Val};
 use crate::value::{Value, View};
@@ -19,10 +19,10 @@ impl Machine<'_> {
     pub(super) fn step_collection(
         &mut self,
         op: Op,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
-    ) -> Result<(), Stop> {
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
+        f: RegisterFrame,
+    ) -> Result<(), StepError> {
         self.tidy();
         match op {
             Op::MathOver(dst, function, list) => self.math_over(code, dst, function, list, f)?,
@@ -92,12 +92,12 @@ impl Machine<'_> {
     #[inline]
     fn put_entry(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         record: Val,
         key: Val,
         value: Val,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let (record, value) = (self.val(f, record).clone(), self.val(f, value).clone());
         let key = self.key(code, f, key)?;
         self.put_member(&record, key, value)
@@ -106,12 +106,12 @@ impl Machine<'_> {
     #[inline]
     fn read_member(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         dst: Val,
         object: Val,
         name: u32,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
         let object = self.val(f, object).clone();
         let value = self.member(code, &object, &name)?;
@@ -122,12 +122,12 @@ impl Machine<'_> {
     #[inline]
     fn assign_item(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         object: Val,
         index: Val,
         value: Val,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let (object, index) = (self.val(f, object).clone(), self.val(f, index).clone());
         let value = self.val(f, value).clone();
         self.store_item(code, &object, &index, value)
@@ -136,12 +136,12 @@ impl Machine<'_> {
     #[inline]
     fn assign_member(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         object: Val,
         name: u32,
         value: Val,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let name = code.form.texts.get(name as usize).cloned().unwrap_or_else(|| "".into());
         let (object, value) = (self.val(f, object).clone(), self.val(f, value).clone());
         self.store_member(code, &object, name, value)
@@ -151,12 +151,12 @@ impl Machine<'_> {
     #[inline]
     fn math_over(
         &mut self,
-        code: &Code,
+        code: &MachineCode,
         dst: Num,
-        function: math::Function,
+        function: math::MathFunction,
         list: Val,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let list = self.val(f, list).clone();
         let mut env = self.env(code);
         let items = env.spread(&list)?;
@@ -170,14 +170,21 @@ impl Machine<'_> {
 
     /// Adds a value, or its elements, to a list that is being made.
     #[inline]
-    fn append(&mut self, code: &Code, list: Val, item: Val, spread: bool, f: Frame) -> Result<(), Trouble> {
+    fn append(
+        &mut self,
+        code: &MachineCode,
+        list: Val,
+        item: Val,
+        spread: bool,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let (list, item) = (self.val(f, list).clone(), self.val(f, item).clone());
         let mut env = self.env(code);
         let items = if spread { env.spread(&item)? } else { vec![item] };
         for item in &items {
             env.heap.grow(item)?;
         }
-        if let Some(Object::List(all)) = env.heap.object_mut(&list) {
+        if let Some(HeapObject::List(all)) = env.heap.object_mut(&list) {
             all.extend(items);
         }
         Ok(())
@@ -185,10 +192,16 @@ impl Machine<'_> {
 
     /// Copies the members of one record into another.
     #[inline]
-    fn put_all(&mut self, code: &Code, record: Val, from: Val, f: Frame) -> Result<(), Trouble> {
+    fn put_all(
+        &mut self,
+        code: &MachineCode,
+        record: Val,
+        from: Val,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let (record, from) = (self.val(f, record).clone(), self.val(f, from).clone());
         let entries = match self.context.heap.object(&from) {
-            Object::Record(entries) => entries.clone(),
+            HeapObject::Record(entries) => entries.clone(),
             _ if from.is_nothing() => Vec::new(),
             _ => {
                 let items = self.env(code).spread(&from).unwrap_or_default();
@@ -206,18 +219,20 @@ impl Machine<'_> {
     #[inline]
     fn element_at(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         dst: Val,
         object: Val,
         index: Num,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let x = self.num(f, index);
         let object = self.val(f, object);
         let value = match object {
             Value::List(_) => match self.context.heap.object(object) {
-                Object::List(items) => whole_index(x).and_then(|i| items.get(i).cloned()).unwrap_or_default(),
-                Object::Numbers(items, _) => {
+                HeapObject::List(items) => {
+                    whole_index(x).and_then(|i| items.get(i).cloned()).unwrap_or_default()
+                }
+                HeapObject::Numbers(items, _) => {
                     whole_index(x).and_then(|i| items.get(i)).map_or(Value::Undefined, |x| Value::Number(*x))
                 }
                 _ => Value::Undefined,
@@ -235,12 +250,12 @@ impl Machine<'_> {
     #[inline]
     fn pick_number(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         dst: Num,
         table: u32,
         name: Val,
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let x = match self.pick(code, f, table, name)? {
             Value::View(view) => self.host.get(view.field, view.first as usize).unwrap_or(f64::NAN),
             other => other.to_number(),
@@ -250,22 +265,28 @@ impl Machine<'_> {
     }
 
     /// The values of a list of operands.
-    pub(super) fn operand_values(&self, args: Args, unit: &CodeUnit, f: Frame) -> Vec<Value> {
+    pub(super) fn operand_values(&self, args: Args, unit: &MachineFunction, f: RegisterFrame) -> Vec<Value> {
         args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
     }
 
     /// What belongs to the object of a computed name.
-    fn pick(&mut self, code: &Arc<Code>, f: Frame, table: u32, name: Val) -> Result<Value, Trouble> {
+    fn pick(
+        &mut self,
+        code: &Arc<MachineCode>,
+        f: RegisterFrame,
+        table: u32,
+        name: Val,
+    ) -> Result<Value, NativeError> {
         let name = self.val(f, name).clone();
         let name = self.env(code).text(&name)?;
         let Some(picks) = code.form.picks.get(table as usize) else { return Ok(Value::Undefined) };
-        let Picks { noun, of, .. } = &**picks;
+        let MemberTable { noun, of, .. } = &**picks;
         match of.binary_search_by(|(n, _)| (**n).cmp(&name)) {
             Ok(at) => Ok(of.get(at).map(|(_, v)| v.clone()).unwrap_or_default()),
             Err(_) => {
                 let near = labspec_finding::nearest(&name, of.iter().map(|(n, _)| &**n));
                 let meant = near.map(|n| format!("; did you mean \"{n}\"?")).unwrap_or_default();
-                Err(Trouble::new(
+                Err(NativeError::new(
                     rules::UNKNOWN_OBJECT,
                     format!("there is no {noun} named \"{name}\"{meant}"),
                 ))
@@ -273,7 +294,7 @@ impl Machine<'_> {
         }
     }
 
-    fn key(&mut self, code: &Arc<Code>, f: Frame, key: Val) -> Result<Arc<str>, Trouble> {
+    fn key(&mut self, code: &Arc<MachineCode>, f: RegisterFrame, key: Val) -> Result<Arc<str>, NativeError> {
         match self.val(f, key) {
             Value::String(text) => Ok(text.clone()),
             other => {
@@ -283,9 +304,9 @@ impl Machine<'_> {
         }
     }
 
-    fn put_member(&mut self, record: &Value, key: Arc<str>, value: Value) -> Result<(), Trouble> {
+    fn put_member(&mut self, record: &Value, key: Arc<str>, value: Value) -> Result<(), NativeError> {
         self.context.heap.grow(&value)?;
-        if let Some(Object::Record(entries)) = self.context.heap.object_mut(record) {
+        if let Some(HeapObject::Record(entries)) = self.context.heap.object_mut(record) {
             match entries.iter_mut().find(|(k, _)| *k == key) {
                 Some((_, place)) => *place = value,
                 None => entries.push((key, value)),
@@ -294,13 +315,24 @@ impl Machine<'_> {
         Ok(())
     }
 
-    fn item(&mut self, code: &Arc<Code>, f: Frame, object: Val, index: Val) -> Result<Value, Trouble> {
+    fn item(
+        &mut self,
+        code: &Arc<MachineCode>,
+        f: RegisterFrame,
+        object: Val,
+        index: Val,
+    ) -> Result<Value, NativeError> {
         let (object, index) = (self.val(f, object).clone(), self.val(f, index).clone());
         self.item_of(code, &object, &index)
     }
 
     /// `object[index]`
-    fn item_of(&mut self, code: &Arc<Code>, object: &Value, index: &Value) -> Result<Value, Trouble> {
+    fn item_of(
+        &mut self,
+        code: &Arc<MachineCode>,
+        object: &Value,
+        index: &Value,
+    ) -> Result<Value, NativeError> {
         match object {
             Value::List(_) | Value::View(_) | Value::String(_) => {
                 let x = index_of(index);
@@ -330,9 +362,9 @@ impl Machine<'_> {
     }
 
     /// `object.name`
-    fn member(&mut self, code: &Arc<Code>, object: &Value, name: &str) -> Result<Value, Trouble> {
+    fn member(&mut self, code: &Arc<MachineCode>, object: &Value, name: &str) -> Result<Value, NativeError> {
         match object {
-            Value::Undefined | Value::Null => Err(Trouble::new(
+            Value::Undefined | Value::Null => Err(NativeError::new(
                 rules::NO_PARTS,
                 format!("`{name}` of {object} was read before anything stored it"),
             )),
@@ -348,11 +380,11 @@ impl Machine<'_> {
     /// `object[index] = value`
     fn store_item(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         object: &Value,
         index: &Value,
         value: Value,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), NativeError> {
         match object {
             Value::View(view) => {
                 let x = self.env(code).number(&value)?;
@@ -360,13 +392,13 @@ impl Machine<'_> {
             }
             Value::List(_) => {
                 let Some(i) = whole_index(index_of(index)) else { return Ok(()) };
-                let typed = matches!(self.context.heap.object(object), Object::Numbers(..));
+                let typed = matches!(self.context.heap.object(object), HeapObject::Numbers(..));
                 let x = if typed { self.env(code).number(&value)? } else { 0.0 };
                 let n = self.context.heap.len(object).unwrap_or(0);
                 if !typed && i >= n {
                     // JavaScript lets a list grow by an assignment; holes become `undefined`.
                     if i - n > 1_000_000 {
-                        return Err(Trouble::new(
+                        return Err(NativeError::new(
                             rules::MEMORY,
                             format!("element {i} of a list of {n} elements"),
                         ));
@@ -378,7 +410,7 @@ impl Machine<'_> {
                 }
                 self.context.heap.grow(&value)?;
                 match self.context.heap.object_mut(object) {
-                    Some(Object::List(items)) => {
+                    Some(HeapObject::List(items)) => {
                         if i >= items.len() {
                             items.resize(i + 1, Value::Undefined);
                         }
@@ -386,7 +418,7 @@ impl Machine<'_> {
                             *place = value;
                         }
                     }
-                    Some(Object::Numbers(items, elem)) => {
+                    Some(HeapObject::Numbers(items, elem)) => {
                         if let Some(place) = items.get_mut(i) {
                             *place = elem.keep(x);
                         }
@@ -402,7 +434,13 @@ impl Machine<'_> {
         }
     }
 
-    fn store_in_view(&mut self, code: &Arc<Code>, view: View, index: &Value, x: f64) -> Result<(), Trouble> {
+    fn store_in_view(
+        &mut self,
+        code: &Arc<MachineCode>,
+        view: View,
+        index: &Value,
+        x: f64,
+    ) -> Result<(), NativeError> {
         match whole_index(index_of(index)) {
             Some(i) => self.env(code).view_store(view, i, x),
             None => Ok(()),
@@ -412,16 +450,16 @@ impl Machine<'_> {
     /// `object.name = value`
     fn store_member(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         object: &Value,
         name: Arc<str>,
         value: Value,
-    ) -> Result<(), Trouble> {
+    ) -> Result<(), NativeError> {
         match object {
             Value::Record(_) => self.put_member(object, name, value),
             Value::List(_) if *name == *"length" => {
                 let n = self.env(code).number(&value)?;
-                if let Some(Object::List(items)) = self.context.heap.object_mut(object) {
+                if let Some(HeapObject::List(items)) = self.context.heap.object_mut(object) {
                     // Only shorter: a list of holes is of no use.
                     items.truncate(n.clamp(0.0, 1e9) as usize);
                 }
@@ -429,7 +467,7 @@ impl Machine<'_> {
             }
             other => {
                 let what = describe(other, self.context.heap.object(other));
-                Err(Trouble::new(
+                Err(NativeError::new(
                     rules::NO_PARTS,
                     format!("`{name}` of {what} was assigned, but it has no members"),
                 ))
@@ -439,7 +477,7 @@ impl Machine<'_> {
 }
 
 /// What a value is, for a message.
-pub(super) fn describe(value: &Value, object: &Object) -> String {
+pub(super) fn describe(value: &Value, object: &HeapObject) -> String {
     match (value, object) {
         (Value::Undefined | Value::Null, _) => value.to_string(),
         _ => value.type_of().describe().to_owned(),

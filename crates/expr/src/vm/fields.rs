@@ -1,9 +1,9 @@
 //! Elements of fields and views: where they are, reading and storing them.
 
 use super::index::whole_index;
-use super::machine::{Frame, Machine, span_of};
-use crate::code::CodeUnit;
-use crate::natives::Trouble;
+use super::machine::{Machine, RegisterFrame, span_of};
+use crate::code::MachineFunction;
+use crate::natives::NativeError;
 use crate::rules;
 use crate::runtime_event::{EventKind, RuntimeEvent};
 use crate::ssa::{Num, Val};
@@ -18,8 +18,8 @@ impl Machine<'_> {
         dst: Num,
         field: FieldKey,
         index: u32,
-        unit: &CodeUnit,
-        f: Frame,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         at: usize,
     ) {
         match self.host.get(field, index as usize) {
@@ -39,8 +39,8 @@ impl Machine<'_> {
         dst: Val,
         view: View,
         index: u32,
-        unit: &CodeUnit,
-        f: Frame,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         at: usize,
     ) {
         let place = (view.first as usize).saturating_add(index as usize);
@@ -60,8 +60,8 @@ impl Machine<'_> {
         dst: Val,
         view: View,
         index: Num,
-        unit: &CodeUnit,
-        f: Frame,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         at: usize,
     ) {
         match self.element(view, self.num(f, index), unit, at) {
@@ -82,7 +82,13 @@ impl Machine<'_> {
     }
 
     #[inline]
-    pub(super) fn element(&mut self, view: View, written: f64, unit: &CodeUnit, at: usize) -> Option<f64> {
+    pub(super) fn element(
+        &mut self,
+        view: View,
+        written: f64,
+        unit: &MachineFunction,
+        at: usize,
+    ) -> Option<f64> {
         // No field has more elements than that. The comparison is false for NaN, and for what is not whole.
         let index = written as u32;
         let found = if f64::from(index) == written && view.count().is_none_or(|n| (index as usize) < n) {
@@ -97,12 +103,19 @@ impl Machine<'_> {
         found
     }
 
-    pub(super) fn store(&mut self, field: FieldKey, index: usize, x: f64) -> Result<(), Trouble> {
-        self.host.set(field, index, x).map_err(|message| Trouble::new(rules::HOST_STORE, message))
+    pub(super) fn store(&mut self, field: FieldKey, index: usize, x: f64) -> Result<(), NativeError> {
+        self.host.set(field, index, x).map_err(|message| NativeError::new(rules::HOST_STORE, message))
     }
 
     #[cold]
-    pub(super) fn note(&mut self, kind: EventKind, unit: &CodeUnit, at: usize, view: View, index: f64) {
+    pub(super) fn note(
+        &mut self,
+        kind: EventKind,
+        unit: &MachineFunction,
+        at: usize,
+        view: View,
+        index: f64,
+    ) {
         let len = self.length(view);
         self.context.note(RuntimeEvent { kind, span: span_of(unit, at), field: view.field, index, len });
     }

@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use super::operands::Operands;
-use crate::code::{Code, CodeUnit};
+use crate::code::{MachineCode, MachineFunction};
 use crate::context::Context;
 use crate::host::Host;
 use crate::math;
-use crate::natives::{self, Env, Trouble};
+use crate::natives::{self, Env, NativeError};
 use crate::operation::{select, truthy};
 use crate::row::REGISTERS;
 use crate::rules;
 use crate::runtime_event::RuntimeError;
-use crate::ssa::{Num, Op, Slot, Val};
+use crate::ssa::{Num, Op, Representation, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
@@ -26,7 +26,7 @@ pub(super) const HANDED: usize = 64;
 /// Runs a program once. Not inlined: the ways of a formula stay short.
 #[inline(never)]
 pub(crate) fn run(
-    code: &Arc<Code>,
+    code: &Arc<MachineCode>,
     host: &mut dyn Host,
     context: &mut Context,
     input: Option<&Value>,
@@ -53,19 +53,19 @@ pub(crate) fn run(
 
 /// What a function left in its first registers as its result. Made where it is wanted: to hand a value on is slow.
 #[inline(always)]
-pub(super) fn taken(slot: Slot, number: Option<&f64>, value: Option<&Value>) -> Value {
+pub(super) fn taken(slot: Representation, number: Option<&f64>, value: Option<&Value>) -> Value {
     let x = number.copied().unwrap_or(f64::NAN);
     match (slot, value) {
-        (Slot::Number, _) => Value::Number(x),
-        (Slot::Boolean, _) => Value::Boolean(x != 0.0),
-        (Slot::Value, Some(Value::Number(x))) => Value::Number(*x),
-        (Slot::Value, value) => value.cloned().unwrap_or_default(),
+        (Representation::Number, _) => Value::Number(x),
+        (Representation::Boolean, _) => Value::Boolean(x != 0.0),
+        (Representation::Value, Some(Value::Number(x))) => Value::Number(*x),
+        (Representation::Value, value) => value.cloned().unwrap_or_default(),
     }
 }
 
 /// Where the registers of a function start.
 #[derive(Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct RegisterFrame {
     pub(super) n: usize,
     pub(super) v: usize,
 }
@@ -83,21 +83,21 @@ pub(super) struct Machine<'a> {
 }
 
 /// Where something went wrong.
-pub(super) type Failed = Result<(), Box<RuntimeError>>;
+pub(super) type RunResult = Result<(), Box<RuntimeError>>;
 
 impl Machine<'_> {
     /// Runs the text itself; gives how it left its result.
     #[inline]
-    pub(super) fn whole(&mut self, code: &Arc<Code>) -> Result<Slot, Box<RuntimeError>> {
-        let Some(unit) = code.units.first() else { return Ok(Slot::Value) };
-        let frame = Frame { n: 0, v: 0 };
+    pub(super) fn whole(&mut self, code: &Arc<MachineCode>) -> Result<Representation, Box<RuntimeError>> {
+        let Some(unit) = code.units.first() else { return Ok(Representation::Value) };
+        let frame = RegisterFrame { n: 0, v: 0 };
         self.make_room(unit, frame);
         self.budget = self.budget.saturating_sub(unit.cost);
         self.execute(code, unit, frame)?;
         Ok(unit.result)
     }
 
-    pub(super) fn make_room(&mut self, unit: &CodeUnit, frame: Frame) {
+    pub(super) fn make_room(&mut self, unit: &MachineFunction, frame: RegisterFrame) {
         let numbers = frame.n + (unit.number_count as usize + HANDED).max(REGISTERS);
         if self.context.numbers.len() < numbers {
             self.context.numbers.resize(numbers, 0.0);
@@ -109,28 +109,33 @@ impl Machine<'_> {
     }
 
     #[inline]
-    pub(super) fn num(&self, f: Frame, register: Num) -> f64 {
+    pub(super) fn num(&self, f: RegisterFrame, register: Num) -> f64 {
         self.context.numbers[f.n + register.0 as usize]
     }
 
     #[inline]
-    pub(super) fn val(&self, f: Frame, register: Val) -> &Value {
+    pub(super) fn val(&self, f: RegisterFrame, register: Val) -> &Value {
         &self.context.values[f.v + register.0 as usize]
     }
 
     #[inline]
-    pub(super) fn put(&mut self, f: Frame, register: Num, x: f64) {
+    pub(super) fn put(&mut self, f: RegisterFrame, register: Num, x: f64) {
         self.context.numbers[f.n + register.0 as usize] = x;
     }
 
     #[inline]
-    pub(super) fn put_value(&mut self, f: Frame, register: Val, value: Value) {
+    pub(super) fn put_value(&mut self, f: RegisterFrame, register: Val, value: Value) {
         self.context.values[f.v + register.0 as usize] = value;
     }
 
     /// Runs a function whose parameters stand in their registers.
     #[inline]
-    pub(super) fn execute(&mut self, code: &Arc<Code>, unit: &CodeUnit, f: Frame) -> Failed {
+    pub(super) fn execute(
+        &mut self,
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
+        f: RegisterFrame,
+    ) -> RunResult {
         match self.context.watch {
             None => self.execute_as::<false>(code, unit, f),
             Some(_) => self.execute_as::<true>(code, unit, f),
@@ -141,10 +146,10 @@ impl Machine<'_> {
     /// cost a jump for each operation that runs.
     pub(super) fn execute_as<const WATCHED: bool>(
         &mut self,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
-    ) -> Failed {
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
+        f: RegisterFrame,
+    ) -> RunResult {
         self.put_constants(unit, f);
         let mut at = 0;
         while let Some(&op) = unit.ops.get(at) {
@@ -218,7 +223,7 @@ impl Machine<'_> {
     }
 
     #[inline(always)]
-    fn put_constants(&mut self, unit: &CodeUnit, f: Frame) {
+    fn put_constants(&mut self, unit: &MachineFunction, f: RegisterFrame) {
         for &(register, x) in &unit.numbers {
             self.put(f, register, x);
         }
@@ -229,7 +234,7 @@ impl Machine<'_> {
 
     /// A function of `Math`. The arguments stand behind all registers, where there is room for them.
     #[inline(always)]
-    fn apply_math(&mut self, dst: Num, function: math::Function, args: &[u32], f: Frame) {
+    fn apply_math(&mut self, dst: Num, function: math::MathFunction, args: &[u32], f: RegisterFrame) {
         let numbers = &mut self.context.numbers;
         let registers = numbers.len();
         for a in args {
@@ -242,7 +247,7 @@ impl Machine<'_> {
 
     /// Several numbers at once. `emit` makes a formula only of registers that a byte can name, and there is room for them.
     #[inline(always)]
-    fn run_formula<const WATCHED: bool>(&mut self, formula: u32, unit: &CodeUnit, f: Frame) {
+    fn run_formula<const WATCHED: bool>(&mut self, formula: u32, unit: &MachineFunction, f: RegisterFrame) {
         let registers = self.context.numbers.get_mut(f.n..).and_then(<[f64]>::first_chunk_mut);
         if let (Some((formula, _)), Some(registers)) = (unit.formulas.get(formula as usize), registers) {
             match self.context.watch.as_deref_mut().filter(|_| WATCHED) {
@@ -254,7 +259,7 @@ impl Machine<'_> {
 
     /// Counts a turn of a loop.
     #[inline(always)]
-    fn count_turn(&mut self, turn: u64, unit: &CodeUnit, at: usize) -> Failed {
+    fn count_turn(&mut self, turn: u64, unit: &MachineFunction, at: usize) -> RunResult {
         if self.budget < turn {
             self.budget = 0;
             return Err(failure(natives::out_of_steps(), unit, at));
@@ -266,13 +271,13 @@ impl Machine<'_> {
     /// Calls a function of the same text; what it gets is already in its registers.
     pub(super) fn call(
         &mut self,
-        code: &Arc<Code>,
+        code: &Arc<MachineCode>,
         callee: u32,
-        unit: &CodeUnit,
-        f: Frame,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         at: usize,
-    ) -> Failed {
-        let frame = Frame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
+    ) -> RunResult {
+        let frame = RegisterFrame { n: f.n + unit.number_count as usize, v: f.v + unit.value_count as usize };
         let Some(callee) = code.units.get(callee as usize) else { return Ok(()) };
         if let Err(trouble) = self.enter(callee) {
             return Err(failure(trouble, unit, at));
@@ -284,10 +289,10 @@ impl Machine<'_> {
     }
 
     /// Counts a call.
-    pub(super) fn enter(&mut self, callee: &CodeUnit) -> Result<(), Trouble> {
+    pub(super) fn enter(&mut self, callee: &MachineFunction) -> Result<(), NativeError> {
         if self.depth >= MAX_CALLS {
             let message = format!("function calls are nested more than {MAX_CALLS} levels deep");
-            return Err(Trouble::new(rules::CALL_DEPTH, message));
+            return Err(NativeError::new(rules::CALL_DEPTH, message));
         }
         self.charge(callee.cost)?;
         self.depth += 1;
@@ -295,12 +300,12 @@ impl Machine<'_> {
     }
 
     /// Counts work.
-    pub(super) fn charge(&mut self, units: u64) -> Result<(), Trouble> {
+    pub(super) fn charge(&mut self, units: u64) -> Result<(), NativeError> {
         natives::charge(&mut self.budget, units)
     }
 
     /// What natives work with.
-    pub(super) fn env<'e>(&'e mut self, code: &'e Code) -> Env<'e> {
+    pub(super) fn env<'e>(&'e mut self, code: &'e MachineCode) -> Env<'e> {
         Env {
             heap: &mut self.context.heap,
             host: self.host,
@@ -318,40 +323,40 @@ impl Machine<'_> {
 }
 
 /// Why a step ends the run.
-pub(super) enum Stop {
-    Here(Trouble),
+pub(super) enum StepError {
+    Here(NativeError),
     /// In a function that it called.
     Inside(Box<RuntimeError>),
 }
 
-impl Stop {
+impl StepError {
     /// The error of an operation that stopped.
     #[cold]
-    fn at(self, unit: &CodeUnit, at: usize) -> Box<RuntimeError> {
+    fn at(self, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
         match self {
-            Stop::Here(trouble) => failure(trouble, unit, at),
-            Stop::Inside(error) => error,
+            StepError::Here(trouble) => failure(trouble, unit, at),
+            StepError::Inside(error) => error,
         }
     }
 }
 
-impl From<Trouble> for Stop {
-    fn from(trouble: Trouble) -> Stop {
-        Stop::Here(trouble)
+impl From<NativeError> for StepError {
+    fn from(trouble: NativeError) -> StepError {
+        StepError::Here(trouble)
     }
 }
 
-impl From<crate::heap::Full> for Stop {
-    fn from(full: crate::heap::Full) -> Stop {
-        Stop::Here(full.into())
+impl From<crate::heap::Full> for StepError {
+    fn from(full: crate::heap::Full) -> StepError {
+        StepError::Here(full.into())
     }
 }
 
-pub(super) fn span_of(unit: &CodeUnit, at: usize) -> Span {
+pub(super) fn span_of(unit: &MachineFunction, at: usize) -> Span {
     unit.spans.get(at).copied().unwrap_or_default()
 }
 
 #[cold]
-pub(super) fn failure(trouble: Trouble, unit: &CodeUnit, at: usize) -> Box<RuntimeError> {
+pub(super) fn failure(trouble: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
     Box::new(RuntimeError { rule: trouble.rule, span: span_of(unit, at), message: trouble.message })
 }

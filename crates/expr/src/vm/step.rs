@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::index::index_of;
-use super::machine::{Frame, Machine, Stop};
-use crate::code::{Code, CodeUnit};
+use super::machine::{Machine, RegisterFrame, StepError};
+use crate::code::{MachineCode, MachineFunction};
 use crate::heap::MAX_TEXT;
-use crate::natives::{self, Trouble};
+use crate::natives::{self, NativeError};
 use crate::operation::truth;
 use crate::operators::BinaryOp;
 use crate::rules;
@@ -24,11 +24,11 @@ impl Machine<'_> {
     pub(super) fn step(
         &mut self,
         op: Op,
-        code: &Arc<Code>,
-        unit: &CodeUnit,
-        f: Frame,
+        code: &Arc<MachineCode>,
+        unit: &MachineFunction,
+        f: RegisterFrame,
         at: usize,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), StepError> {
         match op {
             Op::Length(dst, view) => self.put(f, dst, self.length(view) as f64),
             Op::Input(dst) => self.put_value(f, dst, self.input.cloned().unwrap_or_default()),
@@ -86,7 +86,13 @@ impl Machine<'_> {
     }
 
     #[inline]
-    fn global_number(&mut self, code: &Code, dst: Num, slot: u32, f: Frame) -> Result<(), Trouble> {
+    fn global_number(
+        &mut self,
+        code: &MachineCode,
+        dst: Num,
+        slot: u32,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let value = self.context.get(slot).clone();
         let x = self.env(code).number(&value)?;
         self.put(f, dst, x);
@@ -94,7 +100,13 @@ impl Machine<'_> {
     }
 
     #[inline]
-    fn global_named(&mut self, code: &Code, dst: Val, name: Val, f: Frame) -> Result<(), Trouble> {
+    fn global_named(
+        &mut self,
+        code: &MachineCode,
+        dst: Val,
+        name: Val,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let name = self.val(f, name).clone();
         let name = self.env(code).text(&name)?;
         self.put_value(f, dst, self.context.get_named(&name));
@@ -102,7 +114,13 @@ impl Machine<'_> {
     }
 
     #[inline]
-    fn to_number(&mut self, code: &Code, dst: Num, src: Val, f: Frame) -> Result<(), Trouble> {
+    fn to_number(
+        &mut self,
+        code: &MachineCode,
+        dst: Num,
+        src: Val,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let x = match self.val(f, src) {
             Value::Number(x) => *x,
             value => {
@@ -115,7 +133,13 @@ impl Machine<'_> {
     }
 
     #[inline]
-    fn to_text(&mut self, code: &Code, dst: Val, src: Val, f: Frame) -> Result<(), Trouble> {
+    fn to_text(
+        &mut self,
+        code: &MachineCode,
+        dst: Val,
+        src: Val,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let value = self.val(f, src).clone();
         let mut env = self.env(code);
         let text = env.text(&value)?;
@@ -128,12 +152,12 @@ impl Machine<'_> {
     #[inline]
     fn call_host(
         &mut self,
-        code: &Code,
+        code: &MachineCode,
         dst: Val,
         function: FunctionId,
         args: &[u32],
-        f: Frame,
-    ) -> Result<(), Trouble> {
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         self.env(code).spend(HOST_CALL)?;
         let mut handed = std::mem::take(&mut self.context.handed);
         handed.extend(args.iter().map(|a| self.val(f, Val(*a)).clone()));
@@ -144,27 +168,33 @@ impl Machine<'_> {
         let done = self.host.work().saturating_sub(before).min(self.budget);
         self.of_host += done;
         self.charge(done)?;
-        let result = result.map_err(|message| Trouble::new(rules::HOST_CALL, message))?;
+        let result = result.map_err(|message| NativeError::new(rules::HOST_CALL, message))?;
         self.put_value(f, dst, result);
         Ok(())
     }
 
     #[inline]
-    fn store_global_named(&mut self, code: &Code, name: Val, src: Val, f: Frame) -> Result<(), Trouble> {
+    fn store_global_named(
+        &mut self,
+        code: &MachineCode,
+        name: Val,
+        src: Val,
+        f: RegisterFrame,
+    ) -> Result<(), NativeError> {
         let name = self.val(f, name).clone();
         let name = self.env(code).text(&name)?;
         let value = self.val(f, src).clone();
         self.check_kept(&value)?;
         if !self.context.set_named(&name, value) {
-            return Err(Trouble::new(rules::MEMORY, "too many variables with computed names"));
+            return Err(NativeError::new(rules::MEMORY, "too many variables with computed names"));
         }
         Ok(())
     }
 
     /// Refuses to keep an array of the simulation in `ctx`.
-    pub(super) fn check_kept(&self, value: &Value) -> Result<(), Trouble> {
+    pub(super) fn check_kept(&self, value: &Value) -> Result<(), NativeError> {
         if matches!(value, Value::View(_)) {
-            return Err(Trouble::new(
+            return Err(NativeError::new(
                 rules::WHOLE_ARRAY,
                 "`ctx` cannot store an array of the engine; store a copy, as `list.slice()`",
             ));
@@ -172,7 +202,13 @@ impl Machine<'_> {
         Ok(())
     }
 
-    pub(super) fn plus(&mut self, code: &Code, f: Frame, a: Val, b: Val) -> Result<Value, Trouble> {
+    pub(super) fn plus(
+        &mut self,
+        code: &MachineCode,
+        f: RegisterFrame,
+        a: Val,
+        b: Val,
+    ) -> Result<Value, NativeError> {
         let (a, b) = (self.val(f, a), self.val(f, b));
         if let (Value::Number(a), Value::Number(b)) = (a, b) {
             return Ok(Value::Number(a + b));
@@ -194,12 +230,12 @@ impl Machine<'_> {
 
     pub(super) fn compare(
         &mut self,
-        code: &Code,
-        f: Frame,
+        code: &MachineCode,
+        f: RegisterFrame,
         op: BinaryOp,
         a: Val,
         b: Val,
-    ) -> Result<bool, Trouble> {
+    ) -> Result<bool, NativeError> {
         let (a, b) = (self.val(f, a), self.val(f, b));
         let strict = matches!(op, BinaryOp::StrictEqual | BinaryOp::StrictNotEqual);
         let plain = a.is_primitive() && b.is_primitive();
@@ -211,7 +247,7 @@ impl Machine<'_> {
         }
         let (a, b) = (a.clone(), b.clone());
         let mut env = self.env(code);
-        let mut primitive = |v: Value| -> Result<Value, Trouble> {
+        let mut primitive = |v: Value| -> Result<Value, NativeError> {
             if v.is_primitive() { Ok(v) } else { Ok(Value::String(env.text(&v)?.into())) }
         };
         let (a, b) = (primitive(a)?, primitive(b)?);

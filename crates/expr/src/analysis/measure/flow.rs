@@ -10,7 +10,7 @@ use crate::dimension::Measure;
 use crate::effects::Access;
 use crate::ir::UnitId;
 use crate::schema::Schema;
-use crate::ssa::{End, Num, Operand, SsaFunction, SsaProgram, Val};
+use crate::ssa::{Num, Operand, SsaFunction, SsaProgram, Terminator, Val};
 use crate::value::{Value, View};
 use labspec_finding::Span;
 
@@ -27,10 +27,10 @@ pub(crate) fn measured(
     given: &Given,
     aggregates: &Aggregates,
 ) -> Measured {
-    let around = Around { form, schema, given, aggregates, left: Cell::new(MOST) };
+    let around = MeasureContext { form, schema, given, aggregates, left: Cell::new(MOST) };
     let mut all = Measured::default();
     for (id, unit) in form.units.iter().enumerate() {
-        let mut work = Work::new(&around, id as u32, unit);
+        let mut work = MeasureWalk::new(&around, id as u32, unit);
         work.look();
         let found = work.found;
         if id == 0 {
@@ -47,7 +47,7 @@ pub(crate) fn measured(
 }
 
 /// What a text is looked at with.
-pub(super) struct Around<'f> {
+pub(super) struct MeasureContext<'f> {
     pub(super) form: &'f SsaProgram,
     pub(super) schema: &'f dyn Schema,
     pub(super) given: &'f Given,
@@ -57,8 +57,8 @@ pub(super) struct Around<'f> {
 }
 
 /// The work on one function of a text.
-pub(super) struct Work<'f> {
-    pub(super) around: &'f Around<'f>,
+pub(super) struct MeasureWalk<'f> {
+    pub(super) around: &'f MeasureContext<'f>,
     pub(super) unit: &'f SsaFunction,
     /// The function, behind those that called it; of one that is looked at for itself it stands alone.
     stack: Vec<UnitId>,
@@ -74,9 +74,9 @@ pub(super) struct Work<'f> {
     pub(super) found: Measured,
 }
 
-impl<'f> Work<'f> {
-    pub(super) fn new(around: &'f Around<'f>, id: UnitId, unit: &'f SsaFunction) -> Work<'f> {
-        Work {
+impl<'f> MeasureWalk<'f> {
+    pub(super) fn new(around: &'f MeasureContext<'f>, id: UnitId, unit: &'f SsaFunction) -> MeasureWalk<'f> {
+        MeasureWalk {
             around,
             unit,
             stack: vec![id],
@@ -92,7 +92,7 @@ impl<'f> Work<'f> {
 
     /// Looks at everything until nothing changes.
     pub(super) fn look(&mut self) {
-        if !self.unit.blocks.iter().any(|b| matches!(b.end, End::Again(_))) {
+        if !self.unit.blocks.iter().any(|b| matches!(b.end, Terminator::Again(_))) {
             return self.round();
         }
         for _ in 0..ROUNDS {
@@ -117,15 +117,18 @@ impl<'f> Work<'f> {
                 }
             }
             match &block.end {
-                End::Jump(edge) | End::If(_, _, edge) | End::IfNothing(_, _, edge) | End::Again(edge) => {
+                Terminator::Jump(edge)
+                | Terminator::If(_, _, edge)
+                | Terminator::IfNothing(_, _, edge)
+                | Terminator::Again(edge) => {
                     let params = unit.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
                     for (param, arg) in params.iter().zip(&edge.args) {
                         let measure = self.at(*arg);
                         self.join(*param, measure);
                     }
                 }
-                End::Return(Some(value)) => self.found.value = self.found.value.or(self.at(*value)),
-                End::Return(None) => {}
+                Terminator::Return(Some(value)) => self.found.value = self.found.value.or(self.at(*value)),
+                Terminator::Return(None) => {}
             }
         }
         self.around.left.set(self.around.left.get().saturating_sub(unit.ops.len()));
@@ -141,7 +144,7 @@ impl<'f> Work<'f> {
             return unknown();
         }
         let stack = self.stack.iter().copied().chain([id]).collect();
-        let mut work = Work { stack, ..Work::new(around, id, unit) };
+        let mut work = MeasureWalk { stack, ..MeasureWalk::new(around, id, unit) };
         let places: Vec<Operand> = places(unit).collect();
         for (at, measure) in places.iter().zip(given) {
             work.set(*at, *measure);
@@ -226,14 +229,14 @@ impl<'f> Work<'f> {
 
 /// The names of the parameters of a function, and then of what it uses of the functions around it.
 fn places(unit: &SsaFunction) -> impl Iterator<Item = Operand> {
-    use crate::ssa::Slot;
+    use crate::ssa::Representation;
     let (mut numbers, mut values) = (0, 0);
     unit.params.iter().chain(&unit.captures).map(move |slot| match slot {
-        Slot::Number | Slot::Boolean => {
+        Representation::Number | Representation::Boolean => {
             numbers += 1;
             Operand::Number(Num(numbers))
         }
-        Slot::Value => {
+        Representation::Value => {
             values += 1;
             Operand::Value(Val(values))
         }

@@ -2,7 +2,7 @@
 
 use crate::dimension::Measure;
 use crate::ir::{FreeFunctionId, MethodId};
-use crate::natives::{Native, NativeResult, On};
+use crate::natives::{Native, NativeResult, ReceiverKind};
 
 /// What a method gives; what it is called on comes first. Where lists and texts have one of the same name, it may be either.
 pub(super) fn method(name: MethodId, args: &[Measure]) -> Measure {
@@ -16,8 +16,10 @@ fn of_row(row: &Native, args: &[Measure]) -> Measure {
         (.., "concat" | "with") => args.iter().copied().reduce(Measure::or).unwrap_or_default(),
         // Digits of another base, and texts that are put together, are other numbers.
         (.., "toString") if args.len() > 1 => Measure::Unknown,
-        (_, On::Text, "repeat" | "padEnd" | "padStart" | "replace" | "replaceAll") => Measure::Unknown,
-        (NativeResult::Any, On::Growing | On::Text, _) => receiver,
+        (_, ReceiverKind::Text, "repeat" | "padEnd" | "padStart" | "replace" | "replaceAll") => {
+            Measure::Unknown
+        }
+        (NativeResult::Any, ReceiverKind::Growing | ReceiverKind::Text, _) => receiver,
         (NativeResult::Any | NativeResult::Undefined, ..) => Measure::Unknown,
         (
             NativeResult::String

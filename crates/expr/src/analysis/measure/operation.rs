@@ -1,6 +1,6 @@
 //! What one operation gives, by what its operands are.
 
-use super::flow::Work;
+use super::flow::MeasureWalk;
 use super::measured::Stored;
 use super::natives as handed;
 use crate::analysis::effects::{element, whole};
@@ -9,11 +9,11 @@ use crate::effects::Access;
 use crate::ir::{MethodId, UnitId};
 use crate::math;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::ssa::{Args, Num, Op, Operand, OperandUse, Slot, Val};
+use crate::ssa::{Args, Num, Op, Operand, OperandUse, Representation, Val};
 use crate::value::Value;
 use labspec_finding::Span;
 
-impl Work<'_> {
+impl MeasureWalk<'_> {
     /// What an operation on numbers and variables gives.
     pub(super) fn op(&mut self, op: &Op, span: &Span) {
         let (number, value) = (Operand::Number, Operand::Value);
@@ -189,7 +189,7 @@ impl Work<'_> {
                 let slots = self.around.form.units.get(unit as usize);
                 let given = slots.iter().flat_map(|u| u.params.iter().chain(&u.captures));
                 let given = given.filter_map(|slot| match slot {
-                    Slot::Value => values.next(),
+                    Representation::Value => values.next(),
                     _ => numbers.next(),
                 });
                 self.invoke(unit, given.collect(), Vec::new());
@@ -288,7 +288,7 @@ impl Work<'_> {
     }
 
     /// What a function of `Math` gives.
-    fn math(&mut self, function: math::Function, args: Args, span: &Span) -> Measure {
+    fn math(&mut self, function: math::MathFunction, args: Args, span: &Span) -> Measure {
         let args: Vec<Num> = args.of(&self.unit.args).iter().map(|n| Num(*n)).collect();
         let measures: Vec<Measure> = args.iter().map(|n| self.number(*n)).collect();
         let first = measures.first().copied().unwrap_or_default();

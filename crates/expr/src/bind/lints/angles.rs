@@ -2,7 +2,7 @@
 
 use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr};
-use crate::bind::types::Shape;
+use crate::bind::types::ExpressionShape;
 use crate::number;
 use crate::rules;
 use crate::schema::Role;
@@ -11,7 +11,7 @@ use labspec_finding::{Finding, Span};
 
 impl LintPass<'_> {
     /// What a function of angles gets.
-    pub(super) fn angle(&mut self, span: Span, by: &str, shape: &Shape) {
+    pub(super) fn angle(&mut self, span: Span, by: &str, shape: &ExpressionShape) {
         if let Some(x) = shape.number()
             && in_degrees(x)
             && number::to_text(x) == self.text(span)
@@ -29,7 +29,7 @@ impl LintPass<'_> {
         }
         let typed = self.typed;
         let (Some(a), Some(b)) = (typed.shape(left.span), typed.shape(right.span)) else { return };
-        let converts = |shape: &Shape| {
+        let converts = |shape: &ExpressionShape| {
             shape.number().is_some_and(|x| x == 180.0 || (x - 1f64.to_degrees()).abs() < 0.01)
         };
         if converts(a) {
@@ -41,7 +41,7 @@ impl LintPass<'_> {
     }
 
     /// Warns where an angle is needed, of a number that the host knows to be none.
-    fn no_angle(&mut self, span: Span, shape: &Shape, needs: &str) {
+    fn no_angle(&mut self, span: Span, shape: &ExpressionShape, needs: &str) {
         let Some((field, at)) = shape.element else { return };
         let Role::NoAngle(advice) = self.schema.role(field, at) else { return };
         let what = match self.schema.element_help(field, at) {
@@ -57,7 +57,12 @@ impl LintPass<'_> {
     }
 
     /// Degrees that are stored in an angle.
-    pub(super) fn degrees_stored(&mut self, span: Span, to: Option<(FieldKey, usize)>, shape: &Shape) {
+    pub(super) fn degrees_stored(
+        &mut self,
+        span: Span,
+        to: Option<(FieldKey, usize)>,
+        shape: &ExpressionShape,
+    ) {
         let (Some((field, at)), Some(x)) = (to, shape.number()) else { return };
         if in_degrees(x) && self.schema.role(field, at) == Role::Angle {
             self.degrees(span, "this angle is in radians");

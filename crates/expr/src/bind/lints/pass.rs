@@ -2,7 +2,7 @@
 
 use crate::ast::{BinaryOp, Body, Element, Expr, ExprKind, Pattern, Property, Stmt, StmtKind};
 use crate::bind::source::SourceTree;
-use crate::bind::types::{Typed, Want};
+use crate::bind::types::{Expectation, TypedText};
 use crate::schema::Schema;
 use labspec_finding::{Finding, Span};
 
@@ -10,7 +10,7 @@ use labspec_finding::{Finding, Span};
 pub(super) struct LintPass<'l> {
     pub(super) schema: &'l dyn Schema,
     pub(super) source: &'l str,
-    pub(super) typed: &'l Typed,
+    pub(super) typed: &'l TypedText,
     pub(super) found: Vec<Finding>,
 }
 
@@ -19,7 +19,7 @@ pub(in crate::bind) fn lint(
     schema: &dyn Schema,
     source: &str,
     tree: SourceTree<'_>,
-    typed: &Typed,
+    typed: &TypedText,
 ) -> Vec<Finding> {
     let mut pass = LintPass { schema, source, typed, found: Vec::new() };
     match tree {
@@ -28,9 +28,9 @@ pub(in crate::bind) fn lint(
     }
     for (span, want, shape) in &typed.wants {
         match want {
-            Want::Number(by) => pass.text_for_number(*span, by, shape),
-            Want::Angle(by) => pass.angle(*span, by, shape),
-            Want::Element(element) => {
+            Expectation::Number(by) => pass.text_for_number(*span, by, shape),
+            Expectation::Angle(by) => pass.angle(*span, by, shape),
+            Expectation::Element(element) => {
                 pass.text_stored(*span, shape);
                 pass.degrees_stored(*span, *element, shape);
             }

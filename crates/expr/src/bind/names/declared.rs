@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// What the names of a text mean. Places are bytes: that of a name, of its declaration, of a function.
 #[derive(Clone, Debug, Default)]
-pub(in crate::bind) struct Names {
+pub(in crate::bind) struct NameTable {
     /// Names that the text declares, and those that are mistakes; all others belong to the language or the host.
     pub(super) uses: BTreeMap<usize, NameMeaning>,
-    pub(super) declared: BTreeMap<usize, Declared>,
+    pub(super) declared: BTreeMap<usize, Declaration>,
     /// Variables of other functions that a function uses, itself or through functions that it names.
     pub(super) taken: BTreeMap<usize, BTreeSet<usize>>,
     /// There are so many functions, or they name each other so deeply, that the text is not looked at any further.
@@ -27,7 +27,7 @@ pub(in crate::bind) enum NameMeaning {
 
 /// A declaration.
 #[derive(Clone, Debug)]
-pub(in crate::bind) struct Declared {
+pub(in crate::bind) struct Declaration {
     pub(super) name: String,
     pub(super) constant: bool,
     /// The function that it stands in.
@@ -45,7 +45,7 @@ pub(in crate::bind) struct Declared {
     pub(super) holds: Option<usize>,
 }
 
-impl Declared {
+impl Declaration {
     /// Whether functions share one place of the variable.
     pub(in crate::bind) fn is_shared(&self) -> bool {
         self.early || self.captured && self.assigned > 0
@@ -57,14 +57,14 @@ impl Declared {
     }
 }
 
-impl Names {
+impl NameTable {
     /// What the name at a byte means.
     pub(in crate::bind) fn at(&self, byte: usize) -> NameMeaning {
         self.uses.get(&byte).copied().unwrap_or(NameMeaning::Outside)
     }
 
     /// The declaration at a byte; none when the name could not be declared.
-    pub(in crate::bind) fn declared(&self, byte: usize) -> Option<&Declared> {
+    pub(in crate::bind) fn declared(&self, byte: usize) -> Option<&Declaration> {
         self.declared.get(&byte)
     }
 

@@ -12,7 +12,7 @@ mod statement;
 mod unknown;
 mod walk;
 
-pub(super) use declared::{Declared, NameMeaning, Names};
+pub(super) use declared::{Declaration, NameMeaning, NameTable};
 pub(super) use language::{MACHINERY, NAMESPACES, list_names};
 pub(super) use meant::meant_elsewhere;
 pub(super) use statement::names_of;

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::declared::{Declared, NameMeaning, Names};
+use super::declared::{Declaration, NameMeaning, NameTable};
 use super::language::{is_language, report_constant, report_not_assignable, report_too_early};
 use crate::ast::{Body, Expr, ExprKind, Function, Name, Property, UnaryOp};
-use crate::bind::source::{self, MAX_LEVELS, Mode};
+use crate::bind::source::{self, MAX_LEVELS, TextKind};
 use crate::globals::Globals;
 use crate::rules;
 use crate::schema::{Entry, FunctionInfo, Param, Schema};
@@ -29,7 +29,7 @@ pub(in crate::bind) struct Surroundings<'s> {
     /// None for the texts of the language itself.
     pub(in crate::bind) schema: Option<&'s dyn Schema>,
     pub(in crate::bind) globals: &'s Globals,
-    pub(in crate::bind) mode: Mode,
+    pub(in crate::bind) mode: TextKind,
     /// Whether a control gives `value`.
     pub(in crate::bind) has_value: bool,
 }
@@ -50,7 +50,7 @@ pub(super) struct FunctionScope<'a> {
 
 pub(in crate::bind) struct NameWalk<'a, 's> {
     pub(super) around: Surroundings<'s>,
-    pub(super) names: Names,
+    pub(super) names: NameTable,
     pub(super) found: Vec<Finding>,
     /// Declarations in reach, inner ones last.
     pub(super) reach: Vec<usize>,
@@ -68,10 +68,10 @@ pub(in crate::bind) struct NameWalk<'a, 's> {
 pub(in crate::bind) fn resolve<'a>(
     around: Surroundings<'_>,
     work: impl FnOnce(&mut NameWalk<'a, '_>),
-) -> (Names, Vec<Finding>) {
+) -> (NameTable, Vec<Finding>) {
     let mut walk = NameWalk {
         around,
-        names: Names::default(),
+        names: NameTable::default(),
         found: Vec::new(),
         reach: Vec::new(),
         functions: BTreeMap::new(),
@@ -142,7 +142,7 @@ impl<'a> NameWalk<'a, '_> {
             ExprKind::Spread(inner) => self.value(inner),
             // A text that only reads is refused an assignment as a whole.
             ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } | ExprKind::Update { .. } => {
-                if self.around.mode == Mode::Statements {
+                if self.around.mode == TextKind::Statements {
                     self.change(expr);
                 }
             }
@@ -427,7 +427,7 @@ impl<'a> NameWalk<'a, '_> {
     /// A name that is declared here; its declaration has not run yet.
     pub(super) fn declare(&mut self, name: &Name, constant: bool, parameter: bool) {
         let byte = name.span.start;
-        let declared = Declared {
+        let declared = Declaration {
             name: name.text.clone(),
             constant,
             function: self.function,

@@ -1,10 +1,10 @@
 //! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
 
-use super::binder::{Attempt, Binder, Reported, Thing};
+use super::binder::{Attempt, Binder, Entity, Reported};
 use super::member::{quoted, view_of};
 use crate::ast::{Expr, ExprKind};
 use crate::bind::names::list_names;
-use crate::ir::{Index, Ir, Kind};
+use crate::ir::{Index, Ir, IrKind};
 use crate::number;
 use crate::rules;
 use crate::schema::{Field, Help};
@@ -28,24 +28,24 @@ impl<'a> Binder<'a> {
         index: &'a Expr,
         optional: bool,
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         if let Some(field) = self.call_as_field(object) {
             let index = self.index(&field, index, span)?;
-            return Ok(Thing::Value(self.load(&field, index, span)));
+            return Ok(Entity::Value(self.load(&field, index, span)));
         }
         let thing = self.thing(object);
-        if let Ok(Thing::Globals) = thing {
-            return self.read_named_global(index, span).map(Thing::Value);
+        if let Ok(Entity::Globals) = thing {
+            return self.read_named_global(index, span).map(Entity::Value);
         }
         match thing {
-            Ok(Thing::Field(field)) => {
+            Ok(Entity::Field(field)) => {
                 let index = self.index(&field, index, span)?;
                 self.name_element(&field, &index, span);
-                Ok(Thing::Value(self.load(&field, index, span)))
+                Ok(Entity::Value(self.load(&field, index, span)))
             }
-            Ok(Thing::Value(ir)) if ir.ty.may_have_parts() || ir.ty == Type::String || optional => {
+            Ok(Entity::Value(ir)) if ir.ty.may_have_parts() || ir.ty == Type::String || optional => {
                 let ir = if optional { self.present(ir) } else { ir };
-                self.value_element(ir, index, span).map(Thing::Value)
+                self.value_element(ir, index, span).map(Entity::Value)
             }
             Ok(other) => {
                 let report = self.not_indexable(&other, object, index, span);
@@ -109,7 +109,7 @@ impl<'a> Binder<'a> {
             return Err(Reported);
         }
         let ty = if object.ty == Type::View { Type::Element } else { Type::Any };
-        Ok(Ir::new(Kind::Element(Box::new(object), Box::new(index)), ty, span))
+        Ok(Ir::new(IrKind::Element(Box::new(object), Box::new(index)), ty, span))
     }
 
     /// An element of a field, read.
@@ -124,7 +124,7 @@ impl<'a> Binder<'a> {
             _ => false,
         };
         let ty = if certain { Type::Number } else { Type::Element };
-        Ir::new(Kind::Load(view, index), ty, span)
+        Ir::new(IrKind::Load(view, index), ty, span)
     }
 
     /// The name in `ctx['name']`.
@@ -135,7 +135,7 @@ impl<'a> Binder<'a> {
             _ => {
                 // `'q' + i` names only what begins with `q`.
                 let begins = match &ir.kind {
-                    Kind::Binary(crate::ast::BinaryOp::Add, left, _) => left.known().map(Value::to_string),
+                    IrKind::Binary(crate::ast::BinaryOp::Add, left, _) => left.known().map(Value::to_string),
                     _ => None,
                 };
                 self.globals.mention_all(&begins.unwrap_or_default());
@@ -147,7 +147,7 @@ impl<'a> Binder<'a> {
     fn read_named_global(&mut self, index: &'a Expr, span: Span) -> Attempt<Ir> {
         match self.global_name(index)? {
             GlobalName::Known(name) => self.global(&name, span),
-            GlobalName::Computed(ir) => Ok(Ir::new(Kind::GlobalNamed(Box::new(ir)), Type::Any, span)),
+            GlobalName::Computed(ir) => Ok(Ir::new(IrKind::GlobalNamed(Box::new(ir)), Type::Any, span)),
         }
     }
 
@@ -232,7 +232,7 @@ impl<'a> Binder<'a> {
         Ok(at)
     }
 
-    pub(super) fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Finding {
+    pub(super) fn not_indexable(&self, thing: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
         let text = self.text(object.span);
         let error = |message: String| Finding::error(rules::NOT_INDEXABLE, span, message);
         let name = match &index.kind {
@@ -240,20 +240,20 @@ impl<'a> Binder<'a> {
             _ => None,
         };
         match (thing, name) {
-            (Thing::Collection(id), _) => {
+            (Entity::Collection(id), _) => {
                 self.collection_needs_call(*id, object.span, name.map(|n| (n, span)))
             }
-            (Thing::Object(_) | Thing::Math, Some(name)) => {
+            (Entity::Object(_) | Entity::Math, Some(name)) => {
                 error(format!("members of `{text}` are not selected with brackets"))
                     .why("names are resolved before the run, so they need a point")
                     .help(format!("write `{text}.{name}`"))
                     .fix(span, format!("{text}.{name}"))
             }
-            (Thing::Object(id), None) => {
+            (Entity::Object(id), None) => {
                 error(format!("{} is not an array", quoted(&self.schema.describe(*id))))
                     .help("select a field first, with a point")
             }
-            (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => {
+            (Entity::Value(ir), _) if matches!(ir.kind, IrKind::Load(..)) => {
                 error(format!("`{text}` is already a single number"))
                     .why("arrays are flat: one index selects one number, and the rows follow each other")
                     .help(format!(
@@ -261,15 +261,15 @@ impl<'a> Binder<'a> {
                         self.words().matrix
                     ))
             }
-            (Thing::Value(_), _) => {
+            (Entity::Value(_), _) => {
                 error(format!("`{text}` is a single value, not an array")).help("remove the index")
             }
             (
-                Thing::Function(_)
-                | Thing::MathFunction(_)
-                | Thing::Method(..)
-                | Thing::Native(_)
-                | Thing::Closure(_),
+                Entity::Function(_)
+                | Entity::MathFunction(_)
+                | Entity::Method(..)
+                | Entity::Native(_)
+                | Entity::Closure(_),
                 _,
             ) => self.not_called(thing, object.span),
             _ => error(format!("`{text}` is not an array"))
@@ -332,7 +332,7 @@ impl<'a> Binder<'a> {
         callee: Span,
         args: &'a [Expr],
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         let noun = self.schema.noun(id).to_owned();
         let [arg] = args else {
             let message =
@@ -343,8 +343,8 @@ impl<'a> Binder<'a> {
             );
         };
         match self.object_name(id, arg)? {
-            Chosen::Known(object) => Ok(Thing::Object(object)),
-            Chosen::Computed(name) => Ok(Thing::Picked(id, name)),
+            Chosen::Known(object) => Ok(Entity::Object(object)),
+            Chosen::Computed(name) => Ok(Entity::Picked(id, name)),
         }
     }
 

@@ -2,13 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::facts::{Facts, Key};
-use super::typed::{Shape, Typed, Want};
+use super::facts::{FactKey, TypeFacts};
+use super::typed::{Expectation, ExpressionShape, TypedText};
 use crate::ast::{Expr, Function};
-use crate::bind::names::Names;
-use crate::bind::source::{MAX_LEVELS, Mode, SourceTree, too_deep};
+use crate::bind::names::NameTable;
+use crate::bind::source::{MAX_LEVELS, SourceTree, TextKind, too_deep};
 use crate::globals::{Globals, ProgramId};
-use crate::ir::{FreeFunctionId, Ir, LocalId, MethodId, Step, Tree, Unit, UnitId};
+use crate::ir::{FreeFunctionId, Ir, IrFunction, IrProgram, IrStatement, LocalId, MethodId, UnitId};
 use crate::math;
 use crate::natives::Native;
 use crate::program::Aggregate;
@@ -19,13 +19,13 @@ use crate::words::Words;
 use labspec_finding::{Finding, Fix, Span};
 
 /// What the pass found of a text.
-pub(in crate::bind) struct Bound {
+pub(in crate::bind) struct BoundText {
     /// The program, when nothing was in the way.
-    pub(in crate::bind) program: Option<Parts>,
+    pub(in crate::bind) program: Option<BoundProgram>,
     pub(in crate::bind) found: Vec<Finding>,
     /// The first name that means nothing.
     pub(in crate::bind) unresolved: Option<Span>,
-    pub(in crate::bind) typed: Typed,
+    pub(in crate::bind) typed: TypedText,
     pub(in crate::bind) help: Vec<(Span, Help)>,
     pub(in crate::bind) named: Vec<Fix>,
     /// Rounds that it took.
@@ -34,8 +34,8 @@ pub(in crate::bind) struct Bound {
 }
 
 /// What a program is made of.
-pub(in crate::bind) struct Parts {
-    pub(in crate::bind) tree: Tree,
+pub(in crate::bind) struct BoundProgram {
+    pub(in crate::bind) tree: IrProgram,
     pub(in crate::bind) result: Type,
     pub(in crate::bind) aggregates: Vec<Aggregate>,
 }
@@ -46,7 +46,7 @@ pub(in crate::bind) struct BindContext<'c, 's> {
     pub(in crate::bind) globals: &'c mut Globals,
     /// The type of `value`, where a control gives one.
     pub(in crate::bind) value: Option<Type>,
-    /// Whether [`Bound::help`] and [`Bound::named`] are wanted.
+    /// Whether [`BoundText::help`] and [`BoundText::named`] are wanted.
     pub(in crate::bind) explains: bool,
 }
 
@@ -55,11 +55,11 @@ pub(in crate::bind) fn bind(
     context: &mut BindContext<'_, '_>,
     source: &str,
     tree: SourceTree<'_>,
-    names: &Names,
+    names: &NameTable,
     id: ProgramId,
-) -> Bound {
+) -> BoundText {
     let mark = context.globals.mark();
-    let mut facts = Facts::default();
+    let mut facts = TypeFacts::default();
     loop {
         context.globals.back_to(mark);
         let mut binder = Binder::new(context, source, tree.mode(), names, id, facts);
@@ -73,8 +73,8 @@ pub(in crate::bind) fn bind(
         }
         binder.typed.sort();
         let (tree, aggregates) = (binder.tree, binder.aggregates);
-        return Bound {
-            program: done.ok().map(|result| Parts { tree, result, aggregates }),
+        return BoundText {
+            program: done.ok().map(|result| BoundProgram { tree, result, aggregates }),
             found: binder.diagnostics,
             unresolved: binder.unresolved,
             typed: binder.typed,
@@ -94,7 +94,7 @@ pub(super) type Attempt<T> = Result<T, Reported>;
 
 /// What a part of the source stands for.
 #[derive(Clone, Debug)]
-pub(super) enum Thing {
+pub(super) enum Entity {
     /// A value.
     Value(Ir),
     /// An object of the host.
@@ -110,7 +110,7 @@ pub(super) enum Thing {
     /// `Math`
     Math,
     /// A function of `Math`, not yet called.
-    MathFunction(math::Function),
+    MathFunction(math::MathFunction),
     /// `ctx`
     Globals,
     /// `Array`, `Number`, `String`, `Object`: a holder of functions.
@@ -118,14 +118,14 @@ pub(super) enum Thing {
     /// A function of the language, not yet called.
     Native(FreeFunctionId),
     /// A method, not yet called, with what it is called on.
-    Method(Box<Receiver>, MethodId),
+    Method(Box<MethodReceiver>, MethodId),
     /// A function of the text: its place among the known ones.
     Closure(usize),
 }
 
 /// What a method is called on.
 #[derive(Clone, Debug)]
-pub(super) enum Receiver {
+pub(super) enum MethodReceiver {
     Field(Field),
     Value(Ir),
 }
@@ -133,54 +133,54 @@ pub(super) enum Receiver {
 /// A name that the text gives.
 #[derive(Clone, Debug)]
 pub(super) struct Variable {
-    pub(super) key: Key,
+    pub(super) key: FactKey,
     pub(super) id: LocalId,
     /// The function that it belongs to.
     pub(super) unit: UnitId,
     /// Its declaration has run.
     pub(super) ready: bool,
-    pub(super) meaning: Meaning,
+    pub(super) meaning: VariableMeaning,
     /// Smallest and largest value, of a loop that counts between known bounds.
     pub(super) range: Option<(f64, f64)>,
 }
 
 /// What a name stands for.
 #[derive(Clone, Debug)]
-pub(super) enum Meaning {
+pub(super) enum VariableMeaning {
     /// A value, kept in a place of its own.
     Slot,
     /// Another word for a thing: `const v = list`.
-    Alias(Thing),
+    Alias(Entity),
     /// Its declaration has a mistake, reported there.
     Unknown,
 }
 
 /// A function of the text.
 #[derive(Clone)]
-pub(super) struct Known<'a> {
+pub(super) struct KnownFunction<'a> {
     pub(super) function: &'a Function,
     /// What it gives.
-    pub(super) key: Key,
+    pub(super) key: FactKey,
     /// The function around it.
     pub(super) around: UnitId,
     /// What it was bound as.
     pub(super) unit: Option<UnitId>,
     /// The call whose written method it stands in.
-    pub(super) site: Option<Site>,
+    pub(super) site: Option<InlineSite>,
 }
 
 /// The call of a written method.
 #[derive(Clone, Copy)]
-pub(super) struct Site {
+pub(super) struct InlineSite {
     /// Tells its variables from those of other calls.
     pub(super) id: usize,
     /// Where the text calls it.
     pub(super) call: Span,
     pub(super) row: &'static Native,
-    pub(super) names: &'static Names,
+    pub(super) names: &'static NameTable,
 }
 
-impl Site {
+impl InlineSite {
     /// The method as it is called: `.map`.
     pub(super) fn called(&self) -> String {
         self.row.title()
@@ -194,8 +194,8 @@ pub(super) struct Binder<'a> {
     pub(super) value: Option<Type>,
     /// What variables measure, where that is asked for.
     pub(super) source: &'a str,
-    pub(super) mode: Mode,
-    pub(super) names: &'a Names,
+    pub(super) mode: TextKind,
+    pub(super) names: &'a NameTable,
     pub(super) program: ProgramId,
     pub(super) diagnostics: Vec<Finding>,
     /// A name that means nothing; the first pass has reported it.
@@ -206,20 +206,20 @@ pub(super) struct Binder<'a> {
     pub(super) explains: bool,
     pub(super) help: Vec<(Span, Help)>,
     pub(super) named: Vec<Fix>,
-    pub(super) typed: Typed,
-    pub(super) facts: Facts,
-    pub(super) tree: Tree,
+    pub(super) typed: TypedText,
+    pub(super) facts: TypeFacts,
+    pub(super) tree: IrProgram,
     /// The place that each variable of the tree is.
-    pub(super) keys: Vec<Key>,
-    pub(super) variables: BTreeMap<Key, Variable>,
+    pub(super) keys: Vec<FactKey>,
+    pub(super) variables: BTreeMap<FactKey, Variable>,
     /// Functions of the text.
-    pub(super) known: Vec<Known<'a>>,
+    pub(super) known: Vec<KnownFunction<'a>>,
     /// The function that is bound.
     pub(super) unit: UnitId,
     /// The call whose method, written in the language, is bound.
-    pub(super) site: Option<Site>,
+    pub(super) site: Option<InlineSite>,
     /// Where the results of the functions around go.
-    pub(super) returns: Vec<Key>,
+    pub(super) returns: Vec<FactKey>,
     /// Loops around the statement, in this function.
     pub(super) loops: usize,
     /// Conditions and jumps since the innermost counted loop began: what stands behind one may never run.
@@ -232,10 +232,10 @@ impl<'a> Binder<'a> {
     pub(super) fn new<'s: 'a>(
         context: &mut BindContext<'_, 's>,
         source: &'a str,
-        mode: Mode,
-        names: &'a Names,
+        mode: TextKind,
+        names: &'a NameTable,
         program: ProgramId,
-        facts: Facts,
+        facts: TypeFacts,
     ) -> Binder<'a> {
         Binder {
             schema: context.schema,
@@ -252,9 +252,9 @@ impl<'a> Binder<'a> {
             explains: context.explains,
             help: Vec::new(),
             named: Vec::new(),
-            typed: Typed::default(),
+            typed: TypedText::default(),
             facts,
-            tree: Tree { units: vec![Unit::default()], ..Tree::default() },
+            tree: IrProgram { units: vec![IrFunction::default()], ..IrProgram::default() },
             keys: Vec::new(),
             variables: BTreeMap::new(),
             known: Vec::new(),
@@ -273,7 +273,7 @@ impl<'a> Binder<'a> {
             SourceTree::Expression(expr) => {
                 let ir = self.operand(expr)?;
                 let ty = ir.ty;
-                self.finish(vec![Step::Return(ir)], Some(ty));
+                self.finish(vec![IrStatement::Return(ir)], Some(ty));
                 Ok(ty)
             }
             SourceTree::Statements(statements) => {
@@ -283,7 +283,7 @@ impl<'a> Binder<'a> {
             }
             SourceTree::Target(target) => {
                 let given = self.value.unwrap_or(Type::Any);
-                let step = Step::Effect(self.set(target, given)?);
+                let step = IrStatement::Effect(self.set(target, given)?);
                 self.finish(vec![step], None);
                 Ok(Type::Void)
             }
@@ -291,7 +291,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The text itself is the first function.
-    pub(super) fn finish(&mut self, body: Vec<Step>, result: Option<Type>) {
+    pub(super) fn finish(&mut self, body: Vec<IrStatement>, result: Option<Type>) {
         if let Some(unit) = self.tree.units.first_mut() {
             unit.body = body;
             unit.result = result;
@@ -345,7 +345,7 @@ impl<'a> Binder<'a> {
     }
 
     /// What a part of the source stands for.
-    pub(super) fn thing(&mut self, expr: &'a Expr) -> Attempt<Thing> {
+    pub(super) fn thing(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         if self.levels >= MAX_LEVELS {
             return self.refuse_deep(expr.span);
         }
@@ -356,7 +356,7 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    pub(super) fn refuse_deep(&mut self, span: Span) -> Attempt<Thing> {
+    pub(super) fn refuse_deep(&mut self, span: Span) -> Attempt<Entity> {
         self.refuse(too_deep(span))
     }
 
@@ -371,7 +371,7 @@ impl<'a> Binder<'a> {
     /// Notes what an expression is.
     pub(super) fn note(&mut self, span: Span, ir: &Ir) {
         if self.site.is_none() {
-            self.typed.shapes.push((span, Shape::of(ir)));
+            self.typed.shapes.push((span, ExpressionShape::of(ir)));
         }
     }
 
@@ -383,9 +383,9 @@ impl<'a> Binder<'a> {
     }
 
     /// Notes what a value is needed for.
-    pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Want) {
+    pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Expectation) {
         if self.site.is_none() {
-            self.typed.wants.push((span, want, Shape::of(ir)));
+            self.typed.wants.push((span, want, ExpressionShape::of(ir)));
         }
     }
 }

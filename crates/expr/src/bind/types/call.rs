@@ -1,11 +1,11 @@
 //! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
-use super::binder::{Attempt, Binder, Reported, Thing};
+use super::binder::{Attempt, Binder, Entity, Reported};
 use super::member::quoted;
-use super::typed::Want;
+use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{FreeFunctionId, Ir, Item, Kind, Picks, Step, Tree, Unit};
+use crate::ir::{FreeFunctionId, Ir, IrFunction, IrItem, IrKind, IrProgram, IrStatement, MemberTable};
 use crate::math;
 use crate::natives;
 use crate::program::{Aggregate, Program};
@@ -26,7 +26,7 @@ impl<'a> Binder<'a> {
         args: &'a [Expr],
         optional: bool,
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         let thing = match self.thing(callee) {
             Ok(thing) => thing,
             Err(Reported) => {
@@ -35,13 +35,13 @@ impl<'a> Binder<'a> {
             }
         };
         match thing {
-            Thing::Collection(id) => self.named(id, callee.span, args, span),
-            Thing::Function(id) => self.host_call(id, args, callee.span, span).map(Thing::Value),
-            Thing::MathFunction(function) => self.math_call(function, args, span).map(Thing::Value),
-            Thing::Method(receiver, name) => self.method(*receiver, name, args, span).map(Thing::Value),
-            Thing::Native(function) => self.native_call(function, args, span).map(Thing::Value),
-            Thing::Namespace(name) => match natives::free(name) {
-                Some(function) => self.native_call(function, args, span).map(Thing::Value),
+            Entity::Collection(id) => self.named(id, callee.span, args, span),
+            Entity::Function(id) => self.host_call(id, args, callee.span, span).map(Entity::Value),
+            Entity::MathFunction(function) => self.math_call(function, args, span).map(Entity::Value),
+            Entity::Method(receiver, name) => self.method(*receiver, name, args, span).map(Entity::Value),
+            Entity::Native(function) => self.native_call(function, args, span).map(Entity::Value),
+            Entity::Namespace(name) => match natives::free(name) {
+                Some(function) => self.native_call(function, args, span).map(Entity::Value),
                 None => {
                     self.only_check(args);
                     self.refuse(
@@ -55,11 +55,11 @@ impl<'a> Binder<'a> {
                     )
                 }
             },
-            Thing::Closure(at) => self.call_known(at, args, span).map(Thing::Value),
-            Thing::Value(ir) if matches!(ir.ty, Type::Function | Type::Any | Type::Never) => {
+            Entity::Closure(at) => self.call_known(at, args, span).map(Entity::Value),
+            Entity::Value(ir) if matches!(ir.ty, Type::Function | Type::Any | Type::Never) => {
                 let callee = if optional { self.present(ir) } else { ir };
                 let items = self.items(args)?;
-                Ok(Thing::Value(self.call_value(callee, items, span)))
+                Ok(Entity::Value(self.call_value(callee, items, span)))
             }
             other => {
                 self.only_check(args);
@@ -75,12 +75,12 @@ impl<'a> Binder<'a> {
         let row = function.row();
         let args = self.taken(args, row.arity().1);
         if let (Some(method), [first, rest @ ..]) = (function.written(args.len()), args) {
-            let first = self.value(first).map(Thing::Value)?;
+            let first = self.value(first).map(Entity::Value)?;
             return self.call_written(method, row, first, rest, span);
         }
         self.check_arity(&[row], args, span)?;
         let items = self.items(args)?;
-        if let [Item { value, spread: false }] = items.as_slice() {
+        if let [IrItem { value, spread: false }] = items.as_slice() {
             match row.name {
                 "Number" if value.is_plain() => return Ok(Ir::to_number(value.clone(), span)),
                 "String" => return Ok(Ir::to_text(value.clone(), span)),
@@ -88,7 +88,7 @@ impl<'a> Binder<'a> {
                 _ => {}
             }
         }
-        Ok(Ir::new(Kind::Native(function, items), row.returns(Type::Any), span))
+        Ok(Ir::new(IrKind::Native(function, items), row.returns(Type::Any), span))
     }
 
     /// The arguments that a function takes of those that a method of the prelude hands over: element, index and list.
@@ -107,18 +107,18 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn not_callable(&self, thing: &Thing, span: Span) -> Finding {
+    fn not_callable(&self, thing: &Entity, span: Span) -> Finding {
         let text = self.text(span);
         let what = match thing {
-            Thing::Field(field) if !field.is_scalar() => "an array",
-            Thing::Field(_) => "a number",
-            Thing::Object(_) | Thing::Math | Thing::Globals => "an object",
-            Thing::Value(ir) => ir.ty.describe(),
+            Entity::Field(field) if !field.is_scalar() => "an array",
+            Entity::Field(_) => "a number",
+            Entity::Object(_) | Entity::Math | Entity::Globals => "an object",
+            Entity::Value(ir) => ir.ty.describe(),
             _ => "a value",
         };
         let report = Finding::error(rules::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
         match thing {
-            Thing::Field(field) if !field.is_scalar() => report
+            Entity::Field(field) if !field.is_scalar() => report
                 .why("parentheses call a function")
                 .help(format!("select elements with square brackets, as `{text}[0]`")),
             _ => report
@@ -128,10 +128,10 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a function that is named but not called.
-    pub(super) fn not_called(&self, thing: &Thing, span: Span) -> Finding {
+    pub(super) fn not_called(&self, thing: &Entity, span: Span) -> Finding {
         let text = self.text(span);
         let call = match thing {
-            Thing::Function(id) => {
+            Entity::Function(id) => {
                 let signature = self.signature(&self.schema.function(*id));
                 let arguments = signature.split_once('(').map_or(")", |(_, rest)| rest);
                 format!("{text}({arguments}")
@@ -144,7 +144,7 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn math_call(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    fn math_call(&mut self, function: math::MathFunction, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let path = function.path();
         let title = path.clone();
         let args = self.taken(args, function.arity().1.unwrap_or(usize::MAX));
@@ -163,9 +163,9 @@ impl<'a> Binder<'a> {
         for arg in args {
             match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
-                    self.want(&ir, arg.span, Want::Number(path.clone()));
+                    self.want(&ir, arg.span, Expectation::Number(path.clone()));
                     if OF_ANGLES.contains(&path.as_str()) {
-                        self.want(&ir, arg.span, Want::Angle(path.clone()));
+                        self.want(&ir, arg.span, Expectation::Angle(path.clone()));
                     }
                     numbers.push(Ir::to_number(ir, arg.span));
                 }
@@ -199,11 +199,11 @@ impl<'a> Binder<'a> {
     }
 
     /// An argument of a function of `Math`: `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
-    fn math_argument(&mut self, path: &str, function: math::Function, arg: &'a Expr) -> Attempt<Ir> {
+    fn math_argument(&mut self, path: &str, function: math::MathFunction, arg: &'a Expr) -> Attempt<Ir> {
         let thing = self.thing(arg)?;
         let report = match &thing {
-            Thing::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
-            Thing::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
+            Entity::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
+            Entity::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
             _ => None,
         };
         match report.filter(|_| function.arity().1.is_none()) {
@@ -218,7 +218,7 @@ impl<'a> Binder<'a> {
 
     /// A function of `Math` over lists: written out where their length is known.
     #[inline(never)]
-    fn math_over(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    fn math_over(&mut self, function: math::MathFunction, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(args)?;
         if items.iter().all(|i| !i.spread) {
             let numbers = items.into_iter().map(|i| Ir::to_number(i.value, span)).collect();
@@ -227,9 +227,9 @@ impl<'a> Binder<'a> {
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         let list = match items.as_slice() {
             [only] if only.value.ty != Type::String => only.value.clone(),
-            _ => Ir::new(Kind::List(items), Type::List, span),
+            _ => Ir::new(IrKind::List(items), Type::List, span),
         };
-        Ok(Ir::new(Kind::MathOver(function, Box::new(list)), ty, span))
+        Ok(Ir::new(IrKind::MathOver(function, Box::new(list)), ty, span))
     }
 
     /// A call of a function of the host.
@@ -277,7 +277,7 @@ impl<'a> Binder<'a> {
         if failed {
             return Err(Reported);
         }
-        Ok(Ir::new(Kind::Call(id, passed), info.returns, span))
+        Ok(Ir::new(IrKind::Call(id, passed), info.returns, span))
     }
 
     fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Option<Span>, span: Span) -> Finding {
@@ -324,7 +324,7 @@ impl<'a> Binder<'a> {
                     return self.wrong_type(info, i, &ir, "a number");
                 }
                 if param == Param::Angle {
-                    self.want(&ir, span, Want::Angle(info.name.clone()));
+                    self.want(&ir, span, Expectation::Angle(info.name.clone()));
                 }
                 Ok(Some(Ir::to_number(ir, span)))
             }
@@ -352,7 +352,7 @@ impl<'a> Binder<'a> {
         wanted: ObjectId,
         arg: &'a Expr,
     ) -> Attempt<()> {
-        if matches!(self.thing(arg)?, Thing::Object(id) if id == wanted) {
+        if matches!(self.thing(arg)?, Entity::Object(id) if id == wanted) {
             return Ok(());
         }
         let object = self.schema.describe(wanted);
@@ -377,8 +377,8 @@ impl<'a> Binder<'a> {
                 };
                 let mut of: Vec<_> = names.iter().filter_map(id).collect();
                 of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
-                let picks = Picks { noun, of, scalar: false };
-                Ok(Ir::new(Kind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
+                let picks = MemberTable { noun, of, scalar: false };
+                Ok(Ir::new(IrKind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
             }
         }
     }
@@ -394,8 +394,8 @@ impl<'a> Binder<'a> {
         let copy = natives::free("Array.from").filter(|_| ir.ty != Type::List);
         Ok(match copy {
             Some(copy) => {
-                let item = Item { value: ir, spread: false };
-                Ir::new(Kind::Native(copy, vec![item]), Type::List, arg.span)
+                let item = IrItem { value: ir, spread: false };
+                Ir::new(IrKind::Native(copy, vec![item]), Type::List, arg.span)
             }
             None => ir,
         })
@@ -436,7 +436,7 @@ impl<'a> Binder<'a> {
             let aggregates = std::mem::take(&mut self.aggregates);
             let variables = std::mem::take(&mut self.variables);
             let known = std::mem::take(&mut self.known);
-            let alone = Tree { units: vec![Unit::default()], ..Tree::default() };
+            let alone = IrProgram { units: vec![IrFunction::default()], ..IrProgram::default() };
             let tree = std::mem::replace(&mut self.tree, alone);
             let keys = std::mem::take(&mut self.keys);
             let unit = std::mem::take(&mut self.unit);
@@ -446,7 +446,7 @@ impl<'a> Binder<'a> {
             };
             let result = if let Ok(Some(ir)) = &bound { Some(ir.ty) } else { None };
             if let Ok(Some(ir)) = &bound {
-                self.finish(vec![Step::Return(ir.clone())], result);
+                self.finish(vec![IrStatement::Return(ir.clone())], result);
             }
             let aggregates = std::mem::replace(&mut self.aggregates, aggregates);
             self.settle();
@@ -469,7 +469,7 @@ impl<'a> Binder<'a> {
         let slot = self.next_aggregate;
         self.next_aggregate += 1;
         self.aggregates.push(Aggregate { function: id, args: programs, slot, span });
-        Ok(Ir::new(Kind::Aggregate(slot as u32), Type::Number, span))
+        Ok(Ir::new(IrKind::Aggregate(slot as u32), Type::Number, span))
     }
 }
 

@@ -1,9 +1,9 @@
 //! Functions of a text: bound when they are first called, with the types that they are called with.
 
-use super::binder::{Attempt, Binder, Known, Meaning, Reported, Thing};
-use super::facts::{Key, What};
+use super::binder::{Attempt, Binder, Entity, KnownFunction, Reported, VariableMeaning};
+use super::facts::{FactKey, FactKind};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
-use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId, always_return};
+use crate::ir::{Ir, IrFunction, IrItem, IrKind, IrStatement, LocalId, UnitId, always_return};
 use crate::operators::BinaryOp;
 use crate::rules;
 use crate::types::Type;
@@ -11,20 +11,21 @@ use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// A function that the text gives at this place.
-    pub(super) fn new_function(&mut self, function: &'a Function) -> Thing {
-        self.known.push(Known {
+    pub(super) fn new_function(&mut self, function: &'a Function) -> Entity {
+        self.known.push(KnownFunction {
             function,
-            key: self.key(function.span.start, What::Result),
+            key: self.key(function.span.start, FactKind::Result),
             around: self.unit,
             unit: None,
             site: self.site,
         });
-        Thing::Closure(self.known.len() - 1)
+        Entity::Closure(self.known.len() - 1)
     }
 
     /// The place of a parameter, by which its type is kept.
-    fn param_key(&self, param: &Element) -> Key {
-        let what = if matches!(param.target, Pattern::Name(_)) { What::Name } else { What::Parameter };
+    fn param_key(&self, param: &Element) -> FactKey {
+        let what =
+            if matches!(param.target, Pattern::Name(_)) { FactKind::Name } else { FactKind::Parameter };
         self.key(param.target.span().start, what)
     }
 
@@ -42,9 +43,9 @@ impl<'a> Binder<'a> {
         Ok(unit)
     }
 
-    fn bind_function(&mut self, at: usize, known: &Known<'a>) -> UnitId {
+    fn bind_function(&mut self, at: usize, known: &KnownFunction<'a>) -> UnitId {
         let unit = self.tree.units.len() as UnitId;
-        self.tree.units.push(Unit::default());
+        self.tree.units.push(IrFunction::default());
         if let Some(known) = self.known.get_mut(at) {
             known.unit = Some(unit);
         }
@@ -64,7 +65,7 @@ impl<'a> Binder<'a> {
         unit
     }
 
-    fn body(&mut self, function: &'a Function) -> (Vec<LocalId>, Vec<Step>) {
+    fn body(&mut self, function: &'a Function) -> (Vec<LocalId>, Vec<IrStatement>) {
         let mut steps = Vec::new();
         let mut places = Vec::new();
         for param in &function.params {
@@ -84,12 +85,12 @@ impl<'a> Binder<'a> {
         for (param, place) in function.params.iter().zip(&places) {
             self.param(param, *place, &mut steps);
         }
-        let key = self.key(function.span.start, What::Result);
+        let key = self.key(function.span.start, FactKind::Result);
         match &function.body {
             Body::Value(expr) => {
                 if let Ok(ir) = self.body_value(expr) {
                     self.facts.see(key, ir.ty);
-                    steps.push(Step::Return(ir));
+                    steps.push(IrStatement::Return(ir));
                 }
             }
             Body::Block(statements) => {
@@ -114,7 +115,7 @@ impl<'a> Binder<'a> {
                 let thing = self.thing(expr)?;
                 match thing {
                     // A function without a result gives `undefined`.
-                    Thing::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
+                    Entity::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
                     other => self.value_of(other, expr.span),
                 }
             }
@@ -123,22 +124,27 @@ impl<'a> Binder<'a> {
     }
 
     /// A parameter gets its default, and is taken apart.
-    fn param(&mut self, param: &'a Element, place: LocalId, steps: &mut Vec<Step>) {
+    fn param(&mut self, param: &'a Element, place: LocalId, steps: &mut Vec<IrStatement>) {
         let span = param.target.span();
         let key = self.param_key(param);
-        let read = |ty| Ir::new(Kind::Local(place), ty, span);
+        let read = |ty| Ir::new(IrKind::Local(place), ty, span);
         if let Some(default) = &param.default
             && let Ok(value) = self.value(default)
         {
             self.facts.see(key, value.ty);
             let ty = self.facts.ty(key);
             let test = Ir::binary(BinaryOp::StrictEqual, read(ty), Ir::undefined(span), span);
-            let store = Kind::Store(Box::new(crate::ir::Place::Local(place)), None, Box::new(value));
-            steps.push(Step::If(test, vec![Step::Effect(Ir::new(store, ty, span))], Vec::new()));
+            let store =
+                IrKind::Store(Box::new(crate::ir::AssignmentTarget::Local(place)), None, Box::new(value));
+            steps.push(IrStatement::If(
+                test,
+                vec![IrStatement::Effect(Ir::new(store, ty, span))],
+                Vec::new(),
+            ));
         }
         let ty = self.facts.ty(key);
         match &param.target {
-            Pattern::Name(name) => self.give(name, Meaning::Slot),
+            Pattern::Name(name) => self.give(name, VariableMeaning::Slot),
             pattern => self.take_apart(pattern, read(ty), steps),
         }
     }
@@ -154,16 +160,16 @@ impl<'a> Binder<'a> {
         let n = self.known.get(at).map_or(0, |k| k.function.params.len());
         let unit = self.unit_of(at, &vec![Type::Any; n])?;
         self.capture_for(at);
-        Ok(Ir::new(Kind::Closure(unit), Type::Function, span))
+        Ok(Ir::new(IrKind::Closure(unit), Type::Function, span))
     }
 
     /// What a called function uses, its caller must hand in.
     fn capture_for(&mut self, at: usize) {
         let Some(known) = self.known.get(at) else { return };
-        let (Key { site, at, .. }, names) = (known.key, known.site.map_or(self.names, |site| site.names));
+        let (FactKey { site, at, .. }, names) = (known.key, known.site.map_or(self.names, |site| site.names));
         for byte in names.taken(at) {
-            let found = self.variables.get(&Key { site, at: byte, what: What::Name }).cloned();
-            if let Some(found) = found.filter(|v| !matches!(v.meaning, Meaning::Alias(_))) {
+            let found = self.variables.get(&FactKey { site, at: byte, what: FactKind::Name }).cloned();
+            if let Some(found) = found.filter(|v| !matches!(v.meaning, VariableMeaning::Alias(_))) {
                 self.capture(&found);
             }
         }
@@ -191,7 +197,7 @@ impl<'a> Binder<'a> {
             }
             match self.value(arg) {
                 Ok(ir) if i < wanted => values.push(ir),
-                Ok(ir) => extra.push(Step::Effect(ir)),
+                Ok(ir) => extra.push(IrStatement::Effect(ir)),
                 Err(Reported) => failed = true,
             }
         }
@@ -215,16 +221,16 @@ impl<'a> Binder<'a> {
         let unit = self.unit_of(at, &types)?;
         self.capture_for(at);
         let Some(key) = self.known.get(at).map(|k| k.key) else { return Err(Reported) };
-        let call = Ir::new(Kind::Invoke(unit, values), self.facts.ty(key), span);
+        let call = Ir::new(IrKind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
             return Ok(call);
         }
         let ty = call.ty;
-        Ok(Ir::new(Kind::Block(extra, Box::new(call)), ty, span))
+        Ok(Ir::new(IrKind::Block(extra, Box::new(call)), ty, span))
     }
 
     /// A call of a function that is known only while running.
-    pub(super) fn call_value(&mut self, callee: Ir, args: Vec<Item>, span: Span) -> Ir {
-        Ir::new(Kind::InvokeValue(Box::new(callee), args), Type::Any, span)
+    pub(super) fn call_value(&mut self, callee: Ir, args: Vec<IrItem>, span: Span) -> Ir {
+        Ir::new(IrKind::InvokeValue(Box::new(callee), args), Type::Any, span)
     }
 }

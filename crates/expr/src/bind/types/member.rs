@@ -1,9 +1,9 @@
 //! What names stand for: those at the start of an expression, and those behind a point.
 
-use super::binder::{Attempt, Binder, Receiver, Reported, Thing};
+use super::binder::{Attempt, Binder, Entity, MethodReceiver, Reported};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::bind::names::{MACHINERY, NAMESPACES, list_names, meant_elsewhere};
-use crate::ir::{Ir, Kind};
+use crate::ir::{Ir, IrKind};
 use crate::math;
 use crate::natives;
 use crate::parse::MAX_DIAGNOSTICS;
@@ -15,20 +15,20 @@ use crate::words::Words;
 use labspec_finding::{Finding, Span, nearest, ranked};
 
 impl<'a> Binder<'a> {
-    pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Thing> {
+    pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         match &expr.kind {
             ExprKind::Name(name) => self.root(name, expr.span),
             ExprKind::Member { object, name, optional } => self.member(object, name, *optional, expr.span),
             ExprKind::Index { object, index, optional } => self.element(object, index, *optional, expr.span),
             ExprKind::Call { callee, args, optional } => self.call(callee, args, *optional, expr.span),
             ExprKind::Function(function) => Ok(self.new_function(function)),
-            _ => self.operation(expr).map(Thing::Value),
+            _ => self.operation(expr).map(Entity::Value),
         }
     }
 
     /// A name at the start of an expression.
     #[inline(never)]
-    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Thing> {
+    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Entity> {
         if let Some(variable) = self.variable(name, span)? {
             let thing = self.read_variable(&variable, span)?;
             self.explain_thing(&thing, name, span);
@@ -40,10 +40,10 @@ impl<'a> Binder<'a> {
         if self.site.is_some()
             && let Some(function) = natives::free(name)
         {
-            return Ok(Thing::Native(function));
+            return Ok(Entity::Native(function));
         }
         if let (true, Some(ty)) = (name == "value", self.value) {
-            return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
+            return Ok(Entity::Value(Ir::new(IrKind::Input, ty, span)));
         }
         // The first pass has told of what means nothing.
         let Some(entry) = self.schema.root(name) else {
@@ -57,19 +57,19 @@ impl<'a> Binder<'a> {
 
     /// Notes what a name or a member is.
     #[inline(never)]
-    pub(super) fn explain_thing(&mut self, thing: &Thing, text: &str, span: Span) {
+    pub(super) fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
         let schema = self.schema;
         match thing {
-            Thing::Field(field) => self.explain(span, || field_help(field, schema.words())),
-            Thing::Object(id) => {
+            Entity::Field(field) => self.explain(span, || field_help(field, schema.words())),
+            Entity::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
             }
-            Thing::Function(id) => {
+            Entity::Function(id) => {
                 let info = schema.function(*id);
                 let title = self.signature(&info);
                 self.explain(span, || Help { title, lines: vec![info.doc] });
             }
-            Thing::Value(ir) => {
+            Entity::Value(ir) => {
                 let ty = ir.ty;
                 self.explain(span, || Help { title: text.to_owned(), lines: vec![ty.describe().to_owned()] });
             }
@@ -79,7 +79,7 @@ impl<'a> Binder<'a> {
 
     /// `object.name`, or `object?.name`
     #[inline(never)]
-    fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
+    fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Entity> {
         let thing = self.thing(object)?;
         let found = self.member_of(thing, object.span, name, optional, span)?;
         self.explain_thing(&found, &name.text, name.span);
@@ -90,55 +90,55 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn member_of(
         &mut self,
-        thing: Thing,
+        thing: Entity,
         object: Span,
         name: &Name,
         optional: bool,
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         match thing {
-            Thing::Object(id) => match self.schema.member(id, &name.text) {
+            Entity::Object(id) => match self.schema.member(id, &name.text) {
                 Some(entry) => Ok(from_entry(entry, span)),
                 None => {
                     let report = self.unknown_member(id, name, span);
                     self.refuse(report)
                 }
             },
-            Thing::Math => self.math_member(name, span),
-            Thing::Globals => self.global(&name.text, span).map(Thing::Value),
-            Thing::Namespace(holder) => self.namespace_member(holder, name, span),
-            Thing::Field(field) if field.is_scalar() && self.is_method(&name.text, Type::Number) => {
+            Entity::Math => self.math_member(name, span),
+            Entity::Globals => self.global(&name.text, span).map(Entity::Value),
+            Entity::Namespace(holder) => self.namespace_member(holder, name, span),
+            Entity::Field(field) if field.is_scalar() && self.is_method(&name.text, Type::Number) => {
                 let ir = self.load(&field, crate::ir::Index::At(0), object);
                 self.value_member(ir, name, optional, span)
             }
-            Thing::Field(field) => self.field_member(field, object, name, span),
-            Thing::Picked(id, chosen) => self.picked_member(id, chosen, name, span),
-            Thing::Collection(id) => {
+            Entity::Field(field) => self.field_member(field, object, name, span),
+            Entity::Picked(id, chosen) => self.picked_member(id, chosen, name, span),
+            Entity::Collection(id) => {
                 let report = self.collection_needs_call(id, object, Some((&name.text, span)));
                 self.refuse(report)
             }
-            thing @ (Thing::Function(_)
-            | Thing::MathFunction(_)
-            | Thing::Method(..)
-            | Thing::Native(_)
-            | Thing::Closure(_)) => {
+            thing @ (Entity::Function(_)
+            | Entity::MathFunction(_)
+            | Entity::Method(..)
+            | Entity::Native(_)
+            | Entity::Closure(_)) => {
                 let report = self.not_called(&thing, object);
                 self.refuse(report)
             }
-            Thing::Value(ir) => self.value_member(ir, name, optional, span),
+            Entity::Value(ir) => self.value_member(ir, name, optional, span),
         }
     }
 
     /// `Array.from` and its like.
     #[inline(never)]
-    fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Thing> {
+    fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Entity> {
         let path = format!("{holder}.{}", name.text);
         if let Some(function) = natives::free(&path) {
-            return Ok(Thing::Native(function));
+            return Ok(Entity::Native(function));
         }
         let constants = if holder == "Number" { natives::NUMBER_CONSTANTS } else { &[] };
         if let Some((_, x)) = constants.iter().find(|(n, _)| *n == name.text) {
-            return Ok(Thing::Value(Ir::number(*x, span)));
+            return Ok(Entity::Value(Ir::number(*x, span)));
         }
         if MACHINERY.contains(&name.text.as_str()) {
             return self.refuse(machinery(&name.text, name.span));
@@ -162,7 +162,7 @@ impl<'a> Binder<'a> {
     pub(super) fn global(&mut self, name: &str, span: Span) -> Attempt<Ir> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, false);
-        Ok(Ir::new(Kind::Global(slot), Type::Any, span))
+        Ok(Ir::new(IrKind::Global(slot), Type::Any, span))
     }
 
     pub(super) fn check_machinery(&mut self, name: &str, span: Span) -> Attempt<()> {
@@ -173,12 +173,12 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Thing> {
+    fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Entity> {
         if let Some(x) = math::constant(&name.text) {
-            return Ok(Thing::Value(Ir::constant(Value::Number(x), span)));
+            return Ok(Entity::Value(Ir::constant(Value::Number(x), span)));
         }
         if let Some(function) = math::function(&name.text) {
-            return Ok(Thing::MathFunction(function));
+            return Ok(Entity::MathFunction(function));
         }
         if name.text == "random" {
             return self.refuse(
@@ -203,16 +203,16 @@ impl<'a> Binder<'a> {
 
     /// `.length` and the methods of an array.
     #[inline(never)]
-    fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Thing> {
+    fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Entity> {
         let array = !field.is_scalar();
         let text = name.text.as_str();
         if let Some(method) = natives::name(text).filter(|_| array && self.is_method(text, Type::View)) {
-            return Ok(Thing::Method(Box::new(Receiver::Field(field)), method));
+            return Ok(Entity::Method(Box::new(MethodReceiver::Field(field)), method));
         }
         match text {
-            "length" if array => Ok(Thing::Value(match field.len() {
+            "length" if array => Ok(Entity::Value(match field.len() {
                 Some(n) => Ir::number(n as f64, span),
-                None => Ir::new(Kind::Length(view_of(&field)), Type::Number, span),
+                None => Ir::new(IrKind::Length(view_of(&field)), Type::Number, span),
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
@@ -298,21 +298,21 @@ impl<'a> Binder<'a> {
 }
 
 /// Names that mean the same in every lab.
-fn language(name: &str, span: Span) -> Option<Thing> {
-    let constant = |value| Some(Thing::Value(Ir::constant(value, span)));
+fn language(name: &str, span: Span) -> Option<Entity> {
+    let constant = |value| Some(Entity::Value(Ir::constant(value, span)));
     match name {
         "undefined" => constant(Value::Undefined),
         "NaN" => constant(Value::Number(f64::NAN)),
         "Infinity" => constant(Value::Number(f64::INFINITY)),
-        "Math" => Some(Thing::Math),
-        "ctx" => Some(Thing::Globals),
+        "Math" => Some(Entity::Math),
+        "ctx" => Some(Entity::Globals),
         // `String(x)` is a function and `String` a holder of others: which is meant shows behind the name.
         _ => match NAMESPACES.iter().find(|n| **n == name) {
-            Some(holder) => Some(Thing::Namespace(holder)),
+            Some(holder) => Some(Entity::Namespace(holder)),
             None if name.starts_with('_') || name.contains('.') => None,
-            None => {
-                math::global(name).map(Thing::MathFunction).or_else(|| natives::free(name).map(Thing::Native))
-            }
+            None => math::global(name)
+                .map(Entity::MathFunction)
+                .or_else(|| natives::free(name).map(Entity::Native)),
         },
     }
 }
@@ -348,13 +348,13 @@ fn kind_in_words(kind: &FieldKind, words: &Words) -> String {
     }
 }
 
-fn from_entry(entry: Entry, span: Span) -> Thing {
+fn from_entry(entry: Entry, span: Span) -> Entity {
     match entry {
-        Entry::Object(id) => Thing::Object(id),
-        Entry::Field(field) => Thing::Field(field),
-        Entry::Collection(id) => Thing::Collection(id),
-        Entry::Function(id) => Thing::Function(id),
-        Entry::Constant(value) => Thing::Value(Ir::constant(value, span)),
+        Entry::Object(id) => Entity::Object(id),
+        Entry::Field(field) => Entity::Field(field),
+        Entry::Collection(id) => Entity::Collection(id),
+        Entry::Function(id) => Entity::Function(id),
+        Entry::Constant(value) => Entity::Value(Ir::constant(value, span)),
     }
 }
 

@@ -1,11 +1,11 @@
 //! Calls of methods: of arrays of the simulation, lists, texts and numbers.
 
-use super::binder::{Attempt, Binder, Receiver, Thing};
+use super::binder::{Attempt, Binder, Entity, MethodReceiver};
 use super::member::view_of;
-use super::typed::Want;
+use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, Item, Kind, MethodId};
-use crate::natives::{self, Native, On};
+use crate::ir::{Ir, IrItem, IrKind, MethodId};
+use crate::natives::{self, Native, ReceiverKind};
 use crate::rules;
 use crate::schema::Field;
 use crate::types::Type;
@@ -16,8 +16,8 @@ use labspec_finding::{Finding, Span};
 fn listed(ir: Ir, method: &str) -> Ir {
     let Some(function) = natives::free("_list") else { return ir };
     let span = ir.span;
-    let items = [ir, Ir::constant(method.into(), span)].map(|value| Item { value, spread: false });
-    Ir::new(Kind::Native(function, items.into()), Type::Any, span)
+    let items = [ir, Ir::constant(method.into(), span)].map(|value| IrItem { value, spread: false });
+    Ir::new(IrKind::Native(function, items.into()), Type::Any, span)
 }
 
 impl<'a> Binder<'a> {
@@ -35,23 +35,23 @@ impl<'a> Binder<'a> {
     /// `receiver.name(args)`
     pub(super) fn method(
         &mut self,
-        receiver: Receiver,
+        receiver: MethodReceiver,
         name: MethodId,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<Ir> {
-        if let Receiver::Field(field) = &receiver
+        if let MethodReceiver::Field(field) = &receiver
             && let Some(ir) = self.field_method(field, name.text(), args, span)?
         {
             return Ok(ir);
         }
         let changes = name.rows().any(|row| row.changes);
-        if let (Receiver::Field(field), true) = (&receiver, changes) {
+        if let (MethodReceiver::Field(field), true) = (&receiver, changes) {
             self.check_assignable(field, span)?;
         }
         let ty = match &receiver {
-            Receiver::Field(_) => Type::View,
-            Receiver::Value(ir) => ir.ty,
+            MethodReceiver::Field(_) => Type::View,
+            MethodReceiver::Value(ir) => ir.ty,
         };
         let rows: Vec<&'static Native> = name.rows_for(ty).collect();
         let run = rows.iter().copied().filter(|row| !row.calls());
@@ -59,20 +59,20 @@ impl<'a> Binder<'a> {
         if let Some(row) = rows.iter().copied().find(|row| row.calls() && !(runs && args.is_empty())) {
             let function = self.written(row, args, span)?;
             let first = match receiver {
-                Receiver::Field(field) => Thing::Field(field),
-                Receiver::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Thing::Value(ir),
-                Receiver::Value(ir) => Thing::Value(listed(ir, row.name)),
+                MethodReceiver::Field(field) => Entity::Field(field),
+                MethodReceiver::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Entity::Value(ir),
+                MethodReceiver::Value(ir) => Entity::Value(listed(ir, row.name)),
             };
             return self.call_written(function, row, first, args, span);
         }
         let receiver = match receiver {
-            Receiver::Field(field) => self.field_value(&field, span),
-            Receiver::Value(ir) => ir,
+            MethodReceiver::Field(field) => self.field_value(&field, span),
+            MethodReceiver::Value(ir) => ir,
         };
         self.check_arity(&rows, args, span)?;
         let items = self.items(args)?;
         let ty = run.map(|row| row.returns(ty)).reduce(Type::or).unwrap_or(Type::Any);
-        Ok(Ir::new(Kind::Method(name, Box::new(receiver), items), ty, span))
+        Ok(Ir::new(IrKind::Method(name, Box::new(receiver), items), ty, span))
     }
 
     /// The function of the language that computes a method with these arguments.
@@ -115,12 +115,12 @@ impl<'a> Binder<'a> {
         let (example, _) = row.example("");
         let at = example.find(row.name).unwrap_or(0);
         let from = example.split_at(at).1;
-        if row.on == On::Nothing { from.to_owned() } else { format!(".{from}") }
+        if row.on == ReceiverKind::Nothing { from.to_owned() } else { format!(".{from}") }
     }
 
     /// The finding for something else where a method takes a function.
     pub(super) fn needs_function(&self, row: &Native, span: Span) -> Finding {
-        let point = if row.on == On::Nothing { "" } else { "." };
+        let point = if row.on == ReceiverKind::Nothing { "" } else { "." };
         Finding::error(rules::ARGUMENT_TYPE, span, format!("`{point}{}` needs a function", row.name))
             .why("it is called for every element")
             .help(format!("write `{}`", self.call_of(row)))
@@ -146,7 +146,7 @@ impl<'a> Binder<'a> {
             (_, usize::MAX) => format!("at least {}", super::call::count(least, "argument")),
             _ => format!("{least} to {}", super::call::count(most, "argument")),
         };
-        let point = if row.on == On::Nothing { "" } else { "." };
+        let point = if row.on == ReceiverKind::Nothing { "" } else { "." };
         let (example, value) = row.example(self.words().array);
         self.refuse(
             Finding::error(
@@ -173,8 +173,8 @@ impl<'a> Binder<'a> {
                 let assignable = self.check_assignable(field, span);
                 let value = self.operand(value)?;
                 assignable?;
-                self.want(&value, value.span, Want::Element(None));
-                Kind::Fill(view, Box::new(value))
+                self.want(&value, value.span, Expectation::Element(None));
+                IrKind::Fill(view, Box::new(value))
             }
             ("set", [Expr { kind: ExprKind::Array(items), .. }, rest @ ..])
                 if rest.len() < 2 && !items.iter().any(|i| matches!(i.kind, ExprKind::Spread(_))) =>
@@ -188,11 +188,11 @@ impl<'a> Binder<'a> {
                 let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.operand(item)).collect();
                 let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
                 for value in &values {
-                    self.want(value, value.span, Want::Element(None));
+                    self.want(value, value.span, Expectation::Element(None));
                 }
                 self.check_fits(field, values.len(), offset, span)?;
                 assignable?;
-                Kind::StoreAll(view, offset, values)
+                IrKind::StoreAll(view, offset, values)
             }
             ("set", [first, ..]) if matches!(first.kind, ExprKind::Number(_)) => {
                 return self.refuse(

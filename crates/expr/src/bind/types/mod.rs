@@ -4,7 +4,7 @@
 //! another round follows (a fixed point over a lattice; Kildall, "A unified approach to global program optimization", 1973). Types
 //! only grow, at most three times each, so the rounds end. After a few of them the places through which every circle of types goes
 //! are taken to hold anything (widening; Cousot and Cousot, "Abstract interpretation", 1977), and two more rounds are the last:
-//! see [`Facts`].
+//! see [`TypeFacts`].
 
 mod access;
 mod assign;
@@ -26,4 +26,4 @@ mod value;
 mod written;
 
 pub(super) use binder::{BindContext, bind};
-pub(super) use typed::{Shape, Typed, Want};
+pub(super) use typed::{Expectation, ExpressionShape, TypedText};

@@ -1,7 +1,7 @@
 //! The rounds end, soon, and with an answer that holds, whatever they are given.
 
-use super::binder::{BindContext, Bound, bind};
-use super::facts::{Facts, Key, What};
+use super::binder::{BindContext, BoundText, bind};
+use super::facts::{FactKey, FactKind, TypeFacts};
 use crate::bind::names::{Surroundings, resolve};
 use crate::bind::source::SourceTree;
 use crate::globals::Globals;
@@ -26,7 +26,7 @@ const TYPES: [Type; 13] = [
     Type::Element,
 ];
 
-fn bound(source: &str) -> Bound {
+fn bound(source: &str) -> BoundText {
     let parsed = parse_statements(source);
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
     let tree = SourceTree::Statements(&parsed.tree);
@@ -55,8 +55,8 @@ fn types_join_in_a_lattice_of_four_levels() {
             }
         }
     }
-    let key = Key { site: 0, at: 0, what: What::Name };
-    let mut facts = Facts::default();
+    let key = FactKey { site: 0, at: 0, what: FactKind::Name };
+    let mut facts = TypeFacts::default();
     for ty in TYPES {
         facts.see(key, ty);
     }

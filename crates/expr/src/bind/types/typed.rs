@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::ir::{Index, Ir, Kind};
+use crate::ir::{Index, Ir, IrKind};
 use crate::operators::UnaryOp;
 use crate::types::{FieldKey, Type};
 use crate::value::Value;
@@ -11,17 +11,17 @@ use labspec_finding::Span;
 
 /// What is known of a text, part by part.
 #[derive(Default)]
-pub(in crate::bind) struct Typed {
+pub(in crate::bind) struct TypedText {
     /// In the order of their places, once all are known; the last one of a place counts.
-    pub(super) shapes: Vec<(Span, Shape)>,
+    pub(super) shapes: Vec<(Span, ExpressionShape)>,
     pub(super) idle: BTreeSet<Span>,
     /// Values that are needed for something.
-    pub(in crate::bind) wants: Vec<(Span, Want, Shape)>,
+    pub(in crate::bind) wants: Vec<(Span, Expectation, ExpressionShape)>,
 }
 
 /// What is known of a value.
 #[derive(Clone)]
-pub(in crate::bind) struct Shape {
+pub(in crate::bind) struct ExpressionShape {
     pub(in crate::bind) ty: Type,
     /// The value, where it is known.
     pub(in crate::bind) known: Option<Value>,
@@ -30,7 +30,7 @@ pub(in crate::bind) struct Shape {
 }
 
 /// What a value is needed for.
-pub(in crate::bind) enum Want {
+pub(in crate::bind) enum Expectation {
     /// A number, by a function.
     Number(String),
     /// An angle, by a function.
@@ -39,9 +39,9 @@ pub(in crate::bind) enum Want {
     Element(Option<(FieldKey, usize)>),
 }
 
-impl Shape {
-    pub(super) fn of(ir: &Ir) -> Shape {
-        Shape { ty: ir.ty, known: ir.known().cloned(), element: element(ir) }
+impl ExpressionShape {
+    pub(super) fn of(ir: &Ir) -> ExpressionShape {
+        ExpressionShape { ty: ir.ty, known: ir.known().cloned(), element: element(ir) }
     }
 
     /// The value, where it is a known number.
@@ -56,20 +56,20 @@ impl Shape {
 /// The element that a number is.
 fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
     match &ir.kind {
-        Kind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
-        Kind::ToNumber(inner) | Kind::Unary(UnaryOp::Minus, inner) => element(inner),
+        IrKind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
+        IrKind::ToNumber(inner) | IrKind::Unary(UnaryOp::Minus, inner) => element(inner),
         _ => None,
     }
 }
 
-impl Typed {
+impl TypedText {
     /// All is known.
     pub(super) fn sort(&mut self) {
         self.shapes.sort_by_key(|(span, _)| *span);
     }
 
     /// What is known of the expression at a place.
-    pub(in crate::bind) fn shape(&self, span: Span) -> Option<&Shape> {
+    pub(in crate::bind) fn shape(&self, span: Span) -> Option<&ExpressionShape> {
         let behind = self.shapes.partition_point(|(at, _)| *at <= span);
         let (at, shape) = self.shapes.get(behind.checked_sub(1)?)?;
         (*at == span).then_some(shape)

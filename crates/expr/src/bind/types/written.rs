@@ -1,31 +1,32 @@
 //! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
 //! and places of their own; what is wrong there is told in words, at the call.
 
-use super::binder::{Attempt, Binder, Meaning, Reported, Site, Thing};
-use super::facts::What;
+use super::binder::{Attempt, Binder, Entity, InlineSite, Reported, VariableMeaning};
+use super::facts::FactKind;
 use std::sync::OnceLock;
 
 use crate::ast::{Body, Expr, Function, Name, Pattern};
-use crate::bind::names::{Names, Surroundings, resolve};
-use crate::bind::source::Mode;
+use crate::bind::names::{NameTable, Surroundings, resolve};
+use crate::bind::source::TextKind;
 use crate::globals::Globals;
-use crate::ir::{Ir, Kind, Step, always_return};
+use crate::ir::{Ir, IrKind, IrStatement, always_return};
 use crate::natives::{self, Native};
 use crate::types::Type;
 use labspec_finding::Span;
 
 /// What the names of a written function mean.
-fn names_of(function: &Function) -> &'static Names {
-    static NAMES: OnceLock<Vec<(&'static Function, Names)>> = OnceLock::new();
-    static NONE: OnceLock<Names> = OnceLock::new();
+fn names_of(function: &Function) -> &'static NameTable {
+    static NAMES: OnceLock<Vec<(&'static Function, NameTable)>> = OnceLock::new();
+    static NONE: OnceLock<NameTable> = OnceLock::new();
     let all = NAMES.get_or_init(|| natives::written().map(|f| (f, resolved(f))).collect());
     let found = all.iter().find(|(f, _)| std::ptr::eq(*f, function));
-    found.map_or_else(|| NONE.get_or_init(Names::default), |(_, names)| names)
+    found.map_or_else(|| NONE.get_or_init(NameTable::default), |(_, names)| names)
 }
 
-fn resolved(function: &'static Function) -> Names {
+fn resolved(function: &'static Function) -> NameTable {
     let globals = Globals::new();
-    let around = Surroundings { schema: None, globals: &globals, mode: Mode::Statements, has_value: false };
+    let around =
+        Surroundings { schema: None, globals: &globals, mode: TextKind::Statements, has_value: false };
     resolve(around, |walk| walk.inside(function)).0
 }
 
@@ -35,7 +36,7 @@ impl<'a> Binder<'a> {
         &mut self,
         function: &'a Function,
         row: &'static Native,
-        first: Thing,
+        first: Entity,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<Ir> {
@@ -44,7 +45,7 @@ impl<'a> Binder<'a> {
             let thing = self.argument_thing(arg);
             // The function stands first among the arguments.
             let calls = match &thing {
-                Ok(Thing::Value(ir)) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
+                Ok(Entity::Value(ir)) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
                 _ => true,
             };
             if i == 0 && !calls {
@@ -53,7 +54,7 @@ impl<'a> Binder<'a> {
             }
             things.push(thing);
         }
-        let things = things.into_iter().collect::<Attempt<Vec<Thing>>>()?;
+        let things = things.into_iter().collect::<Attempt<Vec<Entity>>>()?;
         let Body::Block(statements) = &function.body else { return Err(Reported) };
         let known = self.known.len();
         // A text has fewer than 65,536 bytes: a call inside a written method keeps the call around it apart.
@@ -61,7 +62,7 @@ impl<'a> Binder<'a> {
             Some(outer) => (outer.id << 16 | span.end, outer.call),
             None => (span.end, span),
         };
-        let site = Site { id, call, row, names: names_of(function) };
+        let site = InlineSite { id, call, row, names: names_of(function) };
         let outer = (self.site.replace(site), self.guards);
         self.guards += 1;
         let mut steps = Vec::new();
@@ -70,7 +71,7 @@ impl<'a> Binder<'a> {
             self.declare_variable(name);
             self.give_thing(name, thing, &mut steps);
         }
-        let key = self.key(function.span.start, What::Result);
+        let key = self.key(function.span.start, FactKind::Result);
         self.returns.push(key);
         let loops = std::mem::take(&mut self.loops);
         let body = self.block(statements);
@@ -83,30 +84,30 @@ impl<'a> Binder<'a> {
         let ty = self.facts.ty(key);
         self.leave(known);
         (self.site, self.guards) = outer;
-        steps.push(Step::Inline(result, body, span));
-        let value = Ir::new(Kind::Local(result), ty, span);
-        Ok(Ir::new(Kind::Block(steps, Box::new(value)), ty, span))
+        steps.push(IrStatement::Inline(result, body, span));
+        let value = Ir::new(IrKind::Local(result), ty, span);
+        Ok(Ir::new(IrKind::Block(steps, Box::new(value)), ty, span))
     }
 
     /// An argument of such a method: a function stays known.
-    fn argument_thing(&mut self, arg: &'a Expr) -> Attempt<Thing> {
+    fn argument_thing(&mut self, arg: &'a Expr) -> Attempt<Entity> {
         match self.thing(arg)? {
-            closure @ Thing::Closure(_) => Ok(closure),
-            function @ (Thing::MathFunction(_) | Thing::Native(_)) => Ok(function),
+            closure @ Entity::Closure(_) => Ok(closure),
+            function @ (Entity::MathFunction(_) | Entity::Native(_)) => Ok(function),
             // `Number`, which is a function and holds some.
-            Thing::Namespace(name) => match natives::free(name) {
-                Some(function) => Ok(Thing::Native(function)),
-                None => self.value_of(Thing::Namespace(name), arg.span).map(Thing::Value),
+            Entity::Namespace(name) => match natives::free(name) {
+                Some(function) => Ok(Entity::Native(function)),
+                None => self.value_of(Entity::Namespace(name), arg.span).map(Entity::Value),
             },
-            other => self.value_of(other, arg.span).map(Thing::Value),
+            other => self.value_of(other, arg.span).map(Entity::Value),
         }
     }
 
     /// A parameter of a written method: what needs no place of its own is only another word.
-    fn give_thing(&mut self, name: &Name, thing: Thing, steps: &mut Vec<Step>) {
+    fn give_thing(&mut self, name: &Name, thing: Entity, steps: &mut Vec<IrStatement>) {
         match thing {
-            Thing::Value(ir) => self.give_value(name, ir, steps),
-            other => self.give(name, Meaning::Alias(other)),
+            Entity::Value(ir) => self.give_value(name, ir, steps),
+            other => self.give(name, VariableMeaning::Alias(other)),
         }
     }
 }
