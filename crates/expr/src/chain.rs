@@ -62,7 +62,7 @@ pub struct Mention {
 
 /// All names of objects in a text, in order. Where it is broken, those that can be told.
 pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<Named> {
-    let all = Tokens::of(schema, source);
+    let all = Tokens::read(schema, source);
     let named = (0..all.list.len()).filter_map(|i| all.named(i));
     named.collect()
 }
@@ -114,7 +114,7 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
 
 /// All fields that a text names, in order.
 pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<Mention> {
-    let all = Tokens::of(schema, source);
+    let all = Tokens::read(schema, source);
     let mut found = Vec::new();
     for i in 0..all.list.len() {
         // The last link of a chain: nothing goes on behind it.
@@ -151,7 +151,7 @@ fn listed(source: &str) -> Vec<Token<'_>> {
 }
 
 impl<'s> Tokens<'s> {
-    pub(crate) fn of(schema: &'s dyn Schema, source: &'s str) -> Tokens<'s> {
+    pub(crate) fn read(schema: &'s dyn Schema, source: &'s str) -> Tokens<'s> {
         Tokens { list: listed(source), schema: Some(schema) }
     }
 
@@ -383,7 +383,7 @@ pub(crate) fn of_entry(entry: Entry) -> PathMeaning {
 pub fn variables_of<'t>(schema: &dyn Schema, texts: impl IntoIterator<Item = &'t str>) -> Globals {
     let mut globals = Globals::new();
     for text in texts {
-        let all = Tokens::of(schema, text);
+        let all = Tokens::read(schema, text);
         for i in 0..all.len() {
             let names = (all.kind(i), all.kind(i + 1), all.kind(i + 2));
             if let (

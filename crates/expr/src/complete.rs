@@ -65,7 +65,7 @@ pub fn complete(
             if before.get(start..).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit())) {
                 return Vec::new();
             }
-            let all = Tokens::of(schema, source.get(..start).unwrap_or(""));
+            let all = Tokens::read(schema, source.get(..start).unwrap_or(""));
             let last = all.len().checked_sub(1);
             let mut list = SuggestionList { schema, replace, all: Vec::new() };
             match last.and_then(|last| all.kind(last)) {
@@ -75,7 +75,7 @@ pub fn complete(
                 }
                 _ => {
                     list.roots(has_value);
-                    let whole = Tokens::of(schema, source);
+                    let whole = Tokens::read(schema, source);
                     for name in whole.variables() {
                         list.add(name, Suggested::Variable, name, "a variable of this text");
                     }
@@ -130,7 +130,7 @@ fn unclosed(text: &str) -> Open {
 
 /// The names of objects that a call takes, between quotes.
 fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<Suggestion> {
-    let all = Tokens::of(schema, source.get(..start).unwrap_or(""));
+    let all = Tokens::read(schema, source.get(..start).unwrap_or(""));
     let Some(collection) = all.collection_at(all.len()) else { return Vec::new() };
     let quote = source.get(start..).and_then(|t| t.chars().next()).unwrap_or('"');
     let rest = source.get(offset..).unwrap_or("");

@@ -55,11 +55,11 @@ impl Context {
 
     /// Takes in the names of variables before a program runs that was compiled with them, whenever this context was made. What was
     /// stored under a computed name before any text named it is found under that name from now on.
-    pub(crate) fn learn(&mut self, known: &GlobalNames) {
-        if known.len() <= self.named.len() {
+    pub(crate) fn learn(&mut self, names: &GlobalNames) {
+        if names.len() <= self.named.len() {
             return;
         }
-        for (slot, name) in known.since(self.named.len()) {
+        for (slot, name) in names.since(self.named.len()) {
             if let Some(value) = self.unnamed.remove(&*name) {
                 self.set(slot, value);
             }
@@ -148,8 +148,8 @@ impl Context {
     }
 
     pub(crate) fn note(&mut self, event: RuntimeEvent) {
-        let known = self.events.iter().any(|e| e.span == event.span && e.kind == event.kind);
-        if !known && self.events.len() < MAX_EVENTS {
+        let noted = self.events.iter().any(|e| e.span == event.span && e.kind == event.kind);
+        if !noted && self.events.len() < MAX_EVENTS {
             self.events.push(event);
         }
     }

@@ -105,8 +105,8 @@ fn touch(touch: &Touch, list: &mut Vec<Access>, everything: &mut bool) {
         Touch::Everything => *everything = true,
         Touch::Fields(fields) => {
             let whole = |a: &&Access| a.first == 0 && a.count.is_none();
-            let known: BTreeSet<FieldKey> = list.iter().filter(whole).map(|a| a.field).collect();
-            let new = fields.iter().filter(|f| !known.contains(f));
+            let whole_fields: BTreeSet<FieldKey> = list.iter().filter(whole).map(|a| a.field).collect();
+            let new = fields.iter().filter(|f| !whole_fields.contains(f));
             list.extend(new.map(|&field| Access { field, first: 0, count: None }));
         }
     }

@@ -50,8 +50,8 @@ pub(crate) struct Formula {
     /// It gives 1 or 0 for a truth value.
     pub(crate) truth: bool,
     /// Operations that are there already; of functions, by their arguments.
-    known: BTreeMap<FormulaStep, StepId>,
-    known_math: BTreeMap<(math::MathFunction, Vec<StepId>), StepId>,
+    existing: BTreeMap<FormulaStep, StepId>,
+    existing_math: BTreeMap<(math::MathFunction, Vec<StepId>), StepId>,
 }
 
 impl Formula {
@@ -70,11 +70,11 @@ impl Formula {
 
     /// An operation, or the same one that is there already.
     pub(crate) fn step(&mut self, step: FormulaStep) -> StepId {
-        if let Some(at) = self.known.get(&step) {
+        if let Some(at) = self.existing.get(&step) {
             return *at;
         }
         let at = self.push(step);
-        self.known.insert(step, at);
+        self.existing.insert(step, at);
         at
     }
 
@@ -116,20 +116,20 @@ impl Formula {
     }
 
     pub(crate) fn math(&mut self, function: math::MathFunction, args: Vec<StepId>) -> StepId {
-        if let Some(at) = self.known_math.get(&(function, args.clone())) {
+        if let Some(at) = self.existing_math.get(&(function, args.clone())) {
             return *at;
         }
         let first = self.args.len() as u32;
         self.args.extend(&args);
         let at = self.push(FormulaStep::Math(function, first, args.len() as u32));
-        self.known_math.insert((function, args), at);
+        self.existing_math.insert((function, args), at);
         at
     }
 
     /// Leaves out what the results do not need; gives where each step stands now. What was known is forgotten.
     pub(crate) fn finish(&mut self, results: &mut [StepId]) {
-        self.known = BTreeMap::new();
-        self.known_math = BTreeMap::new();
+        self.existing = BTreeMap::new();
+        self.existing_math = BTreeMap::new();
         let Formula { steps, args, .. } = self;
         let mut used = vec![false; steps.len()];
         let mark = |used: &mut Vec<bool>, at: StepId| {

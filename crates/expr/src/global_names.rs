@@ -27,8 +27,8 @@ impl GlobalNames {
                 Some(names.iter().take(first).cloned().chain([name.into()]).collect())
             }
         };
-        if let Some(own) = apart {
-            self.list = Arc::new(Mutex::new(own));
+        if let Some(copy) = apart {
+            self.list = Arc::new(Mutex::new(copy));
         }
         self.count += 1;
     }

@@ -17,7 +17,7 @@ pub struct Globals {
     slots: BTreeMap<String, u32>,
     names: Vec<String>,
     /// The same names, for whoever runs programs.
-    known: GlobalNames,
+    shared_names: GlobalNames,
     /// The host itself stores the variable.
     given: Vec<bool>,
     uses: Vec<GlobalUse>,
@@ -92,15 +92,15 @@ impl Globals {
     pub fn unset(&self, words: &Words) -> Vec<(ProgramId, Finding)> {
         let mut stored = self.given.clone();
         for usage in self.uses.iter().filter(|u| u.stores) {
-            if let Some(known) = stored.get_mut(usage.slot as usize) {
-                *known = true;
+            if let Some(is_stored) = stored.get_mut(usage.slot as usize) {
+                *is_stored = true;
             }
         }
         let is_stored = |slot: u32| {
             let computed = |name: &str| self.computed.iter().any(|c| name.starts_with(c.as_str()));
             stored.get(slot as usize).copied().unwrap_or(false) || computed(self.name(slot))
         };
-        let known: Vec<&str> =
+        let stored_names: Vec<&str> =
             (0..self.names.len() as u32).filter(|s| is_stored(*s)).map(|s| self.name(s)).collect();
         let mut found: Vec<(u32, ProgramId)> = Vec::new();
         let mut reports = Vec::new();
@@ -109,7 +109,8 @@ impl Globals {
                 continue;
             }
             found.push((usage.slot, usage.program));
-            reports.push((usage.program, unset_report(self.name(usage.slot), usage.span, &known, words)));
+            reports
+                .push((usage.program, unset_report(self.name(usage.slot), usage.span, &stored_names, words)));
         }
         reports
     }
@@ -127,7 +128,7 @@ impl Globals {
 
     /// All names, for whoever runs programs.
     pub(crate) fn shared_names(&self) -> &GlobalNames {
-        &self.known
+        &self.shared_names
     }
 
     pub(crate) fn mark(&self) -> GlobalsMark {
@@ -153,16 +154,16 @@ impl Globals {
         let slot = self.names.len() as u32;
         self.slots.insert(name.to_owned(), slot);
         self.names.push(name.to_owned());
-        self.known.push(name);
+        self.shared_names.push(name);
         self.given.push(false);
         slot
     }
 }
 
-fn unset_report(name: &str, span: Span, known: &[&str], words: &Words) -> Finding {
+fn unset_report(name: &str, span: Span, stored_names: &[&str], words: &Words) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
-    match nearest(name, known.iter().copied()) {
+    match nearest(name, stored_names.iter().copied()) {
         Some(meant) => {
             report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
         }

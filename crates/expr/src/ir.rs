@@ -235,7 +235,7 @@ impl Ir {
     }
 
     /// The value, if it is known and a primitive one.
-    pub(crate) fn known(&self) -> Option<&Value> {
+    pub(crate) fn as_constant(&self) -> Option<&Value> {
         match &self.kind {
             IrKind::Constant(value) if value.is_primitive() => Some(value),
             _ => None,
@@ -244,7 +244,7 @@ impl Ir {
 
     /// The value, if it is known and may decide something before the run. NaN decides while running, where a watch sees it.
     fn decided(&self) -> Option<&Value> {
-        self.known().filter(|value| !value.is_nan())
+        self.as_constant().filter(|value| !value.is_nan())
     }
 
     /// Whether it is never a string nor something with parts: then arithmetic on it can use plain numbers.
@@ -265,7 +265,7 @@ impl Ir {
             return Ir::to_number(operand, span);
         }
         let passes = op != UnaryOp::Not && op != UnaryOp::BitNot;
-        if let Some(value) = operand.known().filter(|value| passes || !value.is_nan()) {
+        if let Some(value) = operand.as_constant().filter(|value| passes || !value.is_nan()) {
             return Ir::constant(op.on_value(value), span);
         }
         let operand = Box::new(operand);
@@ -277,7 +277,7 @@ impl Ir {
     }
 
     pub(crate) fn to_number(operand: Ir, span: Span) -> Ir {
-        match operand.known() {
+        match operand.as_constant() {
             Some(value) => Ir::number(value.to_number(), span),
             None if operand.ty == Type::Number => operand,
             None => Ir::new(IrKind::ToNumber(Box::new(operand)), Type::Number, span),
@@ -293,7 +293,7 @@ impl Ir {
     }
 
     pub(crate) fn binary(op: BinaryOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let (Some(a), Some(b)) = (left.known(), right.known())
+        if let (Some(a), Some(b)) = (left.as_constant(), right.as_constant())
             && a.text_len() + b.text_len() < 1000
         {
             let value = op.on_values(a, b);
@@ -311,7 +311,7 @@ impl Ir {
     }
 
     pub(crate) fn logical(op: LogicalOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let Some(value) = left.known().filter(|value| op == LogicalOp::Nullish || !value.is_nan()) {
+        if let Some(value) = left.as_constant().filter(|value| op == LogicalOp::Nullish || !value.is_nan()) {
             return Ir { span, ..if op.keeps(value) { left } else { right } };
         }
         let ty = match (op, left.ty) {
@@ -333,9 +333,10 @@ impl Ir {
     }
 
     pub(crate) fn math(function: math::MathFunction, args: Vec<Ir>, span: Span) -> Ir {
-        let known: Option<Vec<f64>> = args.iter().map(|a| a.known().map(Value::to_number)).collect();
+        let constants: Option<Vec<f64>> =
+            args.iter().map(|a| a.as_constant().map(Value::to_number)).collect();
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
-        let applied = known.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
+        let applied = constants.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
         // A NaN that is lost is lost while running, where a watch sees it.
         let kept = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
         match applied.filter(kept).filter(|_| !args.is_empty()).map(|(_, x)| x) {

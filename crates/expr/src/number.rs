@@ -30,8 +30,8 @@ fn even_of_two(digits: String, exponent: &str, x: f64) -> String {
         return digits;
     }
     // The digits before the middle between two, if the number lies there.
-    let below = |shown: usize| {
-        let exact = format!("{x:.shown$e}");
+    let below = |decimals: usize| {
+        let exact = format!("{x:.decimals$e}");
         let exact = exact.split('e').next().unwrap_or("").replace('.', "");
         let (below, rest) = exact.split_at_checked(digits.len())?;
         let zeros = rest.strip_prefix('5')?;

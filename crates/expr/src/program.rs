@@ -41,7 +41,7 @@ impl Aggregate {
     /// What its result measures.
     fn measure(&self, schema: &dyn Schema, given: &Given) -> Measure {
         let arg = |i: usize| self.args.get(i).map_or(Measure::Unknown, |p| p.measured(schema, given).value);
-        schema.function(self.function).gives.of(arg)
+        schema.function(self.function).gives.resolve(arg)
     }
 }
 
@@ -54,7 +54,7 @@ pub struct Program {
     pub(crate) aggregates: Vec<Aggregate>,
     pub(crate) order: WriteOrder,
     /// The variables that were named when it was compiled.
-    pub(crate) known: GlobalNames,
+    pub(crate) global_names: GlobalNames,
     /// What the numbers of its fields and elements are of ([`crate::Schema::identity`]).
     pub(crate) identity: u64,
     /// What it computes, if it is a numeric expression without effects.
@@ -75,15 +75,15 @@ impl Program {
         let form = lower(tree);
         let effects = analysis::effects(&form, schema);
         let formula = form.units.first().and_then(whole_formula).map(Arc::new);
-        let row = formula.as_deref().and_then(Row::of).map(Arc::new);
-        let order = WriteOrder::of(&form, &effects);
+        let row = formula.as_deref().and_then(Row::from_formula).map(Arc::new);
+        let order = WriteOrder::analyze(&form, &effects);
         Program {
             code: emit(form, row.is_none()).into(),
             effects,
             result,
             aggregates,
             order,
-            known: globals.shared_names().clone(),
+            global_names: globals.shared_names().clone(),
             identity: schema.identity(),
             formula,
             row,
@@ -148,7 +148,7 @@ impl Program {
             context.events.clear();
             return Ok(value);
         }
-        context.learn(&self.known);
+        context.learn(&self.global_names);
         vm::run(&self.code, host, context, value)
     }
 

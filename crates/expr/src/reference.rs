@@ -83,12 +83,12 @@ pub fn language_page(words: &Words) -> String {
     out.push_str("```\n\nA statement ends with `;`, with a line end where JavaScript ends it, or with `}`. Comments are `// …` and `/* … */`.\n\n## Operators\n\nFrom the loosest to the tightest:\n\n| level | operators |\n|---|---|\n");
     let logical = [LogicalOp::Or, LogicalOp::Nullish, LogicalOp::And];
     for power in 3..=14 {
-        let own = BinaryOp::ALL.iter().filter(|o| o.power() == power).map(|o| o.symbol());
+        let binary = BinaryOp::ALL.iter().filter(|o| o.power() == power).map(|o| o.symbol());
         let symbols: Vec<String> = logical
             .iter()
             .filter(|o| o.power() == power)
             .map(|o| o.symbol())
-            .chain(own)
+            .chain(binary)
             .map(|s| format!("`{}`", s.replace('|', "\\|")))
             .collect();
         if !symbols.is_empty() {

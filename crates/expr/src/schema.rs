@@ -157,7 +157,7 @@ pub enum Gives {
 
 impl Gives {
     /// What a result measures whose arguments measure this.
-    pub(crate) fn of(self, argument: impl Fn(usize) -> Measure) -> Measure {
+    pub(crate) fn resolve(self, argument: impl Fn(usize) -> Measure) -> Measure {
         match self {
             Gives::Unknown => Measure::Unknown,
             Gives::This(dimension) => Measure::Known(dimension),

@@ -13,10 +13,10 @@ pub(crate) fn effects(form: &SsaProgram, schema: &dyn Schema) -> Effects {
     look.unit(0);
     let mut effects = look.effects;
     // Arrays that became values may be read, and stored to when anything is stored through a value.
-    for shown in &form.views {
-        effects.read(whole(shown.view));
-        if effects.stores_items && shown.assignable {
-            effects.write(whole(shown.view));
+    for exposed in &form.views {
+        effects.read(whole(exposed.view));
+        if effects.stores_items && exposed.assignable {
+            effects.write(whole(exposed.view));
         }
     }
     effects
@@ -43,7 +43,7 @@ pub(super) fn element(view: View, index: Option<f64>) -> Access {
 pub(super) fn written(op: &Op, unit: &SsaFunction) -> Option<Access> {
     match *op {
         Op::Store(field, at, _) => Some(Access { field, first: at as usize, count: Some(1) }),
-        Op::StoreAt(view, index, _) => Some(element(view, unit.known(index))),
+        Op::StoreAt(view, index, _) => Some(element(view, unit.constant(index))),
         Op::Fill(view, _) => Some(whole(view)),
         _ => None,
     }
@@ -87,7 +87,7 @@ impl EffectWalk<'_> {
         match *op {
             Op::Load(_, field, at) => effects.read(Access { field, first: at as usize, count: Some(1) }),
             Op::LoadAt(_, view, index) | Op::LoadValueAt(_, view, index) => {
-                effects.read(element(view, unit.known(index)));
+                effects.read(element(view, unit.constant(index)));
             }
             Op::LoadValue(_, view, at) => effects.read(element(view, Some(f64::from(at)))),
             Op::Length(_, view) => effects.read(whole(view)),
@@ -116,13 +116,13 @@ impl EffectWalk<'_> {
 
 /// The array that a method is called on, where it is a known one.
 pub(super) fn receiver(op: &Op, unit: &SsaFunction) -> Option<View> {
-    let of = |args: &Args| args.of(&unit.args).first().copied();
+    let of = |args: &Args| args.operands(&unit.args).first().copied();
     let name = match op {
         Op::Method(_, _, args) => of(args)?,
         Op::MethodList(_, _, on, _) => on.0,
         _ => return None,
     };
-    match unit.known_value(Val(name))? {
+    match unit.constant_value(Val(name))? {
         Value::View(view) => Some(*view),
         _ => None,
     }

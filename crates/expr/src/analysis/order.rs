@@ -30,7 +30,7 @@ pub(crate) struct WriteOrder {
 const MOST_PARTS: usize = 20_000;
 
 impl WriteOrder {
-    pub(crate) fn of(form: &SsaProgram, effects: &Effects) -> WriteOrder {
+    pub(crate) fn analyze(form: &SsaProgram, effects: &Effects) -> WriteOrder {
         // Most texts write nothing and call nothing.
         if effects.writes.is_empty() && effects.calls.is_empty() {
             return WriteOrder::default();
@@ -113,8 +113,8 @@ impl OrderWalk<'_> {
 
     /// A store into an array that is a value: into this one, or into whichever became one.
     fn through_values(&mut self, view: Option<View>) {
-        for shown in self.form.views.iter().filter(|s| s.assignable && view.is_none_or(|v| v == s.view)) {
-            self.events.push((OrderedEvent::Write(whole(shown.view)), false));
+        for exposed in self.form.views.iter().filter(|s| s.assignable && view.is_none_or(|v| v == s.view)) {
+            self.events.push((OrderedEvent::Write(whole(exposed.view)), false));
         }
     }
 }

@@ -80,28 +80,31 @@ impl<'s> Compiler<'s> {
 
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics, told } = parse::expression(source, self.schema.words(), self.tells);
-        self.compile(source, diagnostics, told, SourceTree::Expression(&tree))
+        let Parsed { tree, diagnostics, quotes_left_to_host } =
+            parse::expression(source, self.schema.words(), self.tells);
+        self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Expression(&tree))
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
-        let Parsed { tree, diagnostics, told } = parse::statements(source, self.schema.words(), self.tells);
-        self.compile(source, diagnostics, told, SourceTree::Statements(&tree))
+        let Parsed { tree, diagnostics, quotes_left_to_host } =
+            parse::statements(source, self.schema.words(), self.tells);
+        self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Statements(&tree))
     }
 
     /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
     /// may be anything.
     pub fn assignment(&mut self, target: &str) -> Compiled {
-        let Parsed { tree, diagnostics, told } = parse::expression(target, self.schema.words(), self.tells);
-        self.compile(target, diagnostics, told, SourceTree::Target(&tree))
+        let Parsed { tree, diagnostics, quotes_left_to_host } =
+            parse::expression(target, self.schema.words(), self.tells);
+        self.compile(target, diagnostics, quotes_left_to_host, SourceTree::Target(&tree))
     }
 
     fn compile(
         &mut self,
         source: &str,
         mut found: Vec<Finding>,
-        told: bool,
+        quotes_left_to_host: bool,
         tree: SourceTree<'_>,
     ) -> Compiled {
         let id = self.globals.next_program();
@@ -140,7 +143,7 @@ impl<'s> Compiler<'s> {
             let name = source.get(span.start..span.end).unwrap_or("");
             found.push(Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here")));
         }
-        let failed = told || found.iter().any(Finding::is_error);
+        let failed = quotes_left_to_host || found.iter().any(Finding::is_error);
         let parts = bound.program.filter(|_| !failed);
         let program = parts.map(|parts| {
             Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)

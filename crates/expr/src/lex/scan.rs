@@ -195,8 +195,8 @@ fn look_alike(c: char) -> Option<&'static str> {
 }
 
 fn bad_character(c: char, span: Span) -> Finding {
-    let shown = if c.is_control() { c.escape_unicode().to_string() } else { c.to_string() };
-    let report = Finding::error(rules::BAD_CHARACTER, span, format!("`{shown}` has no meaning here"));
+    let character = if c.is_control() { c.escape_unicode().to_string() } else { c.to_string() };
+    let report = Finding::error(rules::BAD_CHARACTER, span, format!("`{character}` has no meaning here"));
     if let Some(text) = look_alike(c) {
         return report
             .why("it looks like an operator but is another character, which word processors insert")

@@ -248,7 +248,7 @@ impl FunctionBuilder<'_> {
 
     /// A number that is true when the node is.
     pub(super) fn truth(&mut self, ir: &Ir) -> Num {
-        match ir.known() {
+        match ir.as_constant() {
             // A NaN is false, and stays one: a watched run sees that it decides.
             Some(Value::Number(x)) if x.is_nan() => self.constant(*x),
             Some(value) => self.constant(f64::from(u8::from(value.truthy()))),

@@ -136,11 +136,11 @@ impl<'t> FunctionBuilder<'t> {
     }
 
     pub(super) fn constant_value(&mut self, value: &Value) -> Val {
-        let known = self.unit.values.iter().find(|(_, v)| match (v, value) {
+        let existing = self.unit.values.iter().find(|(_, v)| match (v, value) {
             (Value::Number(a), Value::Number(b)) => a.to_bits() == b.to_bits(),
             (a, b) => a == b,
         });
-        if let Some((name, _)) = known {
+        if let Some((name, _)) = existing {
             return *name;
         }
         let name = self.new_value();
@@ -192,7 +192,7 @@ impl<'t> FunctionBuilder<'t> {
     pub(super) fn slot(&self, local: LocalId) -> Representation {
         match self.tree.locals.get(local as usize) {
             Some(local) if local.shared => Representation::Value,
-            Some(local) => Representation::of(local.ty),
+            Some(local) => Representation::for_type(local.ty),
             None => Representation::Value,
         }
     }

@@ -13,7 +13,7 @@ impl FunctionBuilder<'_> {
             .units
             .get(unit as usize)
             .and_then(|u| u.result)
-            .map_or(Representation::Value, Representation::of)
+            .map_or(Representation::Value, Representation::for_type)
     }
 
     fn params(&self, unit: UnitId) -> Vec<Representation> {

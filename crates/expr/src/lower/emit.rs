@@ -28,7 +28,7 @@ pub(crate) fn emit(form: SsaProgram, often: bool) -> MachineCode {
 /// The code of a function.
 fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
     let (numbers, values) =
-        (RegisterFile::of(form.same.numbers.len()), RegisterFile::of(form.same.values.len()));
+        (RegisterFile::for_names(form.same.numbers.len()), RegisterFile::for_names(form.same.values.len()));
     let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
     let code = MachineFunction { ops, spans, ..MachineFunction::default() };
@@ -107,10 +107,14 @@ impl<'f> Emit<'f> {
                     OperandUse::Reads(n) => numbers.used(form.same.number(*n).0),
                     OperandUse::ReadsValue(v) => values.used(form.same.value(*v).0),
                     OperandUse::ReadsAll(args) => {
-                        args.of(&form.args).iter().for_each(|n| numbers.used(form.same.number(Num(*n)).0));
+                        args.operands(&form.args)
+                            .iter()
+                            .for_each(|n| numbers.used(form.same.number(Num(*n)).0));
                     }
                     OperandUse::ReadsValues(args) => {
-                        args.of(&form.args).iter().for_each(|v| values.used(form.same.value(Val(*v)).0));
+                        args.operands(&form.args)
+                            .iter()
+                            .for_each(|v| values.used(form.same.value(Val(*v)).0));
                     }
                     OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
                 });
@@ -196,7 +200,7 @@ impl<'f> Emit<'f> {
             };
             op.each(&mut |u| match u {
                 OperandUse::Reads(n) => use_up(*n),
-                OperandUse::ReadsAll(args) => args.of(&form.args).iter().for_each(|n| use_up(Num(*n))),
+                OperandUse::ReadsAll(args) => args.operands(&form.args).iter().for_each(|n| use_up(Num(*n))),
                 _ => {}
             });
         }
@@ -293,10 +297,10 @@ impl<'f> Emit<'f> {
             OperandUse::Reads(n) => read.push(Operand::Number(same.number(*n))),
             OperandUse::ReadsValue(v) => read.push(Operand::Value(same.value(*v))),
             OperandUse::ReadsAll(a) => {
-                read.extend(a.of(list).iter().map(|n| Operand::Number(same.number(Num(*n)))))
+                read.extend(a.operands(list).iter().map(|n| Operand::Number(same.number(Num(*n)))))
             }
             OperandUse::ReadsValues(a) => {
-                read.extend(a.of(list).iter().map(|v| Operand::Value(same.value(Val(*v)))))
+                read.extend(a.operands(list).iter().map(|v| Operand::Value(same.value(Val(*v)))))
             }
             OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
         });
@@ -313,7 +317,7 @@ impl<'f> Emit<'f> {
         // Operands first: the result may take the place of one.
         let mut list = |args: Args, name: &mut dyn FnMut(u32) -> u32| {
             let first = code.args.len() as u32;
-            code.args.extend(args.of(&form.args).iter().map(|a| name(*a)));
+            code.args.extend(args.operands(&form.args).iter().map(|a| name(*a)));
             first
         };
         let mut args = None;

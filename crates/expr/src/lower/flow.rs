@@ -64,8 +64,8 @@ impl FunctionBuilder<'_> {
         let (mut at, level) = self.variables.now.get(local as usize).copied().flatten()?;
         if (level as usize) < self.loops.len() {
             for i in level as usize..self.loops.len() {
-                let known = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
-                at = match known {
+                let param = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
+                at = match param {
                     Some(param) => param,
                     None => {
                         let param = self.like(at);
@@ -152,7 +152,7 @@ impl FunctionBuilder<'_> {
             return None;
         }
         if let Terminator::If(when, test, _) = end
-            && let Some(x) = self.unit.known(test)
+            && let Some(x) = self.unit.constant(test)
             && !x.is_nan()
         {
             // The answer is known: there is one way.

@@ -41,17 +41,18 @@ pub(super) fn fold(unit: &mut SsaFunction) {
 
 /// What a numeric operation gives, with its name, where that is known.
 fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
-    let known = |n: Num| unit.known(unit.same.number(n));
+    let constant = |n: Num| unit.constant(unit.same.number(n));
     Some(match *op {
-        Op::Unary(name, op, a) => (name, kept(&[known(a)?], op.on_number(known(a)?))?),
+        Op::Unary(name, op, a) => (name, kept(&[constant(a)?], op.on_number(constant(a)?))?),
         Op::Binary(name, op, a, b) => {
-            let operands = [known(a)?, known(b)?];
+            let operands = [constant(a)?, constant(b)?];
             (name, kept(&operands, op.on_numbers(operands[0], operands[1]))?)
         }
-        Op::Select(_, test, ..) if known(test)?.is_nan() => return None,
-        Op::Select(name, test, a, b) => (name, Folded::Same(select(known(test)?, a, b))),
+        Op::Select(_, test, ..) if constant(test)?.is_nan() => return None,
+        Op::Select(name, test, a, b) => (name, Folded::Same(select(constant(test)?, a, b))),
         Op::Math(name, function, args) => {
-            let numbers: Option<Vec<f64>> = args.of(&unit.args).iter().map(|n| known(Num(*n))).collect();
+            let numbers: Option<Vec<f64>> =
+                args.operands(&unit.args).iter().map(|n| constant(Num(*n))).collect();
             let numbers = numbers?;
             let x = function.apply(&numbers);
             // The extreme of nothing is found while running, where it can be seen.

@@ -25,7 +25,7 @@ pub(crate) fn lower(tree: &IrProgram) -> SsaProgram {
 
 impl FunctionBuilder<'_> {
     fn whole(&mut self, unit: &ir::IrFunction) {
-        self.unit.result = unit.result.map_or(Representation::Value, Representation::of);
+        self.unit.result = unit.result.map_or(Representation::Value, Representation::for_type);
         self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
         self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
         let given: Vec<(LocalId, Operand)> =

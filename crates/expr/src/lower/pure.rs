@@ -14,7 +14,7 @@ pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
     if unit.result == Representation::Value || !unit.ops.iter().all(loads_and_numbers) {
         return None;
     }
-    let mut steps = Steps::of(unit);
+    let mut steps = Steps::new(unit);
     for at in 0..unit.blocks.len() as BlockId {
         steps.params(at)?;
         unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
@@ -34,7 +34,7 @@ pub(crate) fn stretch(
     ops: &[Op],
     input: &mut dyn FnMut(Num) -> u32,
 ) -> Option<(Formula, Vec<(Num, StepId)>)> {
-    let mut steps = Steps { input: Some(input), ..Steps::of(unit) };
+    let mut steps = Steps { input: Some(input), ..Steps::new(unit) };
     let mut given = Vec::with_capacity(ops.len());
     for op in ops {
         given.push(steps.op(op)?);
@@ -52,7 +52,7 @@ struct Steps<'u> {
 }
 
 impl<'u> Steps<'u> {
-    fn of(unit: &'u SsaFunction) -> Steps<'u> {
+    fn new(unit: &'u SsaFunction) -> Steps<'u> {
         Steps { unit, input: None, formula: Formula::default(), at: BTreeMap::new() }
     }
 
@@ -61,7 +61,7 @@ impl<'u> Steps<'u> {
         if let Some(at) = self.at.get(&name) {
             return Some(*at);
         }
-        let at = match (self.unit.known(name), &mut self.input) {
+        let at = match (self.unit.constant(name), &mut self.input) {
             (Some(x), _) => self.formula.constant(x),
             (None, Some(input)) => self.formula.step(FormulaStep::Input(input(name))),
             (None, None) => return None,
@@ -89,8 +89,11 @@ impl<'u> Steps<'u> {
             // More arguments than a row takes are for the machine.
             Op::Math(_, _, args) if args.count as usize > FEW => return None,
             Op::Math(name, function, args) => {
-                let args =
-                    args.of(&self.unit.args).iter().map(|n| self.find(Num(*n))).collect::<Option<_>>()?;
+                let args = args
+                    .operands(&self.unit.args)
+                    .iter()
+                    .map(|n| self.find(Num(*n)))
+                    .collect::<Option<_>>()?;
                 (name, self.formula.math(function, args))
             }
             _ => return None,

@@ -11,7 +11,7 @@ pub(super) struct RegisterFile {
 }
 
 impl RegisterFile {
-    pub(super) fn of(names: usize) -> RegisterFile {
+    pub(super) fn for_names(names: usize) -> RegisterFile {
         RegisterFile { uses: vec![0; names], registers: vec![None; names], count: 1 }
     }
 

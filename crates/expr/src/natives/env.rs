@@ -69,9 +69,9 @@ impl Env<'_> {
 
     /// Stores an element of a view that became a value.
     pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), NativeError> {
-        let shown = self.views.iter().find(|s| s.view.field == view.field);
-        match shown {
-            Some(shown) if shown.assignable => {}
+        let exposed = self.views.iter().find(|s| s.view.field == view.field);
+        match exposed {
+            Some(exposed) if exposed.assignable => {}
             Some(_) => {
                 return Err(NativeError::new(
                     rules::ASSIGN_DERIVED,

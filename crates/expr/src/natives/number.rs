@@ -50,7 +50,7 @@ pub(crate) const NUMBER_CONSTANTS: &[(&str, f64)] = &[
 ];
 
 /// The number a method is called on.
-fn own(value: &Value) -> f64 {
+fn this_number(value: &Value) -> f64 {
     value.to_number()
 }
 
@@ -146,11 +146,11 @@ fn exponential(sign: &str, mantissa: &str, exponent: i32) -> String {
 
 fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let digits = digits(env, args, 0.0)?.unwrap_or(0);
-    env.string(to_fixed(own(x), digits))
+    env.string(to_fixed(this_number(x), digits))
 }
 
 fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
-    let x = own(x);
+    let x = this_number(x);
     if !x.is_finite() {
         return env.string(number::to_text(x));
     }
@@ -168,7 +168,7 @@ fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Native
 }
 
 fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
-    let x = own(x);
+    let x = this_number(x);
     if !x.is_finite() {
         return env.string(number::to_text(x));
     }
@@ -197,7 +197,7 @@ fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutco
         let message = format!("base {} is not allowed: the range is 2 to 36", number::to_text(radix));
         return Err(NativeError::new(rules::ARGUMENT_TYPE, message));
     }
-    let x = own(x);
+    let x = this_number(x);
     if radix == 10.0 || !x.is_finite() {
         return env.string(number::to_text(x));
     }

@@ -9,7 +9,7 @@ use crate::value::Value;
 pub(super) static ROWS: &[Native] = table! {
     "Array.isArray" Nothing (1, 1) Boolean Asks is_array: "Array.isArray([1])" => "true",
         "whether a value is a list; an array of the engine is not one, as in JavaScript";
-    "Array.of" Nothing (0, MANY) List Keeps of: "Array.of(1, 2)" => "1,2",
+    "Array.of" Nothing (0, MANY) List Keeps array_of: "Array.of(1, 2)" => "1,2",
         "a list of the arguments";
     "Array.from" Nothing (1, 1) List Keeps from: "Array.from('ab')" => "a,b",
         "a list of the elements of an array, the characters of a text, or `{length: n}` elements; with a function, its result for each";
@@ -31,7 +31,7 @@ fn is_array(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(env.heap.object(arg(args, 0)), HeapObject::List(_))))
 }
 
-fn of(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
+fn array_of(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(env.heap.list(args.to_vec())?)
 }
 

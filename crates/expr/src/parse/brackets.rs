@@ -88,7 +88,7 @@ impl Parser<'_> {
         let open = opener.text(self.source);
         Some(
             Finding::error(rules::UNCLOSED, opener, format!("this `{open}` is not closed"))
-                .why(format!("found {} where `{closer}` is required", self.shown()))
+                .why(format!("found {} where `{closer}` is required", self.describe_token()))
                 .help(format!("write `{closer}` after `{}`", before.text(self.source)))
                 .guess(before.after(), closer),
         )
@@ -98,7 +98,7 @@ impl Parser<'_> {
     pub(super) fn expected_value<T>(&mut self) -> Attempt<T> {
         let span = self.span();
         let before = self.last_span().text(self.source);
-        let message = format!("expected a value, found {}", self.shown());
+        let message = format!("expected a value, found {}", self.describe_token());
         let mut report = Finding::error(rules::MISSING_VALUE, span, message);
         if !before.is_empty() && self.at > 0 {
             report = report.why(format!("`{before}` needs a value after it"));

@@ -59,10 +59,13 @@ impl Parser<'_> {
     pub(super) fn declarator(&mut self, constant: bool, opener: Span) -> Attempt<Declarator> {
         let span = self.span();
         if !matches!(self.peek(), TokenKind::Word(_) | TokenKind::Bad | TokenKind::Symbol("[" | "{")) {
-            let report =
-                Finding::error(rules::MISSING_NAME, span, format!("expected a name, found {}", self.shown()))
-                    .why(format!("`{}` declares a name", opener.text(self.source)))
-                    .help(format!("write `const angle = {}[0]`", self.words.array));
+            let report = Finding::error(
+                rules::MISSING_NAME,
+                span,
+                format!("expected a name, found {}", self.describe_token()),
+            )
+            .why(format!("`{}` declares a name", opener.text(self.source)))
+            .help(format!("write `const angle = {}[0]`", self.words.array));
             return self.refuse(report);
         }
         let target = self.pattern("a name")?;

@@ -136,7 +136,7 @@ impl Parser<'_> {
             }
             TokenKind::Bad => Err(Reported),
             _ => {
-                let message = format!("expected a name after `.`, found {}", self.shown());
+                let message = format!("expected a name after `.`, found {}", self.describe_token());
                 let report = Finding::error(rules::MISSING_NAME, span, message).help(format!(
                     "write the field after the point, as `{0}`, and indexes in brackets, as `{0}[2]`",
                     self.words.array
@@ -197,7 +197,7 @@ impl Parser<'_> {
         let then = self.expression(ASSIGNMENT)?;
         if self.eat(":").is_none() {
             let report = Finding::error(rules::HALF_CHOICE, question, "this `?` has no `:`")
-                .why(format!("found {} where the second value is required", self.shown()))
+                .why(format!("found {} where the second value is required", self.describe_token()))
                 .help("write a conditional expression as `test ? a : b`");
             return self.refuse(report);
         }

@@ -92,7 +92,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(`, found {}", self.shown()),
+                format!("expected `(`, found {}", self.describe_token()),
             )
             .help("write the parameters in parentheses, as `function f(x) { … }`");
             return self.refuse(report);
@@ -102,7 +102,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `{{`, found {}", self.shown()),
+                format!("expected `{{`, found {}", self.describe_token()),
             )
             .help("write what the function does in braces, as `function f(x) { return 2 * x }`");
             return self.refuse(report);
@@ -206,7 +206,7 @@ impl Parser<'_> {
                 let report = Finding::error(
                     rules::MISSING_NAME,
                     span,
-                    format!("expected a key, found {}", self.shown()),
+                    format!("expected a key, found {}", self.describe_token()),
                 )
                 .help(format!("write the keys to take, as `const {}`", self.words.parts));
                 return self.refuse(report);
@@ -240,7 +240,7 @@ impl Parser<'_> {
                 let report = Finding::error(
                     rules::MISSING_NAME,
                     span,
-                    format!("expected {what}, found {}", self.shown()),
+                    format!("expected {what}, found {}", self.describe_token()),
                 )
                 .help("write a name, as `angle`");
                 return self.refuse(report);

@@ -14,7 +14,7 @@ pub struct Parsed<T> {
     /// Findings in source order.
     pub diagnostics: Vec<Finding>,
     /// There are typographic quotes, of which the host tells itself.
-    pub told: bool,
+    pub quotes_left_to_host: bool,
 }
 
 /// Longest source text, in bytes. Real lessons stay below 2,000.
@@ -35,7 +35,11 @@ pub fn parse_expression(source: &str) -> Parsed<Expr> {
 pub(crate) fn expression(source: &str, words: &'static Words, tells: bool) -> Parsed<Expr> {
     let mut parser = Parser::new(source, words, tells);
     let tree = parser.whole_expression();
-    Parsed { tree, diagnostics: in_order(parser.diagnostics), told: parser.told }
+    Parsed {
+        tree,
+        diagnostics: in_order(parser.diagnostics),
+        quotes_left_to_host: parser.quotes_left_to_host,
+    }
 }
 
 /// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
@@ -47,7 +51,11 @@ pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
 pub(crate) fn statements(source: &str, words: &'static Words, tells: bool) -> Parsed<Vec<Stmt>> {
     let mut parser = Parser::new(source, words, tells);
     let tree = parser.statements();
-    Parsed { tree, diagnostics: in_order(parser.diagnostics), told: parser.told }
+    Parsed {
+        tree,
+        diagnostics: in_order(parser.diagnostics),
+        quotes_left_to_host: parser.quotes_left_to_host,
+    }
 }
 
 /// Findings in source order, and not more than anyone reads.
@@ -80,7 +88,7 @@ pub(super) struct Parser<'s> {
     pub(super) words: &'static Words,
     /// The host tells of typographic quotes, and whether there are any.
     pub(super) tells: bool,
-    pub(super) told: bool,
+    pub(super) quotes_left_to_host: bool,
     pub(super) tokens: Vec<Token<'s>>,
     pub(super) at: usize,
     /// Expressions and statements that are being read, one inside the other.
@@ -100,18 +108,27 @@ impl<'s> Parser<'s> {
         } else {
             lex::tokens(source, &mut diagnostics)
         };
-        let told = false;
-        let mut parser =
-            Parser { source, words, tells, told, tokens, at: 0, depth: 0, tallest: 0, diagnostics };
+        let quotes_left_to_host = false;
+        let mut parser = Parser {
+            source,
+            words,
+            tells,
+            quotes_left_to_host,
+            tokens,
+            at: 0,
+            depth: 0,
+            tallest: 0,
+            diagnostics,
+        };
         parser.look_at_quotes();
         parser
     }
 
-    /// What is wrong with typographic quotes is told, by us or by the host.
+    /// What is wrong with typographic quotes is quotes_left_to_host, by us or by the host.
     pub(super) fn look_at_quotes(&mut self) {
         for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, TokenKind::Number(_))) {
             match token.doubt.take() {
-                Some(_) if self.tells => self.told = true,
+                Some(_) if self.tells => self.quotes_left_to_host = true,
                 doubt => self.diagnostics.extend(doubt.map(|finding| *finding)),
             }
         }
@@ -172,7 +189,7 @@ impl<'s> Parser<'s> {
     }
 
     /// The next token as an author sees it.
-    pub(super) fn shown(&self) -> String {
+    pub(super) fn describe_token(&self) -> String {
         match self.peek() {
             TokenKind::End => "the end of the text".into(),
             TokenKind::Template(..) => "a template literal".into(),

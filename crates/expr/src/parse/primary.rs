@@ -184,7 +184,7 @@ impl Parser<'_> {
             TokenKind::Number(x) => (crate::number::to_text(*x), false),
             TokenKind::Bad => return Err(Reported),
             _ => {
-                let message = format!("expected a key, found {}", self.shown());
+                let message = format!("expected a key, found {}", self.describe_token());
                 let report = Finding::error(rules::MISSING_NAME, span, message)
                     .why("braces inside an expression contain a record: keys and their values")
                     .help("write it as `{a: 1, b: 2}`");

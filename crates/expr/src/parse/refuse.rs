@@ -93,8 +93,8 @@ pub(super) fn new_date(span: Span, words: &Words) -> Finding {
 
 /// Whether a word means something of its own, so that it cannot be the name of a variable.
 pub(super) fn is_reserved(text: &str) -> bool {
-    let own = ["true", "false", "null", "const", "let", "var", "function", "typeof"];
-    own.contains(&text) || word(text, Span::default(), &Words::PLAIN).is_some()
+    let keywords = ["true", "false", "null", "const", "let", "var", "function", "typeof"];
+    keywords.contains(&text) || word(text, Span::default(), &Words::PLAIN).is_some()
 }
 
 /// The finding for a symbol that starts or continues a construct that is not read.

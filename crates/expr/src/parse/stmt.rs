@@ -152,7 +152,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` after `{word}`, found {}", self.shown()),
+                format!("expected `(` after `{word}`, found {}", self.describe_token()),
             )
             .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
             return self.refuse(report);
@@ -179,7 +179,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_STATEMENT,
                 span,
-                format!("expected a statement after `{word}`, found {}", self.shown()),
+                format!("expected a statement after `{word}`, found {}", self.describe_token()),
             )
             .help("write the statement to run, or several statements in braces");
             return self.refuse(report);
@@ -218,7 +218,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` after `for`, found {}", self.shown()),
+                format!("expected `(` after `for`, found {}", self.describe_token()),
             )
             .help("write `for (let i = 0; i < n; i++) { … }`");
             return self.refuse(report);
@@ -288,10 +288,13 @@ impl Parser<'_> {
         if self.eat(";").is_some() {
             return Ok(());
         }
-        let report =
-            Finding::error(rules::LOOP_HEAD, self.span(), format!("expected `;`, found {}", self.shown()))
-                .why("the head of a `for` has three parts: start, condition, step")
-                .help("write `for (let i = 0; i < n; i++) { … }`");
+        let report = Finding::error(
+            rules::LOOP_HEAD,
+            self.span(),
+            format!("expected `;`, found {}", self.describe_token()),
+        )
+        .why("the head of a `for` has three parts: start, condition, step")
+        .help("write `for (let i = 0; i < n; i++) { … }`");
         self.refuse(report)
     }
 

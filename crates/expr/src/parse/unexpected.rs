@@ -46,7 +46,7 @@ impl Parser<'_> {
     /// The finding for whatever stands behind something complete; `None` when it is already reported.
     pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Finding> {
         let span = self.span();
-        let shown = self.shown();
+        let token = self.describe_token();
         match self.peek() {
             TokenKind::Bad => None,
             TokenKind::Symbol(",") => {
@@ -76,7 +76,7 @@ impl Parser<'_> {
             _ => {
                 let left = shorten(before.text(self.source));
                 Some(
-                    Finding::error(rules::MISSING_OPERATOR, span, format!("{shown} directly follows `{left}` without an operator"))
+                    Finding::error(rules::MISSING_OPERATOR, span, format!("{token} directly follows `{left}` without an operator"))
                         .why("the operation between them is unknown")
                         .help("add the missing part: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
                 )

@@ -16,7 +16,7 @@ pub(crate) struct WantedResult {
 
 impl Row {
     /// `None` when it needs too many registers.
-    pub(crate) fn of(formula: &Formula) -> Option<Row> {
+    pub(crate) fn from_formula(formula: &Formula) -> Option<Row> {
         let load = |step: &FormulaStep| {
             if let FormulaStep::Load(field, index) = step { Some((*field, *index)) } else { None }
         };

@@ -23,7 +23,7 @@ pub(crate) struct Args {
 }
 
 impl Args {
-    pub(crate) fn of(self, list: &[u32]) -> &[u32] {
+    pub(crate) fn operands(self, list: &[u32]) -> &[u32] {
         list.get(self.first as usize..(self.first + self.count) as usize).unwrap_or(&[])
     }
 }

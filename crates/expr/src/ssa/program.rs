@@ -106,7 +106,7 @@ pub(crate) enum Representation {
 }
 
 impl Representation {
-    pub(crate) fn of(ty: Type) -> Representation {
+    pub(crate) fn for_type(ty: Type) -> Representation {
         match ty {
             Type::Number => Representation::Number,
             Type::Boolean => Representation::Boolean,
@@ -123,13 +123,13 @@ impl SsaFunction {
     }
 
     /// The number, if it is known.
-    pub(crate) fn known(&self, number: Num) -> Option<f64> {
+    pub(crate) fn constant(&self, number: Num) -> Option<f64> {
         let at = self.numbers.binary_search_by_key(&number, |(n, _)| *n).ok()?;
         self.numbers.get(at).map(|(_, x)| *x)
     }
 
     /// The value, if it is known.
-    pub(crate) fn known_value(&self, value: Val) -> Option<&Value> {
+    pub(crate) fn constant_value(&self, value: Val) -> Option<&Value> {
         let value = self.same.value(value);
         let at = self.values.binary_search_by_key(&value, |(v, _)| *v).ok()?;
         self.values.get(at).map(|(_, x)| x)

@@ -266,7 +266,7 @@ impl Machine<'_> {
 
     /// The values of a list of operands.
     pub(super) fn operand_values(&self, args: Args, unit: &MachineFunction, f: RegisterFrame) -> Vec<Value> {
-        args.of(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
+        args.operands(&unit.args).iter().map(|a| self.val(f, Val(*a)).clone()).collect()
     }
 
     /// What belongs to the object of a computed name.

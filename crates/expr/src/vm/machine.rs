@@ -193,7 +193,7 @@ impl Machine<'_> {
                     self.put(f, dst, self.num(f, select(self.num(f, test), a, b)));
                 }
                 Op::Move(dst, src) => self.put(f, dst, self.num(f, src)),
-                Op::Math(dst, function, args) => self.apply_math(dst, function, args.of(&unit.args), f),
+                Op::Math(dst, function, args) => self.apply_math(dst, function, args.operands(&unit.args), f),
                 Op::Formula(formula) => self.run_formula::<WATCHED>(formula, unit, f),
                 Op::PassNumber(k, src) => {
                     let x = self.num(f, src);

@@ -28,7 +28,7 @@ impl Machine<'_> {
             Op::Binary(..) => sides.is_some_and(|(_, a, b)| a.is_nan() || b.is_nan()),
             Op::Unary(_, _, a) => self.num(f, a).is_nan(),
             Op::Math(_, function, args) => {
-                let numbers = args.of(&unit.args);
+                let numbers = args.operands(&unit.args);
                 // The extreme of nothing is not a number that anything was measured of.
                 (numbers.is_empty() || numbers.iter().any(|n| self.num(f, Num(*n)).is_nan()))
                     && !function.gives_boolean()
@@ -147,7 +147,7 @@ impl Machine<'_> {
     }
 
     fn any_without_number(&self, args: Args, unit: &MachineFunction, f: RegisterFrame) -> bool {
-        args.of(&unit.args).iter().any(|a| self.has_no_number(f, Val(*a)))
+        args.operands(&unit.args).iter().any(|a| self.has_no_number(f, Val(*a)))
     }
 
     fn is_empty_list(&self, f: RegisterFrame, list: Val) -> bool {
@@ -169,7 +169,7 @@ impl Machine<'_> {
     }
 
     fn method_looks(&self, name: MethodId, args: Args, unit: &MachineFunction, f: RegisterFrame) -> bool {
-        let Some((receiver, args)) = args.of(&unit.args).split_first() else { return false };
+        let Some((receiver, args)) = args.operands(&unit.args).split_first() else { return false };
         let nan = self.becomes(name, self.val(f, Val(*receiver)));
         nan.of_elements() && self.has_no_number(f, Val(*receiver))
             || nan.of_arguments() && args.iter().any(|a| self.has_no_number(f, Val(*a)))

@@ -59,7 +59,7 @@ impl Machine<'_> {
             }
 
             Op::CallHost(dst, function, args) => {
-                self.call_host(code, dst, function, args.of(&unit.args), f)?
+                self.call_host(code, dst, function, args.operands(&unit.args), f)?
             }
             Op::Store(field, index, src) => self.store(field, index as usize, self.num(f, src))?,
             Op::StoreAt(view, index, src) => {

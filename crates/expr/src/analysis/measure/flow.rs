@@ -31,14 +31,14 @@ pub(crate) fn measured(
     let mut all = Measured::default();
     for (id, unit) in form.units.iter().enumerate() {
         let mut work = MeasureWalk::new(&around, id as u32, unit);
-        work.look();
+        work.iterate_to_fixpoint();
         let found = work.found;
         if id == 0 {
             all.value = found.value;
         }
         for (slot, measure) in found.variables {
-            let known = all.variables.entry(slot).or_insert(Measure::Anything);
-            *known = known.or(measure);
+            let measure_so_far = all.variables.entry(slot).or_insert(Measure::Anything);
+            *measure_so_far = measure_so_far.or(measure);
         }
         all.stores.extend(found.stores);
         all.clashes.extend(found.clashes);
@@ -91,7 +91,7 @@ impl<'f> MeasureWalk<'f> {
     }
 
     /// Looks at everything until nothing changes.
-    pub(super) fn look(&mut self) {
+    pub(super) fn iterate_to_fixpoint(&mut self) {
         if !self.unit.blocks.iter().any(|b| matches!(b.end, Terminator::Again(_))) {
             return self.round();
         }
@@ -149,7 +149,7 @@ impl<'f> MeasureWalk<'f> {
         for (at, measure) in places.iter().zip(given) {
             work.set(*at, *measure);
         }
-        work.look();
+        work.iterate_to_fixpoint();
         self.wild |= work.wild;
         (work.found.value, places.iter().map(|at| work.at(*at)).collect())
     }
@@ -183,14 +183,14 @@ impl<'f> MeasureWalk<'f> {
 
     pub(super) fn number(&self, n: Num) -> Measure {
         let n = self.unit.same.number(n);
-        match self.unit.known(n) {
+        match self.unit.constant(n) {
             Some(_) => Measure::Anything,
             None => self.numbers.get(&n.0).copied().unwrap_or_default(),
         }
     }
 
     pub(super) fn value(&self, v: Val) -> Measure {
-        match self.unit.known_value(v) {
+        match self.unit.constant_value(v) {
             Some(Value::Number(_) | Value::Null | Value::Undefined | Value::String(_)) => Measure::Anything,
             Some(Value::View(view)) => self.access(whole(*view)),
             Some(_) => Measure::Unknown,
@@ -200,7 +200,7 @@ impl<'f> MeasureWalk<'f> {
 
     /// The number that stands for itself.
     pub(super) fn literal(&self, n: Num) -> Option<f64> {
-        self.unit.known(self.unit.same.number(n))
+        self.unit.constant(self.unit.same.number(n))
     }
 
     pub(super) fn access(&self, access: Access) -> Measure {
@@ -213,9 +213,9 @@ impl<'f> MeasureWalk<'f> {
 
     pub(super) fn variable(&self, slot: u32) -> Measure {
         // A function of the text may run at any time.
-        let known = self.around.given.variables.get(&slot).copied().unwrap_or(Measure::Anything);
-        let own = self.found.variables.get(&slot).filter(|_| self.stack == [0]);
-        own.map_or(known, |own| known.or(*own))
+        let before = self.around.given.variables.get(&slot).copied().unwrap_or(Measure::Anything);
+        let stored = self.found.variables.get(&slot).filter(|_| self.stack == [0]);
+        stored.map_or(before, |stored| before.or(*stored))
     }
 
     pub(super) fn clash(&mut self, span: &Span, a: Measure, b: Measure) {

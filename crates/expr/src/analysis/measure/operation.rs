@@ -71,10 +71,10 @@ impl MeasureWalk<'_> {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
             Op::CallHost(d, function, args) => {
-                let args = args.of(&self.unit.args);
-                let first = args.first().and_then(|v| self.unit.known_value(Val(*v)));
+                let args = args.operands(&self.unit.args);
+                let first = args.first().and_then(|v| self.unit.constant_value(Val(*v)));
                 let gives = self.around.schema.gives(function, first.map(Value::to_number));
-                let m = gives.of(|i| args.get(i).map_or(Measure::Unknown, |v| self.value(Val(*v))));
+                let m = gives.resolve(|i| args.get(i).map_or(Measure::Unknown, |v| self.value(Val(*v))));
                 self.set(value(d), m);
             }
             Op::Aggregate(d, slot) => {
@@ -104,7 +104,7 @@ impl MeasureWalk<'_> {
         let value = Operand::Value;
         match *op {
             Op::List(d, args) => {
-                for v in args.of(&self.unit.args) {
+                for v in args.operands(&self.unit.args) {
                     self.join(value(d), self.value(Val(*v)));
                 }
                 self.join(value(d), Measure::Anything);
@@ -126,7 +126,7 @@ impl MeasureWalk<'_> {
             }
             Op::Method(d, name, args) => {
                 let args: Vec<Measure> =
-                    args.of(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
+                    args.operands(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
                 let m = handed::method(name, &args);
                 if let Some(receiver) = self.receiver(op).filter(|_| changes(name)) {
                     args.iter().skip(1).for_each(|m| self.join(value(receiver), *m));
@@ -135,7 +135,7 @@ impl MeasureWalk<'_> {
             }
             Op::Native(d, function, args) => {
                 let args: Vec<Measure> =
-                    args.of(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
+                    args.operands(&self.unit.args).iter().map(|v| self.value(Val(*v))).collect();
                 self.set(value(d), handed::free(function, &args));
             }
             Op::MethodList(d, name, receiver, list) => {
@@ -157,12 +157,12 @@ impl MeasureWalk<'_> {
         let (number, value) = (Operand::Number, Operand::Value);
         match *op {
             Op::Closure(d, unit, args) => {
-                let used = args.of(&self.unit.args).iter().map(|v| Val(*v)).collect();
+                let used = args.operands(&self.unit.args).iter().map(|v| Val(*v)).collect();
                 self.closures.insert(self.unit.same.value(d).0, (unit, used));
                 self.set(value(d), Measure::Unknown);
             }
             Op::Invoke(d, function, args) => {
-                let args = args.of(&self.unit.args).iter().map(|v| value(Val(*v))).collect();
+                let args = args.operands(&self.unit.args).iter().map(|v| value(Val(*v))).collect();
                 match self.closures.get(&self.unit.same.value(function).0).cloned() {
                     Some((unit, used)) => self.invoke(unit, args, used.into_iter().map(value).collect()),
                     None => {
@@ -222,12 +222,12 @@ impl MeasureWalk<'_> {
 
     /// What is in a list, a record or a shared place.
     fn held_by(&self, of: Val) -> Measure {
-        if self.wild && self.unit.known_value(of).is_none() { Measure::Unknown } else { self.value(of) }
+        if self.wild && self.unit.constant_value(of).is_none() { Measure::Unknown } else { self.value(of) }
     }
 
     fn receiver(&self, op: &Op) -> Option<Val> {
         match op {
-            Op::Method(_, _, args) => args.of(&self.unit.args).first().map(|v| Val(*v)),
+            Op::Method(_, _, args) => args.operands(&self.unit.args).first().map(|v| Val(*v)),
             _ => None,
         }
     }
@@ -289,7 +289,7 @@ impl MeasureWalk<'_> {
 
     /// What a function of `Math` gives.
     fn math(&mut self, function: math::MathFunction, args: Args, span: &Span) -> Measure {
-        let args: Vec<Num> = args.of(&self.unit.args).iter().map(|n| Num(*n)).collect();
+        let args: Vec<Num> = args.operands(&self.unit.args).iter().map(|n| Num(*n)).collect();
         let measures: Vec<Measure> = args.iter().map(|n| self.number(*n)).collect();
         let first = measures.first().copied().unwrap_or_default();
         let mut together = || {

@@ -49,7 +49,9 @@ impl LintPass<'_> {
     /// A fallback that can never be taken.
     #[inline(never)]
     pub(super) fn fallback(&mut self, op: LogicalOp, left: &Expr, span: Span) {
-        let Some(shape) = self.typed.shape(left.span).filter(|shape| shape.known.is_none()) else { return };
+        let Some(shape) = self.typed.shape(left.span).filter(|shape| shape.constant.is_none()) else {
+            return;
+        };
         if op != LogicalOp::Nullish || !matches!(shape.ty, Type::Number | Type::Boolean | Type::String) {
             return;
         }
@@ -63,9 +65,9 @@ impl LintPass<'_> {
 
     /// The first statement behind a `return` or a jump.
     pub(super) fn never_reached(&mut self, statements: &[Stmt]) {
-        let own = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
+        let runs = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
         let Some(at) = statements.iter().position(|statement| self.leaves(statement)) else { return };
-        if let Some(dead) = statements.iter().skip(at + 1).find(own) {
+        if let Some(dead) = statements.iter().skip(at + 1).find(runs) {
             self.found.push(
                 Finding::warning(rules::UNREACHABLE, dead.span, "this is never reached")
                     .why("the statement before it always leaves")
@@ -80,9 +82,9 @@ impl LintPass<'_> {
             StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue => true,
             StmtKind::Block(statements) => statements.iter().any(|inner| self.leaves(inner)),
             StmtKind::If { test, then, otherwise } => {
-                let known = self.typed.shape(test.span).and_then(|shape| shape.known.as_ref());
+                let constant = self.typed.shape(test.span).and_then(|shape| shape.constant.as_ref());
                 let otherwise = otherwise.as_ref().is_some_and(|otherwise| self.leaves(otherwise));
-                match known.map(Value::truthy) {
+                match constant.map(Value::truthy) {
                     Some(true) => self.leaves(then),
                     Some(false) => otherwise,
                     None => otherwise && self.leaves(then),

@@ -76,7 +76,7 @@ impl LintPass<'_> {
 /// What to write in place of a text, with the reasons for one without a number, one with a number, and an unknown one.
 fn instead(report: Finding, shape: &ExpressionShape, [none, number, unknown]: [&str; 3]) -> Finding {
     let span = Span::from(report.span.clone());
-    match shape.known.as_ref().map(Value::to_number) {
+    match shape.constant.as_ref().map(Value::to_number) {
         Some(x) if x.is_nan() => report.why(none).help("write the number"),
         Some(x) => {
             let meant = crate::number::to_text(x);

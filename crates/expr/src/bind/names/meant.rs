@@ -53,8 +53,8 @@ impl NameWalk<'_, '_> {
         let mut roots = schema.root_names();
         roots.retain(|root| fits(schema.root(root)));
         let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
-        let known = self.own_names().chain(roots.iter().map(String::as_str)).chain(words);
-        if let Some(meant) = nearest(name, known) {
+        let candidates = self.text_names().chain(roots.iter().map(String::as_str)).chain(words);
+        if let Some(meant) = nearest(name, candidates) {
             return Some(meant.to_owned());
         }
         if self.kept.contains(name) || self.around.globals.slot(name).is_some() {

@@ -18,8 +18,8 @@ impl<'a> NameWalk<'a, '_> {
 
     /// Forgets the names of a block, after a look into the functions that nothing named.
     pub(super) fn leave(&mut self, reach: usize) {
-        let own = self.reach.get(reach..).unwrap_or(&[]);
-        let held: Vec<usize> = own.iter().filter_map(|byte| self.names.declared.get(byte)?.holds).collect();
+        let block = self.reach.get(reach..).unwrap_or(&[]);
+        let held: Vec<usize> = block.iter().filter_map(|byte| self.names.declared.get(byte)?.holds).collect();
         held.into_iter().for_each(|function| self.visit(function));
         self.reach.truncate(reach);
     }

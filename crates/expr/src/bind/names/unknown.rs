@@ -75,7 +75,7 @@ impl NameWalk<'_, '_> {
         match self.meant(name, used) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
-                let own = match used {
+                let help = match used {
                     NameUse::Callee => {
                         "to define your own function, write `const f = (x) => …` first".to_owned()
                     }
@@ -83,9 +83,9 @@ impl NameWalk<'_, '_> {
                         format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
                     }
                 };
-                let mut known = self.root_names();
-                known.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report.why(format!("the names here are {}", list_names(&known))).help(own)
+                let mut names = self.root_names();
+                names.extend(["ctx".to_owned(), "Math".to_owned()]);
+                report.why(format!("the names here are {}", list_names(&names))).help(help)
             }
         }
     }
@@ -114,11 +114,11 @@ impl NameWalk<'_, '_> {
     /// The name that is probably meant by a misspelt one on the left of `=`.
     fn nearest(&self, name: &str) -> Option<String> {
         let roots = self.root_names();
-        nearest(name, self.own_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
+        nearest(name, self.text_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
     }
 
     /// The names in reach that the text declares.
-    pub(super) fn own_names(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn text_names(&self) -> impl Iterator<Item = &str> {
         self.reach.iter().filter_map(|byte| Some(self.names.declared.get(byte)?.name.as_str()))
     }
 }

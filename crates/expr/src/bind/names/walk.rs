@@ -343,8 +343,8 @@ impl<'a> NameWalk<'a, '_> {
         let mut function = self.function;
         while function != home {
             self.names.taken.entry(function).or_default().insert(byte);
-            let Some(known) = self.functions.get(&function) else { return };
-            function = known.around;
+            let Some(scope) = self.functions.get(&function) else { return };
+            function = scope.around;
         }
     }
 
@@ -362,7 +362,7 @@ impl<'a> NameWalk<'a, '_> {
                         if self.names.taken.entry(function).or_default().insert(byte) {
                             changed.insert(function);
                         }
-                        function = self.functions.get(&function).map_or(WHOLE, |known| known.around);
+                        function = self.functions.get(&function).map_or(WHOLE, |scope| scope.around);
                     }
                 }
             }
@@ -381,9 +381,9 @@ impl<'a> NameWalk<'a, '_> {
                 .help("split the text"),
             );
         }
-        let known =
+        let scope =
             FunctionScope { function, around: self.function, reach: self.reach.len(), visited: false };
-        self.functions.insert(function.span.start, known);
+        self.functions.insert(function.span.start, scope);
     }
 
     /// Looks through a function, once.
@@ -392,9 +392,9 @@ impl<'a> NameWalk<'a, '_> {
         if self.names.stopped {
             return;
         }
-        let Some(known) = self.functions.get_mut(&byte).filter(|known| !known.visited) else { return };
-        known.visited = true;
-        let (function, reach) = (known.function, known.reach.min(self.reach.len()));
+        let Some(scope) = self.functions.get_mut(&byte).filter(|scope| !scope.visited) else { return };
+        scope.visited = true;
+        let (function, reach) = (scope.function, scope.reach.min(self.reach.len()));
         if self.levels >= MAX_LEVELS {
             return self.too_deep(function.span);
         }

@@ -92,16 +92,16 @@ impl<'a> Binder<'a> {
     fn value_element(&mut self, object: Ir, index: &'a Expr, span: Span) -> Attempt<Ir> {
         let index = self.value(index)?;
         if let Some(n) = self.known_length(&object)
-            && let Some(Value::Number(x)) = index.known()
+            && let Some(Value::Number(x)) = index.as_constant()
             && (*x < 0.0 || *x >= n as f64)
         {
-            let shown = number::to_text(*x);
+            let text = number::to_text(*x);
             let count = if n == 1 { "1 element".into() } else { format!("{n} elements") };
             self.report(
                 Finding::error(
                     rules::INDEX_RANGE,
                     index.span,
-                    format!("index {shown} is past the end of this list"),
+                    format!("index {text} is past the end of this list"),
                 )
                 .why(format!("it has {count}, and reading past them gives `undefined`"))
                 .help(format!("indexes are 0 to {}", n.saturating_sub(1))),
@@ -130,12 +130,14 @@ impl<'a> Binder<'a> {
     /// The name in `ctx['name']`.
     pub(super) fn global_name(&mut self, index: &'a Expr) -> Attempt<GlobalName> {
         let ir = self.value(index)?;
-        match ir.known() {
+        match ir.as_constant() {
             Some(name @ (Value::String(_) | Value::Number(_))) => Ok(GlobalName::Known(name.to_string())),
             _ => {
                 // `'q' + i` names only what begins with `q`.
                 let begins = match &ir.kind {
-                    IrKind::Binary(crate::ast::BinaryOp::Add, left, _) => left.known().map(Value::to_string),
+                    IrKind::Binary(crate::ast::BinaryOp::Add, left, _) => {
+                        left.as_constant().map(Value::to_string)
+                    }
                     _ => None,
                 };
                 self.globals.mention_all(&begins.unwrap_or_default());
@@ -168,7 +170,7 @@ impl<'a> Binder<'a> {
                 .fix(span, object),
             );
         }
-        match (ir.known(), ir.ty) {
+        match (ir.as_constant(), ir.ty) {
             (Some(Value::Number(x)), _) => {
                 let at = self.known_index(field, *x, index.span)?;
                 Ok(Index::At(at))
@@ -188,7 +190,7 @@ impl<'a> Binder<'a> {
                     field.path,
                     range(field)
                 ));
-                report = match ir.known() {
+                report = match ir.as_constant() {
                     Some(Value::String(_)) => report.help(format!(
                         "to select an object by its name, write `{}` or similar",
                         self.words().choice
@@ -202,12 +204,10 @@ impl<'a> Binder<'a> {
 
     /// Checks an index whose value is known.
     pub(super) fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
-        let shown = number::to_text(x);
+        let text = number::to_text(x);
         if x < 0.0 {
-            let mut report =
-                Finding::error(rules::INDEX_NEGATIVE, span, format!("index {shown} is negative")).why(
-                    "indexes start at 0; JavaScript gives `undefined` here and does not count from the end",
-                );
+            let mut report = Finding::error(rules::INDEX_NEGATIVE, span, format!("index {text} is negative"))
+                .why("indexes start at 0; JavaScript gives `undefined` here and does not count from the end");
             report = match field.len() {
                 Some(n) if n as f64 + x >= 0.0 && x.fract() == 0.0 => {
                     report.help(format!("to count from the end, write `{}[{}]`", field.path, n as f64 + x))
@@ -218,7 +218,7 @@ impl<'a> Binder<'a> {
         }
         if x.fract() != 0.0 || !x.is_finite() {
             return self.refuse(
-                Finding::error(rules::INDEX_FRACTION, span, format!("index {shown} is not an integer"))
+                Finding::error(rules::INDEX_FRACTION, span, format!("index {text} is not an integer"))
                     .why("an element has an integer index; JavaScript gives `undefined` here")
                     .help("round it, as `Math.floor(x)`, or write an integer"),
             );
@@ -226,7 +226,7 @@ impl<'a> Binder<'a> {
         // Whole numbers beyond usize become usize::MAX, which is out of every range.
         let at = x as usize;
         if field.len().is_some_and(|n| at >= n) {
-            let report = out_of_range(field, &shown, span, self.words());
+            let report = out_of_range(field, &text, span, self.words());
             return self.refuse(report);
         }
         Ok(at)
@@ -353,7 +353,7 @@ impl<'a> Binder<'a> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
         let ir = self.value(arg)?;
-        let name = match (ir.known(), ir.ty) {
+        let name = match (ir.as_constant(), ir.ty) {
             (Some(Value::String(name)), _) => name.clone(),
             (None, Type::String | Type::Any | Type::Never) => {
                 if names.is_empty() {
@@ -365,7 +365,7 @@ impl<'a> Binder<'a> {
                 return Ok(Chosen::Computed(ir));
             }
             _ => {
-                let shown = if names.is_empty() {
+                let text = if names.is_empty() {
                     String::new()
                 } else {
                     format!("; the names are {}", list_names(&names))
@@ -377,7 +377,7 @@ impl<'a> Binder<'a> {
                         format!("a {noun} must be selected by its name, not by {}", ir.ty.describe()),
                     )
                     .why(format!("the indexes of objects change when the {} changes", self.words().model))
-                    .help(format!("write the name in quotes{shown}")),
+                    .help(format!("write the name in quotes{text}")),
                 );
             }
         };
@@ -425,10 +425,10 @@ fn owner(field: &Field, n: usize) -> String {
 }
 
 /// The finding for an index past the end.
-pub(super) fn out_of_range(field: &Field, shown: &str, span: Span, words: &Words) -> Finding {
+pub(super) fn out_of_range(field: &Field, text: &str, span: Span, words: &Words) -> Finding {
     let what = match field.is_empty() {
         true => format!("`{}` has no elements", field.path),
-        false => format!("index {shown} is past the end of `{}`", field.path),
+        false => format!("index {text} is past the end of `{}`", field.path),
     };
     past_the_end(field, span, what, words)
 }

@@ -213,7 +213,7 @@ pub(super) struct Binder<'a> {
     pub(super) keys: Vec<FactKey>,
     pub(super) variables: BTreeMap<FactKey, Variable>,
     /// Functions of the text.
-    pub(super) known: Vec<KnownFunction<'a>>,
+    pub(super) functions: Vec<KnownFunction<'a>>,
     /// The function that is bound.
     pub(super) unit: UnitId,
     /// The call whose method, written in the language, is bound.
@@ -257,7 +257,7 @@ impl<'a> Binder<'a> {
             tree: IrProgram { units: vec![IrFunction::default()], ..IrProgram::default() },
             keys: Vec::new(),
             variables: BTreeMap::new(),
-            known: Vec::new(),
+            functions: Vec::new(),
             unit: 0,
             site: None,
             returns: Vec::new(),
@@ -329,7 +329,7 @@ impl<'a> Binder<'a> {
     }
 
     /// A part as it is called in a message.
-    pub(super) fn shown(&self, span: Span) -> String {
+    pub(super) fn describe_span(&self, span: Span) -> String {
         match self.site {
             Some(site) => format!("the result of the function of `{}`", site.called()),
             None => format!("`{}`", self.text(span)),
@@ -371,7 +371,7 @@ impl<'a> Binder<'a> {
     /// Notes what an expression is.
     pub(super) fn note(&mut self, span: Span, ir: &Ir) {
         if self.site.is_none() {
-            self.typed.shapes.push((span, ExpressionShape::of(ir)));
+            self.typed.shapes.push((span, ExpressionShape::of_ir(ir)));
         }
     }
 
@@ -385,7 +385,7 @@ impl<'a> Binder<'a> {
     /// Notes what a value is needed for.
     pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Expectation) {
         if self.site.is_none() {
-            self.typed.wants.push((span, want, ExpressionShape::of(ir)));
+            self.typed.wants.push((span, want, ExpressionShape::of_ir(ir)));
         }
     }
 }

@@ -405,8 +405,8 @@ impl<'a> Binder<'a> {
         let message =
             format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
         let report = Finding::error(rules::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
-        let known = ir.known().map(|v| (v.type_of(), v.to_number()));
-        self.refuse(match known {
+        let constant = ir.as_constant().map(|v| (v.type_of(), v.to_number()));
+        self.refuse(match constant {
             Some((Type::String, x)) if !x.is_nan() => {
                 let meant = crate::number::to_text(x);
                 report.help(format!("write `{meant}` without quotes")).fix(ir.span, meant)
@@ -435,7 +435,7 @@ impl<'a> Binder<'a> {
             // Each argument reads and writes on its own account.
             let aggregates = std::mem::take(&mut self.aggregates);
             let variables = std::mem::take(&mut self.variables);
-            let known = std::mem::take(&mut self.known);
+            let functions = std::mem::take(&mut self.functions);
             let alone = IrProgram { units: vec![IrFunction::default()], ..IrProgram::default() };
             let tree = std::mem::replace(&mut self.tree, alone);
             let keys = std::mem::take(&mut self.keys);
@@ -453,7 +453,7 @@ impl<'a> Binder<'a> {
             let tree = std::mem::replace(&mut self.tree, tree);
             self.keys = keys;
             self.variables = variables;
-            self.known = known;
+            self.functions = functions;
             self.unit = unit;
             match bound {
                 Ok(Some(ir)) => {

@@ -12,14 +12,14 @@ use labspec_finding::{Finding, Span};
 impl<'a> Binder<'a> {
     /// A function that the text gives at this place.
     pub(super) fn new_function(&mut self, function: &'a Function) -> Entity {
-        self.known.push(KnownFunction {
+        self.functions.push(KnownFunction {
             function,
             key: self.key(function.span.start, FactKind::Result),
             around: self.unit,
             unit: None,
             site: self.site,
         });
-        Entity::Closure(self.known.len() - 1)
+        Entity::Closure(self.functions.len() - 1)
     }
 
     /// The place of a parameter, by which its type is kept.
@@ -31,32 +31,32 @@ impl<'a> Binder<'a> {
 
     /// The function as code, called with these types.
     fn unit_of(&mut self, at: usize, types: &[Type]) -> Attempt<UnitId> {
-        let Some(known) = self.known.get(at).cloned() else { return Err(Reported) };
-        let site = std::mem::replace(&mut self.site, known.site);
-        for (i, param) in known.function.params.iter().enumerate() {
+        let Some(called) = self.functions.get(at).cloned() else { return Err(Reported) };
+        let site = std::mem::replace(&mut self.site, called.site);
+        for (i, param) in called.function.params.iter().enumerate() {
             let key = self.param_key(param);
             self.facts.join(key);
             self.facts.see(key, types.get(i).copied().unwrap_or(Type::Undefined));
         }
-        let unit = known.unit.unwrap_or_else(|| self.bind_function(at, &known));
+        let unit = called.unit.unwrap_or_else(|| self.bind_function(at, &called));
         self.site = site;
         Ok(unit)
     }
 
-    fn bind_function(&mut self, at: usize, known: &KnownFunction<'a>) -> UnitId {
+    fn bind_function(&mut self, at: usize, called: &KnownFunction<'a>) -> UnitId {
         let unit = self.tree.units.len() as UnitId;
         self.tree.units.push(IrFunction::default());
-        if let Some(known) = self.known.get_mut(at) {
-            known.unit = Some(unit);
+        if let Some(called) = self.functions.get_mut(at) {
+            called.unit = Some(unit);
         }
-        self.facts.join(known.key);
-        let first = self.known.len();
+        self.facts.join(called.key);
+        let first = self.functions.len();
         let outer = (self.unit, self.loops, self.guards);
         (self.unit, self.loops, self.guards) = (unit, 0, 1);
-        let (params, body) = self.body(known.function);
+        let (params, body) = self.body(called.function);
         self.leave(first);
         (self.unit, self.loops, self.guards) = outer;
-        let result = self.facts.ty(known.key);
+        let result = self.facts.ty(called.key);
         if let Some(unit) = self.tree.units.get_mut(unit as usize) {
             unit.params = params;
             unit.body = body;
@@ -151,13 +151,13 @@ impl<'a> Binder<'a> {
 
     /// A function that nothing has called yet, as if it were called with anything.
     pub(super) fn bind_with_anything(&mut self, at: usize) {
-        let n = self.known.get(at).map_or(0, |k| k.function.params.len());
+        let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let _ = self.unit_of(at, &vec![Type::Any; n]);
     }
 
     /// A function as a value: it may be called from anywhere, with anything.
     pub(super) fn closure_value(&mut self, at: usize, span: Span) -> Attempt<Ir> {
-        let n = self.known.get(at).map_or(0, |k| k.function.params.len());
+        let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let unit = self.unit_of(at, &vec![Type::Any; n])?;
         self.capture_for(at);
         Ok(Ir::new(IrKind::Closure(unit), Type::Function, span))
@@ -165,8 +165,9 @@ impl<'a> Binder<'a> {
 
     /// What a called function uses, its caller must hand in.
     fn capture_for(&mut self, at: usize) {
-        let Some(known) = self.known.get(at) else { return };
-        let (FactKey { site, at, .. }, names) = (known.key, known.site.map_or(self.names, |site| site.names));
+        let Some(called) = self.functions.get(at) else { return };
+        let (FactKey { site, at, .. }, names) =
+            (called.key, called.site.map_or(self.names, |site| site.names));
         for byte in names.taken(at) {
             let found = self.variables.get(&FactKey { site, at: byte, what: FactKind::Name }).cloned();
             if let Some(found) = found.filter(|v| !matches!(v.meaning, VariableMeaning::Alias(_))) {
@@ -182,9 +183,9 @@ impl<'a> Binder<'a> {
             let items = self.items(args)?;
             return Ok(self.call_value(callee, items, span));
         }
-        let wanted = self.known.get(at).map_or(0, |k| k.function.params.len());
+        let wanted = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let needed = self
-            .known
+            .functions
             .get(at)
             .map_or(0, |k| k.function.params.iter().rposition(|p| p.default.is_none()).map_or(0, |i| i + 1));
         let mut values = Vec::new();
@@ -220,7 +221,7 @@ impl<'a> Binder<'a> {
         let types: Vec<Type> = values.iter().map(|v| v.ty).collect();
         let unit = self.unit_of(at, &types)?;
         self.capture_for(at);
-        let Some(key) = self.known.get(at).map(|k| k.key) else { return Err(Reported) };
+        let Some(key) = self.functions.get(at).map(|k| k.key) else { return Err(Reported) };
         let call = Ir::new(IrKind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
             return Ok(call);

@@ -219,12 +219,12 @@ impl<'a> Binder<'a> {
             return;
         }
         if let (Pattern::Record { entries, .. }, Entity::Value(ir)) = (pattern, &thing) {
-            let known: Vec<Attempt<Ir>> = entries
+            let values: Vec<Attempt<Ir>> = entries
                 .iter()
                 .filter(|_| ir.ty == Type::Record)
                 .map(|(key, _)| self.record_member(ir.clone(), key, key.span))
                 .collect();
-            if known.iter().any(Result::is_err) {
+            if values.iter().any(Result::is_err) {
                 return self.forget(pattern);
             }
         }

@@ -25,7 +25,7 @@ impl<'a> Binder<'a> {
         span: Span,
         steps: &mut Vec<IrStatement>,
     ) {
-        let known = self.known.len();
+        let functions = self.functions.len();
         let mut names: Vec<&Name> = Vec::new();
         if let Some(init) = init {
             if let StmtKind::Declare { declarators, .. } = &init.kind {
@@ -65,7 +65,7 @@ impl<'a> Binder<'a> {
             update: after,
             span,
         })));
-        self.leave(known);
+        self.leave(functions);
     }
 
     pub(super) fn while_loop(
@@ -81,7 +81,7 @@ impl<'a> Binder<'a> {
         let inside = self.body_of_loop(body);
         self.guards -= 1;
         if let Ok(ir) = bound {
-            if ir.known().is_some_and(Value::truthy) && !leaves(&inside) {
+            if ir.as_constant().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
                     Finding::error(rules::BUDGET, test.span, "this loop never ends")
                         .why("its condition is always true, and nothing in it leaves the loop")
@@ -108,7 +108,7 @@ impl<'a> Binder<'a> {
         steps: &mut Vec<IrStatement>,
     ) {
         let list = self.thing(items);
-        let known = self.known.len();
+        let functions = self.functions.len();
         // The list, how long it is and where the loop stands are kept in places without names.
         let counter = self.unnamed_local(span, FactKind::Counter, Type::Number);
         let read_counter = Ir::new(IrKind::Local(counter), Type::Number, items.span);
@@ -119,7 +119,7 @@ impl<'a> Binder<'a> {
             Ok(thing) => self.elements_of_value(thing, &read_counter, items.span, span, steps),
             Err(Reported) => Err(Reported),
         };
-        let Ok((length, item)) = elements else { return self.dead_loop(target, body, known) };
+        let Ok((length, item)) = elements else { return self.dead_loop(target, body, functions) };
         let mut turn = Vec::new();
         steps.push(IrStatement::Declare(counter, Ir::number(0.0, items.span)));
         let test = Ir::binary(BinaryOp::Less, read_counter, length, items.span);
@@ -143,7 +143,7 @@ impl<'a> Binder<'a> {
             update,
             span,
         })));
-        self.leave(known);
+        self.leave(functions);
     }
 
     /// A place that has no name in the text.
@@ -160,10 +160,10 @@ impl<'a> Binder<'a> {
             None => Ir::new(IrKind::Length(view_of(field)), Type::Number, span),
         };
         let index = Index::Computed(Box::new(counter.clone()));
-        let known = field.len().is_some();
+        let fixed = field.len().is_some();
         let mut item = self.load(field, index, span);
         // The counter stays below the length.
-        item.ty = if known { Type::Number } else { item.ty };
+        item.ty = if fixed { Type::Number } else { item.ty };
         (length, item)
     }
 
@@ -198,11 +198,11 @@ impl<'a> Binder<'a> {
     }
 
     /// A loop over something that is a mistake: its body may hold more of them.
-    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, known: usize) {
+    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, functions: usize) {
         self.hoist_pattern(target, &mut Vec::new());
         self.forget(target);
         self.body_of_loop(body);
-        self.leave(known);
+        self.leave(functions);
     }
 
     fn body_of_loop(&mut self, body: &'a Stmt) -> Vec<IrStatement> {
@@ -291,21 +291,24 @@ impl<'a> Binder<'a> {
             return Ok(());
         }
         if most >= n as f64 {
-            let shown = number::to_text(most);
+            let index_text = number::to_text(most);
             let text = self.text(index.span);
             let message = format!(
-                "in the last iteration of the loop, `{text}` is {shown}: past the end of `{}`",
+                "in the last iteration of the loop, `{text}` is {index_text}: past the end of `{}`",
                 field.path
             );
             return self.refuse(past_the_end(field, index.span, message, self.words()));
         }
         if least < 0.0 {
-            let shown = number::to_text(least);
+            let index_text = number::to_text(least);
             return self.refuse(
                 Finding::error(
                     rules::INDEX_NEGATIVE,
                     index.span,
-                    format!("in the loop, `{}` becomes {shown}, which is negative", self.text(index.span)),
+                    format!(
+                        "in the loop, `{}` becomes {index_text}, which is negative",
+                        self.text(index.span)
+                    ),
                 )
                 .why("indexes start at 0; JavaScript gives `undefined` here")
                 .help(format!("indexes of `{}` are{}", field.path, range(field))),

@@ -214,7 +214,7 @@ impl<'a> Binder<'a> {
     /// The second argument of `.set`, where it is known.
     fn known_offset(&mut self, offset: &'a Expr) -> Attempt<Option<usize>> {
         let ir = self.operand(offset)?;
-        match ir.known() {
+        match ir.as_constant() {
             Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => Ok(Some(*x as usize)),
             Some(_) => {
                 let report = Finding::error(

@@ -61,7 +61,7 @@ impl<'a> Binder<'a> {
         if let IrKind::Call(id, _) = &ir.kind {
             let info = self.schema.function(*id);
             match info.members.iter().find(|(member, _)| *member == name.text) {
-                Some((_, known)) => ty = *known,
+                Some((_, found)) => ty = *found,
                 None if info.members.is_empty() => {}
                 None => {
                     let names: Vec<String> = info.members.iter().map(|(n, _)| n.clone()).collect();
@@ -171,8 +171,8 @@ impl<'a> Binder<'a> {
         }
         if of.is_empty() {
             // Any of the objects shows what members there are.
-            let known = names.first().and_then(|n| self.schema.lookup(id, n));
-            let report = match known {
+            let object = names.first().and_then(|n| self.schema.lookup(id, n));
+            let report = match object {
                 Some(object) => self.unknown_member(object, name, span),
                 None => Finding::error(
                     rules::UNKNOWN_FIELD,
@@ -207,9 +207,9 @@ impl<'a> Binder<'a> {
     /// Notes that an array becomes a value.
     pub(super) fn show(&mut self, field: &Field) -> View {
         let view = view_of(field);
-        let shown = crate::ir::ExposedView { view, elem: field.elem, assignable: field.is_assignable() };
-        if !self.tree.views.contains(&shown) {
-            self.tree.views.push(shown);
+        let exposed = crate::ir::ExposedView { view, elem: field.elem, assignable: field.is_assignable() };
+        if !self.tree.views.contains(&exposed) {
+            self.tree.views.push(exposed);
         }
         view
     }

@@ -32,20 +32,20 @@ impl<'a> Binder<'a> {
 
     /// Statements with names of their own.
     pub(super) fn block(&mut self, statements: &'a [Stmt]) -> Vec<IrStatement> {
-        let known = self.known.len();
+        let functions = self.functions.len();
         let mut steps = Vec::new();
         self.hoist(statements, &mut steps);
         for statement in statements {
             self.statement(statement, &mut steps);
         }
-        self.leave(known);
+        self.leave(functions);
         steps
     }
 
     /// The end of a block: functions that nothing called are looked through for mistakes.
-    pub(super) fn leave(&mut self, known: usize) {
-        for i in known..self.known.len() {
-            if self.known.get(i).is_some_and(|k| k.unit.is_none()) {
+    pub(super) fn leave(&mut self, functions: usize) {
+        for i in functions..self.functions.len() {
+            if self.functions.get(i).is_some_and(|k| k.unit.is_none()) {
                 self.bind_with_anything(i);
             }
         }
@@ -133,7 +133,7 @@ impl<'a> Binder<'a> {
         };
         variable.ready = true;
         // A name for a known value that never changes is that value.
-        if value.known().is_some() && !changes {
+        if value.as_constant().is_some() && !changes {
             variable.meaning = VariableMeaning::Alias(Entity::Value(value));
             return;
         }
@@ -174,13 +174,13 @@ impl<'a> Binder<'a> {
     pub(super) fn capture(&mut self, variable: &Variable) {
         let mut unit = self.unit;
         while unit != variable.unit {
-            let Some(known) = self.known.iter().find(|k| k.unit == Some(unit)) else { return };
+            let Some(called) = self.functions.iter().find(|k| k.unit == Some(unit)) else { return };
             if let Some(unit) = self.tree.units.get_mut(unit as usize)
                 && !unit.captures.contains(&variable.id)
             {
                 unit.captures.push(variable.id);
             }
-            unit = known.around;
+            unit = called.around;
         }
     }
 }

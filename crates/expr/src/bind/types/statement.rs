@@ -31,7 +31,7 @@ impl<'a> Binder<'a> {
                     self.guards += 1;
                 }
                 let Ok(test) = test else { return };
-                match test.known().filter(|v| !v.is_nan()).map(Value::truthy) {
+                match test.as_constant().filter(|v| !v.is_nan()).map(Value::truthy) {
                     Some(true) => steps.extend(then),
                     Some(false) => steps.extend(otherwise),
                     None => steps.push(IrStatement::If(test, then, otherwise)),

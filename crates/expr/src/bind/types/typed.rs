@@ -24,7 +24,7 @@ pub(in crate::bind) struct TypedText {
 pub(in crate::bind) struct ExpressionShape {
     pub(in crate::bind) ty: Type,
     /// The value, where it is known.
-    pub(in crate::bind) known: Option<Value>,
+    pub(in crate::bind) constant: Option<Value>,
     /// The element of a field of the host that it is.
     pub(in crate::bind) element: Option<(FieldKey, usize)>,
 }
@@ -40,13 +40,13 @@ pub(in crate::bind) enum Expectation {
 }
 
 impl ExpressionShape {
-    pub(super) fn of(ir: &Ir) -> ExpressionShape {
-        ExpressionShape { ty: ir.ty, known: ir.known().cloned(), element: element(ir) }
+    pub(super) fn of_ir(ir: &Ir) -> ExpressionShape {
+        ExpressionShape { ty: ir.ty, constant: ir.as_constant().cloned(), element: element(ir) }
     }
 
     /// The value, where it is a known number.
     pub(in crate::bind) fn number(&self) -> Option<f64> {
-        match self.known {
+        match self.constant {
             Some(Value::Number(x)) => Some(x),
             _ => None,
         }

@@ -69,7 +69,7 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn not_single(&self, ir: &Ir) -> Finding {
         let text = self.text(ir.span);
-        let message = format!("{} is {}, not a single value", self.shown(ir.span), ir.ty.describe());
+        let message = format!("{} is {}, not a single value", self.describe_span(ir.span), ir.ty.describe());
         let code =
             if matches!(ir.ty, Type::List | Type::View) { rules::WHOLE_ARRAY } else { rules::NOT_A_VALUE };
         let report = Finding::error(code, ir.span, message);

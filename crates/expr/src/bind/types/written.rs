@@ -56,7 +56,7 @@ impl<'a> Binder<'a> {
         }
         let things = things.into_iter().collect::<Attempt<Vec<Entity>>>()?;
         let Body::Block(statements) = &function.body else { return Err(Reported) };
-        let known = self.known.len();
+        let functions = self.functions.len();
         // A text has fewer than 65,536 bytes: a call inside a written method keeps the call around it apart.
         let (id, call) = match self.site {
             Some(outer) => (outer.id << 16 | span.end, outer.call),
@@ -82,7 +82,7 @@ impl<'a> Binder<'a> {
         }
         let result = self.new_local(key, false);
         let ty = self.facts.ty(key);
-        self.leave(known);
+        self.leave(functions);
         (self.site, self.guards) = outer;
         steps.push(IrStatement::Inline(result, body, span));
         let value = Ir::new(IrKind::Local(result), ty, span);
