@@ -215,7 +215,7 @@ fn rooms_of_the_engine_look_down() {
 /// The modules of the language, from the lowest to the highest. Binding stands after programs: the arguments of an aggregate are
 /// programs.
 const LANGUAGE: [&str; 37] = [
-    "words",
+    "host_terms",
     "rules",
     "number",
     "operators",

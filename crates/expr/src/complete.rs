@@ -244,7 +244,7 @@ impl SuggestionList<'_> {
         if matches!(of, Type::View | Type::List | Type::String) {
             self.add("length", Suggested::Field, ".length", "the number of elements");
         }
-        for row in natives::rows().filter(|row| of != Type::Any && row.is_of(of)) {
+        for row in natives::public_rows().filter(|row| of != Type::Any && row.is_of(of)) {
             self.add(row.name, Suggested::Function, row.title(), row.doc);
         }
     }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use crate::global_names::GlobalNames;
+use crate::host_terms::HostTerms;
 use crate::rules;
-use crate::words::Words;
 use labspec_finding::{Finding, Span, nearest};
 
 /// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
@@ -89,7 +89,7 @@ impl Globals {
 
     /// Variables that a program reads and nothing ever stores: a warning for each first reading in a program.
     /// To be asked when all texts of the lab are compiled.
-    pub fn unset(&self, words: &Words) -> Vec<(ProgramId, Finding)> {
+    pub fn unset(&self, host_terms: &HostTerms) -> Vec<(ProgramId, Finding)> {
         let mut stored = self.given.clone();
         for usage in self.uses.iter().filter(|u| u.stores) {
             if let Some(is_stored) = stored.get_mut(usage.slot as usize) {
@@ -109,8 +109,10 @@ impl Globals {
                 continue;
             }
             found.push((usage.slot, usage.program));
-            reports
-                .push((usage.program, unset_report(self.name(usage.slot), usage.span, &stored_names, words)));
+            reports.push((
+                usage.program,
+                unset_report(self.name(usage.slot), usage.span, &stored_names, host_terms),
+            ));
         }
         reports
     }
@@ -160,14 +162,14 @@ impl Globals {
     }
 }
 
-fn unset_report(name: &str, span: Span, stored_names: &[&str], words: &Words) -> Finding {
+fn unset_report(name: &str, span: Span, stored_names: &[&str], host_terms: &HostTerms) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
     match nearest(name, stored_names.iter().copied()) {
         Some(meant) => {
             report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
         }
-        None => report.help(words.store.replace("{name}", name)),
+        None => report.help(host_terms.store.replace("{name}", name)),
     }
 }
 
@@ -184,7 +186,7 @@ mod tests {
         globals.mention("peek", second, Span::new(4, 12), false);
         globals.mention("peek", second, Span::new(14, 22), false);
         globals.mention("angle", second, Span::new(24, 33), false);
-        let found = globals.unset(&Words::PLAIN);
+        let found = globals.unset(&HostTerms::PLAIN);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].0, second);
         assert_eq!(found[0].1.help.as_deref(), Some("did you mean `ctx.peak`?"));

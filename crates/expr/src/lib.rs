@@ -38,6 +38,7 @@ mod global_names;
 mod globals;
 mod heap;
 mod host;
+mod host_terms;
 mod ir;
 mod lex;
 mod lower;
@@ -58,7 +59,6 @@ mod types;
 mod value;
 mod vm;
 mod watch;
-mod words;
 
 #[cfg(test)]
 mod mock;
@@ -81,6 +81,7 @@ pub use effects::{Access, Effects};
 pub use globals::{Globals, ProgramId};
 pub use heap::{Full, Heap};
 pub use host::Host;
+pub use host_terms::HostTerms;
 pub use labspec_finding::{Finding, Fix, Severity, Span, floor};
 pub use math::hypot;
 pub use natives::to_fixed;
@@ -90,8 +91,9 @@ pub use print::{format_expression, format_statements, print, print_statements};
 pub use program::{Aggregate, Program};
 pub use reference::language_page;
 pub use runtime_event::{EventKind, RuntimeError, RuntimeEvent};
-pub use schema::{Advice, Entry, Field, FieldKind, FunctionInfo, Gives, Help, Param, Role, Schema, Touch};
+pub use schema::{
+    AngleAdvice, Entry, Field, FieldKind, FunctionInfo, Help, Param, ResultDimension, Role, Schema, Touch,
+};
 pub use types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
 pub use value::{Ref, Value, View};
 pub use watch::{Comparison, Watch};
-pub use words::Words;

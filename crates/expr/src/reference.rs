@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use crate::ast::{BinaryOp, LogicalOp};
+use crate::host_terms::HostTerms;
 use crate::math;
 use crate::natives::{self, ReceiverKind};
 use crate::parse;
-use crate::words::Words;
 
 /// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
 const GRAMMAR: &str = r#"
@@ -41,43 +41,47 @@ place        = name | postfix "." name | postfix "[" expression "]" ;
 "#;
 
 /// A row of a table: how it is written, what it gives, an example with its value.
-struct Native {
+struct ReferenceRow {
     name: String,
     doc: &'static str,
     example: (String, &'static str),
 }
 
-fn rows(of: &[ReceiverKind], array: &str) -> Vec<Native> {
-    let natives = natives::rows().filter(|r| of.contains(&r.on));
+fn rows(of: &[ReceiverKind], array: &str) -> Vec<ReferenceRow> {
+    let natives = natives::public_rows().filter(|r| of.contains(&r.on));
     let name = |row: &natives::Native| match row.calls() {
         true if row.on == ReceiverKind::Nothing => format!("{}(v, f)", row.name),
         true => format!("{}(f)", row.name),
         false => row.name.to_owned(),
     };
-    natives.map(|r| Native { name: name(r), doc: r.doc, example: r.example(array) }).collect()
+    natives.map(|r| ReferenceRow { name: name(r), doc: r.doc, example: r.example(array) }).collect()
 }
 
-fn functions_of_math() -> Vec<Native> {
+fn functions_of_math() -> Vec<ReferenceRow> {
     let name = |name: &str| if name.starts_with("is") { name.to_owned() } else { format!("Math.{name}") };
     let rows = math::DOCS.iter();
-    rows.map(|&(n, doc, (source, value))| Native { name: name(n), doc, example: (source.into(), value) })
-        .collect()
+    rows.map(|&(n, doc, (source, value))| ReferenceRow {
+        name: name(n),
+        doc,
+        example: (source.into(), value),
+    })
+    .collect()
 }
 
 /// A section with a table.
-fn table(out: &mut String, title: &str, rows: Vec<Native>) {
+fn table(out: &mut String, title: &str, rows: Vec<ReferenceRow>) {
     let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
-    for Native { name, doc, example: (source, value) } in rows {
+    for ReferenceRow { name, doc, example: (source, value) } in rows {
         let cell = |s: &str| s.replace('|', "\\|");
         let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(&source), cell(value));
     }
 }
 
 /// The page, in Markdown, with the words of a host.
-pub fn language_page(words: &Words) -> String {
+pub fn language_page(host_terms: &HostTerms) -> String {
     let mut out = format!(
         "# The language of {0}s\n\nThe core of JavaScript that {0}s use. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that returns an operand, numbers to text. The functions of `Math` whose result the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) are the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
-        words.lesson
+        host_terms.lesson
     );
     out.push_str(GRAMMAR);
     out.push_str("```\n\nA statement ends with `;`, with a line end where JavaScript ends it, or with `}`. Comments are `// …` and `/* … */`.\n\n## Operators\n\nFrom the loosest to the tightest:\n\n| level | operators |\n|---|---|\n");
@@ -106,7 +110,7 @@ pub fn language_page(words: &Words) -> String {
         ("Functions", &[ReceiverKind::Nothing]),
     ];
     for (title, of) in sections {
-        table(&mut out, title, rows(of, words.array));
+        table(&mut out, title, rows(of, host_terms.array));
     }
     table(&mut out, "`Math`", functions_of_math());
     out.push_str("\nConstants: ");
@@ -120,7 +124,7 @@ pub fn language_page(words: &Words) -> String {
         parse::MAX_SOURCE,
         parse::MAX_DEPTH,
         crate::vm::MAX_WORK / crate::code::OPERATION,
-        words.world
+        host_terms.world
     );
     out
 }
@@ -143,7 +147,8 @@ mod tests {
             ],
             "data.qpos",
         );
-        for Native { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
+        for ReferenceRow { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math())
+        {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");
         }
@@ -152,6 +157,6 @@ mod tests {
             let example = math::DOCS.iter().find(|(n, ..)| *n == name).map(|(.., (source, _))| *source);
             assert!(example.is_some_and(|e| e.contains(&format!("Math.{name}("))), "{name}: {example:?}");
         }
-        assert!(language_page(&Words::PLAIN).contains("| `map(f)` |"));
+        assert!(language_page(&HostTerms::PLAIN).contains("| `map(f)` |"));
     }
 }

@@ -3,10 +3,10 @@
 //! them back.
 
 use crate::dimension::{Dimension, Measure};
+use crate::host_terms::HostTerms;
 use crate::rules::Rule;
 use crate::types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
 use crate::value::Value;
-use crate::words::Words;
 
 /// What a name stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,7 +124,7 @@ pub struct FunctionInfo {
     /// What it writes.
     pub writes: Touch,
     /// What the numbers that it gives measure.
-    pub gives: Gives,
+    pub gives: ResultDimension,
     /// One line of documentation.
     pub doc: String,
 }
@@ -145,7 +145,7 @@ pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
 
 /// What the numbers of a result measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Gives {
+pub enum ResultDimension {
     /// That is not known.
     #[default]
     Unknown,
@@ -155,13 +155,13 @@ pub enum Gives {
     Argument(usize, Dimension),
 }
 
-impl Gives {
+impl ResultDimension {
     /// What a result measures whose arguments measure this.
     pub(crate) fn resolve(self, argument: impl Fn(usize) -> Measure) -> Measure {
         match self {
-            Gives::Unknown => Measure::Unknown,
-            Gives::This(dimension) => Measure::Known(dimension),
-            Gives::Argument(i, times) => match argument(i) {
+            ResultDimension::Unknown => Measure::Unknown,
+            ResultDimension::This(dimension) => Measure::Known(dimension),
+            ResultDimension::Argument(i, times) => match argument(i) {
                 Measure::Known(d) => d.product(times).map_or(Measure::Unknown, Measure::Known),
                 // A number of the text may stand for anything, and so may what it is multiplied with.
                 other => other,
@@ -202,12 +202,12 @@ pub enum Role {
     /// An angle in rad.
     Angle,
     /// A number that is easily taken for an angle and is none.
-    NoAngle(&'static Advice),
+    NoAngle(&'static AngleAdvice),
 }
 
 /// What a host says of a mistake that the language finds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Advice {
+pub struct AngleAdvice {
     /// The rule of the host that is broken.
     pub rule: &'static Rule,
     /// What it is that was written.
@@ -287,7 +287,7 @@ pub trait Schema {
     }
 
     /// What the result of a function measures; `first` is its first argument, where that is a known number or name.
-    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> ResultDimension {
         let _ = first;
         self.function(function).gives
     }
@@ -306,8 +306,8 @@ pub trait Schema {
     }
 
     /// What the host calls its things.
-    fn words(&self) -> &'static Words {
-        &Words::PLAIN
+    fn host_terms(&self) -> &'static HostTerms {
+        &HostTerms::PLAIN
     }
 
     /// What an author writes to have derived fields computed again, as `mj_forward`.

@@ -81,14 +81,14 @@ impl<'s> Compiler<'s> {
     /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
     pub fn expression(&mut self, source: &str) -> Compiled {
         let Parsed { tree, diagnostics, quotes_left_to_host } =
-            parse::expression(source, self.schema.words(), self.tells);
+            parse::expression(source, self.schema.host_terms(), self.tells);
         self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Expression(&tree))
     }
 
     /// Statements: `setup`, `controller`, `apply`, `run`.
     pub fn statements(&mut self, source: &str) -> Compiled {
         let Parsed { tree, diagnostics, quotes_left_to_host } =
-            parse::statements(source, self.schema.words(), self.tells);
+            parse::statements(source, self.schema.host_terms(), self.tells);
         self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Statements(&tree))
     }
 
@@ -96,7 +96,7 @@ impl<'s> Compiler<'s> {
     /// may be anything.
     pub fn assignment(&mut self, target: &str) -> Compiled {
         let Parsed { tree, diagnostics, quotes_left_to_host } =
-            parse::expression(target, self.schema.words(), self.tells);
+            parse::expression(target, self.schema.host_terms(), self.tells);
         self.compile(target, diagnostics, quotes_left_to_host, SourceTree::Target(&tree))
     }
 

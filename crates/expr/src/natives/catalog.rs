@@ -16,7 +16,7 @@ use crate::value::Value;
 fn all() -> &'static [&'static Native] {
     static ALL: OnceLock<Vec<&'static Native>> = OnceLock::new();
     ALL.get_or_init(|| {
-        let files = [list::ROWS, each::ROWS, text::ROWS, number::ROWS, object::ROWS, object::WRITTEN];
+        let files = [list::ROWS, each::ROWS, text::ROWS, number::ROWS, object::ROWS, object::SOURCE_ROWS];
         let mut all: Vec<&Native> = files.into_iter().flatten().collect();
         all.sort_by_key(|row| row.name);
         all
@@ -31,17 +31,17 @@ fn first(text: &str) -> Option<(u8, &'static Native)> {
 }
 
 /// The rows that a person may use.
-pub(crate) fn rows() -> impl Iterator<Item = &'static Native> {
+pub(crate) fn public_rows() -> impl Iterator<Item = &'static Native> {
     all().iter().copied().filter(|row| !row.name.starts_with('_'))
 }
 
 /// The method of this name, whatever it belongs to.
-pub(crate) fn name(text: &str) -> Option<MethodId> {
+pub(crate) fn find_method(text: &str) -> Option<MethodId> {
     first(text).filter(|(_, row)| row.on != ReceiverKind::Nothing).map(|(at, _)| MethodId(at))
 }
 
 /// The function of this name.
-pub(crate) fn free(text: &str) -> Option<FreeFunctionId> {
+pub(crate) fn find_function(text: &str) -> Option<FreeFunctionId> {
     first(text).filter(|(_, row)| row.on == ReceiverKind::Nothing).map(|(at, _)| FreeFunctionId(at))
 }
 
@@ -57,8 +57,8 @@ impl FreeFunctionId {
     }
 
     /// The function of the language that computes it with so many arguments.
-    pub(crate) fn written(self, arguments: usize) -> Option<&'static Function> {
-        of_one_name(self.0).find_map(|row| row.written(arguments))
+    pub(crate) fn source_function(self, arguments: usize) -> Option<&'static Function> {
+        of_one_name(self.0).find_map(|row| row.source_function(arguments))
     }
 }
 
@@ -80,9 +80,9 @@ impl MethodId {
 
 impl Native {
     /// The function of the language that computes it with so many arguments.
-    pub(crate) fn written(&self, arguments: usize) -> Option<&'static Function> {
+    pub(crate) fn source_function(&self, arguments: usize) -> Option<&'static Function> {
         static READ: OnceLock<Vec<(&str, Function)>> = OnceLock::new();
-        let Implementation::Written(texts) = self.body else { return None };
+        let Implementation::Source(texts) = self.body else { return None };
         let (_, text) = texts.iter().find(|(n, _)| *n == arguments)?;
         let read = READ.get_or_init(|| {
             let texts = all().iter().flat_map(|row| row.texts());
@@ -93,8 +93,8 @@ impl Native {
 }
 
 /// All functions of the language that compute methods.
-pub(crate) fn written() -> impl Iterator<Item = &'static Function> {
-    all().iter().flat_map(|row| row.texts().iter().filter_map(|(n, _)| row.written(*n)))
+pub(crate) fn source_functions() -> impl Iterator<Item = &'static Function> {
+    all().iter().flat_map(|row| row.texts().iter().filter_map(|(n, _)| row.source_function(*n)))
 }
 
 /// A function, read.
@@ -106,7 +106,7 @@ fn function(text: &str) -> Option<Function> {
 }
 
 /// The row by which the machine computes a method of a value, if it has it.
-pub(crate) fn row_of(heap: &Heap, name: MethodId, receiver: &Value) -> Option<&'static Native> {
+pub(crate) fn find_row(heap: &Heap, name: MethodId, receiver: &Value) -> Option<&'static Native> {
     let list = matches!(heap.object(receiver), HeapObject::List(_));
     // A typed array alone has `set` and `subarray`.
     if list && matches!(name.text(), "set" | "subarray") {
@@ -123,7 +123,7 @@ pub(crate) fn row_of(heap: &Heap, name: MethodId, receiver: &Value) -> Option<&'
 
 /// Calls a method.
 pub(crate) fn call(env: &mut Env<'_>, name: MethodId, receiver: &Value, args: &[Value]) -> NativeOutcome {
-    match row_of(env.heap, name, receiver).map(|row| &row.body) {
+    match find_row(env.heap, name, receiver).map(|row| &row.body) {
         Some(Implementation::Run(run, ..)) => run(env, receiver, args),
         _ => Err(no_method(receiver, name.text())),
     }
@@ -133,7 +133,7 @@ pub(crate) fn call(env: &mut Env<'_>, name: MethodId, receiver: &Value, args: &[
 pub(crate) fn call_free(env: &mut Env<'_>, function: FreeFunctionId, args: &[Value]) -> NativeOutcome {
     match function.row().body {
         Implementation::Run(run, ..) => run(env, &Value::Undefined, args),
-        Implementation::Written(_) => Ok(Value::Undefined), // not reached: the binder writes these out
+        Implementation::Source(_) => Ok(Value::Undefined), // not reached: the binder writes these out
     }
 }
 
@@ -187,7 +187,7 @@ mod tests {
         for row in all() {
             let lists = matches!(row.on, ReceiverKind::List | ReceiverKind::Growing | ReceiverKind::Untyped);
             // Every function written in the language states it by its text, and those alone.
-            assert_eq!(row.nan == NanBehaviour::Written, row.calls(), "{}", row.name);
+            assert_eq!(row.nan == NanBehaviour::Source, row.calls(), "{}", row.name);
             // Names with an underscore are called with what the texts of methods hand them: a list, and its length.
             if row.calls() || row.name.starts_with('_') || !(lists || row.on == ReceiverKind::Nothing) {
                 continue;
@@ -211,7 +211,7 @@ mod tests {
     fn every_method_that_is_written_is_read_without_a_mistake() {
         for (row, (n, text)) in all().iter().flat_map(|row| row.texts().iter().map(move |t| (row, t))) {
             assert!(parse_expression(text).diagnostics.is_empty(), "{}", row.name);
-            assert!(row.written(*n).is_some(), "{}", row.name);
+            assert!(row.source_function(*n).is_some(), "{}", row.name);
         }
     }
 
@@ -219,7 +219,7 @@ mod tests {
     fn the_machine_has_the_first_row_of_a_name() {
         // A function that the machine calls must not be one that is written out.
         for row in all().iter().filter(|row| row.on == ReceiverKind::Nothing) {
-            assert!(!free(row.name).unwrap().row().calls(), "{}", row.name);
+            assert!(!find_function(row.name).unwrap().row().calls(), "{}", row.name);
         }
         assert!(all().len() < 256);
     }

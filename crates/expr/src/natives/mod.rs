@@ -11,7 +11,9 @@ mod number;
 mod object;
 mod text;
 
-pub(crate) use catalog::{call, call_free, free, name, row_of, rows, written};
+pub(crate) use catalog::{
+    call, call_free, find_function, find_method, find_row, public_rows, source_functions,
+};
 pub(crate) use env::{Env, NativeError, charge, out_of_steps, too_long};
 pub(crate) use native::{NanBehaviour, Native, NativeResult, ReceiverKind};
 pub(crate) use number::NUMBER_CONSTANTS;

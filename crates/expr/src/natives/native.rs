@@ -49,7 +49,7 @@ pub(crate) enum NanBehaviour {
     /// Whether something is a number is what is asked for.
     Asks,
     /// It is lost where the text in the language loses it.
-    Written,
+    Source,
 }
 
 impl NanBehaviour {
@@ -71,7 +71,7 @@ pub(crate) enum Implementation {
     /// By functions of the language itself, with how many arguments each of them is called: what stands before the point
     /// is the first parameter. Where the method is called, the function is bound as if its text stood there, so that the
     /// types of that place decide how it is computed: a sum over an array of numbers never leaves the number registers.
-    Written(&'static [(usize, &'static str)]),
+    Source(&'static [(usize, &'static str)]),
 }
 
 /// A method, or a function.
@@ -120,10 +120,10 @@ macro_rules! table {
             on: $crate::natives::native::ReceiverKind::$on,
             gives: $crate::natives::native::NativeResult::Any,
             changes: !stringify!($($changes)?).is_empty(),
-            nan: $crate::natives::native::NanBehaviour::Written,
+            nan: $crate::natives::native::NanBehaviour::Source,
             doc: $doc,
             example: ($example, $value),
-            body: $crate::natives::native::Implementation::Written(&[($first, $text) $(, ($next, $more))?]),
+            body: $crate::natives::native::Implementation::Source(&[($first, $text) $(, ($next, $more))?]),
         },)*]
     };
 }
@@ -168,7 +168,7 @@ impl Native {
     pub(crate) fn arity(&self) -> (usize, usize) {
         match self.body {
             Implementation::Run(_, least, most) => (least, most),
-            Implementation::Written(texts) => {
+            Implementation::Source(texts) => {
                 (texts.first().map_or(0, |(n, _)| *n), texts.last().map_or(0, |(n, _)| *n))
             }
         }
@@ -176,7 +176,7 @@ impl Native {
 
     /// Whether it calls a function for every element.
     pub(crate) fn calls(&self) -> bool {
-        matches!(self.body, Implementation::Written(_))
+        matches!(self.body, Implementation::Source(_))
     }
 
     /// The example and its value, with an array of the host.
@@ -186,7 +186,7 @@ impl Native {
 
     /// The texts of the functions that compute it.
     pub(super) fn texts(&self) -> &'static [(usize, &'static str)] {
-        if let Implementation::Written(texts) = self.body { texts } else { &[] }
+        if let Implementation::Source(texts) = self.body { texts } else { &[] }
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) static ROWS: &[Native] = table! {
 };
 
 /// `Array.from` with a function for every element.
-pub(super) static WRITTEN: &[Native] = table! {
+pub(super) static SOURCE_ROWS: &[Native] = table! {
     "Array.from" Nothing: "Array.from([1, 2], x => 2 * x)" => "2,4", "a list of the results of a function for each element",
         2 => "(v, f) => { const l = Array.from(v), n = l.length, r = []; for (let i = 0; i < n; i++) r.push(f(l[i], i)); return r }";
 };

@@ -113,7 +113,7 @@ impl Parser<'_> {
             )),
             _ => report.help(format!(
                 "write a number, a name such as `{}`, or an expression in parentheses",
-                self.words.number
+                self.host_terms.number
             )),
         };
         self.refuse(report)

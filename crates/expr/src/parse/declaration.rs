@@ -65,7 +65,7 @@ impl Parser<'_> {
                 format!("expected a name, found {}", self.describe_token()),
             )
             .why(format!("`{}` declares a name", opener.text(self.source)))
-            .help(format!("write `const angle = {}[0]`", self.words.array));
+            .help(format!("write `const angle = {}[0]`", self.host_terms.array));
             return self.refuse(report);
         }
         let target = self.pattern("a name")?;

@@ -139,7 +139,7 @@ impl Parser<'_> {
                 let message = format!("expected a name after `.`, found {}", self.describe_token());
                 let report = Finding::error(rules::MISSING_NAME, span, message).help(format!(
                     "write the field after the point, as `{0}`, and indexes in brackets, as `{0}[2]`",
-                    self.words.array
+                    self.host_terms.array
                 ));
                 self.refuse(report)
             }

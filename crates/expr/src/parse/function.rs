@@ -208,7 +208,7 @@ impl Parser<'_> {
                     span,
                     format!("expected a key, found {}", self.describe_token()),
                 )
-                .help(format!("write the keys to take, as `const {}`", self.words.parts));
+                .help(format!("write the keys to take, as `const {}`", self.host_terms.parts));
                 return self.refuse(report);
             };
             let key = Name { text: (*text).to_owned(), span };

@@ -16,5 +16,5 @@ mod refuse;
 mod stmt;
 mod unexpected;
 
+pub(crate) use parser::{Attempt, MAX_DIAGNOSTICS, Reported, expression, in_order, statements};
 pub use parser::{MAX_DEPTH, MAX_SOURCE, Parsed, parse_expression, parse_statements};
-pub(crate) use parser::{MAX_DIAGNOSTICS, expression, in_order, statements};

@@ -1,9 +1,9 @@
 //! The reader of tokens: its place, what it found wrong, and how a whole text is read.
 
 use crate::ast::{Expr, ExprKind, Stmt};
+use crate::host_terms::HostTerms;
 use crate::lex::{self, Token, TokenKind};
 use crate::rules;
-use crate::words::Words;
 use labspec_finding::{Finding, Span};
 
 /// What a parser understood, and what it could not read.
@@ -28,12 +28,12 @@ pub(crate) const MAX_DIAGNOSTICS: usize = 40;
 
 /// Reads one expression. Never fails: what cannot be read becomes [`ExprKind::Error`] and a finding.
 pub fn parse_expression(source: &str) -> Parsed<Expr> {
-    expression(source, &Words::PLAIN, false)
+    expression(source, &HostTerms::PLAIN, false)
 }
 
 /// Reads one expression of a host with these words. `tells`: the host tells of typographic quotes itself.
-pub(crate) fn expression(source: &str, words: &'static Words, tells: bool) -> Parsed<Expr> {
-    let mut parser = Parser::new(source, words, tells);
+pub(crate) fn expression(source: &str, host_terms: &'static HostTerms, tells: bool) -> Parsed<Expr> {
+    let mut parser = Parser::new(source, host_terms, tells);
     let tree = parser.whole_expression();
     Parsed {
         tree,
@@ -44,12 +44,12 @@ pub(crate) fn expression(source: &str, words: &'static Words, tells: bool) -> Pa
 
 /// Reads statements separated by semicolons or line ends. Never fails, see [`parse_expression`].
 pub fn parse_statements(source: &str) -> Parsed<Vec<Stmt>> {
-    statements(source, &Words::PLAIN, false)
+    statements(source, &HostTerms::PLAIN, false)
 }
 
 /// Reads statements of a host with these words, see [`expression`].
-pub(crate) fn statements(source: &str, words: &'static Words, tells: bool) -> Parsed<Vec<Stmt>> {
-    let mut parser = Parser::new(source, words, tells);
+pub(crate) fn statements(source: &str, host_terms: &'static HostTerms, tells: bool) -> Parsed<Vec<Stmt>> {
+    let mut parser = Parser::new(source, host_terms, tells);
     let tree = parser.statements();
     Parsed {
         tree,
@@ -78,14 +78,14 @@ pub(crate) fn in_order(mut found: Vec<Finding>) -> Vec<Finding> {
 
 /// The marker of a mistake that has been reported; carried up to where reading can go on.
 #[derive(Debug)]
-pub(super) struct Reported;
+pub(crate) struct Reported;
 
-pub(super) type Attempt<T> = Result<T, Reported>;
+pub(crate) type Attempt<T> = Result<T, Reported>;
 
 /// The reader: a place in the tokens, and what was found.
 pub(super) struct Parser<'s> {
     pub(super) source: &'s str,
-    pub(super) words: &'static Words,
+    pub(super) host_terms: &'static HostTerms,
     /// The host tells of typographic quotes, and whether there are any.
     pub(super) tells: bool,
     pub(super) quotes_left_to_host: bool,
@@ -99,11 +99,12 @@ pub(super) struct Parser<'s> {
 }
 
 impl<'s> Parser<'s> {
-    pub(super) fn new(source: &'s str, words: &'static Words, tells: bool) -> Parser<'s> {
+    pub(super) fn new(source: &'s str, host_terms: &'static HostTerms, tells: bool) -> Parser<'s> {
         let mut diagnostics = Vec::new();
         let tokens = if source.len() > MAX_SOURCE {
             let message = format!("the text has {} bytes, but the limit is {MAX_SOURCE}", source.len());
-            diagnostics.push(Finding::error(rules::TOO_LONG, Span::default(), message).help(words.split));
+            diagnostics
+                .push(Finding::error(rules::TOO_LONG, Span::default(), message).help(host_terms.split));
             vec![Token { kind: TokenKind::Bad, span: Span::default(), newline: false, doubt: None }]
         } else {
             lex::tokens(source, &mut diagnostics)
@@ -111,7 +112,7 @@ impl<'s> Parser<'s> {
         let quotes_left_to_host = false;
         let mut parser = Parser {
             source,
-            words,
+            host_terms,
             tells,
             quotes_left_to_host,
             tokens,
@@ -124,7 +125,7 @@ impl<'s> Parser<'s> {
         parser
     }
 
-    /// What is wrong with typographic quotes is quotes_left_to_host, by us or by the host.
+    /// What is wrong with typographic quotes is reported, here or by the host.
     pub(super) fn look_at_quotes(&mut self) {
         for token in self.tokens.iter_mut().filter(|token| !matches!(token.kind, TokenKind::Number(_))) {
             match token.doubt.take() {
@@ -240,7 +241,7 @@ impl<'s> Parser<'s> {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
         if self.ended() {
             let report = Finding::error(rules::EMPTY, self.span(), "the expression is empty")
-                .help(format!("write an expression, as `{}`", self.words.number));
+                .help(format!("write an expression, as `{}`", self.host_terms.number));
             self.diagnostics.push(report);
             return nothing;
         }
@@ -278,7 +279,7 @@ impl<'s> Parser<'s> {
         } else {
             report.why("only one value is read here, so a second statement is not allowed").help(format!(
                 "keep the expression of the value, and move statements into {}",
-                self.words.statements
+                self.host_terms.statements
             ))
         })
     }

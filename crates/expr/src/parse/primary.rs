@@ -37,9 +37,9 @@ impl Parser<'_> {
                 // A declaration in the middle of an expression.
                 "const" | "let" | "var" => return self.expected_value(),
                 "new" if *self.peek_at(1) == TokenKind::Word("Date") => {
-                    return self.refuse(refuse::new_date(span, self.words));
+                    return self.refuse(refuse::new_date(span, self.host_terms));
                 }
-                word => match refuse::word(word, span, self.words) {
+                word => match refuse::word(word, span, self.host_terms) {
                     Some(report) => return self.refuse(report),
                     None => ExprKind::Name(word.to_owned()),
                 },
@@ -73,7 +73,7 @@ impl Parser<'_> {
                 self.node(ExprKind::Array(items), opener.to(closer), height)
             }
             "{" => self.object(),
-            _ => match refuse::symbol(symbol, span, self.words) {
+            _ => match refuse::symbol(symbol, span, self.host_terms) {
                 Some(report) => self.refuse(report),
                 None => self.expected_value(),
             },
@@ -121,8 +121,9 @@ impl Parser<'_> {
 
     pub(super) fn template_value(&mut self, place: Span) -> Attempt<ExprNode> {
         if self.ended() {
-            let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces")
-                .help(format!("write the value to insert into the text, as `${{{}}}`", self.words.number));
+            let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces").help(
+                format!("write the value to insert into the text, as `${{{}}}`", self.host_terms.number),
+            );
             return self.refuse(report);
         }
         let value = self.expression(ASSIGNMENT)?;

@@ -154,7 +154,10 @@ impl Parser<'_> {
                 self.span(),
                 format!("expected `(` after `{word}`, found {}", self.describe_token()),
             )
-            .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
+            .help(format!(
+                "write the condition in parentheses, as `{word} ({} > 1)`",
+                self.host_terms.number
+            ));
             return self.refuse(report);
         };
         Ok(self.enclosed(opener, ")", 1)?.0.expr)

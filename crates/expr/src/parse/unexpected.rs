@@ -20,7 +20,7 @@ impl Parser<'_> {
                 .why("this text is an expression, which returns a value and changes nothing")
                 .help(format!(
                     "write a single expression, or compute the part in {} and store it in `ctx`",
-                    self.words.keeper
+                    self.host_terms.keeper
                 )),
             ),
             "if" | "for" | "while" | "do" | "return" | "break" | "continue" => Some(
@@ -32,12 +32,12 @@ impl Parser<'_> {
                 .why("this text is an expression, which returns a value and changes nothing")
                 .help(format!(
                     "choose a value with `test ? a : b`, or compute it in {} and store it in `ctx`",
-                    self.words.keeper
+                    self.host_terms.keeper
                 )),
             ),
             "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else"
             | "case" | "default" | "catch" | "finally" | "async" => {
-                refuse::word(word, self.span(), self.words)
+                refuse::word(word, self.span(), self.host_terms)
             }
             _ => None,
         }
@@ -63,15 +63,17 @@ impl Parser<'_> {
                 Finding::error(rules::HALF_CHOICE, span, "this `:` has no `?` before it")
                     .help("write a conditional expression as `test ? a : b`"),
             ),
-            TokenKind::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
-                refuse::symbol(text, span, self.words)
+            TokenKind::Symbol(text)
+                if refuse::symbol(text, span, self.host_terms).is_some() && *text != "/" =>
+            {
+                refuse::symbol(text, span, self.host_terms)
             }
             TokenKind::Symbol(text) => Some(
                 Finding::error(rules::MISPLACED, span, format!("`{text}` is not allowed here"))
                     .help("remove it"),
             ),
             TokenKind::Word(word) if matches!(*word, "in" | "instanceof") => {
-                refuse::word(word, span, self.words)
+                refuse::word(word, span, self.host_terms)
             }
             _ => {
                 let left = shorten(before.text(self.source));

@@ -202,7 +202,7 @@ fn every_method_of_every_kind_of_list() {
     if !needs("node") {
         return;
     }
-    let names = crate::natives::rows()
+    let names = crate::natives::public_rows()
         .filter(|row| matches!(row.on, ReceiverKind::List | ReceiverKind::Growing | ReceiverKind::Untyped))
         .map(|row| row.name);
     let mut sources = Vec::new();

@@ -177,7 +177,7 @@ impl Machine<'_> {
 
     /// What becomes of NaN in a method of a value; a function that a record holds may do anything with it.
     fn becomes(&self, name: MethodId, receiver: &Value) -> NanBehaviour {
-        natives::row_of(&self.context.heap, name, receiver).map_or(NanBehaviour::Looks, |row| row.nan)
+        natives::find_row(&self.context.heap, name, receiver).map_or(NanBehaviour::Looks, |row| row.nan)
     }
 }
 

@@ -6,8 +6,8 @@ use crate::bind::{ModelNames, NUMBERS, Scope};
 use crate::run::StepVariant;
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
-    Schema, Words,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, HostTerms, ObjectId,
+    ResultDimension, Role, Schema,
 };
 use std::cell::Cell;
 
@@ -245,7 +245,7 @@ impl Schema for OutcomeNames<'_> {
         }
     }
 
-    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> ResultDimension {
         self.model.gives(function, first)
     }
 
@@ -261,8 +261,8 @@ impl Schema for OutcomeNames<'_> {
         self.model.result_field(function, object)
     }
 
-    fn words(&self) -> &'static Words {
-        self.model.words()
+    fn host_terms(&self) -> &'static HostTerms {
+        self.model.host_terms()
     }
 
     fn refresh(&self) -> Option<String> {

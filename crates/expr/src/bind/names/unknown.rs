@@ -2,9 +2,9 @@
 
 use super::language::list_names;
 use super::walk::{NameUse, NameWalk};
+use crate::host_terms::HostTerms;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
-use crate::words::Words;
 use labspec_finding::{Finding, Span, nearest};
 
 /// Names of a browser or of Node.
@@ -18,15 +18,15 @@ const MORE: [&str; 10] =
     ["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"];
 
 /// Why the language does not have such a name, and what to do instead.
-fn absent(name: &str, words: &Words) -> Option<(String, String)> {
-    let Words { lab, lesson, .. } = words;
+fn absent(name: &str, host_terms: &HostTerms) -> Option<(String, String)> {
+    let HostTerms { lab, lesson, .. } = host_terms;
     let (why, help) = match name {
         _ if PAGE.contains(&name) => (
             format!("a {lesson} must run without a page: in a browser, on a command line, in a notebook"),
-            format!("use a name of the {lab}: {}", words.names),
+            format!("use a name of the {lab}: {}", host_terms.names),
         ),
         _ if PRINT.contains(&name) => {
-            ("there is no console".into(), format!("show the value in {}", words.shown))
+            ("there is no console".into(), format!("show the value in {}", host_terms.display))
         }
         _ if OUTSIDE.contains(&name) => (
             format!("a {lesson} cannot access anything outside itself"),
@@ -37,7 +37,7 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
             "write the expression itself".into(),
         ),
         _ if CLOCK.contains(&name) => {
-            ("the wall clock would make every run different".into(), words.clock.into())
+            ("the wall clock would make every run different".into(), host_terms.clock.into())
         }
         _ if MORE.contains(&name) => (
             format!("a {lesson} works on numbers, and needs only lists and records"),
@@ -52,13 +52,13 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
 
 impl NameWalk<'_, '_> {
     pub(super) fn unknown(&self, name: &str, span: Span, used: NameUse) -> Finding {
-        let words = self.words();
+        let host_terms = self.host_terms();
         if name == "value" {
             return Finding::error(rules::NO_VALUE_HERE, span, "`value` is not defined here")
-                .why(words.input.0)
-                .help(words.input.1);
+                .why(host_terms.input.0)
+                .help(host_terms.input.1);
         }
-        if let Some((why, help)) = absent(name, words) {
+        if let Some((why, help)) = absent(name, host_terms) {
             return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
                 .why(why)
                 .help(help);
@@ -91,8 +91,8 @@ impl NameWalk<'_, '_> {
     }
 
     /// What the host calls its things.
-    fn words(&self) -> &'static Words {
-        self.around.schema.map_or(&Words::PLAIN, |schema| schema.words())
+    fn host_terms(&self) -> &'static HostTerms {
+        self.around.schema.map_or(&HostTerms::PLAIN, |schema| schema.host_terms())
     }
 
     fn root_names(&self) -> Vec<String> {
@@ -106,7 +106,7 @@ impl NameWalk<'_, '_> {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => report.help(format!(
                 "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the {}",
-                self.words().lab
+                self.host_terms().lab
             )),
         }
     }

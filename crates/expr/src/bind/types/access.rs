@@ -1,16 +1,17 @@
 //! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
 
-use super::binder::{Attempt, Binder, Entity, Reported};
+use super::binder::{Binder, Entity};
 use super::member::{quoted, view_of};
 use crate::ast::{Expr, ExprKind};
 use crate::bind::names::list_names;
+use crate::host_terms::HostTerms;
 use crate::ir::{Index, Ir, IrKind};
 use crate::number;
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::schema::{Field, Help};
 use crate::types::{CollectionId, ObjectId, Type};
 use crate::value::Value;
-use crate::words::Words;
 use labspec_finding::{Finding, Fix, Span, nearest};
 
 /// What chooses a `ctx` variable.
@@ -33,7 +34,7 @@ impl<'a> Binder<'a> {
             let index = self.index(&field, index, span)?;
             return Ok(Entity::Value(self.load(&field, index, span)));
         }
-        let thing = self.thing(object);
+        let thing = self.entity(object);
         if let Ok(Entity::Globals) = thing {
             return self.read_named_global(index, span).map(Entity::Value);
         }
@@ -81,7 +82,7 @@ impl<'a> Binder<'a> {
     fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
         let (schema, key, first) = (self.schema, field.key, field.first);
         self.explain(span, || {
-            let mut help = super::member::field_help(field, schema.words());
+            let mut help = super::member::field_help(field, schema.host_terms());
             help.title = format!("{}[{index}]", field.path);
             help.lines.splice(0..0, schema.element_help(key, first + index));
             help
@@ -193,7 +194,7 @@ impl<'a> Binder<'a> {
                 report = match ir.as_constant() {
                     Some(Value::String(_)) => report.help(format!(
                         "to select an object by its name, write `{}` or similar",
-                        self.words().choice
+                        self.host_terms().choice
                     )),
                     _ => report.help("write an integer"),
                 };
@@ -226,7 +227,7 @@ impl<'a> Binder<'a> {
         // Whole numbers beyond usize become usize::MAX, which is out of every range.
         let at = x as usize;
         if field.len().is_some_and(|n| at >= n) {
-            let report = out_of_range(field, &text, span, self.words());
+            let report = out_of_range(field, &text, span, self.host_terms());
             return self.refuse(report);
         }
         Ok(at)
@@ -258,7 +259,7 @@ impl<'a> Binder<'a> {
                     .why("arrays are flat: one index selects one number, and the rows follow each other")
                     .help(format!(
                         "write one index, as `{}[3 * i + k]` for row i, column k",
-                        self.words().matrix
+                        self.host_terms().matrix
                     ))
             }
             (Entity::Value(_), _) => {
@@ -273,7 +274,7 @@ impl<'a> Binder<'a> {
                 _,
             ) => self.not_called(thing, object.span),
             _ => error(format!("`{text}` is not an array"))
-                .help(format!("select a field with a point, as `{}`", self.words().array)),
+                .help(format!("select a field with a point, as `{}`", self.host_terms().array)),
         }
     }
 
@@ -320,7 +321,7 @@ impl<'a> Binder<'a> {
                 Some(first) => report(object).help(format!("write `{text}(\"{first}\")`")),
                 None => report(object)
                     .why(format!("no {noun} has a name here"))
-                    .help(format!("give the {noun} a name in the {}", self.words().model)),
+                    .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
             },
         }
     }
@@ -359,7 +360,7 @@ impl<'a> Binder<'a> {
                 if names.is_empty() {
                     return self.refuse(
                         Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("no {noun} has a name here"))
-                            .help(format!("give the {noun} a name in the {}", self.words().model)),
+                            .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
                     );
                 }
                 return Ok(Chosen::Computed(ir));
@@ -376,7 +377,10 @@ impl<'a> Binder<'a> {
                         arg.span,
                         format!("a {noun} must be selected by its name, not by {}", ir.ty.describe()),
                     )
-                    .why(format!("the indexes of objects change when the {} changes", self.words().model))
+                    .why(format!(
+                        "the indexes of objects change when the {} changes",
+                        self.host_terms().model
+                    ))
                     .help(format!("write the name in quotes{text}")),
                 );
             }
@@ -395,7 +399,7 @@ impl<'a> Binder<'a> {
             }
             None if names.is_empty() => report
                 .why(format!("no {noun} has a name here"))
-                .help(format!("give the {noun} a name in the {}", self.words().model)),
+                .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
             None => report.why(format!("the names are {}", list_names(&names))).help("use one of them"),
         };
         self.refuse(report)
@@ -425,16 +429,16 @@ fn owner(field: &Field, n: usize) -> String {
 }
 
 /// The finding for an index past the end.
-pub(super) fn out_of_range(field: &Field, text: &str, span: Span, words: &Words) -> Finding {
+pub(super) fn out_of_range(field: &Field, text: &str, span: Span, host_terms: &HostTerms) -> Finding {
     let what = match field.is_empty() {
         true => format!("`{}` has no elements", field.path),
         false => format!("index {text} is past the end of `{}`", field.path),
     };
-    past_the_end(field, span, what, words)
+    past_the_end(field, span, what, host_terms)
 }
 
 /// The finding for elements that a field does not have.
-pub(super) fn past_the_end(field: &Field, span: Span, what: String, words: &Words) -> Finding {
+pub(super) fn past_the_end(field: &Field, span: Span, what: String, host_terms: &HostTerms) -> Finding {
     let n = field.len().unwrap_or(0);
     let report = Finding::error(rules::INDEX_RANGE, span, what);
     let shape = if field.shape.len() > 1 && n > 0 {
@@ -450,7 +454,7 @@ pub(super) fn past_the_end(field: &Field, span: Span, what: String, words: &Word
     match n {
         0 => report
             .why(why)
-            .help(format!("add the missing object to the {}, or use another field", words.model)),
+            .help(format!("add the missing object to the {}, or use another field", host_terms.model)),
         _ => report
             .why(format!("{why}, and reading past the end gives `undefined`"))
             .help(format!("indexes are{}", range(field))),

@@ -1,12 +1,13 @@
 //! Assignments: what may stand on the left, and why not what may not.
 
 use super::access::GlobalName;
-use super::binder::{Attempt, Binder, Entity, Reported, VariableMeaning};
+use super::binder::{Binder, Entity, VariableMeaning};
 use super::member::{machinery, view_of};
 use super::typed::Expectation;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use crate::bind::names::MACHINERY;
 use crate::ir::{AssignmentTarget, Index, Ir, IrKind, UpdateResult};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::schema::{Field, FieldKind};
 use crate::types::Type;
@@ -122,7 +123,7 @@ impl<'a> Binder<'a> {
             Finding::error(
                 rules::WHOLE_ARRAY,
                 value.span,
-                format!("`{text}` is an array of the {}, but `ctx` stores values", self.words().world),
+                format!("`{text}` is an array of the {}, but `ctx` stores values", self.host_terms().world),
             )
             .why("the stored array would keep changing, which is rarely intended")
             .help(format!("store a copy, as `{text}.slice()`, or a single element, as `{text}[0]`"))
@@ -134,7 +135,7 @@ impl<'a> Binder<'a> {
     fn place(&mut self, target: &'a Expr) -> Attempt<AssignmentTarget> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span),
-            ExprKind::Member { object, name, optional: false } => match self.thing(object)? {
+            ExprKind::Member { object, name, optional: false } => match self.entity(object)? {
                 Entity::Globals => self.global_place(&name.text, target.span),
                 Entity::Value(ir) => self.member_place(ir, name, target.span),
                 thing => {
@@ -142,7 +143,7 @@ impl<'a> Binder<'a> {
                     self.place_of(thing, target)
                 }
             },
-            ExprKind::Index { object, index, optional: false } => match self.thing(object) {
+            ExprKind::Index { object, index, optional: false } => match self.entity(object) {
                 Ok(Entity::Globals) => match self.global_name(index)? {
                     GlobalName::Known(name) => self.global_place(&name, target.span),
                     GlobalName::Computed(name) => Ok(AssignmentTarget::GlobalNamed(name)),
@@ -229,7 +230,7 @@ impl<'a> Binder<'a> {
                 let text = self.text(target.span).to_owned();
                 self.refuse(
                     Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
-                        .why(format!("its elements are the memory of the {}; assigning the name would change none of them", self.words().world))
+                        .why(format!("its elements are the memory of the {}; assigning the name would change none of them", self.host_terms().world))
                         .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
                 )
             }
@@ -258,7 +259,7 @@ impl<'a> Binder<'a> {
                 .why("it is a computation")
                 .help("write the field on the left of `=` and the computation on the right"),
             _ => {
-                let (array, lab) = (self.words().array, self.words().lab);
+                let (array, lab) = (self.host_terms().array, self.host_terms().lab);
                 report.help(format!(
                     "assign a field, as `{array}[0]`, or a variable of the {lab}, as `ctx.peak`"
                 ))
@@ -274,10 +275,10 @@ impl<'a> Binder<'a> {
                 Finding::error(
                     rules::ASSIGN_STRUCTURE,
                     span,
-                    format!("`{}` is fixed with the {}", field.path, self.words().model),
+                    format!("`{}` is fixed with the {}", field.path, self.host_terms().model),
                 )
                 .why(format!("it is {}; the positions of other fields depend on it", doc(field)))
-                .help(format!("change the {} itself", self.words().model)),
+                .help(format!("change the {} itself", self.host_terms().model)),
             ),
             FieldKind::Derived { by } => {
                 let computed =

@@ -8,14 +8,15 @@ use crate::ast::{Expr, Function};
 use crate::bind::names::NameTable;
 use crate::bind::source::{MAX_LEVELS, SourceTree, TextKind, too_deep};
 use crate::globals::{Globals, ProgramId};
+use crate::host_terms::HostTerms;
 use crate::ir::{FreeFunctionId, Ir, IrFunction, IrProgram, IrStatement, LocalId, MethodId, UnitId};
 use crate::math;
 use crate::natives::Native;
+use crate::parse::{Attempt, Reported};
 use crate::program::Aggregate;
 use crate::rules;
 use crate::schema::{Field, Help, Schema};
 use crate::types::{CollectionId, FunctionId, ObjectId, Type};
-use crate::words::Words;
 use labspec_finding::{Finding, Fix, Span};
 
 /// What the pass found of a text.
@@ -85,12 +86,6 @@ pub(in crate::bind) fn bind(
         };
     }
 }
-
-/// The marker of a mistake that has been reported.
-#[derive(Debug)]
-pub(super) struct Reported;
-
-pub(super) type Attempt<T> = Result<T, Reported>;
 
 /// What a part of the source stands for.
 #[derive(Clone, Debug)]
@@ -306,8 +301,8 @@ impl<'a> Binder<'a> {
     }
 
     /// What the host calls its things.
-    pub(super) fn words(&self) -> &'static Words {
-        self.schema.words()
+    pub(super) fn host_terms(&self) -> &'static HostTerms {
+        self.schema.host_terms()
     }
 
     pub(super) fn report(&mut self, diagnostic: Finding) {
@@ -345,12 +340,12 @@ impl<'a> Binder<'a> {
     }
 
     /// What a part of the source stands for.
-    pub(super) fn thing(&mut self, expr: &'a Expr) -> Attempt<Entity> {
+    pub(super) fn entity(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         if self.levels >= MAX_LEVELS {
             return self.refuse_deep(expr.span);
         }
         self.levels += 1;
-        let thing = self.thing_inside(expr);
+        let thing = self.entity_inside(expr);
         self.levels -= 1;
         thing
     }
@@ -365,7 +360,7 @@ impl<'a> Binder<'a> {
         let name = self.text(span).split('(').next().unwrap_or("");
         Finding::error(rules::NO_RESULT, span, format!("`{name}` returns nothing"))
             .why("it is called for its effect, so it has no value")
-            .help(format!("call it as a statement, in {}", self.words().statements))
+            .help(format!("call it as a statement, in {}", self.host_terms().statements))
     }
 
     /// Notes what an expression is.

@@ -1,13 +1,14 @@
 //! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
-use super::binder::{Attempt, Binder, Entity, Reported};
+use super::binder::{Binder, Entity};
 use super::member::quoted;
 use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
 use crate::ir::{FreeFunctionId, Ir, IrFunction, IrItem, IrKind, IrProgram, IrStatement, MemberTable};
 use crate::math;
 use crate::natives;
+use crate::parse::{Attempt, Reported};
 use crate::program::{Aggregate, Program};
 use crate::rules;
 use crate::schema::{FunctionInfo, Help, Param, signature};
@@ -27,7 +28,7 @@ impl<'a> Binder<'a> {
         optional: bool,
         span: Span,
     ) -> Attempt<Entity> {
-        let thing = match self.thing(callee) {
+        let thing = match self.entity(callee) {
             Ok(thing) => thing,
             Err(Reported) => {
                 self.only_check(args);
@@ -40,7 +41,7 @@ impl<'a> Binder<'a> {
             Entity::MathFunction(function) => self.math_call(function, args, span).map(Entity::Value),
             Entity::Method(receiver, name) => self.method(*receiver, name, args, span).map(Entity::Value),
             Entity::Native(function) => self.native_call(function, args, span).map(Entity::Value),
-            Entity::Namespace(name) => match natives::free(name) {
+            Entity::Namespace(name) => match natives::find_function(name) {
                 Some(function) => self.native_call(function, args, span).map(Entity::Value),
                 None => {
                     self.only_check(args);
@@ -74,9 +75,9 @@ impl<'a> Binder<'a> {
     fn native_call(&mut self, function: FreeFunctionId, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
         let args = self.taken(args, row.arity().1);
-        if let (Some(method), [first, rest @ ..]) = (function.written(args.len()), args) {
+        if let (Some(method), [first, rest @ ..]) = (function.source_function(args.len()), args) {
             let first = self.value(first).map(Entity::Value)?;
-            return self.call_written(method, row, first, rest, span);
+            return self.inline_method(method, row, first, rest, span);
         }
         self.check_arity(&[row], args, span)?;
         let items = self.items(args)?;
@@ -100,8 +101,8 @@ impl<'a> Binder<'a> {
     pub(super) fn only_check(&mut self, args: &'a [Expr]) {
         for arg in args {
             let _ = match &arg.kind {
-                ExprKind::Spread(inner) => self.thing(inner),
-                _ => self.thing(arg),
+                ExprKind::Spread(inner) => self.entity(inner),
+                _ => self.entity(arg),
             };
         }
     }
@@ -188,7 +189,7 @@ impl<'a> Binder<'a> {
             let report =
                 Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message).why("JavaScript ignores it");
             self.report(if path == "Math.round" {
-                let rounding = self.words().rounding;
+                let rounding = self.host_terms().rounding;
                 report.help(format!("to round to decimals, write `Math.round(100 * x) / 100`{rounding}"))
             } else {
                 report.help("remove it")
@@ -200,7 +201,7 @@ impl<'a> Binder<'a> {
 
     /// An argument of a function of `Math`: `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
     fn math_argument(&mut self, path: &str, function: math::MathFunction, arg: &'a Expr) -> Attempt<Ir> {
-        let thing = self.thing(arg)?;
+        let thing = self.entity(arg)?;
         let report = match &thing {
             Entity::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
             Entity::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
@@ -352,7 +353,7 @@ impl<'a> Binder<'a> {
         wanted: ObjectId,
         arg: &'a Expr,
     ) -> Attempt<()> {
-        if matches!(self.thing(arg)?, Entity::Object(id) if id == wanted) {
+        if matches!(self.entity(arg)?, Entity::Object(id) if id == wanted) {
             return Ok(());
         }
         let object = self.schema.describe(wanted);
@@ -391,7 +392,7 @@ impl<'a> Binder<'a> {
             _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
         }
         // A copy, so that the function sees one kind of list only.
-        let copy = natives::free("Array.from").filter(|_| ir.ty != Type::List);
+        let copy = natives::find_function("Array.from").filter(|_| ir.ty != Type::List);
         Ok(match copy {
             Some(copy) => {
                 let item = IrItem { value: ir, spread: false };

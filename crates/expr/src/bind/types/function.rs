@@ -1,10 +1,11 @@
 //! Functions of a text: bound when they are first called, with the types that they are called with.
 
-use super::binder::{Attempt, Binder, Entity, KnownFunction, Reported, VariableMeaning};
+use super::binder::{Binder, Entity, KnownFunction, VariableMeaning};
 use super::facts::{FactKey, FactKind};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
 use crate::ir::{Ir, IrFunction, IrItem, IrKind, IrStatement, LocalId, UnitId, always_return};
 use crate::operators::BinaryOp;
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::types::Type;
 use labspec_finding::{Finding, Span};
@@ -112,7 +113,7 @@ impl<'a> Binder<'a> {
                 self.changing(expr)
             }
             ExprKind::Call { .. } => {
-                let thing = self.thing(expr)?;
+                let thing = self.entity(expr)?;
                 match thing {
                     // A function without a result gives `undefined`.
                     Entity::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),

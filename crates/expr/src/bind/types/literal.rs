@@ -1,11 +1,12 @@
 //! Lists, records, templates, and declarations that take lists and records apart.
 
-use super::binder::{Attempt, Binder, Entity, Reported, VariableMeaning};
+use super::binder::{Binder, Entity, VariableMeaning};
 use super::facts::FactKind;
 use crate::ast::{Element, Expr, ExprKind, Pattern, Property};
 use crate::bind::names::names_of;
 use crate::ir::{Ir, IrEntry, IrItem, IrKind, IrStatement};
 use crate::operators::BinaryOp;
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::types::Type;
 use labspec_finding::{Finding, Span};
@@ -30,7 +31,7 @@ impl<'a> Binder<'a> {
 
     /// `...list`: written out when it is a short array of known size.
     fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<IrItem>> {
-        let thing = self.thing(inner)?;
+        let thing = self.entity(inner)?;
         if let Entity::Field(field) = &thing
             && !field.is_scalar()
             && let Some(elements) = self.elements(field, inner.span)
@@ -57,9 +58,8 @@ impl<'a> Binder<'a> {
         self.refuse(match value.ty {
             Type::Number => report.help("to count, write `for (let i = 0; i < n; i++)`"),
             Type::Record => report.help(format!("write `Object.values({text})` for its values")),
-            _ => {
-                report.help(format!("write a list, as `[1, 2, 3]`, or an array, as `{}`", self.words().array))
-            }
+            _ => report
+                .help(format!("write a list, as `[1, 2, 3]`, or an array, as `{}`", self.host_terms().array)),
         })
     }
 
@@ -126,7 +126,7 @@ impl<'a> Binder<'a> {
                     return self.forget(pattern);
                 }
                 // What is not known to be a list is made one, or refused, as in JavaScript.
-                let whole = match (whole.ty, crate::natives::free("_parts")) {
+                let whole = match (whole.ty, crate::natives::find_function("_parts")) {
                     (Type::List | Type::View, _) | (_, None) => whole,
                     (_, Some(function)) => {
                         let item = IrItem { value: whole, spread: false };
@@ -197,7 +197,7 @@ impl<'a> Binder<'a> {
         value: &'a Expr,
         steps: &mut Vec<IrStatement>,
     ) {
-        let Ok(thing) = self.thing(value) else { return self.forget(pattern) };
+        let Ok(thing) = self.entity(value) else { return self.forget(pattern) };
         // Parts of `model`, `data` or `Math` are other words for them.
         if let (Pattern::Record { entries, .. }, Entity::Object(_) | Entity::Math | Entity::Globals) =
             (pattern, &thing)

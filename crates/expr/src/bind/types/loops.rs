@@ -1,12 +1,13 @@
 //! Loops, and what is known of the numbers that count them.
 
 use super::access::{past_the_end, range};
-use super::binder::{Attempt, Binder, Entity, Reported};
+use super::binder::{Binder, Entity};
 use super::facts::FactKind;
 use super::member::view_of;
 use crate::ast::{BinaryOp, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::bind::names::{Declaration, names_of};
 use crate::ir::{AssignmentTarget, Index, Ir, IrItem, IrKind, IrLoop, IrStatement, LocalId, UpdateResult};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::schema::Field;
 use crate::types::Type;
@@ -107,7 +108,7 @@ impl<'a> Binder<'a> {
         span: Span,
         steps: &mut Vec<IrStatement>,
     ) {
-        let list = self.thing(items);
+        let list = self.entity(items);
         let functions = self.functions.len();
         // The list, how long it is and where the loop stands are kept in places without names.
         let counter = self.unnamed_local(span, FactKind::Counter, Type::Number);
@@ -179,7 +180,7 @@ impl<'a> Binder<'a> {
         let value = self.value_of(list, span)?;
         self.expect_elements(&value)?;
         // A text is taken apart into its characters, of which some take two units.
-        let function = natives::free("_parts");
+        let function = natives::find_function("_parts");
         let value = match (value.ty, function) {
             (Type::List | Type::View, _) | (_, None) => value,
             (_, Some(function)) => {
@@ -297,7 +298,7 @@ impl<'a> Binder<'a> {
                 "in the last iteration of the loop, `{text}` is {index_text}: past the end of `{}`",
                 field.path
             );
-            return self.refuse(past_the_end(field, index.span, message, self.words()));
+            return self.refuse(past_the_end(field, index.span, message, self.host_terms()));
         }
         if least < 0.0 {
             let index_text = number::to_text(least);

@@ -1,21 +1,21 @@
 //! What names stand for: those at the start of an expression, and those behind a point.
 
-use super::binder::{Attempt, Binder, Entity, MethodReceiver, Reported};
+use super::binder::{Binder, Entity, MethodReceiver};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::bind::names::{MACHINERY, NAMESPACES, list_names, meant_elsewhere};
+use crate::host_terms::HostTerms;
 use crate::ir::{Ir, IrKind};
 use crate::math;
 use crate::natives;
-use crate::parse::MAX_DIAGNOSTICS;
+use crate::parse::{Attempt, MAX_DIAGNOSTICS, Reported};
 use crate::rules;
 use crate::schema::{Entry, Field, FieldKind, Help};
 use crate::types::{ObjectId, Type};
 use crate::value::{Value, View};
-use crate::words::Words;
 use labspec_finding::{Finding, Span, nearest, ranked};
 
 impl<'a> Binder<'a> {
-    pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Entity> {
+    pub(super) fn entity_inside(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         match &expr.kind {
             ExprKind::Name(name) => self.root(name, expr.span),
             ExprKind::Member { object, name, optional } => self.member(object, name, *optional, expr.span),
@@ -38,7 +38,7 @@ impl<'a> Binder<'a> {
             return Ok(thing);
         }
         if self.site.is_some()
-            && let Some(function) = natives::free(name)
+            && let Some(function) = natives::find_function(name)
         {
             return Ok(Entity::Native(function));
         }
@@ -60,7 +60,7 @@ impl<'a> Binder<'a> {
     pub(super) fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
         let schema = self.schema;
         match thing {
-            Entity::Field(field) => self.explain(span, || field_help(field, schema.words())),
+            Entity::Field(field) => self.explain(span, || field_help(field, schema.host_terms())),
             Entity::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
             }
@@ -80,7 +80,7 @@ impl<'a> Binder<'a> {
     /// `object.name`, or `object?.name`
     #[inline(never)]
     fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Entity> {
-        let thing = self.thing(object)?;
+        let thing = self.entity(object)?;
         let found = self.member_of(thing, object.span, name, optional, span)?;
         self.explain_thing(&found, &name.text, name.span);
         Ok(found)
@@ -133,7 +133,7 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Entity> {
         let path = format!("{holder}.{}", name.text);
-        if let Some(function) = natives::free(&path) {
+        if let Some(function) = natives::find_function(&path) {
             return Ok(Entity::Native(function));
         }
         let constants = if holder == "Number" { natives::NUMBER_CONSTANTS } else { &[] };
@@ -145,7 +145,7 @@ impl<'a> Binder<'a> {
         }
         let report =
             Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`{holder}` has no `{}`", name.text));
-        let names: Vec<&str> = natives::rows()
+        let names: Vec<&str> = natives::public_rows()
             .filter_map(|row| row.name.strip_prefix(holder)?.strip_prefix('.'))
             .chain(constants.iter().map(|(n, _)| *n))
             .collect();
@@ -185,9 +185,9 @@ impl<'a> Binder<'a> {
                 Finding::error(rules::NOT_RANDOM, span, "random numbers are not in this language")
                     .why(format!(
                         "the same {} must give the same numbers every time, so that its answers can be checked",
-                        self.words().lesson
+                        self.host_terms().lesson
                     ))
-                    .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.words().number)),
+                    .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.host_terms().number)),
             );
         }
         let report =
@@ -206,7 +206,8 @@ impl<'a> Binder<'a> {
     fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Entity> {
         let array = !field.is_scalar();
         let text = name.text.as_str();
-        if let Some(method) = natives::name(text).filter(|_| array && self.is_method(text, Type::View)) {
+        if let Some(method) = natives::find_method(text).filter(|_| array && self.is_method(text, Type::View))
+        {
             return Ok(Entity::Method(Box::new(MethodReceiver::Field(field)), method));
         }
         match text {
@@ -216,7 +217,7 @@ impl<'a> Binder<'a> {
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
-                    .why(format!("`{text}` changes the number of elements of a list, but this array is the memory of the {}", self.words().world))
+                    .why(format!("`{text}` changes the number of elements of a list, but this array is the memory of the {}", self.host_terms().world))
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into your own list: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
@@ -312,13 +313,13 @@ fn language(name: &str, span: Span) -> Option<Entity> {
             None if name.starts_with('_') || name.contains('.') => None,
             None => math::global(name)
                 .map(Entity::MathFunction)
-                .or_else(|| natives::free(name).map(Entity::Native)),
+                .or_else(|| natives::find_function(name).map(Entity::Native)),
         },
     }
 }
 
 /// What a field is, in the words of its table.
-pub(super) fn field_help(field: &Field, words: &Words) -> Help {
+pub(super) fn field_help(field: &Field, host_terms: &HostTerms) -> Help {
     let mut lines = Vec::new();
     if !field.doc.is_empty() {
         let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
@@ -331,18 +332,18 @@ pub(super) fn field_help(field: &Field, words: &Words) -> Help {
     if !shape.is_empty() {
         lines.push(format!("{} numbers", shape.join(" × ")));
     }
-    lines.push(kind_in_words(&field.kind, words));
+    lines.push(kind_in_words(&field.kind, host_terms));
     Help { title: field.path.clone(), lines }
 }
 
 /// What assigning means.
-fn kind_in_words(kind: &FieldKind, words: &Words) -> String {
+fn kind_in_words(kind: &FieldKind, host_terms: &HostTerms) -> String {
     match kind {
         FieldKind::State => "state: evolves in time, can be set".into(),
         FieldKind::Input => "input: set from outside".into(),
         FieldKind::Constant => "constant: can be changed".into(),
-        FieldKind::Inertial => format!("constant: a change needs {}", words.recompute),
-        FieldKind::Structure => format!("fixed with the {}", words.model),
+        FieldKind::Inertial => format!("constant: a change needs {}", host_terms.recompute),
+        FieldKind::Structure => format!("fixed with the {}", host_terms.model),
         FieldKind::Derived { by } if by.is_empty() => "computed".into(),
         FieldKind::Derived { by } => format!("computed by {by}"),
     }

@@ -1,11 +1,12 @@
 //! Calls of methods: of arrays of the simulation, lists, texts and numbers.
 
-use super::binder::{Attempt, Binder, Entity, MethodReceiver};
+use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::view_of;
 use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
 use crate::ir::{Ir, IrItem, IrKind, MethodId};
 use crate::natives::{self, Native, ReceiverKind};
+use crate::parse::Attempt;
 use crate::rules;
 use crate::schema::Field;
 use crate::types::Type;
@@ -14,7 +15,7 @@ use labspec_finding::{Finding, Span};
 
 /// A value that is a list when it is computed, or the run ends: what is called on it is a method of lists.
 fn listed(ir: Ir, method: &str) -> Ir {
-    let Some(function) = natives::free("_list") else { return ir };
+    let Some(function) = natives::find_function("_list") else { return ir };
     let span = ir.span;
     let items = [ir, Ir::constant(method.into(), span)].map(|value| IrItem { value, spread: false });
     Ir::new(IrKind::Native(function, items.into()), Type::Any, span)
@@ -23,12 +24,12 @@ fn listed(ir: Ir, method: &str) -> Ir {
 impl<'a> Binder<'a> {
     /// Whether values of a type have a method.
     pub(super) fn is_method(&self, text: &str, ty: Type) -> bool {
-        natives::name(text).is_some_and(|n| n.rows_for(ty).next().is_some())
+        natives::find_method(text).is_some_and(|n| n.rows_for(ty).next().is_some())
     }
 
     /// The methods of values of a type.
     pub(super) fn method_names(&self, ty: Type) -> Vec<&'static str> {
-        let names = natives::rows().map(|row| row.name).filter(|name| self.is_method(name, ty));
+        let names = natives::public_rows().map(|row| row.name).filter(|name| self.is_method(name, ty));
         names.chain(["length"]).collect()
     }
 
@@ -57,13 +58,13 @@ impl<'a> Binder<'a> {
         let run = rows.iter().copied().filter(|row| !row.calls());
         let runs = run.clone().next().is_some();
         if let Some(row) = rows.iter().copied().find(|row| row.calls() && !(runs && args.is_empty())) {
-            let function = self.written(row, args, span)?;
+            let function = self.source_function(row, args, span)?;
             let first = match receiver {
                 MethodReceiver::Field(field) => Entity::Field(field),
                 MethodReceiver::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Entity::Value(ir),
                 MethodReceiver::Value(ir) => Entity::Value(listed(ir, row.name)),
             };
-            return self.call_written(function, row, first, args, span);
+            return self.inline_method(function, row, first, args, span);
         }
         let receiver = match receiver {
             MethodReceiver::Field(field) => self.field_value(&field, span),
@@ -76,7 +77,7 @@ impl<'a> Binder<'a> {
     }
 
     /// The function of the language that computes a method with these arguments.
-    fn written(
+    fn source_function(
         &mut self,
         row: &'static Native,
         args: &'a [Expr],
@@ -93,7 +94,7 @@ impl<'a> Binder<'a> {
                 .help(format!("write them out, as `{example}`")),
             );
         }
-        match row.written(args.len()) {
+        match row.source_function(args.len()) {
             Some(function) => Ok(function),
             None => self.refuse(
                 Finding::error(
@@ -147,7 +148,7 @@ impl<'a> Binder<'a> {
             _ => format!("{least} to {}", super::call::count(most, "argument")),
         };
         let point = if row.on == ReceiverKind::Nothing { "" } else { "." };
-        let (example, value) = row.example(self.words().array);
+        let (example, value) = row.example(self.host_terms().array);
         self.refuse(
             Finding::error(
                 rules::ARGUMENT_COUNT,

@@ -12,6 +12,7 @@ mod binder;
 mod call;
 mod facts;
 mod function;
+mod inline_method;
 mod literal;
 mod loops;
 mod member;
@@ -23,7 +24,6 @@ mod statement;
 mod tests;
 mod typed;
 mod value;
-mod written;
 
 pub(super) use binder::{BindContext, bind};
 pub(super) use typed::{Expectation, ExpressionShape, TypedText};

@@ -1,6 +1,7 @@
 //! Members of values, and of objects whose name is computed while running.
 
-use super::binder::{Attempt, Binder, Entity, MethodReceiver};
+use super::binder::{Binder, Entity, MethodReceiver};
+use crate::parse::Attempt;
 use std::sync::Arc;
 
 use super::member::{machinery, view_of};
@@ -31,7 +32,7 @@ impl<'a> Binder<'a> {
             return self.refuse(machinery(text, name.span));
         }
         let ir = if optional { self.present(ir) } else { ir };
-        if let Some(method) = natives::name(text).filter(|_| self.is_method(text, ir.ty)) {
+        if let Some(method) = natives::find_method(text).filter(|_| self.is_method(text, ir.ty)) {
             return Ok(Entity::Method(Box::new(MethodReceiver::Value(ir)), method));
         }
         match ir.ty {

@@ -1,10 +1,11 @@
 //! Variables: their places, the functions that use them, and what they stand for.
 
-use super::binder::{Attempt, Binder, Entity, Reported, Variable, VariableMeaning};
+use super::binder::{Binder, Entity, Variable, VariableMeaning};
 use super::facts::{FactKey, FactKind};
 use crate::ast::{Declarator, Name, Pattern, Stmt, StmtKind};
 use crate::bind::names::{Declaration, NameMeaning, names_of};
 use crate::ir::{Ir, IrKind, IrStatement, Local, LocalId};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::types::Type;
 use labspec_finding::{Finding, Span};

@@ -1,9 +1,10 @@
 //! Statements: declarations, effects, choices, and expressions that change nothing.
 
-use super::binder::{Attempt, Binder, Entity, VariableMeaning};
+use super::binder::{Binder, Entity, VariableMeaning};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::bind::source::TextKind;
 use crate::ir::{Ir, IrEntry, IrItem, IrKind, IrStatement};
+use crate::parse::Attempt;
 use crate::rules;
 use crate::types::Type;
 use crate::value::Value;
@@ -85,7 +86,7 @@ impl<'a> Binder<'a> {
             let report = self.assignment_inside(*op, *op_span, test.span);
             return self.refuse(report);
         }
-        let thing = self.thing(test)?;
+        let thing = self.entity(test)?;
         if let Entity::Field(field) = &thing
             && !field.is_scalar()
         {
@@ -111,7 +112,7 @@ impl<'a> Binder<'a> {
                 self.changing(expr).map(Some)
             }
             ExprKind::Call { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => {
-                let ir = match self.thing(expr)? {
+                let ir = match self.entity(expr)? {
                     // The bare name of a function whose arguments are implied.
                     Entity::Function(id) if self.schema.function(id).implied => {
                         self.host_call(id, &[], expr.span, expr.span)?
@@ -190,7 +191,7 @@ impl<'a> Binder<'a> {
             return Ok(None);
         }
         let changes = !constant && self.assignments(self.key_of(name)) > 0;
-        let thing = match self.thing(value)? {
+        let thing = match self.entity(value)? {
             alias @ (Entity::Field(_) | Entity::Closure(_) | Entity::Native(_) | Entity::MathFunction(_))
                 if !changes && !matches!(&alias, Entity::Field(f) if f.is_scalar()) =>
             {
@@ -214,7 +215,7 @@ impl<'a> Binder<'a> {
                         name.text
                     ),
                 )
-                .why(format!("a name for a part of the {} always means that part", self.words().world))
+                .why(format!("a name for a part of the {} always means that part", self.host_terms().world))
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }

@@ -1,10 +1,11 @@
 //! Values: operators, their types, and the mistakes that JavaScript turns into NaN without a word.
 
-use super::binder::{Attempt, Binder, Entity, Reported};
+use super::binder::{Binder, Entity};
 use super::member::quoted;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
 use crate::bind::source::TextKind;
 use crate::ir::{Index, Ir, IrKind};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
 use crate::types::Type;
 use crate::value::Value;
@@ -13,7 +14,7 @@ use labspec_finding::{Finding, Span};
 impl<'a> Binder<'a> {
     /// A part of the source as a value of any kind.
     pub(super) fn value(&mut self, expr: &'a Expr) -> Attempt<Ir> {
-        let thing = self.thing(expr)?;
+        let thing = self.entity(expr)?;
         self.value_of(thing, expr.span)
     }
 
@@ -40,7 +41,7 @@ impl<'a> Binder<'a> {
 
     /// A part of the source as a single value: a number, a text, a truth value.
     pub(super) fn operand(&mut self, expr: &'a Expr) -> Attempt<Ir> {
-        let thing = self.thing(expr)?;
+        let thing = self.entity(expr)?;
         self.operand_of(thing, expr.span)
     }
 
@@ -107,7 +108,7 @@ impl<'a> Binder<'a> {
                 .why("it holds functions")
                 .help(format!("call it, as `{name}(x)`, or one of its functions")),
             Entity::Picked(..) => {
-                error(format!("`{text}` is an object of the {}, not a value", self.words().world))
+                error(format!("`{text}` is an object of the {}, not a value", self.host_terms().world))
                     .help(format!("write one of its fields, as `{text}.id`"))
             }
             Entity::Math => {
@@ -186,7 +187,7 @@ impl<'a> Binder<'a> {
     /// The end of a chain with `?.` in it.
     #[inline(never)]
     fn chain(&mut self, inner: &'a Expr, span: Span) -> Attempt<Ir> {
-        let thing = self.thing(inner)?;
+        let thing = self.entity(inner)?;
         let ir = self.value_of(thing, span)?;
         let ty = ir.ty.or(Type::Undefined);
         Ok(Ir::new(IrKind::Chain(Box::new(ir)), ty, span))
@@ -205,7 +206,7 @@ impl<'a> Binder<'a> {
                 let symbol = if *increment { "++" } else { "--" };
                 Finding::error(rules::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"))
                     .why("this text can only read a value")
-                    .help(format!("change the variable in {}", self.words().keeper))
+                    .help(format!("change the variable in {}", self.host_terms().keeper))
             }
             _ => Finding::error(rules::MISPLACED, span, "this is not allowed inside an expression")
                 .help("write a single value"),
@@ -228,7 +229,7 @@ impl<'a> Binder<'a> {
                 "an assignment is used where only a value is read",
             )
             .why("this text is an expression, which returns a value and changes nothing")
-            .help(format!("assign in {}, and read the variable here", self.words().statements));
+            .help(format!("assign in {}, and read the variable here", self.host_terms().statements));
         }
         let symbol = self.text(op_span);
         let report =
@@ -260,7 +261,7 @@ impl<'a> Binder<'a> {
     /// `+` joins them to a text.
     #[inline(never)]
     fn comparable(&mut self, op: BinaryOp, left: &'a Expr, right: &'a Expr) -> Attempt<(Ir, Ir)> {
-        let things = (self.thing(left), self.thing(right));
+        let things = (self.entity(left), self.entity(right));
         let (left_thing, right_thing) = (things.0?, things.1?);
         let fine = |other: &Entity| match other {
             Entity::Value(ir) if op == BinaryOp::Add => ir.ty == Type::String,

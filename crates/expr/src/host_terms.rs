@@ -3,7 +3,7 @@
 
 /// The words of a host, for messages.
 #[derive(Clone, Copy, Debug)]
-pub struct Words {
+pub struct HostTerms {
     /// What the texts belong to: `lab`.
     pub lab: &'static str,
     /// What an author writes: `lesson`.
@@ -29,7 +29,7 @@ pub struct Words {
     /// The text that computes what others only show.
     pub keeper: &'static str,
     /// Where a value is shown.
-    pub shown: &'static str,
+    pub display: &'static str,
     /// What tells the time.
     pub clock: &'static str,
     /// What to write where JavaScript would wait.
@@ -46,9 +46,9 @@ pub struct Words {
     pub recompute: &'static str,
 }
 
-impl Words {
+impl HostTerms {
     /// The words of a host that says nothing.
-    pub const PLAIN: Words = Words {
+    pub const PLAIN: HostTerms = HostTerms {
         lab: "program",
         lesson: "program",
         world: "host",
@@ -61,7 +61,7 @@ impl Words {
         names: "`ctx` and those of the host",
         statements: "a text of statements",
         keeper: "a text of statements",
-        shown: "an expression",
+        display: "an expression",
         clock: "the values from the host are the same in every run",
         wait: "store in `ctx` what to wait for, and test it in every run of the text",
         split: "split it",

@@ -1,8 +1,9 @@
 //! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
 //! and places of their own; what is wrong there is told in words, at the call.
 
-use super::binder::{Attempt, Binder, Entity, InlineSite, Reported, VariableMeaning};
+use super::binder::{Binder, Entity, InlineSite, VariableMeaning};
 use super::facts::FactKind;
+use crate::parse::{Attempt, Reported};
 use std::sync::OnceLock;
 
 use crate::ast::{Body, Expr, Function, Name, Pattern};
@@ -18,7 +19,7 @@ use labspec_finding::Span;
 fn names_of(function: &Function) -> &'static NameTable {
     static NAMES: OnceLock<Vec<(&'static Function, NameTable)>> = OnceLock::new();
     static NONE: OnceLock<NameTable> = OnceLock::new();
-    let all = NAMES.get_or_init(|| natives::written().map(|f| (f, resolved(f))).collect());
+    let all = NAMES.get_or_init(|| natives::source_functions().map(|f| (f, resolved(f))).collect());
     let found = all.iter().find(|(f, _)| std::ptr::eq(*f, function));
     found.map_or_else(|| NONE.get_or_init(NameTable::default), |(_, names)| names)
 }
@@ -32,7 +33,7 @@ fn resolved(function: &'static Function) -> NameTable {
 
 impl<'a> Binder<'a> {
     /// A method that is written in the language, as if its text stood here.
-    pub(super) fn call_written(
+    pub(super) fn inline_method(
         &mut self,
         function: &'a Function,
         row: &'static Native,
@@ -42,7 +43,7 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Ir> {
         let mut things = vec![Ok(first)];
         for (i, arg) in args.iter().enumerate() {
-            let thing = self.argument_thing(arg);
+            let thing = self.argument_entity(arg);
             // The function stands first among the arguments.
             let calls = match &thing {
                 Ok(Entity::Value(ir)) => matches!(ir.ty, Type::Function | Type::Any | Type::Never),
@@ -69,7 +70,7 @@ impl<'a> Binder<'a> {
         for (param, thing) in function.params.iter().zip(things) {
             let Pattern::Name(name) = &param.target else { continue };
             self.declare_variable(name);
-            self.give_thing(name, thing, &mut steps);
+            self.give_entity(name, thing, &mut steps);
         }
         let key = self.key(function.span.start, FactKind::Result);
         self.returns.push(key);
@@ -90,12 +91,12 @@ impl<'a> Binder<'a> {
     }
 
     /// An argument of such a method: a function stays known.
-    fn argument_thing(&mut self, arg: &'a Expr) -> Attempt<Entity> {
-        match self.thing(arg)? {
+    fn argument_entity(&mut self, arg: &'a Expr) -> Attempt<Entity> {
+        match self.entity(arg)? {
             closure @ Entity::Closure(_) => Ok(closure),
             function @ (Entity::MathFunction(_) | Entity::Native(_)) => Ok(function),
             // `Number`, which is a function and holds some.
-            Entity::Namespace(name) => match natives::free(name) {
+            Entity::Namespace(name) => match natives::find_function(name) {
                 Some(function) => Ok(Entity::Native(function)),
                 None => self.value_of(Entity::Namespace(name), arg.span).map(Entity::Value),
             },
@@ -104,7 +105,7 @@ impl<'a> Binder<'a> {
     }
 
     /// A parameter of a written method: what needs no place of its own is only another word.
-    fn give_thing(&mut self, name: &Name, thing: Entity, steps: &mut Vec<IrStatement>) {
+    fn give_entity(&mut self, name: &Name, thing: Entity, steps: &mut Vec<IrStatement>) {
         match thing {
             Entity::Value(ir) => self.give_value(name, ir, steps),
             other => self.give(name, VariableMeaning::Alias(other)),
