@@ -212,7 +212,11 @@ impl Machine<'_> {
                     let value = std::mem::take(&mut self.context.values[f.v + unit.value_count as usize]);
                     self.put_value(f, dst, value);
                 }
-                _ => self.step(op, code, unit, f, at - 1).map_err(|stop| stop.at(unit, at - 1))?,
+                _ => {
+                    if let Err(stop) = self.step(op, code, unit, f, at - 1) {
+                        return Err(stop.at(unit, at - 1));
+                    }
+                }
             }
             if WATCHED {
                 self.after(op, operands, f);
