@@ -40,7 +40,7 @@ pub(crate) struct Tokens<'s> {
 
 /// A name between quotes that a call takes for the name of an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Named {
+pub struct NamedObject {
     /// The objects among which it is looked up.
     pub collection: CollectionId,
     /// The name.
@@ -51,7 +51,7 @@ pub struct Named {
 
 /// A field that a text names.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mention {
+pub struct FieldMention {
     /// The field, or the part of it that one object has.
     pub field: Field,
     /// The element, counted from the start of that part, where a number of the text tells it.
@@ -61,7 +61,7 @@ pub struct Mention {
 }
 
 /// All names of objects in a text, in order. Where it is broken, those that can be told.
-pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<Named> {
+pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<NamedObject> {
     let all = Tokens::read(schema, source);
     let named = (0..all.list.len()).filter_map(|i| all.named(i));
     named.collect()
@@ -113,7 +113,7 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
 }
 
 /// All fields that a text names, in order.
-pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<Mention> {
+pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<FieldMention> {
     let all = Tokens::read(schema, source);
     let mut found = Vec::new();
     for i in 0..all.list.len() {
@@ -129,9 +129,11 @@ pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<Mention> {
         };
         match meaning {
             PathMeaning::Field(field) if from < i => {
-                found.push(Mention { field, element: None, span: span(from) });
+                found.push(FieldMention { field, element: None, span: span(from) });
             }
-            PathMeaning::Element(field, element) => found.push(Mention { field, element, span: span(from) }),
+            PathMeaning::Element(field, element) => {
+                found.push(FieldMention { field, element, span: span(from) })
+            }
             _ => {}
         }
     }
@@ -164,10 +166,10 @@ impl<'s> Tokens<'s> {
     }
 
     /// The name of an object that stands at a token.
-    fn named(&self, i: usize) -> Option<Named> {
+    fn named(&self, i: usize) -> Option<NamedObject> {
         let Some(TokenKind::Text(name)) = self.kind(i) else { return None };
         let collection = self.collection_at(i)?;
-        Some(Named { collection, name: name.clone(), span: inner(self.list.get(i)?.span) })
+        Some(NamedObject { collection, name: name.clone(), span: inner(self.list.get(i)?.span) })
     }
 
     /// The objects whose names the argument takes that stands at, or would stand at, a token.

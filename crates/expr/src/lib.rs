@@ -71,9 +71,9 @@ mod tests;
 #[path = "../../../tests/zz.rs"]
 mod zz;
 
-pub use analysis::measure::{Clash, Given, Measured, Stored};
+pub use analysis::measure::{DimensionClash, DimensionStore, KnownDimensions, TextDimensions};
 pub use bind::{Compiled, Compiler};
-pub use chain::{Mention, Named, chain_at, fields_in, names_in, texts_in, variables_of};
+pub use chain::{FieldMention, NamedObject, chain_at, fields_in, names_in, texts_in, variables_of};
 pub use columnar::{Columnar, Foreign, Recording};
 pub use complete::{Suggested, Suggestion, complete};
 pub use context::Context;

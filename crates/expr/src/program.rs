@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::analysis::measure::{Given, Measured, measured};
+use crate::analysis::measure::{KnownDimensions, TextDimensions, measured};
 use crate::analysis::{self, WriteOrder};
 use crate::code::MachineCode;
 use crate::context::Context;
@@ -39,7 +39,7 @@ pub struct Aggregate {
 
 impl Aggregate {
     /// What its result measures.
-    fn measure(&self, schema: &dyn Schema, given: &Given) -> Measure {
+    fn measure(&self, schema: &dyn Schema, given: &KnownDimensions) -> Measure {
         let arg = |i: usize| self.args.get(i).map_or(Measure::Unknown, |p| p.measured(schema, given).value);
         schema.function(self.function).gives.resolve(arg)
     }
@@ -101,7 +101,7 @@ impl Program {
     }
 
     /// What its numbers measure. `schema` is what it was compiled for; it may know more of the units by now.
-    pub fn measured(&self, schema: &dyn Schema, given: &Given) -> Measured {
+    pub fn measured(&self, schema: &dyn Schema, given: &KnownDimensions) -> TextDimensions {
         let aggregates = self.aggregates.iter().map(|a| (a.slot, a.measure(schema, given))).collect();
         measured(&self.code.form, schema, given, &aggregates).of_type(self.result)
     }

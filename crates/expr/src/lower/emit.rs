@@ -61,65 +61,69 @@ struct Emit<'f> {
 impl<'f> Emit<'f> {
     /// Counts how often each name is used, from the end on, so that what is needed by nothing needs nothing.
     fn count_uses(&mut self) {
-        let Emit { form, numbers, values, kept, .. } = self;
+        let form = self.form;
         for (at, block) in form.blocks.iter().enumerate().rev() {
-            let at = at as BlockId;
-            let mut used = |at: Operand| match at {
-                Operand::Number(n) => numbers.used(n.0),
-                Operand::Value(v) => values.used(v.0),
-            };
             match &block.end {
-                Terminator::If(_, test, _) => used(Operand::Number(form.same.number(*test))),
-                Terminator::IfNothing(_, value, _) => used(Operand::Value(form.same.value(*value))),
-                Terminator::Return(Some(at)) => used(form.same.at(*at)),
+                Terminator::If(_, test, _) => self.count_use(Operand::Number(*test)),
+                Terminator::IfNothing(_, value, _) => self.count_use(Operand::Value(*value)),
+                Terminator::Return(Some(at)) => self.count_use(*at),
                 Terminator::Return(None) | Terminator::Jump(_) | Terminator::Again(_) => {}
             }
             if let Some(edge) = edge(&block.end) {
-                let back = matches!(block.end, Terminator::Again(_));
-                let params = form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
-                for (param, arg) in params.iter().zip(&edge.args) {
-                    let needed = match param {
-                        Operand::Number(n) => numbers.uses(n.0) > 0,
-                        Operand::Value(v) => values.uses(v.0) > 0,
-                    };
-                    match form.same.at(*arg) {
-                        _ if !(needed || back) => {}
-                        Operand::Number(n) => numbers.used(n.0),
-                        Operand::Value(v) => values.used(v.0),
-                    }
-                }
+                self.count_edge_uses(edge, matches!(block.end, Terminator::Again(_)));
             }
-            for i in form.range(at).rev() {
-                let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else {
-                    continue;
-                };
-                let mut needed = !op.is_pure();
-                op.each(&mut |u| match u {
-                    OperandUse::Gives(n) => needed |= numbers.uses(n.0) > 0,
-                    OperandUse::GivesValue(v) => needed |= values.uses(v.0) > 0,
-                    _ => {}
-                });
-                *keep = needed;
-                if !needed {
-                    continue;
-                }
-                op.each(&mut |u| match u {
-                    OperandUse::Reads(n) => numbers.used(form.same.number(*n).0),
-                    OperandUse::ReadsValue(v) => values.used(form.same.value(*v).0),
-                    OperandUse::ReadsAll(args) => {
-                        args.operands(&form.args)
-                            .iter()
-                            .for_each(|n| numbers.used(form.same.number(Num(*n)).0));
-                    }
-                    OperandUse::ReadsValues(args) => {
-                        args.operands(&form.args)
-                            .iter()
-                            .for_each(|v| values.used(form.same.value(Val(*v)).0));
-                    }
-                    OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
-                });
+            for i in form.range(at as BlockId).rev() {
+                self.count_operation_uses(i);
             }
         }
+    }
+
+    fn count_use(&mut self, at: Operand) {
+        match self.form.same.at(at) {
+            Operand::Number(n) => self.numbers.used(n.0),
+            Operand::Value(v) => self.values.used(v.0),
+        }
+    }
+
+    /// What a block hands on. `back`: to the start of a loop, whose parameters may be needed by what was counted already.
+    fn count_edge_uses(&mut self, edge: &BlockEdge, back: bool) {
+        let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
+        for (param, arg) in params.iter().zip(&edge.args) {
+            let needed = match param {
+                Operand::Number(n) => self.numbers.uses(n.0) > 0,
+                Operand::Value(v) => self.values.uses(v.0) > 0,
+            };
+            if needed || back {
+                self.count_use(*arg);
+            }
+        }
+    }
+
+    /// Whether an operation is needed, and what it then reads.
+    fn count_operation_uses(&mut self, i: usize) {
+        let Emit { form, numbers, values, kept, .. } = self;
+        let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else { return };
+        let mut needed = !op.is_pure();
+        op.each(&mut |u| match u {
+            OperandUse::Gives(n) => needed |= numbers.uses(n.0) > 0,
+            OperandUse::GivesValue(v) => needed |= values.uses(v.0) > 0,
+            _ => {}
+        });
+        *keep = needed;
+        if !needed {
+            return;
+        }
+        op.each(&mut |u| match u {
+            OperandUse::Reads(n) => numbers.used(form.same.number(*n).0),
+            OperandUse::ReadsValue(v) => values.used(form.same.value(*v).0),
+            OperandUse::ReadsAll(args) => {
+                args.operands(&form.args).iter().for_each(|n| numbers.used(form.same.number(Num(*n)).0));
+            }
+            OperandUse::ReadsValues(args) => {
+                args.operands(&form.args).iter().for_each(|v| values.used(form.same.value(Val(*v)).0));
+            }
+            OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
+        });
     }
 
     /// What is handed over.

@@ -41,7 +41,7 @@ pub(super) static ROWS: &[Native] = table! {
     "splice" Growing changes (1, MANY) List Moves splice: "[1, 2, 3].splice(1, 1)" => "2",
         "removes elements from an index on, inserts others there, and returns the removed ones";
     "subarray" List (0, 2) Receiver Moves subarray: "{array}.subarray(0, 2).length" => "2",
-        "a part of an array of the engine, not a copy";
+        "a part of an array of the model, not a copy";
     "toReversed" List (0, 0) List Moves to_reversed: "[1, 2].toReversed()" => "2,1",
         "a copy in reverse order";
     "toSorted" List (0, 0) List Looks to_sorted: "[3, 1, 2].toSorted()" => "1,2,3",

@@ -8,7 +8,7 @@ use crate::value::Value;
 
 pub(super) static ROWS: &[Native] = table! {
     "Array.isArray" Nothing (1, 1) Boolean Asks is_array: "Array.isArray([1])" => "true",
-        "whether a value is a list; an array of the engine is not one, as in JavaScript";
+        "whether a value is a list; an array of the model is not one, as in JavaScript";
     "Array.of" Nothing (0, MANY) List Keeps array_of: "Array.of(1, 2)" => "1,2",
         "a list of the arguments";
     "Array.from" Nothing (1, 1) List Keeps from: "Array.from('ab')" => "a,b",

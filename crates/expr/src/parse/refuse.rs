@@ -16,7 +16,8 @@ const NO_TIME: &str = "every text runs to its end at once and never waits";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
 const STORE_HELP: &str = "store values in variables, as `ctx.peak`";
 
-/// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
+/// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name. One table, with a
+/// row for each construct.
 pub(super) fn word(word: &str, span: Span, host_terms: &HostTerms) -> Option<Finding> {
     let misplaced = |help: &str| {
         Finding::error(rules::MISPLACED, span, format!("`{word}` is not allowed here")).help(help)

@@ -204,10 +204,7 @@ impl Machine<'_> {
                     self.context.values[f.v + (unit.value_count + k) as usize] = value;
                 }
                 Op::Call(callee) => self.call(code, callee, unit, f, at - 1)?,
-                Op::TakeNumber(dst) => {
-                    let x = self.context.numbers[f.n + unit.number_count as usize];
-                    self.put(f, dst, x);
-                }
+                Op::TakeNumber(dst) => self.put(f, dst, self.num(f, Num(unit.number_count))),
                 Op::TakeValue(dst) => {
                     let value = std::mem::take(&mut self.context.values[f.v + unit.value_count as usize]);
                     self.put_value(f, dst, value);

@@ -196,7 +196,7 @@ impl Machine<'_> {
         if matches!(value, Value::View(_)) {
             return Err(NativeError::new(
                 rules::WHOLE_ARRAY,
-                "`ctx` cannot store an array of the engine; store a copy, as `list.slice()`",
+                "`ctx` cannot store an array of the model; store a copy, as `list.slice()`",
             ));
         }
         Ok(())

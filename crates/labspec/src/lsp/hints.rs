@@ -6,7 +6,7 @@ use super::course::Around;
 use super::documents::Document;
 use super::places;
 use crate::bind::ModelNames;
-use labspec_expr::{Mention, Schema, fields_in};
+use labspec_expr::{FieldMention, Schema, fields_in};
 use serde_json::{Value, json};
 use std::ops::Range;
 
@@ -34,8 +34,8 @@ pub(super) fn hints(document: &mut Document, around: &Around, range: &Range<usiz
 
 /// The unit of a field, or of the element of one whose elements differ: the height of a free body is in m, the parts of its
 /// quaternion have none.
-fn unit(names: &ModelNames<'_>, mention: &Mention) -> Option<String> {
-    let Mention { field, element, .. } = mention;
+fn unit(names: &ModelNames<'_>, mention: &FieldMention) -> Option<String> {
+    let FieldMention { field, element, .. } = mention;
     let told = element.and_then(|i| names.element_help(field.key, field.first + i));
     let of_element =
         told.as_deref().and_then(|help| help.rsplit_once(", ")).map(|(_, unit)| unit.to_string());

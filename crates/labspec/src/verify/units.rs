@@ -9,12 +9,12 @@ use crate::source::Text;
 use crate::verify::BoundLab;
 use labspec_bind::units;
 use labspec_expr::dimension::{BASES, Dimension, Measure};
-use labspec_expr::{Compiler, Given};
+use labspec_expr::{Compiler, KnownDimensions};
 
 /// What is known of the numbers that claims read.
 #[derive(Debug)]
 pub(super) struct Known {
-    given: Given,
+    given: KnownDimensions,
     runs: Units,
 }
 

@@ -4,7 +4,7 @@
 use std::cell::Cell;
 use std::collections::BTreeMap;
 
-use super::measured::{Aggregates, Clash, Given, Measured};
+use super::measured::{Aggregates, DimensionClash, KnownDimensions, TextDimensions};
 use crate::analysis::effects::{element, whole};
 use crate::dimension::Measure;
 use crate::effects::Access;
@@ -24,11 +24,11 @@ const DEEP: usize = 8;
 pub(crate) fn measured(
     form: &SsaProgram,
     schema: &dyn Schema,
-    given: &Given,
+    given: &KnownDimensions,
     aggregates: &Aggregates,
-) -> Measured {
+) -> TextDimensions {
     let around = MeasureContext { form, schema, given, aggregates, left: Cell::new(MOST) };
-    let mut all = Measured::default();
+    let mut all = TextDimensions::default();
     for (id, unit) in form.units.iter().enumerate() {
         let mut work = MeasureWalk::new(&around, id as u32, unit);
         work.iterate_to_fixpoint();
@@ -50,7 +50,7 @@ pub(crate) fn measured(
 pub(super) struct MeasureContext<'f> {
     pub(super) form: &'f SsaProgram,
     pub(super) schema: &'f dyn Schema,
-    pub(super) given: &'f Given,
+    pub(super) given: &'f KnownDimensions,
     pub(super) aggregates: &'f Aggregates,
     /// Operations that may still be looked at.
     pub(super) left: Cell<usize>,
@@ -71,7 +71,7 @@ pub(super) struct MeasureWalk<'f> {
     pub(super) taken: Measure,
     /// A function that is not known was called: it may have changed whatever is shared.
     pub(super) wild: bool,
-    pub(super) found: Measured,
+    pub(super) found: TextDimensions,
 }
 
 impl<'f> MeasureWalk<'f> {
@@ -86,7 +86,7 @@ impl<'f> MeasureWalk<'f> {
             passed: Default::default(),
             taken: Measure::Unknown,
             wild: false,
-            found: Measured::default(),
+            found: TextDimensions::default(),
         }
     }
 
@@ -103,12 +103,12 @@ impl<'f> MeasureWalk<'f> {
             }
         }
         let variables = self.found.variables.keys().map(|slot| (*slot, Measure::Unknown)).collect();
-        self.found = Measured { variables, ..Measured::default() };
+        self.found = TextDimensions { variables, ..TextDimensions::default() };
     }
 
     /// One look at everything, in the order of the text.
     fn round(&mut self) {
-        self.found = Measured { value: Measure::Anything, ..Measured::default() };
+        self.found = TextDimensions { value: Measure::Anything, ..TextDimensions::default() };
         let unit = self.unit;
         for (at, block) in unit.blocks.iter().enumerate() {
             for i in unit.range(at as u32) {
@@ -222,7 +222,7 @@ impl<'f> MeasureWalk<'f> {
         if let (Measure::Known(left), Measure::Known(right)) = (a, b)
             && a.clashes(b)
         {
-            self.found.clashes.push(Clash { span: *span, left, right });
+            self.found.clashes.push(DimensionClash { span: *span, left, right });
         }
     }
 }

@@ -10,7 +10,7 @@ use labspec_finding::Span;
 
 /// What is known of the surroundings of a text.
 #[derive(Clone, Debug, Default)]
-pub struct Given {
+pub struct KnownDimensions {
     /// The variables, by their slots. What is not here was never stored.
     pub variables: BTreeMap<u32, Measure>,
     /// What a control gives.
@@ -19,20 +19,20 @@ pub struct Given {
 
 /// The dimensions in a text.
 #[derive(Clone, Debug, Default)]
-pub struct Measured {
+pub struct TextDimensions {
     /// Of its value.
     pub value: Measure,
     /// Of every variable that it stores.
     pub variables: BTreeMap<u32, Measure>,
     /// Of what it stores in fields.
-    pub stores: Vec<Stored>,
+    pub stores: Vec<DimensionStore>,
     /// Sums and comparisons of what cannot be added or compared.
-    pub clashes: Vec<Clash>,
+    pub clashes: Vec<DimensionClash>,
 }
 
 /// A number that is stored.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stored {
+pub struct DimensionStore {
     /// Where to.
     pub access: Access,
     /// What it is.
@@ -43,7 +43,7 @@ pub struct Stored {
 
 /// Two quantities of different dimensions that are added or compared.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Clash {
+pub struct DimensionClash {
     /// Where.
     pub span: Span,
     /// The one.
@@ -55,12 +55,12 @@ pub struct Clash {
 /// What the aggregates of a text give, by their slots.
 pub(crate) type Aggregates = BTreeMap<usize, Measure>;
 
-impl Measured {
+impl TextDimensions {
     /// A text whose value is a truth value measures nothing.
-    pub(crate) fn of_type(self, result: Type) -> Measured {
+    pub(crate) fn of_type(self, result: Type) -> TextDimensions {
         match result {
-            Type::Boolean | Type::Void => Measured { value: Measure::NUMBER, ..self },
-            Type::String => Measured { value: Measure::Unknown, ..self },
+            Type::Boolean | Type::Void => TextDimensions { value: Measure::NUMBER, ..self },
+            Type::String => TextDimensions { value: Measure::Unknown, ..self },
             _ => self,
         }
     }

@@ -15,4 +15,4 @@ mod natives;
 mod operation;
 
 pub(crate) use flow::measured;
-pub use measured::{Clash, Given, Measured, Stored};
+pub use measured::{DimensionClash, DimensionStore, KnownDimensions, TextDimensions};

@@ -1,7 +1,7 @@
 //! What one operation gives, by what its operands are.
 
 use super::flow::MeasureWalk;
-use super::measured::Stored;
+use super::measured::DimensionStore;
 use super::natives as handed;
 use crate::analysis::effects::{element, whole};
 use crate::dimension::{Dimension, Measure};
@@ -244,7 +244,7 @@ impl MeasureWalk<'_> {
     }
 
     fn stored(&mut self, access: Access, measure: Measure, span: &Span) {
-        self.found.stores.push(Stored { access, measure, span: *span });
+        self.found.stores.push(DimensionStore { access, measure, span: *span });
     }
 
     /// What every member of a table is.
