@@ -33,7 +33,7 @@ pub(super) fn blank(input: &str) -> (&str, bool, Option<&str>) {
 }
 
 /// One step of a parser.
-pub(super) fn nom_str<'a, P: Parser<&'a str, Error = nom::error::Error<&'a str>>>(
+fn nom_str<'a, P: Parser<&'a str, Error = nom::error::Error<&'a str>>>(
     parser: &mut P,
     input: &'a str,
 ) -> IResult<&'a str, P::Output> {

@@ -241,7 +241,7 @@ impl FunctionBuilder<'_> {
         Terminator::If(op == LogicalOp::Or, test, BlockEdge::default())
     }
 
-    pub(super) fn value_to(&mut self, ir: &Ir, place: LocalId) {
+    fn value_to(&mut self, ir: &Ir, place: LocalId) {
         let src = self.value(ir);
         self.write(place, Operand::Value(src));
     }

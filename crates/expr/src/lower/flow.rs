@@ -177,7 +177,7 @@ impl FunctionBuilder<'_> {
 
     /// The ways come together here. `after`: the block that all of them passed last. Variables hold what they held
     /// there; what they hold now follows from the ways.
-    pub(super) fn land(&mut self, after: BlockId, ways: impl IntoIterator<Item = Option<PendingEdge>>) {
+    fn land(&mut self, after: BlockId, ways: impl IntoIterator<Item = Option<PendingEdge>>) {
         let ways: Vec<PendingEdge> = ways.into_iter().flatten().collect();
         if ways.is_empty() {
             self.dead = true;

@@ -231,7 +231,7 @@ impl Parser<'_> {
     }
 
     /// A name that is being given.
-    pub(super) fn new_name(&mut self, what: &str) -> Attempt<Name> {
+    fn new_name(&mut self, what: &str) -> Attempt<Name> {
         let span = self.span();
         let text = match self.peek() {
             TokenKind::Word(word) => (*word).to_owned(),

@@ -237,7 +237,7 @@ impl<'s> Parser<'s> {
     }
 
     /// The whole text as one expression.
-    pub(super) fn whole_expression(&mut self) -> Expr {
+    fn whole_expression(&mut self) -> Expr {
         let nothing = Expr { kind: ExprKind::Error, span: self.span() };
         if self.ended() {
             let report = Finding::error(rules::EMPTY, self.span(), "the expression is empty")

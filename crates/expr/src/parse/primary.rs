@@ -49,7 +49,7 @@ impl Parser<'_> {
         self.node(kind, span, 0)
     }
 
-    pub(super) fn prefix_symbol(&mut self, symbol: &'static str) -> Attempt<ExprNode> {
+    fn prefix_symbol(&mut self, symbol: &'static str) -> Attempt<ExprNode> {
         let span = self.span();
         let sign = [UnaryOp::Minus, UnaryOp::Plus, UnaryOp::Not, UnaryOp::BitNot]
             .into_iter()
@@ -119,7 +119,7 @@ impl Parser<'_> {
         self.node(ExprKind::Template { texts, values }, span, height)
     }
 
-    pub(super) fn template_value(&mut self, place: Span) -> Attempt<ExprNode> {
+    fn template_value(&mut self, place: Span) -> Attempt<ExprNode> {
         if self.ended() {
             let report = Finding::error(rules::EMPTY, place, "there is nothing between the braces").help(
                 format!("write the value to insert into the text, as `${{{}}}`", self.host_terms.number),

@@ -24,7 +24,7 @@ impl Parser<'_> {
     }
 
     /// Whether the token before is this symbol.
-    pub(super) fn at_behind(&self, symbol: &str) -> bool {
+    fn at_behind(&self, symbol: &str) -> bool {
         let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
         before.is_some_and(|t| matches!(t.kind, TokenKind::Symbol(s) if s == symbol))
     }

@@ -203,7 +203,7 @@ impl Printer<'_> {
     }
 
     /// `??` mixes with `||` and `&&` only in parentheses.
-    pub(super) fn logical_operand(&mut self, op: LogicalOp, operand: &Expr, least: u8) {
+    fn logical_operand(&mut self, op: LogicalOp, operand: &Expr, least: u8) {
         let mixes = matches!(&operand.kind, ExprKind::Logical { op: other, .. }
             if (*other == LogicalOp::Nullish) != (op == LogicalOp::Nullish));
         self.expr(operand, if mixes { ATOM + 1 } else { least });

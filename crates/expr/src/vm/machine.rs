@@ -144,7 +144,7 @@ impl Machine<'_> {
 
     /// The same; `WATCHED`: the watch of the context notes what happens. One loop over one `match`: every split of it would
     /// cost a jump for each operation that runs.
-    pub(super) fn execute_as<const WATCHED: bool>(
+    fn execute_as<const WATCHED: bool>(
         &mut self,
         code: &Arc<MachineCode>,
         unit: &MachineFunction,
@@ -358,6 +358,6 @@ pub(super) fn span_of(unit: &MachineFunction, at: usize) -> Span {
 }
 
 #[cold]
-pub(super) fn failure(trouble: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
+fn failure(trouble: NativeError, unit: &MachineFunction, at: usize) -> Box<RuntimeError> {
     Box::new(RuntimeError { rule: trouble.rule, span: span_of(unit, at), message: trouble.message })
 }

@@ -91,7 +91,7 @@ impl<'f> MeasureWalk<'f> {
     }
 
     /// Looks at everything until nothing changes.
-    pub(super) fn iterate_to_fixpoint(&mut self) {
+    fn iterate_to_fixpoint(&mut self) {
         if !self.unit.blocks.iter().any(|b| matches!(b.end, Terminator::Again(_))) {
             return self.round();
         }

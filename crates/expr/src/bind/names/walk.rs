@@ -238,7 +238,7 @@ impl<'a> NameWalk<'a, '_> {
 
     /// Refuses the name of an object without its quotes.
     #[inline(never)]
-    pub(super) fn lacks_quotes(&mut self, collection: Option<CollectionId>, arg: &Expr) -> bool {
+    fn lacks_quotes(&mut self, collection: Option<CollectionId>, arg: &Expr) -> bool {
         let (Some(id), Some(schema), ExprKind::Name(word)) = (collection, self.around.schema, &arg.kind)
         else {
             return false;
@@ -282,7 +282,7 @@ impl<'a> NameWalk<'a, '_> {
     }
 
     /// Whether the language or the host gives a meaning to a name.
-    pub(super) fn is_outside(&self, name: &str) -> bool {
+    fn is_outside(&self, name: &str) -> bool {
         let Some(schema) = self.around.schema else { return true };
         match name {
             "value" => self.around.has_value || schema.root(name).is_some(),
@@ -316,7 +316,7 @@ impl<'a> NameWalk<'a, '_> {
     }
 
     /// A use of a declaration: the functions between them take the variable along.
-    pub(super) fn use_of(&mut self, byte: usize, span: Span) -> NameMeaning {
+    fn use_of(&mut self, byte: usize, span: Span) -> NameMeaning {
         let function = self.function;
         let Some(declared) = self.names.declared.get_mut(&byte) else { return NameMeaning::Wrong };
         let home = declared.function;
@@ -349,7 +349,7 @@ impl<'a> NameWalk<'a, '_> {
     }
 
     /// What a function takes, those take that name it and do not hold it.
-    pub(super) fn hand_on(&mut self) {
+    fn hand_on(&mut self) {
         let mut changed: BTreeSet<usize> = self.names.taken.keys().copied().collect();
         while let Some(callee) = changed.pop_last() {
             let taken: Vec<usize> = self.names.taken(callee).collect();

@@ -204,7 +204,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Checks an index whose value is known.
-    pub(super) fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
+    fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
         let text = number::to_text(x);
         if x < 0.0 {
             let mut report = Finding::error(rules::INDEX_NEGATIVE, span, format!("index {text} is negative"))
@@ -429,7 +429,7 @@ fn owner(field: &Field, n: usize) -> String {
 }
 
 /// The finding for an index past the end.
-pub(super) fn out_of_range(field: &Field, text: &str, span: Span, host_terms: &HostTerms) -> Finding {
+fn out_of_range(field: &Field, text: &str, span: Span, host_terms: &HostTerms) -> Finding {
     let what = match field.is_empty() {
         true => format!("`{}` has no elements", field.path),
         false => format!("index {text} is past the end of `{}`", field.path),

@@ -351,7 +351,7 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    pub(super) fn refuse_deep(&mut self, span: Span) -> Attempt<Entity> {
+    fn refuse_deep(&mut self, span: Span) -> Attempt<Entity> {
         self.refuse(too_deep(span))
     }
 

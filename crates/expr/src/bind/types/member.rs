@@ -57,7 +57,7 @@ impl<'a> Binder<'a> {
 
     /// Notes what a name or a member is.
     #[inline(never)]
-    pub(super) fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
+    fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
         let schema = self.schema;
         match thing {
             Entity::Field(field) => self.explain(span, || field_help(field, schema.host_terms())),
