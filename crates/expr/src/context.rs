@@ -74,7 +74,7 @@ impl Context {
     }
 
     /// Lets the next run do so much work and no more, in units of about a nanosecond; work of the host counts too. A run
-    /// has a limit of its own besides, see [`rules::BUDGET`].
+    /// has a limit of its own besides, see [`crate::rules::BUDGET`].
     pub fn allow(&mut self, units: u64) {
         self.allowed = Some(units);
     }

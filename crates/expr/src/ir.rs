@@ -1,4 +1,4 @@
-//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `form`.
+//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `lower`.
 
 use std::sync::Arc;
 

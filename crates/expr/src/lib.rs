@@ -11,8 +11,8 @@
 //! | text to tokens | `lex` (nom) | tokens with byte spans |
 //! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
 //! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
-//! | meaning to form | `form` | blocks of operations, every value defined once |
-//! | form to code | `vm::emit`, `formula` | [`Program`]: operations on registers, formulas |
+//! | meaning to form | `lower` | blocks of operations, every value defined once |
+//! | form to code | `lower::emit`, `lower::pure` | [`Program`]: operations on registers, formulas |
 //! | running | `vm`, `row` | a [`Value`], or a [`RuntimeError`] |
 //! | running over samples | `columnar` | a column of numbers |
 //!

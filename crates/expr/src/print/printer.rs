@@ -2,7 +2,7 @@
 
 use crate::ast::{Expr, ExprKind};
 
-/// Binding powers beyond those of the operators, see [`BinaryOp::power`].
+/// Binding powers beyond those of the operators, see [`crate::ast::BinaryOp::power`].
 pub(super) const ASSIGNMENT: u8 = 1;
 pub(super) const CHOICE: u8 = 2;
 pub(super) const SIGN: u8 = 15;

@@ -41,10 +41,10 @@ impl Machine<'_> {
 
             Op::MoveValue(dst, src) => self.put_value(f, dst, self.val(f, src).clone()),
             Op::BoxBoolean(dst, src) => self.put_value(f, dst, Value::Boolean(self.num(f, src) != 0.0)),
-            Op::ToNumber(dst, src) => self.to_number(code, dst, src, f)?,
+            Op::ToNumber(dst, src) => self.convert_to_number(code, dst, src, f)?,
             Op::ToIndex(dst, src) => self.put(f, dst, index_of(self.val(f, src))),
             Op::Truthy(dst, src) => self.put(f, dst, truth(self.val(f, src).truthy())),
-            Op::ToText(dst, src) => self.to_text(code, dst, src, f)?,
+            Op::ToText(dst, src) => self.convert_to_text(code, dst, src, f)?,
             Op::TypeOf(dst, src) => {
                 let name = self.val(f, src).type_name();
                 self.put_value(f, dst, Value::from(name));
@@ -114,7 +114,7 @@ impl Machine<'_> {
     }
 
     #[inline]
-    fn to_number(
+    fn convert_to_number(
         &mut self,
         code: &MachineCode,
         dst: Num,
@@ -133,7 +133,7 @@ impl Machine<'_> {
     }
 
     #[inline]
-    fn to_text(
+    fn convert_to_text(
         &mut self,
         code: &MachineCode,
         dst: Val,

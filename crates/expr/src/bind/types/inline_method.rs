@@ -1,17 +1,17 @@
 //! Calls of methods that are written in the language: bound as if their text stood where they are called. Their texts have names
 //! and places of their own; what is wrong there is told in words, at the call.
 
-use super::binder::{Binder, Entity, InlineSite, VariableMeaning};
-use super::facts::FactKind;
-use crate::parse::{Attempt, Reported};
 use std::sync::OnceLock;
 
+use super::binder::{Binder, Entity, InlineSite, VariableMeaning};
+use super::facts::FactKind;
 use crate::ast::{Body, Expr, Function, Name, Pattern};
 use crate::bind::names::{NameTable, Surroundings, resolve};
 use crate::bind::source::TextKind;
 use crate::globals::Globals;
 use crate::ir::{Ir, IrKind, IrStatement, always_return};
 use crate::natives::{self, Native};
+use crate::parse::{Attempt, Reported};
 use crate::types::Type;
 use labspec_finding::Span;
 

@@ -4,7 +4,7 @@
 //! another round follows (a fixed point over a lattice; Kildall, "A unified approach to global program optimization", 1973). Types
 //! only grow, at most three times each, so the rounds end. After a few of them the places through which every circle of types goes
 //! are taken to hold anything (widening; Cousot and Cousot, "Abstract interpretation", 1977), and two more rounds are the last:
-//! see [`TypeFacts`].
+//! see `facts::TypeFacts`.
 
 mod access;
 mod assign;

@@ -1,14 +1,14 @@
 //! Members of values, and of objects whose name is computed while running.
 
-use super::binder::{Binder, Entity, MethodReceiver};
-use crate::parse::Attempt;
 use std::sync::Arc;
 
+use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::{machinery, view_of};
 use crate::ast::{Expr, ExprKind, Name};
 use crate::bind::names::{MACHINERY, NameMeaning, list_names};
 use crate::ir::{Index, Ir, IrKind, MemberTable};
 use crate::natives;
+use crate::parse::Attempt;
 use crate::rules;
 use crate::schema::{Entry, Field, Param};
 use crate::types::{CollectionId, Type};
