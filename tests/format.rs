@@ -127,7 +127,7 @@ fn compile(text: &str, form: Form, model: &Model, globals: &mut Globals) -> Prog
 
 /// The value, all fields and all variables after a run.
 fn outcome(program: &Program, globals: &Globals, world: &World) -> (String, Vec<Vec<u64>>) {
-    let (mut world, mut context) = (world.clone(), Context::of(globals));
+    let (mut world, mut context) = (world.clone(), Context::for_globals(globals));
     for slot in 0..globals.len() as u32 {
         context.store(globals, slot, Value::Number(0.1 * f64::from(slot)));
     }

@@ -144,7 +144,7 @@ fn shown(world: &mut World, text: &str, demand: Option<&mut AccessSet>) -> Optio
         include(program.effects(), demand);
         return Some(String::new());
     }
-    let mut context = Context::of(&globals);
+    let mut context = Context::for_globals(&globals);
     Some(match program.run(world, &mut context, None) {
         Ok(value) => bits(&context, &value),
         Err(error) => format!("throws: {error}"),

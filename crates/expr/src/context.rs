@@ -47,7 +47,7 @@ impl Context {
     }
 
     /// All variables `undefined`, and their names known: no later run has to learn them.
-    pub fn of(globals: &Globals) -> Context {
+    pub fn for_globals(globals: &Globals) -> Context {
         let mut context = Context::new();
         context.learn(globals.shared_names());
         context

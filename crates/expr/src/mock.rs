@@ -396,7 +396,7 @@ pub(crate) fn execute(source: &str) -> (World, Value) {
     let out = globals.define("out");
     let compiled = Compiler::new(&Mock, &mut globals).statements(source);
     let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:#?}", compiled.diagnostics));
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     program.run(&mut world, &mut context, None).unwrap_or_else(|e| panic!("{source}: {e:?}"));
     (world, context.get(out).clone())
 }

@@ -140,7 +140,7 @@ mod tests {
         let mut globals = Globals::new();
         let compiled = Compiler::new(&Mock, &mut globals).expression(source);
         let program = compiled.program.unwrap_or_else(|| panic!("{source}: {:?}", compiled.diagnostics));
-        let (mut world, mut context) = (World::new(), Context::of(&globals));
+        let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
         world.fields[1][0] = x;
         context.watch(Some(Box::new(watch)));
         let value = program.run(&mut world, &mut context, None).unwrap();
@@ -259,7 +259,7 @@ mod tests {
             let mut globals = Globals::new();
             if let Some(program) = Compiler::new(&Mock, &mut globals).expression(&source).program {
                 let lost = |watch: Watch| {
-                    let (mut world, mut context) = (World::new(), Context::of(&globals));
+                    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
                     world.fields[1][0] = x;
                     context.watch(Some(Box::new(watch)));
                     let _ = program.run(&mut world, &mut context, None);
@@ -277,7 +277,7 @@ mod tests {
             let mut globals = Globals::new();
             if let Some(program) = Compiler::new(&Mock, &mut globals).expression(&source).program {
                 let once = |watch: Option<Watch>| {
-                    let (mut world, mut context) = (World::new(), Context::of(&globals));
+                    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
                     world.fields[1][0] = x;
                     context.watch(watch.map(Box::new));
                     program.run(&mut world, &mut context, None).map(|v| (v.type_of(), v.to_string()))

@@ -214,7 +214,7 @@ mod tests {
             numbers: Vec::new(),
         };
         core::forward(&world.model, &mut world.data).unwrap();
-        let mut context = Context::of(&globals);
+        let mut context = Context::for_globals(&globals);
         let values = programs.map(|p| match p.program {
             Some(program) => program.run(&mut world, &mut context, None).unwrap().to_string(),
             None => format!("{:#?}", p.diagnostics),

@@ -91,7 +91,7 @@ mod tests {
         let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
         let computed = |op: &&Op| matches!(op, Op::Binary(_, BinaryOp::Multiply, ..) | Op::Math(..));
         assert_eq!(program.code.units[0].ops.iter().filter(computed).count(), 0);
-        let mut context = Context::of(&globals);
+        let mut context = Context::for_globals(&globals);
         program.run(&mut World::new(), &mut context, None).unwrap();
         assert_eq!(*context.get(0), Value::Number(24.0));
     }

@@ -3,7 +3,7 @@
 use crate::mock::{Mock, World, execute};
 use crate::*;
 
-fn check(rows: &[(&str, &str)]) {
+fn check_rows(rows: &[(&str, &str)]) {
     for (source, expected) in rows {
         let source = format!("{source}; ctx.out = String(ctx.out)");
         assert_eq!(execute(&source).1.to_string(), *expected, "{source}");
@@ -12,7 +12,7 @@ fn check(rows: &[(&str, &str)]) {
 
 #[test]
 fn conditions_and_loops() {
-    check(&[
+    check_rows(&[
         ("if (data.time > 1) ctx.out = 1; else if (data.ncon) ctx.out = 2; else ctx.out = 3", "2"),
         ("let s = 0; for (let i = 0; i < 5; i++) s += i; ctx.out = s", "10"),
         (
@@ -32,7 +32,7 @@ fn conditions_and_loops() {
 
 #[test]
 fn functions() {
-    check(&[
+    check_rows(&[
         ("const f = (x, k = 3) => x * k; ctx.out = [f(2), f(2, 5)]", "6,10"),
         ("function fact(n) { return n <= 1 ? 1 : n * fact(n - 1) } ctx.out = fact(10)", "3628800"),
         (
@@ -64,7 +64,7 @@ fn functions_live_in_ctx() {
     let mut compiler = Compiler::new(&Mock, &mut globals);
     let setup = compiler.statements("let n = 0; ctx.step = (x) => { n++; return n * x }").program.unwrap();
     let run = compiler.statements("ctx.out = ctx.step(10)").program.unwrap();
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     setup.run(&mut world, &mut context, None).unwrap();
     for expected in [10.0, 20.0, 30.0] {
         run.run(&mut world, &mut context, None).unwrap();
@@ -75,7 +75,7 @@ fn functions_live_in_ctx() {
 
 #[test]
 fn lists_and_records() {
-    check(&[
+    check_rows(&[
         ("const v = [1, 2, 3]; v[5] = 9; ctx.out = v", "1,2,3,,,9"),
         ("const [a, , b = 7] = [1, 2]; ctx.out = [a, b]", "1,7"),
         ("const {x, y: {z}} = {x: 1, y: {z: 2}}; ctx.out = [x, z]", "1,2"),
@@ -147,7 +147,7 @@ fn limits_have_their_own_errors() {
         let mut globals = Globals::new();
         let compiled = Compiler::new(&Mock, &mut globals).statements(source);
         let program = compiled.program.unwrap_or_else(|| panic!("{:#?}", compiled.diagnostics));
-        program.run(&mut World::new(), &mut Context::of(&globals), None).map_err(|e| e.rule.code)
+        program.run(&mut World::new(), &mut Context::for_globals(&globals), None).map_err(|e| e.rule.code)
     };
     for (source, expected) in [
         ("let n = 0; while (n >= 0) n++", rules::BUDGET),
@@ -165,7 +165,7 @@ fn limits_have_their_own_errors() {
     let mut globals = Globals::new();
     let source = "for (let i = 0; i < 20000; i++) { const a = [i, 'some text']; a.push(a) }";
     let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     for _ in 0..30 {
         program.run(&mut world, &mut context, None).unwrap();
     }

@@ -98,7 +98,7 @@ pub(super) fn here(source: &str) -> Result<String, &'static str> {
     let Some(program) = compiled.program else {
         return Err(compiled.diagnostics.iter().find(|d| d.is_error()).map_or("", |d| d.code));
     };
-    let (mut world, mut context) = (World::new(), Context::of(&globals));
+    let (mut world, mut context) = (World::new(), Context::for_globals(&globals));
     let mut out = String::new();
     match program.run(&mut world, &mut context, None) {
         Ok(_) => show(&world, &context.heap, context.get(slot), 0, &mut out),

@@ -172,7 +172,7 @@ impl<'p> Session<'p> {
                 shown: Vec::new(),
                 numbers: Vec::new(),
             },
-            context: Context::of(&programs.globals),
+            context: Context::for_globals(&programs.globals),
             troubles: Vec::new(),
             warnings: [WarningStat::default(); Warning::COUNT],
             values: values.collect(),
