@@ -4,7 +4,7 @@
 use crate::rules::QUATERNION_AS_ANGLE;
 use labspec_core::reflect::{self, FieldId, data, model};
 use labspec_core::{Model, Obj, joint};
-use labspec_expr::{Advice, FieldKey, Role};
+use labspec_expr::{AngleAdvice, FieldKey, Role};
 
 /// First element and number of elements of a field that belong to one object; `None` when the field has no rows
 /// of this kind.
@@ -169,7 +169,7 @@ fn rate(ty: i32, at: usize) -> Option<(&'static str, &'static str)> {
 }
 
 /// A number of a quaternion is no angle.
-const QUATERNION: Advice = Advice {
+const QUATERNION: AngleAdvice = AngleAdvice {
     rule: QUATERNION_AS_ANGLE,
     what: "a component of a quaternion",
     why: "it is one of four numbers that give the orientation together",

@@ -16,7 +16,7 @@ use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
 use labspec_expr::dimension::Dimension;
-use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Gives, Param, Touch, Type, Value};
+use labspec_expr::{FieldKey, FunctionId, FunctionInfo, Param, ResultDimension, Touch, Type, Value};
 
 /// The objects that hold functions.
 pub(super) const OBJECTS: [&str; 3] = ["mj", "sim", "lib"];
@@ -215,10 +215,12 @@ fn info(f: &Function) -> FunctionInfo {
         reads: touch(&[f.reads]),
         writes: touch(f.writes),
         gives: match f.unit {
-            Unit::Of(unit) => units::parse(unit).map_or(Gives::Unknown, Gives::This),
-            Unit::Argument(factor) => Gives::Argument(0, Dimension::NUMBER.times(factor)),
-            Unit::Times(i, unit) => units::parse(unit).map_or(Gives::Unknown, |d| Gives::Argument(i, d)),
-            Unit::Unknown => Gives::Unknown,
+            Unit::Of(unit) => units::parse(unit).map_or(ResultDimension::Unknown, ResultDimension::This),
+            Unit::Argument(factor) => ResultDimension::Argument(0, Dimension::NUMBER.times(factor)),
+            Unit::Times(i, unit) => {
+                units::parse(unit).map_or(ResultDimension::Unknown, |d| ResultDimension::Argument(i, d))
+            }
+            Unit::Unknown => ResultDimension::Unknown,
         },
         doc: f.doc.to_string(),
     }

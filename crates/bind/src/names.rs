@@ -13,8 +13,8 @@ use labspec_core::reflect::{self, FieldId, Object, data, option};
 use labspec_core::{Model, Obj};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, Gives, ObjectId, Role, Schema, Value,
-    Words,
+    CollectionId, Entry, Field, FieldKey, FunctionId, FunctionInfo, HostTerms, ObjectId, ResultDimension,
+    Role, Schema, Value,
 };
 
 /// Where a program stands: decides which functions exist.
@@ -297,10 +297,12 @@ impl Schema for ModelNames<'_> {
         elements::help(self.model, FieldId::new(f as usize)?, index)
     }
 
-    fn gives(&self, FunctionId(f): FunctionId, first: Option<f64>) -> Gives {
+    fn gives(&self, FunctionId(f): FunctionId, first: Option<f64>) -> ResultDimension {
         let label = || self.displayed?.measure(handle::index_of(first?));
         match TABLE.get(f as usize) {
-            Some(row) if row.name == "shown" => label().map_or(Gives::Unknown, Gives::This),
+            Some(row) if row.name == "shown" => {
+                label().map_or(ResultDimension::Unknown, ResultDimension::This)
+            }
             _ => self.function(FunctionId(f)).gives,
         }
     }
@@ -361,7 +363,7 @@ impl Schema for ModelNames<'_> {
         Some(format!("`{name}` belongs to {holder}: write `{holder}.{name}`"))
     }
 
-    fn words(&self) -> &'static Words {
+    fn host_terms(&self) -> &'static HostTerms {
         &WORDS
     }
 

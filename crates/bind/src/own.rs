@@ -3,8 +3,8 @@
 use crate::Error;
 use crate::functions::{self, is_taken};
 use labspec_expr::{
-    CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Gives, Globals, ObjectId, Param, Schema, Touch,
-    Type, Value,
+    CollectionId, Compiler, Entry, FunctionId, FunctionInfo, Globals, ObjectId, Param, ResultDimension,
+    Schema, Touch, Type, Value,
 };
 use std::fmt;
 use std::sync::Arc;
@@ -87,7 +87,7 @@ impl Functions {
             aggregate: false,
             reads: Touch::Nothing,
             writes: Touch::Nothing,
-            gives: Gives::Unknown,
+            gives: ResultDimension::Unknown,
             doc: function.doc.clone(),
         })
     }

@@ -1,9 +1,9 @@
 //! The words of labs, for the messages of the language.
 
-use labspec_expr::Words;
+use labspec_expr::HostTerms;
 
 /// What the language calls the things of a lab.
-pub static WORDS: Words = Words {
+pub static WORDS: HostTerms = HostTerms {
     lab: "lab",
     lesson: "lesson",
     world: "simulation",
@@ -16,7 +16,7 @@ pub static WORDS: Words = Words {
     names: "`model`, `data`, `ctx`",
     statements: "`setup`, `controller`, `apply` or `run`",
     keeper: "`controller`",
-    displayed: "a readout or a trace",
+    display: "a readout or a trace",
     clock: "the simulation time is `data.time`, in seconds",
     wait: "test `data.time` in the controller instead",
     split: "split it: into several controls, or a `setup` and a `controller`",

@@ -1,7 +1,7 @@
 //! The tree of a source text. Every node keeps the bytes that it came from.
 
-use crate::Span;
 pub use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
+use labspec_finding::Span;
 
 /// An expression.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,10 +1,11 @@
 //! What stands before a place of a text, as far as its tokens tell: `data.joint("hinge").qpos[0]` is a name, a member, a call, a
 //! member and an index. The text around it may be incomplete, which is what it is while somebody writes.
 
-use crate::Span;
 use crate::globals::Globals;
-use crate::lex::{Tok, Token, tokens};
-use crate::schema::{CollectionId, Entry, Field, FunctionId, ObjectId, Param, Schema, Type};
+use crate::lex::{Token, TokenKind, tokens};
+use crate::schema::{Entry, Field, Param, Schema};
+use crate::types::{CollectionId, FunctionId, ObjectId, Type};
+use labspec_finding::Span;
 
 /// How often a variable may stand for another one.
 const MAX_ALIASES: usize = 8;
@@ -13,7 +14,7 @@ const MAX_LINKS: usize = 32;
 
 /// What a chain means.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Meaning {
+pub(crate) enum PathMeaning {
     Object(ObjectId),
     Field(Field),
     /// One element of a field: the field, and its index where it is a number of the text.
@@ -39,7 +40,7 @@ pub(crate) struct Tokens<'s> {
 
 /// A name between quotes that a call takes for the name of an object.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Named {
+pub struct NamedObject {
     /// The objects among which it is looked up.
     pub collection: CollectionId,
     /// The name.
@@ -50,7 +51,7 @@ pub struct Named {
 
 /// A field that a text names.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mention {
+pub struct FieldMention {
     /// The field, or the part of it that one object has.
     pub field: Field,
     /// The element, counted from the start of that part, where a number of the text tells it.
@@ -60,8 +61,8 @@ pub struct Mention {
 }
 
 /// All names of objects in a text, in order. Where it is broken, those that can be told.
-pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<Named> {
-    let all = Tokens::from_source(schema, source);
+pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<NamedObject> {
+    let all = Tokens::read(schema, source);
     let named = (0..all.list.len()).filter_map(|i| all.named(i));
     named.collect()
 }
@@ -70,7 +71,7 @@ pub fn names_in(schema: &dyn Schema, source: &str) -> Vec<Named> {
 pub fn texts_in(source: &str) -> Vec<(String, Span)> {
     let found = tokens(source, &mut Vec::new());
     let text = |t: Token<'_>| match t.kind {
-        Tok::Text(text) => Some((text, inner(t.span))),
+        TokenKind::Text(text) => Some((text, inner(t.span))),
         _ => None,
     };
     found.into_iter().filter_map(text).collect()
@@ -83,18 +84,18 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
     let holds = |t: &Token<'_>| t.span.start <= offset && offset <= t.span.end;
     // Between two tokens, the one that begins there is meant, if it is a name.
     let near: Vec<usize> = (0..all.len()).filter(|&i| all.list.get(i).is_some_and(holds)).collect();
-    let is_word = |i: &&usize| matches!(all.kind(**i), Some(Tok::Word(_)));
+    let is_word = |i: &&usize| matches!(all.kind(**i), Some(TokenKind::Word(_)));
     let mut last = *near.iter().find(is_word).or(near.first())?;
     // In the brackets of an index or a call, all of it is meant.
-    if !matches!(all.kind(last), Some(Tok::Word(_))) {
+    if !matches!(all.kind(last), Some(TokenKind::Word(_))) {
         let mut depth = 0usize;
         last = (last..all.len()).find(|&i| match all.kind(i) {
-            Some(Tok::Symbol("(" | "[")) => {
+            Some(TokenKind::Symbol("(" | "[")) => {
                 depth += usize::from(i != last);
                 false
             }
-            Some(Tok::Symbol(")" | "]")) if depth == 0 => true,
-            Some(Tok::Symbol(")" | "]")) => {
+            Some(TokenKind::Symbol(")" | "]")) if depth == 0 => true,
+            Some(TokenKind::Symbol(")" | "]")) => {
                 depth -= 1;
                 false
             }
@@ -102,7 +103,7 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
         })?;
     }
     // A name that is called means what the call gives.
-    if matches!(all.kind(last + 1), Some(Tok::Symbol("("))) {
+    if matches!(all.kind(last + 1), Some(TokenKind::Symbol("("))) {
         let close = (last + 1..all.len()).find(|&i| all.opening(i) == Some(last + 1) && i > last + 1)?;
         last = close;
     }
@@ -112,13 +113,13 @@ pub fn chain_at(source: &str, offset: usize) -> Option<Span> {
 }
 
 /// All fields that a text names, in order.
-pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<Mention> {
-    let all = Tokens::from_source(schema, source);
+pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<FieldMention> {
+    let all = Tokens::read(schema, source);
     let mut found = Vec::new();
     for i in 0..all.list.len() {
         // The last link of a chain: nothing goes on behind it.
-        let ends = matches!(all.kind(i), Some(Tok::Word(_) | Tok::Symbol("]")));
-        if !ends || matches!(all.kind(i + 1), Some(Tok::Symbol("." | "?." | "(" | "["))) {
+        let ends = matches!(all.kind(i), Some(TokenKind::Word(_) | TokenKind::Symbol("]")));
+        if !ends || matches!(all.kind(i + 1), Some(TokenKind::Symbol("." | "?." | "(" | "["))) {
             continue;
         }
         let Some((meaning, from)) = all.meaning(i + 1) else { continue };
@@ -127,10 +128,12 @@ pub fn fields_in(schema: &dyn Schema, source: &str) -> Vec<Mention> {
             _ => Span::default(),
         };
         match meaning {
-            Meaning::Field(field) if from < i => {
-                found.push(Mention { field, element: None, span: span(from) });
+            PathMeaning::Field(field) if from < i => {
+                found.push(FieldMention { field, element: None, span: span(from) });
             }
-            Meaning::Element(field, element) => found.push(Mention { field, element, span: span(from) }),
+            PathMeaning::Element(field, element) => {
+                found.push(FieldMention { field, element, span: span(from) })
+            }
             _ => {}
         }
     }
@@ -150,7 +153,7 @@ fn listed(source: &str) -> Vec<Token<'_>> {
 }
 
 impl<'s> Tokens<'s> {
-    pub(crate) fn from_source(schema: &'s dyn Schema, source: &'s str) -> Tokens<'s> {
+    pub(crate) fn read(schema: &'s dyn Schema, source: &'s str) -> Tokens<'s> {
         Tokens { list: listed(source), schema: Some(schema) }
     }
 
@@ -158,15 +161,15 @@ impl<'s> Tokens<'s> {
         self.list.len()
     }
 
-    pub(crate) fn kind(&self, i: usize) -> Option<&Tok<'s>> {
+    pub(crate) fn kind(&self, i: usize) -> Option<&TokenKind<'s>> {
         self.list.get(i).map(|t| &t.kind)
     }
 
     /// The name of an object that stands at a token.
-    fn named(&self, i: usize) -> Option<Named> {
-        let Some(Tok::Text(name)) = self.kind(i) else { return None };
+    fn named(&self, i: usize) -> Option<NamedObject> {
+        let Some(TokenKind::Text(name)) = self.kind(i) else { return None };
         let collection = self.collection_at(i)?;
-        Some(Named { collection, name: name.clone(), span: inner(self.list.get(i)?.span) })
+        Some(NamedObject { collection, name: name.clone(), span: inner(self.list.get(i)?.span) })
     }
 
     /// The objects whose names the argument takes that stands at, or would stand at, a token.
@@ -175,16 +178,16 @@ impl<'s> Tokens<'s> {
         let open = loop {
             at = at.checked_sub(1)?;
             match self.kind(at)? {
-                Tok::Symbol(")" | "]" | "}") => depth += 1,
-                Tok::Symbol("(") if depth == 0 => break at,
-                Tok::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
-                Tok::Symbol(",") if depth == 0 => argument += 1,
+                TokenKind::Symbol(")" | "]" | "}") => depth += 1,
+                TokenKind::Symbol("(") if depth == 0 => break at,
+                TokenKind::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
+                TokenKind::Symbol(",") if depth == 0 => argument += 1,
                 _ => {}
             }
         };
         match self.meaning(open)?.0 {
-            Meaning::Collection(id) if argument == 0 => Some(id),
-            Meaning::Function(id) => match self.schema?.function(id).params.get(argument) {
+            PathMeaning::Collection(id) if argument == 0 => Some(id),
+            PathMeaning::Function(id) => match self.schema?.function(id).params.get(argument) {
                 Some(Param::Name(id)) => Some(*id),
                 _ => None,
             },
@@ -193,11 +196,11 @@ impl<'s> Tokens<'s> {
     }
 
     /// What the chain means that ends before a token, and the token at which it begins.
-    pub(crate) fn meaning(&self, end: usize) -> Option<(Meaning, usize)> {
+    pub(crate) fn meaning(&self, end: usize) -> Option<(PathMeaning, usize)> {
         self.meaning_within(end, MAX_ALIASES)
     }
 
-    fn meaning_within(&self, end: usize, aliases: usize) -> Option<(Meaning, usize)> {
+    fn meaning_within(&self, end: usize, aliases: usize) -> Option<(PathMeaning, usize)> {
         let mut links = Vec::new();
         let mut at = end;
         loop {
@@ -206,14 +209,18 @@ impl<'s> Tokens<'s> {
                 return None;
             }
             match self.kind(at)? {
-                Tok::Symbol(close @ (")" | "]")) => {
+                TokenKind::Symbol(close @ (")" | "]")) => {
                     let open = self.opening(at)?;
-                    links.push(if *close == ")" { Link::Call(open, at) } else { Link::Index(open, at) });
+                    links.push(if *close == ")" {
+                        PathLink::Call(open, at)
+                    } else {
+                        PathLink::Index(open, at)
+                    });
                     at = open;
                 }
-                Tok::Word(name) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
-                    Some(Tok::Symbol("." | "?.")) => {
-                        links.push(Link::Member(name));
+                TokenKind::Word(name) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
+                    Some(TokenKind::Symbol("." | "?.")) => {
+                        links.push(PathLink::Member(name));
                         at -= 1;
                     }
                     _ => {
@@ -234,8 +241,8 @@ impl<'s> Tokens<'s> {
         let mut depth = 0usize;
         for at in (0..=close).rev() {
             match self.kind(at)? {
-                Tok::Symbol(")" | "]" | "}") => depth += 1,
-                Tok::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
+                TokenKind::Symbol(")" | "]" | "}") => depth += 1,
+                TokenKind::Symbol("(" | "[" | "{") => depth = depth.checked_sub(1)?,
                 _ => {}
             }
             if depth == 0 {
@@ -245,28 +252,27 @@ impl<'s> Tokens<'s> {
         None
     }
 
-    fn root(&self, name: &str, at: usize, aliases: usize) -> Option<Meaning> {
+    fn root(&self, name: &str, at: usize, aliases: usize) -> Option<PathMeaning> {
         if let Some(end) = self.declared(name, at) {
             return self.meaning_within(end, aliases.checked_sub(1)?).map(|(meaning, _)| meaning);
         }
         match name {
-            "Math" => Some(Meaning::Math),
-            "ctx" => Some(Meaning::Globals),
+            "Math" => Some(PathMeaning::Math),
+            "ctx" => Some(PathMeaning::Globals),
             _ => self.schema?.root(name).map(of_entry),
         }
     }
 
     /// The end of what a variable is declared as, before a token: `const v = CHAIN`.
     fn declared(&self, name: &str, before: usize) -> Option<usize> {
-        let is =
-            |i: usize, text: &str| matches!(self.kind(i), Some(Tok::Word(w) | Tok::Symbol(w)) if *w == text);
+        let is = |i: usize, text: &str| matches!(self.kind(i), Some(TokenKind::Word(w) | TokenKind::Symbol(w)) if *w == text);
         let declares = |i: &usize| {
             ["const", "let", "var"].iter().any(|w| is(*i, w)) && is(i + 1, name) && is(i + 2, "=")
         };
         let start = (0..before).rev().find(declares)? + 3;
         let ends = |i: &usize| match self.list.get(*i) {
             Some(t) => {
-                matches!(t.kind, Tok::Symbol(";" | ",")) && self.is_level(start, *i)
+                matches!(t.kind, TokenKind::Symbol(";" | ",")) && self.is_level(start, *i)
                     || (t.newline && *i > start)
             }
             None => true,
@@ -279,8 +285,8 @@ impl<'s> Tokens<'s> {
     /// Whether as many brackets are closed as are opened between two tokens.
     fn is_level(&self, from: usize, to: usize) -> bool {
         let count = |marks: [&str; 3]| {
-            let within =
-                (from..to).filter(|&i| matches!(self.kind(i), Some(Tok::Symbol(s)) if marks.contains(s)));
+            let within = (from..to)
+                .filter(|&i| matches!(self.kind(i), Some(TokenKind::Symbol(s)) if marks.contains(s)));
             within.count()
         };
         count(["(", "[", "{"]) == count([")", "]", "}"])
@@ -292,9 +298,9 @@ impl<'s> Tokens<'s> {
         loop {
             at = at.checked_sub(1)?;
             match self.kind(at)? {
-                Tok::Symbol(")" | "]") => at = self.opening(at)?,
-                Tok::Word(_) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
-                    Some(Tok::Symbol("." | "?.")) => at -= 1,
+                TokenKind::Symbol(")" | "]") => at = self.opening(at)?,
+                TokenKind::Word(_) => match at.checked_sub(1).and_then(|before| self.kind(before)) {
+                    Some(TokenKind::Symbol("." | "?.")) => at -= 1,
                     _ => return Some(at),
                 },
                 _ => return None,
@@ -302,28 +308,28 @@ impl<'s> Tokens<'s> {
         }
     }
 
-    fn follow(&self, meaning: &Meaning, link: &Link<'_>) -> Option<Meaning> {
+    fn follow(&self, meaning: &PathMeaning, link: &PathLink<'_>) -> Option<PathMeaning> {
         match (meaning, link) {
-            (Meaning::Object(id), Link::Member(name)) => self.schema?.member(*id, name).map(of_entry),
-            (Meaning::Collection(id), Link::Call(open, close)) => {
-                let Some(Tok::Text(name)) = self.kind(open + 1).filter(|_| open + 2 == *close) else {
+            (PathMeaning::Object(id), PathLink::Member(name)) => self.schema?.member(*id, name).map(of_entry),
+            (PathMeaning::Collection(id), PathLink::Call(open, close)) => {
+                let Some(TokenKind::Text(name)) = self.kind(open + 1).filter(|_| open + 2 == *close) else {
                     return None;
                 };
-                self.schema?.lookup(*id, name).map(Meaning::Object)
+                self.schema?.lookup(*id, name).map(PathMeaning::Object)
             }
-            (Meaning::Function(id), Link::Call(..)) => Some(Meaning::Result(*id)),
-            (Meaning::Result(id), Link::Member(name)) => {
+            (PathMeaning::Function(id), PathLink::Call(..)) => Some(PathMeaning::Result(*id)),
+            (PathMeaning::Result(id), PathLink::Member(name)) => {
                 let members = self.schema?.function(*id).members;
-                members.into_iter().find(|(member, _)| member == name).map(|(_, ty)| Meaning::Value(ty))
+                members.into_iter().find(|(member, _)| member == name).map(|(_, ty)| PathMeaning::Value(ty))
             }
-            (Meaning::Field(field), Link::Index(open, close)) => {
+            (PathMeaning::Field(field), PathLink::Index(open, close)) => {
                 let index = match self.kind(open + 1) {
-                    Some(Tok::Number(x)) if open + 2 == *close && *x >= 0.0 && x.fract() == 0.0 => {
+                    Some(TokenKind::Number(x)) if open + 2 == *close && *x >= 0.0 && x.fract() == 0.0 => {
                         Some(*x as usize)
                     }
                     _ => None,
                 };
-                Some(Meaning::Element(field.clone(), index))
+                Some(PathMeaning::Element(field.clone(), index))
             }
             _ => None,
         }
@@ -333,16 +339,16 @@ impl<'s> Tokens<'s> {
     pub(crate) fn variables(&self) -> Vec<&'s str> {
         let mut names: Vec<&'s str> = Vec::new();
         let word = |i: usize| match self.kind(i) {
-            Some(Tok::Word(word)) => Some(*word),
+            Some(TokenKind::Word(word)) => Some(*word),
             _ => None,
         };
         for i in 0..self.list.len() {
             match self.kind(i) {
-                Some(Tok::Word("const" | "let" | "var" | "function")) => names.extend(word(i + 1)),
-                Some(Tok::Symbol("=>")) => {
+                Some(TokenKind::Word("const" | "let" | "var" | "function")) => names.extend(word(i + 1)),
+                Some(TokenKind::Symbol("=>")) => {
                     let last = i.saturating_sub(1);
                     match self.kind(last) {
-                        Some(Tok::Symbol(")")) => {
+                        Some(TokenKind::Symbol(")")) => {
                             let first = self.opening(last).unwrap_or(last);
                             names.extend((first..last).filter_map(word));
                         }
@@ -359,19 +365,19 @@ impl<'s> Tokens<'s> {
 }
 
 /// A link of a chain, with the tokens of its brackets.
-enum Link<'s> {
+enum PathLink<'s> {
     Member(&'s str),
     Call(usize, usize),
     Index(usize, usize),
 }
 
-pub(crate) fn of_entry(entry: Entry) -> Meaning {
+pub(crate) fn of_entry(entry: Entry) -> PathMeaning {
     match entry {
-        Entry::Object(id) => Meaning::Object(id),
-        Entry::Field(field) => Meaning::Field(field),
-        Entry::Collection(id) => Meaning::Collection(id),
-        Entry::Function(id) => Meaning::Function(id),
-        Entry::Constant(value) => Meaning::Value(value.type_of()),
+        Entry::Object(id) => PathMeaning::Object(id),
+        Entry::Field(field) => PathMeaning::Field(field),
+        Entry::Collection(id) => PathMeaning::Collection(id),
+        Entry::Function(id) => PathMeaning::Function(id),
+        Entry::Constant(value) => PathMeaning::Value(value.type_of()),
     }
 }
 
@@ -379,10 +385,15 @@ pub(crate) fn of_entry(entry: Entry) -> Meaning {
 pub fn variables_of<'t>(schema: &dyn Schema, texts: impl IntoIterator<Item = &'t str>) -> Globals {
     let mut globals = Globals::new();
     for text in texts {
-        let all = Tokens::from_source(schema, text);
+        let all = Tokens::read(schema, text);
         for i in 0..all.len() {
             let names = (all.kind(i), all.kind(i + 1), all.kind(i + 2));
-            if let (Some(Tok::Word("ctx")), Some(Tok::Symbol("." | "?.")), Some(Tok::Word(name))) = names {
+            if let (
+                Some(TokenKind::Word("ctx")),
+                Some(TokenKind::Symbol("." | "?.")),
+                Some(TokenKind::Word(name)),
+            ) = names
+            {
                 globals.define(name);
             }
         }

@@ -4,18 +4,19 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::formula::{Formula, Step};
+use crate::formula::{Formula, FormulaStep};
+use crate::host::Host;
 use crate::math::FEW;
 use crate::operation::{known_operator, select};
 use crate::operators::BinaryOp;
-use crate::program::{Host, Program};
-use crate::schema::FieldKey;
+use crate::program::Program;
+use crate::types::FieldKey;
 
 /// Samples that an operation takes at once: few enough that all registers stay in the nearest cache.
 const BLOCK: usize = 32;
 
 /// The values of all samples of a block.
-type Block = [f64; BLOCK];
+type SampleBlock = [f64; BLOCK];
 
 /// An expression over the columns of a recording.
 #[derive(Clone, Debug)]
@@ -77,8 +78,8 @@ impl Recording {
         if *self.identity.get_or_insert(identity) != identity {
             return Err(Foreign::Identity);
         }
-        let mut column = |step: &Step| match *step {
-            Step::Load(field, index) => self.column(field, index),
+        let mut column = |step: &FormulaStep| match *step {
+            FormulaStep::Load(field, index) => self.column(field, index),
             _ => 0,
         };
         let columns = formula.steps.iter().map(&mut column).collect();
@@ -150,13 +151,13 @@ impl Columnar {
     pub fn evaluate_into(
         &self,
         recording: &Recording,
-        scratch: &mut Vec<Block>,
+        scratch: &mut Vec<SampleBlock>,
         out: &mut [f64],
     ) -> Result<(), Foreign> {
         self.fits(recording)?;
         scratch.resize(self.formula.steps.len(), [0.0; BLOCK]);
         for (i, step) in self.formula.steps.iter().enumerate() {
-            if let (Step::Constant(x), Some(register)) = (step, scratch.get_mut(i)) {
+            if let (FormulaStep::Constant(x), Some(register)) = (step, scratch.get_mut(i)) {
                 *register = [x.number(); BLOCK];
             }
         }
@@ -179,8 +180,8 @@ impl Columnar {
         if recording.identity.is_some_and(|identity| identity != self.identity) {
             return Err(Foreign::Identity);
         }
-        let held = |(step, &column): (&Step, &usize)| match *step {
-            Step::Load(field, index) => recording.elements.get(column) == Some(&(field, index)),
+        let held = |(step, &column): (&FormulaStep, &usize)| match *step {
+            FormulaStep::Load(field, index) => recording.elements.get(column) == Some(&(field, index)),
             _ => true,
         };
         let all = self.formula.steps.iter().zip(&self.columns).all(held);
@@ -189,35 +190,42 @@ impl Columnar {
 
     /// One operation over a block that begins at a sample. Operands are results of operations before it.
     #[inline]
-    fn block(&self, i: usize, before: &[Block], dst: &mut Block, recording: &Recording, start: usize) {
+    fn block(
+        &self,
+        i: usize,
+        before: &[SampleBlock],
+        dst: &mut SampleBlock,
+        recording: &Recording,
+        start: usize,
+    ) {
         let of = |at: u32| &before[at as usize];
         match self.formula.steps[i] {
-            Step::Constant(_) | Step::Input(_) => {}
-            Step::Load(..) => {
+            FormulaStep::Constant(_) | FormulaStep::Input(_) => {}
+            FormulaStep::Load(..) => {
                 let column = self.columns.get(i).and_then(|&c| recording.columns.get(c));
                 let samples = column.and_then(|c| c.get(start..)).unwrap_or(&[]);
                 let n = samples.len().min(BLOCK);
                 dst[..n].copy_from_slice(&samples[..n]);
             }
-            Step::Unary(op, a) => one(dst, of(a), |x| op.on_number(x)),
-            Step::Binary(op, a, b) => {
+            FormulaStep::Unary(op, a) => one(dst, of(a), |x| op.on_number(x)),
+            FormulaStep::Binary(op, a, b) => {
                 known_operator!(op, |op: BinaryOp| two(dst, of(a), of(b), |a, b| op.on_numbers(a, b)));
             }
-            Step::Right(op, a, k) => {
+            FormulaStep::Right(op, a, k) => {
                 let k = k.number();
                 known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(x, k)));
             }
-            Step::Left(op, k, a) => {
+            FormulaStep::Left(op, k, a) => {
                 let k = k.number();
                 known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(k, x)));
             }
-            Step::Select(test, yes, no) => {
+            FormulaStep::Select(test, yes, no) => {
                 let ways = of(yes).iter().zip(of(no));
                 for ((d, test), (yes, no)) in dst.iter_mut().zip(of(test)).zip(ways) {
                     *d = select(*test, *yes, *no);
                 }
             }
-            Step::Math(function, first, count) => {
+            FormulaStep::Math(function, first, count) => {
                 let args = self.formula.args(first, count);
                 let mut row = [0.0; FEW];
                 for (sample, d) in dst.iter_mut().enumerate() {
@@ -233,14 +241,14 @@ impl Columnar {
 
 /// A loop over a whole block, which the compiler turns into vector instructions.
 #[inline(always)]
-fn one(dst: &mut Block, a: &Block, f: impl Fn(f64) -> f64) {
+fn one(dst: &mut SampleBlock, a: &SampleBlock, f: impl Fn(f64) -> f64) {
     for i in 0..BLOCK {
         dst[i] = f(a[i]);
     }
 }
 
 #[inline(always)]
-fn two(dst: &mut Block, a: &Block, b: &Block, f: impl Fn(f64, f64) -> f64) {
+fn two(dst: &mut SampleBlock, a: &SampleBlock, b: &SampleBlock, f: impl Fn(f64, f64) -> f64) {
     for i in 0..BLOCK {
         dst[i] = f(a[i], b[i]);
     }

@@ -1,13 +1,14 @@
 //! What can be written at a place of a text that may be incomplete: names, members, methods, and the names of objects between
 //! quotes.
 
-use crate::Span;
-use crate::chain::{Meaning, Tokens, of_entry};
+use crate::chain::{PathMeaning, Tokens, of_entry};
 use crate::globals::Globals;
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::math;
 use crate::natives;
-use crate::schema::{Field, Schema, Type, signature};
+use crate::schema::{Field, Schema, signature};
+use crate::types::Type;
+use labspec_finding::Span;
 
 /// What a suggestion is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,17 +65,17 @@ pub fn complete(
             if before.get(start..).is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit())) {
                 return Vec::new();
             }
-            let all = Tokens::from_source(schema, source.get(..start).unwrap_or(""));
+            let all = Tokens::read(schema, source.get(..start).unwrap_or(""));
             let last = all.len().checked_sub(1);
-            let mut list = List { schema, replace, all: Vec::new() };
+            let mut list = SuggestionList { schema, replace, all: Vec::new() };
             match last.and_then(|last| all.kind(last)) {
-                Some(Tok::Symbol("." | "?.")) => {
+                Some(TokenKind::Symbol("." | "?.")) => {
                     let meaning = last.and_then(|last| all.meaning(last));
                     list.members(meaning.map(|(meaning, _)| meaning), globals);
                 }
                 _ => {
                     list.roots(has_value);
-                    let whole = Tokens::from_source(schema, source);
+                    let whole = Tokens::read(schema, source);
                     for name in whole.variables() {
                         list.add(name, Suggested::Variable, name, "a variable of this text");
                     }
@@ -129,7 +130,7 @@ fn unclosed(text: &str) -> Open {
 
 /// The names of objects that a call takes, between quotes.
 fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<Suggestion> {
-    let all = Tokens::from_source(schema, source.get(..start).unwrap_or(""));
+    let all = Tokens::read(schema, source.get(..start).unwrap_or(""));
     let Some(collection) = all.collection_at(all.len()) else { return Vec::new() };
     let quote = source.get(start..).and_then(|t| t.chars().next()).unwrap_or('"');
     let rest = source.get(offset..).unwrap_or("");
@@ -146,13 +147,13 @@ fn names(schema: &dyn Schema, source: &str, start: usize, offset: usize) -> Vec<
 }
 
 /// Suggestions for one place.
-struct List<'s> {
+struct SuggestionList<'s> {
     schema: &'s dyn Schema,
     replace: Span,
     all: Vec<Suggestion>,
 }
 
-impl List<'_> {
+impl SuggestionList<'_> {
     fn add(&mut self, text: &str, kind: Suggested, title: impl Into<String>, doc: impl Into<String>) {
         if !self.all.iter().any(|s| s.text == text) {
             let (title, doc) = (title.into(), doc.into());
@@ -160,11 +161,11 @@ impl List<'_> {
         }
     }
 
-    fn entry(&mut self, text: &str, meaning: Meaning) {
+    fn entry(&mut self, text: &str, meaning: PathMeaning) {
         match meaning {
-            Meaning::Object(id) => self.add(text, Suggested::Object, self.schema.describe(id), ""),
-            Meaning::Field(field) => self.add(text, Suggested::Field, field.path.clone(), about(&field)),
-            Meaning::Collection(id) => {
+            PathMeaning::Object(id) => self.add(text, Suggested::Object, self.schema.describe(id), ""),
+            PathMeaning::Field(field) => self.add(text, Suggested::Field, field.path.clone(), about(&field)),
+            PathMeaning::Collection(id) => {
                 let noun = self.schema.noun(id).to_string();
                 self.add(
                     text,
@@ -173,7 +174,7 @@ impl List<'_> {
                     format!("the {noun} of this name"),
                 );
             }
-            Meaning::Function(id) => {
+            PathMeaning::Function(id) => {
                 let info = self.schema.function(id);
                 self.add(text, Suggested::Function, signature(self.schema, &info), info.doc);
             }
@@ -196,21 +197,21 @@ impl List<'_> {
             self.add(name, Suggested::Constant, name, "");
         }
         for name in ["isFinite", "isNaN"] {
-            self.add(name, Suggested::Function, name, math::global(name).map_or("", math::Function::doc));
+            self.add(name, Suggested::Function, name, math::global(name).map_or("", math::MathFunction::doc));
         }
     }
 
     /// What stands behind a point.
-    fn members(&mut self, of: Option<Meaning>, globals: &Globals) {
+    fn members(&mut self, of: Option<PathMeaning>, globals: &Globals) {
         match of {
-            Some(Meaning::Object(id)) => {
+            Some(PathMeaning::Object(id)) => {
                 for name in self.schema.member_names(id) {
                     if let Some(entry) = self.schema.member(id, &name) {
                         self.entry(&name, of_entry(entry));
                     }
                 }
             }
-            Some(Meaning::Math) => {
+            Some(PathMeaning::Math) => {
                 for name in math::names() {
                     match math::function(name) {
                         Some(function) => {
@@ -220,21 +221,21 @@ impl List<'_> {
                     }
                 }
             }
-            Some(Meaning::Globals) => {
+            Some(PathMeaning::Globals) => {
                 for slot in 0..globals.len() {
                     let name = globals.name(slot as u32).to_string();
                     self.add(&name, Suggested::Variable, format!("ctx.{name}"), "a global variable");
                 }
             }
-            Some(Meaning::Field(field)) if !field.is_scalar() => self.methods(Type::View),
-            Some(Meaning::Result(id)) => {
+            Some(PathMeaning::Field(field)) if !field.is_scalar() => self.methods(Type::View),
+            Some(PathMeaning::Result(id)) => {
                 let info = self.schema.function(id);
                 for (name, ty) in info.members {
                     self.add(&name, Suggested::Field, format!("{}().{name}", info.name), ty.describe());
                 }
                 self.methods(info.returns);
             }
-            Some(Meaning::Value(ty)) => self.methods(ty),
+            Some(PathMeaning::Value(ty)) => self.methods(ty),
             _ => {}
         }
     }
@@ -243,7 +244,7 @@ impl List<'_> {
         if matches!(of, Type::View | Type::List | Type::String) {
             self.add("length", Suggested::Field, ".length", "the number of elements");
         }
-        for row in natives::rows().filter(|row| of != Type::Any && row.is_of(of)) {
+        for row in natives::public_rows().filter(|row| of != Type::Any && row.is_of(of)) {
             self.add(row.name, Suggested::Function, row.title(), row.doc);
         }
     }

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::schema::{FieldKey, FunctionId, Touch};
+use crate::schema::Touch;
+use crate::types::{FieldKey, FunctionId};
 
 /// Elements of a field that a program reads or writes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

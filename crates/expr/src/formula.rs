@@ -7,16 +7,16 @@ use std::collections::BTreeMap;
 use crate::math;
 use crate::operation::select;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::schema::FieldKey;
+use crate::types::FieldKey;
 
 /// The number of an operation, and so of its result.
-pub(crate) type At = u32;
+pub(crate) type StepId = u32;
 
 /// A constant, by its bits: zeros of both signs are equal, but not the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Bits(u64);
+pub(crate) struct ConstantBits(u64);
 
-impl Bits {
+impl ConstantBits {
     #[inline]
     pub(crate) fn number(self) -> f64 {
         f64::from_bits(self.0)
@@ -25,114 +25,114 @@ impl Bits {
 
 /// One operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Step {
-    Constant(Bits),
+pub(crate) enum FormulaStep {
+    Constant(ConstantBits),
     Load(FieldKey, u32),
     /// A number of the program around it.
     Input(u32),
-    Unary(UnaryOp, At),
-    Binary(BinaryOp, At, At),
+    Unary(UnaryOp, StepId),
+    Binary(BinaryOp, StepId, StepId),
     /// With a constant on the right, or on the left.
-    Right(BinaryOp, At, Bits),
-    Left(BinaryOp, Bits, At),
+    Right(BinaryOp, StepId, ConstantBits),
+    Left(BinaryOp, ConstantBits, StepId),
     /// By the truth of the first: the second or the third.
-    Select(At, At, At),
+    Select(StepId, StepId, StepId),
     /// First and number of its arguments in the list of arguments.
-    Math(math::Function, u32, u32),
+    Math(math::MathFunction, u32, u32),
 }
 
 /// An expression as a list of operations.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Formula {
-    pub(crate) steps: Vec<Step>,
-    args: Vec<At>,
-    pub(crate) output: At,
+    pub(crate) steps: Vec<FormulaStep>,
+    args: Vec<StepId>,
+    pub(crate) output: StepId,
     /// It gives 1 or 0 for a truth value.
     pub(crate) truth: bool,
     /// Operations that are there already; of functions, by their arguments.
-    places: BTreeMap<Step, At>,
-    known_math: BTreeMap<(math::Function, Vec<At>), At>,
+    existing: BTreeMap<FormulaStep, StepId>,
+    existing_math: BTreeMap<(math::MathFunction, Vec<StepId>), StepId>,
 }
 
 impl Formula {
     /// The arguments of a function of `Math`.
-    pub(crate) fn args(&self, first: u32, count: u32) -> &[At] {
+    pub(crate) fn args(&self, first: u32, count: u32) -> &[StepId] {
         self.args.get(first as usize..(first + count) as usize).unwrap_or(&[])
     }
 
     /// The constant that a step is.
-    pub(crate) fn constant_at(&self, at: At) -> Option<f64> {
+    pub(crate) fn constant_at(&self, at: StepId) -> Option<f64> {
         match self.steps.get(at as usize) {
-            Some(Step::Constant(k)) => Some(k.number()),
+            Some(FormulaStep::Constant(k)) => Some(k.number()),
             _ => None,
         }
     }
 
     /// An operation, or the same one that is there already.
-    pub(crate) fn step(&mut self, step: Step) -> At {
-        if let Some(at) = self.places.get(&step) {
+    pub(crate) fn step(&mut self, step: FormulaStep) -> StepId {
+        if let Some(at) = self.existing.get(&step) {
             return *at;
         }
         let at = self.push(step);
-        self.places.insert(step, at);
+        self.existing.insert(step, at);
         at
     }
 
-    fn push(&mut self, step: Step) -> At {
+    fn push(&mut self, step: FormulaStep) -> StepId {
         self.steps.push(step);
-        (self.steps.len() - 1) as At
+        (self.steps.len() - 1) as StepId
     }
 
-    pub(crate) fn constant(&mut self, x: f64) -> At {
-        self.step(Step::Constant(Bits(x.to_bits())))
+    pub(crate) fn constant(&mut self, x: f64) -> StepId {
+        self.step(FormulaStep::Constant(ConstantBits(x.to_bits())))
     }
 
-    pub(crate) fn unary(&mut self, op: UnaryOp, a: At) -> At {
-        self.step(Step::Unary(op, a))
+    pub(crate) fn unary(&mut self, op: UnaryOp, a: StepId) -> StepId {
+        self.step(FormulaStep::Unary(op, a))
     }
 
     /// Constants become part of the operation. What can be turned round is, and `x - k` is `x + -k` and `x ** 2` is `x * x`,
     /// to the bit.
-    pub(crate) fn binary(&mut self, op: BinaryOp, a: At, b: At) -> At {
+    pub(crate) fn binary(&mut self, op: BinaryOp, a: StepId, b: StepId) -> StepId {
         let turns = matches!(op, BinaryOp::Add | BinaryOp::Multiply);
-        let bits = |k: f64| Bits(k.to_bits());
+        let bits = |k: f64| ConstantBits(k.to_bits());
         let step = match (op, self.constant_at(a), self.constant_at(b)) {
-            (BinaryOp::Power, _, Some(2.0)) => Step::Binary(BinaryOp::Multiply, a, a),
-            (BinaryOp::Subtract, _, Some(k)) if !k.is_nan() => Step::Right(BinaryOp::Add, a, bits(-k)),
-            (_, _, Some(k)) => Step::Right(op, a, bits(k)),
-            (_, Some(k), _) if turns && !k.is_nan() => Step::Right(op, b, bits(k)),
-            (_, Some(k), _) => Step::Left(op, bits(k), b),
-            _ => Step::Binary(op, a, b),
+            (BinaryOp::Power, _, Some(2.0)) => FormulaStep::Binary(BinaryOp::Multiply, a, a),
+            (BinaryOp::Subtract, _, Some(k)) if !k.is_nan() => FormulaStep::Right(BinaryOp::Add, a, bits(-k)),
+            (_, _, Some(k)) => FormulaStep::Right(op, a, bits(k)),
+            (_, Some(k), _) if turns && !k.is_nan() => FormulaStep::Right(op, b, bits(k)),
+            (_, Some(k), _) => FormulaStep::Left(op, bits(k), b),
+            _ => FormulaStep::Binary(op, a, b),
         };
         self.step(step)
     }
 
-    pub(crate) fn select(&mut self, test: At, yes: At, no: At) -> At {
+    pub(crate) fn select(&mut self, test: StepId, yes: StepId, no: StepId) -> StepId {
         match self.constant_at(test) {
             _ if yes == no => yes,
             Some(x) if !x.is_nan() => select(x, yes, no),
-            _ => self.step(Step::Select(test, yes, no)),
+            _ => self.step(FormulaStep::Select(test, yes, no)),
         }
     }
 
-    pub(crate) fn math(&mut self, function: math::Function, args: Vec<At>) -> At {
-        if let Some(at) = self.known_math.get(&(function, args.clone())) {
+    pub(crate) fn math(&mut self, function: math::MathFunction, args: Vec<StepId>) -> StepId {
+        if let Some(at) = self.existing_math.get(&(function, args.clone())) {
             return *at;
         }
         let first = self.args.len() as u32;
         self.args.extend(&args);
-        let at = self.push(Step::Math(function, first, args.len() as u32));
-        self.known_math.insert((function, args), at);
+        let at = self.push(FormulaStep::Math(function, first, args.len() as u32));
+        self.existing_math.insert((function, args), at);
         at
     }
 
     /// Leaves out what the results do not need; gives where each step stands now. What was known is forgotten.
-    pub(crate) fn finish(&mut self, results: &mut [At]) {
-        self.places = BTreeMap::new();
-        self.known_math = BTreeMap::new();
+    pub(crate) fn finish(&mut self, results: &mut [StepId]) {
+        self.existing = BTreeMap::new();
+        self.existing_math = BTreeMap::new();
         let Formula { steps, args, .. } = self;
         let mut used = vec![false; steps.len()];
-        let mark = |used: &mut Vec<bool>, at: At| {
+        let mark = |used: &mut Vec<bool>, at: StepId| {
             if let Some(place) = used.get_mut(at as usize) {
                 *place = true;
             }
@@ -143,13 +143,13 @@ impl Formula {
                 step.each(args, &mut |at| mark(&mut used, *at));
             }
         }
-        let mut live = 0;
+        let mut kept = 0;
         let count = |used: &bool| {
-            live += At::from(*used);
-            live.saturating_sub(1)
+            kept += StepId::from(*used);
+            kept.saturating_sub(1)
         };
-        let places: Vec<At> = used.iter().map(count).collect();
-        let mut moved = |at: &mut At| *at = places.get(*at as usize).copied().unwrap_or(*at);
+        let places: Vec<StepId> = used.iter().map(count).collect();
+        let mut moved = |at: &mut StepId| *at = places.get(*at as usize).copied().unwrap_or(*at);
         results.iter_mut().for_each(&mut moved);
         for (step, _) in steps.iter_mut().zip(&used).filter(|(_, used)| **used) {
             step.each(args, &mut moved);
@@ -159,15 +159,15 @@ impl Formula {
     }
 }
 
-impl Step {
+impl FormulaStep {
     /// The operations whose results it uses.
-    fn each(&mut self, args: &mut [At], f: &mut impl FnMut(&mut At)) {
+    fn each(&mut self, args: &mut [StepId], f: &mut impl FnMut(&mut StepId)) {
         match self {
-            Step::Constant(_) | Step::Load(..) | Step::Input(_) => {}
-            Step::Unary(_, a) | Step::Right(_, a, _) | Step::Left(_, _, a) => f(a),
-            Step::Binary(_, a, b) => [a, b].into_iter().for_each(f),
-            Step::Select(a, b, c) => [a, b, c].into_iter().for_each(f),
-            Step::Math(_, first, count) => {
+            FormulaStep::Constant(_) | FormulaStep::Load(..) | FormulaStep::Input(_) => {}
+            FormulaStep::Unary(_, a) | FormulaStep::Right(_, a, _) | FormulaStep::Left(_, _, a) => f(a),
+            FormulaStep::Binary(_, a, b) => [a, b].into_iter().for_each(f),
+            FormulaStep::Select(a, b, c) => [a, b, c].into_iter().for_each(f),
+            FormulaStep::Math(_, first, count) => {
                 let (first, count) = (*first as usize, *count as usize);
                 args.get_mut(first..first + count).into_iter().flatten().for_each(f);
             }

@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::known::Known;
+use crate::global_names::GlobalNames;
+use crate::host_terms::HostTerms;
 use crate::rules;
-use crate::words::Words;
-use crate::{Finding, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Span, nearest};
 
 /// A compiled text, counted from 0 in the order of compilation with one [`Globals`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -18,10 +17,10 @@ pub struct Globals {
     slots: BTreeMap<String, u32>,
     names: Vec<String>,
     /// The same names, for whoever runs programs.
-    stored: Known,
+    shared_names: GlobalNames,
     /// The host itself stores the variable.
     given: Vec<bool>,
-    uses: Vec<Use>,
+    uses: Vec<GlobalUse>,
     /// Beginnings of names that some program computes.
     computed: Vec<String>,
     programs: u32,
@@ -29,14 +28,14 @@ pub struct Globals {
 
 /// A point in the work on a lab, to go back to.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Mark {
+pub(crate) struct GlobalsMark {
     uses: usize,
     computed: usize,
 }
 
 /// One mention of a variable.
 #[derive(Clone, Copy, Debug)]
-struct Use {
+struct GlobalUse {
     slot: u32,
     program: ProgramId,
     span: Span,
@@ -90,18 +89,18 @@ impl Globals {
 
     /// Variables that a program reads and nothing ever stores: a warning for each first reading in a program.
     /// To be asked when all texts of the lab are compiled.
-    pub fn unset(&self, words: &Words) -> Vec<(ProgramId, Finding)> {
+    pub fn unset(&self, host_terms: &HostTerms) -> Vec<(ProgramId, Finding)> {
         let mut stored = self.given.clone();
         for usage in self.uses.iter().filter(|u| u.stores) {
-            if let Some(known) = stored.get_mut(usage.slot as usize) {
-                *known = true;
+            if let Some(is_stored) = stored.get_mut(usage.slot as usize) {
+                *is_stored = true;
             }
         }
         let is_stored = |slot: u32| {
             let computed = |name: &str| self.computed.iter().any(|c| name.starts_with(c.as_str()));
             stored.get(slot as usize).copied().unwrap_or(false) || computed(self.name(slot))
         };
-        let names: Vec<&str> =
+        let stored_names: Vec<&str> =
             (0..self.names.len() as u32).filter(|s| is_stored(*s)).map(|s| self.name(s)).collect();
         let mut found: Vec<(u32, ProgramId)> = Vec::new();
         let mut reports = Vec::new();
@@ -110,7 +109,10 @@ impl Globals {
                 continue;
             }
             found.push((usage.slot, usage.program));
-            reports.push((usage.program, unset_report(self.name(usage.slot), usage.span, &names, words)));
+            reports.push((
+                usage.program,
+                unset_report(self.name(usage.slot), usage.span, &stored_names, host_terms),
+            ));
         }
         reports
     }
@@ -127,23 +129,23 @@ impl Globals {
     }
 
     /// All names, for whoever runs programs.
-    pub(crate) fn stored(&self) -> &Known {
-        &self.stored
+    pub(crate) fn shared_names(&self) -> &GlobalNames {
+        &self.shared_names
     }
 
-    pub(crate) fn mark(&self) -> Mark {
-        Mark { uses: self.uses.len(), computed: self.computed.len() }
+    pub(crate) fn mark(&self) -> GlobalsMark {
+        GlobalsMark { uses: self.uses.len(), computed: self.computed.len() }
     }
 
     /// Forgets the uses since a mark. Names keep their slots.
-    pub(crate) fn back_to(&mut self, mark: Mark) {
+    pub(crate) fn back_to(&mut self, mark: GlobalsMark) {
         self.uses.truncate(mark.uses);
         self.computed.truncate(mark.computed);
     }
 
     pub(crate) fn mention(&mut self, name: &str, program: ProgramId, span: Span, stores: bool) -> u32 {
         let slot = self.intern(name);
-        self.uses.push(Use { slot, program, span, stores });
+        self.uses.push(GlobalUse { slot, program, span, stores });
         slot
     }
 
@@ -154,20 +156,20 @@ impl Globals {
         let slot = self.names.len() as u32;
         self.slots.insert(name.to_owned(), slot);
         self.names.push(name.to_owned());
-        self.stored.push(name);
+        self.shared_names.push(name);
         self.given.push(false);
         slot
     }
 }
 
-fn unset_report(name: &str, span: Span, names: &[&str], words: &Words) -> Finding {
+fn unset_report(name: &str, span: Span, stored_names: &[&str], host_terms: &HostTerms) -> Finding {
     let report = Finding::warning(rules::UNSET_GLOBAL, span, format!("nothing ever stores `ctx.{name}`"))
         .why("it is `undefined` in every run, and a computation with it gives NaN");
-    match nearest(name, names.iter().copied()) {
+    match nearest(name, stored_names.iter().copied()) {
         Some(meant) => {
             report.help(format!("did you mean `ctx.{meant}`?")).guess(span, format!("ctx.{meant}"))
         }
-        None => report.help(words.store.replace("{name}", name)),
+        None => report.help(host_terms.store.replace("{name}", name)),
     }
 }
 
@@ -184,7 +186,7 @@ mod tests {
         globals.mention("peek", second, Span::new(4, 12), false);
         globals.mention("peek", second, Span::new(14, 22), false);
         globals.mention("angle", second, Span::new(24, 33), false);
-        let found = globals.unset(&Words::PLAIN);
+        let found = globals.unset(&HostTerms::PLAIN);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].0, second);
         assert_eq!(found[0].1.help.as_deref(), Some("did you mean `ctx.peak`?"));

@@ -5,18 +5,14 @@
 use std::fmt::Write;
 use std::sync::Arc;
 
+use crate::code::MachineCode;
 use crate::number;
-use crate::schema::Elem;
-use crate::value::Value;
-use crate::vm::Code;
-
-/// The number of a list, record or function in its [`Heap`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Ref(u32);
+use crate::types::Elem;
+use crate::value::{Ref, Value};
 
 /// Something that a value refers to.
 #[derive(Clone, Debug, Default)]
-pub(crate) enum Object {
+pub(crate) enum HeapObject {
     #[default]
     Free,
     /// A list of JavaScript.
@@ -26,7 +22,7 @@ pub(crate) enum Object {
     /// In the order in which the keys were stored.
     Record(Vec<(Arc<str>, Value)>),
     Closure {
-        code: Arc<Code>,
+        code: Arc<MachineCode>,
         unit: u32,
         captures: Vec<Value>,
     },
@@ -53,7 +49,7 @@ pub struct Full;
 /// Lists, records and functions.
 #[derive(Clone, Debug, Default)]
 pub struct Heap {
-    objects: Vec<Object>,
+    objects: Vec<HeapObject>,
     free: Vec<u32>,
     /// Bytes in use, as far as known.
     bytes: usize,
@@ -68,7 +64,7 @@ impl Heap {
     /// The lists of the lab take more memory than it may have.
     pub fn list(&mut self, items: Vec<Value>) -> Result<Value, Full> {
         let bytes = items.iter().map(weight).sum();
-        self.add(Object::List(items), bytes).map(Value::List)
+        self.add(HeapObject::List(items), bytes).map(Value::List)
     }
 
     /// A new list of numbers.
@@ -85,35 +81,35 @@ impl Heap {
     /// As [`Heap::list`].
     pub fn record(&mut self, entries: Vec<(Arc<str>, Value)>) -> Result<Value, Full> {
         let bytes = entries.iter().map(|(_, v)| 2 * VALUE + weight(v)).sum();
-        self.add(Object::Record(entries), bytes).map(Value::Record)
+        self.add(HeapObject::Record(entries), bytes).map(Value::Record)
     }
 
     /// A new typed array.
     pub(crate) fn typed(&mut self, items: Vec<f64>, elem: Elem) -> Result<Value, Full> {
         let bytes = items.len() * size_of::<f64>();
-        self.add(Object::Numbers(items, elem), bytes).map(Value::List)
+        self.add(HeapObject::Numbers(items, elem), bytes).map(Value::List)
     }
 
     pub(crate) fn closure(
         &mut self,
-        code: Arc<Code>,
+        code: Arc<MachineCode>,
         unit: u32,
         captures: Vec<Value>,
     ) -> Result<Value, Full> {
         let bytes = captures.iter().map(weight).sum();
-        self.add(Object::Closure { code, unit, captures }, bytes).map(Value::Function)
+        self.add(HeapObject::Closure { code, unit, captures }, bytes).map(Value::Function)
     }
 
     /// A new shared variable; a value refers to it as if it were a list, and only the machine sees that value.
     pub(crate) fn cell(&mut self, value: Option<Value>) -> Result<Value, Full> {
-        self.add(Object::Cell(value), VALUE).map(Value::List)
+        self.add(HeapObject::Cell(value), VALUE).map(Value::List)
     }
 
     /// Number of elements of a list.
     pub fn len(&self, value: &Value) -> Option<usize> {
         match self.object(value) {
-            Object::List(items) => Some(items.len()),
-            Object::Numbers(items, _) => Some(items.len()),
+            HeapObject::List(items) => Some(items.len()),
+            HeapObject::Numbers(items, _) => Some(items.len()),
             _ => None,
         }
     }
@@ -121,8 +117,8 @@ impl Heap {
     /// An element of a list; `None` past the end, and for what is no list.
     pub fn item(&self, value: &Value, index: usize) -> Option<Value> {
         match self.object(value) {
-            Object::List(items) => items.get(index).cloned(),
-            Object::Numbers(items, _) => items.get(index).map(|&x| Value::Number(x)),
+            HeapObject::List(items) => items.get(index).cloned(),
+            HeapObject::Numbers(items, _) => items.get(index).map(|&x| Value::Number(x)),
             _ => None,
         }
     }
@@ -130,8 +126,8 @@ impl Heap {
     /// All elements of a list, as numbers; `None` for what is no list.
     pub fn to_numbers(&self, value: &Value) -> Option<Vec<f64>> {
         match self.object(value) {
-            Object::List(items) => Some(items.iter().map(|v| self.number(v)).collect()),
-            Object::Numbers(items, _) => Some(items.clone()),
+            HeapObject::List(items) => Some(items.iter().map(|v| self.number(v)).collect()),
+            HeapObject::Numbers(items, _) => Some(items.clone()),
             _ => None,
         }
     }
@@ -140,13 +136,13 @@ impl Heap {
     /// holds integers.
     pub fn overwrite(&mut self, value: &Value, numbers: &[f64]) -> bool {
         match self.object_mut(value) {
-            Some(Object::List(items)) if items.len() >= numbers.len() => {
+            Some(HeapObject::List(items)) if items.len() >= numbers.len() => {
                 for (item, x) in items.iter_mut().zip(numbers) {
                     *item = Value::Number(*x);
                 }
                 true
             }
-            Some(Object::Numbers(items, Elem::Double)) if items.len() >= numbers.len() => {
+            Some(HeapObject::Numbers(items, Elem::Double)) if items.len() >= numbers.len() => {
                 items.iter_mut().zip(numbers).for_each(|(item, x)| *item = *x);
                 true
             }
@@ -157,7 +153,7 @@ impl Heap {
     /// A member of a record.
     pub fn get(&self, value: &Value, key: &str) -> Option<Value> {
         match self.object(value) {
-            Object::Record(entries) => entries.iter().find(|(k, _)| **k == *key).map(|(_, v)| v.clone()),
+            HeapObject::Record(entries) => entries.iter().find(|(k, _)| **k == *key).map(|(_, v)| v.clone()),
             _ => None,
         }
     }
@@ -188,7 +184,7 @@ impl Heap {
             }
         };
         match self.object(value) {
-            Object::List(items) => {
+            HeapObject::List(items) => {
                 for item in items {
                     comma(out);
                     if !item.is_nothing() {
@@ -196,7 +192,7 @@ impl Heap {
                     }
                 }
             }
-            Object::Numbers(items, _) => {
+            HeapObject::Numbers(items, _) => {
                 for x in items {
                     comma(out);
                     out.push_str(&number::to_text(*x));
@@ -210,8 +206,8 @@ impl Heap {
     }
 
     /// What a value refers to.
-    pub(crate) fn object(&self, value: &Value) -> &Object {
-        const NOTHING: &Object = &Object::Free;
+    pub(crate) fn object(&self, value: &Value) -> &HeapObject {
+        const NOTHING: &HeapObject = &HeapObject::Free;
         match value {
             Value::List(r) | Value::Record(r) | Value::Function(r) => {
                 self.objects.get(r.0 as usize).unwrap_or(NOTHING)
@@ -221,7 +217,7 @@ impl Heap {
     }
 
     /// The same for changing it. Whoever lets it grow says so with [`Heap::grow`].
-    pub(crate) fn object_mut(&mut self, value: &Value) -> Option<&mut Object> {
+    pub(crate) fn object_mut(&mut self, value: &Value) -> Option<&mut HeapObject> {
         match value {
             Value::List(r) | Value::Record(r) | Value::Function(r) => self.objects.get_mut(r.0 as usize),
             _ => None,
@@ -238,8 +234,8 @@ impl Heap {
         if self.bytes > MAX_BYTES { Err(Full) } else { Ok(()) }
     }
 
-    fn add(&mut self, object: Object, bytes: usize) -> Result<Ref, Full> {
-        self.take(size_of::<Object>() + bytes)?;
+    fn add(&mut self, object: HeapObject, bytes: usize) -> Result<Ref, Full> {
+        self.take(size_of::<HeapObject>() + bytes)?;
         if let Some(at) = self.free.pop() {
             if let Some(place) = self.objects.get_mut(at as usize) {
                 *place = object;
@@ -273,32 +269,32 @@ impl Heap {
         }
         let mut bytes = 0;
         while let Some(r) = waiting.pop() {
-            bytes += size_of::<Object>();
+            bytes += size_of::<HeapObject>();
             match self.objects.get(r.0 as usize) {
-                Some(Object::List(items) | Object::Closure { captures: items, .. }) => {
+                Some(HeapObject::List(items) | HeapObject::Closure { captures: items, .. }) => {
                     for item in items {
                         bytes += weight(item);
                         reach(item, &mut waiting);
                     }
                 }
-                Some(Object::Record(entries)) => {
+                Some(HeapObject::Record(entries)) => {
                     for (_, value) in entries {
                         bytes += 2 * VALUE + weight(value);
                         reach(value, &mut waiting);
                     }
                 }
-                Some(Object::Cell(Some(value))) => {
+                Some(HeapObject::Cell(Some(value))) => {
                     bytes += weight(value);
                     reach(value, &mut waiting);
                 }
-                Some(Object::Numbers(items, _)) => bytes += items.len() * size_of::<f64>(),
+                Some(HeapObject::Numbers(items, _)) => bytes += items.len() * size_of::<f64>(),
                 _ => {}
             }
         }
         self.free.clear();
         for (at, (object, reached)) in self.objects.iter_mut().zip(&reached).enumerate() {
             if !reached {
-                *object = Object::Free;
+                *object = HeapObject::Free;
                 self.free.push(at as u32);
             }
         }
@@ -321,7 +317,7 @@ mod tests {
         let mut heap = Heap::default();
         let kept = heap.numbers(&[1.0, 2.0]).unwrap();
         let ring = heap.list(Vec::new()).unwrap();
-        if let Some(Object::List(items)) = heap.object_mut(&ring) {
+        if let Some(HeapObject::List(items)) = heap.object_mut(&ring) {
             items.push(ring.clone());
         }
         heap.collect([&kept].into_iter());
@@ -335,7 +331,7 @@ mod tests {
     fn lists_inside_themselves_print() {
         let mut heap = Heap::default();
         let ring = heap.list(vec![Value::Number(1.0)]).unwrap();
-        if let Some(Object::List(items)) = heap.object_mut(&ring) {
+        if let Some(HeapObject::List(items)) = heap.object_mut(&ring) {
             items.push(ring.clone());
         }
         assert!(heap.text(&ring).starts_with("1,1,1"));

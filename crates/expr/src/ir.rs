@@ -1,18 +1,17 @@
-//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `form`.
+//! The typed tree: what a program means, with every name resolved. Made by `bind`, read by `lower`.
 
 use std::sync::Arc;
 
-use crate::Span;
 use crate::math;
-use crate::natives;
 use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
-use crate::schema::{Elem, FunctionId, Type};
+use crate::types::{Elem, FunctionId, Type};
 use crate::value::{Value, View};
+use labspec_finding::Span;
 
 /// A value to be computed.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ir {
-    pub(crate) kind: Kind,
+    pub(crate) kind: IrKind,
     pub(crate) ty: Type,
     pub(crate) span: Span,
 }
@@ -21,7 +20,7 @@ pub(crate) struct Ir {
 pub(crate) type LocalId = u32;
 
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Kind {
+pub(crate) enum IrKind {
     Constant(Value),
     /// An element of a field; past the end it is `undefined`.
     Load(View, Index),
@@ -44,50 +43,50 @@ pub(crate) enum Kind {
     Binary(BinaryOp, Box<Ir>, Box<Ir>),
     Logical(LogicalOp, Box<Ir>, Box<Ir>),
     Choice(Box<Ir>, Box<Ir>, Box<Ir>),
-    Math(math::Function, Vec<Ir>),
+    Math(math::MathFunction, Vec<Ir>),
     /// A function of `Math` over all elements of a list.
-    MathOver(math::Function, Box<Ir>),
+    MathOver(math::MathFunction, Box<Ir>),
     Call(FunctionId, Vec<Ir>),
     /// `place = value` or `place op= value`; gives the stored value.
-    Store(Box<Place>, Option<BinaryOp>, Box<Ir>),
+    Store(Box<AssignmentTarget>, Option<BinaryOp>, Box<Ir>),
     /// `place ||= value` and its like.
-    StoreIf(LogicalOp, Box<Place>, Box<Ir>),
+    StoreIf(LogicalOp, Box<AssignmentTarget>, Box<Ir>),
     /// `place++` and its like: adds the number; gives the new value, or the old one.
-    Update(Box<Place>, f64, Gives),
+    Update(Box<AssignmentTarget>, f64, UpdateResult),
     /// Stores one number in every element.
     Fill(View, Box<Ir>),
     /// Stores values one after the other, from an element of the view on.
     StoreAll(View, usize, Vec<Ir>),
     /// A list, with spreads.
-    List(Vec<Item>),
-    Record(Vec<Entry>),
+    List(Vec<IrItem>),
+    Record(Vec<IrEntry>),
     /// `object[index]` of something known only while running.
     Element(Box<Ir>, Box<Ir>),
     /// `object.name` of something known only while running.
     Member(Box<Ir>, Arc<str>),
     /// A method of a value.
-    Method(natives::Name, Box<Ir>, Vec<Item>),
+    Method(MethodId, Box<Ir>, Vec<IrItem>),
     /// A function that is no method.
-    Native(natives::Free, Vec<Item>),
+    Native(FreeFunctionId, Vec<IrItem>),
     /// A function of the text, as a value.
     Closure(UnitId),
     /// A call of a known function of the text.
     Invoke(UnitId, Vec<Ir>),
     /// A call of whatever function the value is.
-    InvokeValue(Box<Ir>, Vec<Item>),
+    InvokeValue(Box<Ir>, Vec<IrItem>),
     /// The array that belongs to the object of a computed name.
-    Pick(Arc<Picks>, Box<Ir>),
+    Pick(Arc<MemberTable>, Box<Ir>),
     /// The end of a chain with `?.` in it.
     Chain(Box<Ir>),
     /// What stands before `?.`: where it is nothing, the chain around it is `undefined`.
     Present(Box<Ir>),
     /// Statements, then a value.
-    Block(Vec<Step>, Box<Ir>),
+    Block(Vec<IrStatement>, Box<Ir>),
 }
 
 /// Which value a `++` gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Gives {
+pub(crate) enum UpdateResult {
     New,
     Old,
 }
@@ -95,9 +94,17 @@ pub(crate) enum Gives {
 /// A function of the text.
 pub(crate) type UnitId = u32;
 
+/// A name that is a method of something: its first row in the table of `natives`. Rows of one name follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct MethodId(pub(crate) u8);
+
+/// A function that belongs to nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FreeFunctionId(pub(crate) u8);
+
 /// An item of a list or an argument.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Item {
+pub(crate) struct IrItem {
     pub(crate) value: Ir,
     /// Its elements, rather than itself.
     pub(crate) spread: bool,
@@ -105,7 +112,7 @@ pub(crate) struct Item {
 
 /// An entry of a record.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Entry {
+pub(crate) enum IrEntry {
     Named(Arc<str>, Ir),
     Computed(Ir, Ir),
     Spread(Ir),
@@ -113,7 +120,7 @@ pub(crate) enum Entry {
 
 /// One member of every object of a collection, by the name of the object.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Picks {
+pub(crate) struct MemberTable {
     /// What the objects are called: `joint`.
     pub(crate) noun: String,
     /// Sorted by name.
@@ -131,7 +138,7 @@ pub(crate) enum Index {
 
 /// What can be assigned to.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Place {
+pub(crate) enum AssignmentTarget {
     Element(View, Index),
     Global(u32),
     GlobalNamed(Ir),
@@ -143,7 +150,7 @@ pub(crate) enum Place {
 
 /// A statement.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Step {
+pub(crate) enum IrStatement {
     /// Computed for its effect.
     Effect(Ir),
     /// The first value of a variable.
@@ -152,34 +159,34 @@ pub(crate) enum Step {
     Reserve(LocalId),
     /// A variable that functions share gets a new place with its value: the next turn of a loop has its own.
     Renew(LocalId),
-    If(Ir, Vec<Step>, Vec<Step>),
-    Loop(Box<Loop>),
+    If(Ir, Vec<IrStatement>, Vec<IrStatement>),
+    Loop(Box<IrLoop>),
     Break,
     Continue,
     Return(Ir),
     /// Statements in which `Return` ends only them, and stores its value; the place is where they seem to stand.
-    Inline(LocalId, Vec<Step>, Span),
+    Inline(LocalId, Vec<IrStatement>, Span),
 }
 
 /// A loop of any kind.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Loop {
+pub(crate) struct IrLoop {
     /// Asked before every turn; at the end of every turn when `late`.
     pub(crate) test: Option<Ir>,
     pub(crate) late: bool,
-    pub(crate) body: Vec<Step>,
+    pub(crate) body: Vec<IrStatement>,
     /// Run after every turn.
-    pub(crate) update: Vec<Step>,
+    pub(crate) update: Vec<IrStatement>,
     pub(crate) span: Span,
 }
 
 /// A function of the text, or the text itself.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Unit {
+pub(crate) struct IrFunction {
     pub(crate) params: Vec<LocalId>,
     /// Variables of the functions around it that it uses.
     pub(crate) captures: Vec<LocalId>,
-    pub(crate) body: Vec<Step>,
+    pub(crate) body: Vec<IrStatement>,
     /// Type of what it returns.
     pub(crate) result: Option<Type>,
 }
@@ -194,29 +201,29 @@ pub(crate) struct Local {
 
 /// All functions and variables of a program; the first function is the text itself.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Tree {
-    pub(crate) units: Vec<Unit>,
+pub(crate) struct IrProgram {
+    pub(crate) units: Vec<IrFunction>,
     pub(crate) locals: Vec<Local>,
     /// Arrays that become values, with what their elements are.
-    pub(crate) views: Vec<Shown>,
+    pub(crate) views: Vec<ExposedView>,
 }
 
 /// An array of the simulation that becomes a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Shown {
+pub(crate) struct ExposedView {
     pub(crate) view: View,
     pub(crate) elem: Elem,
     pub(crate) assignable: bool,
 }
 
 impl Ir {
-    pub(crate) fn new(kind: Kind, ty: Type, span: Span) -> Ir {
+    pub(crate) fn new(kind: IrKind, ty: Type, span: Span) -> Ir {
         Ir { kind, ty, span }
     }
 
     pub(crate) fn constant(value: Value, span: Span) -> Ir {
         let ty = value.type_of();
-        Ir { kind: Kind::Constant(value), ty, span }
+        Ir { kind: IrKind::Constant(value), ty, span }
     }
 
     pub(crate) fn number(x: f64, span: Span) -> Ir {
@@ -228,22 +235,22 @@ impl Ir {
     }
 
     /// The value, if it is known and a primitive one.
-    pub(crate) fn constant_value(&self) -> Option<&Value> {
+    pub(crate) fn as_constant(&self) -> Option<&Value> {
         match &self.kind {
-            Kind::Constant(value) if value.is_primitive() => Some(value),
+            IrKind::Constant(value) if value.is_primitive() => Some(value),
             _ => None,
         }
     }
 
     /// The value, if it is known and may decide something before the run. NaN decides while running, where a watch sees it.
     fn decided(&self) -> Option<&Value> {
-        self.constant_value().filter(|value| !value.is_nan())
+        self.as_constant().filter(|value| !value.is_nan())
     }
 
     /// Whether it is never a string nor something with parts: then arithmetic on it can use plain numbers.
     pub(crate) fn is_plain(&self) -> bool {
         match (&self.kind, self.ty) {
-            (Kind::Logical(_, a, b) | Kind::Choice(_, a, b), Type::Any) => a.is_plain() && b.is_plain(),
+            (IrKind::Logical(_, a, b) | IrKind::Choice(_, a, b), Type::Any) => a.is_plain() && b.is_plain(),
             (_, ty) => ty.is_plain(),
         }
     }
@@ -258,22 +265,22 @@ impl Ir {
             return Ir::to_number(operand, span);
         }
         let passes = op != UnaryOp::Not && op != UnaryOp::BitNot;
-        if let Some(value) = operand.constant_value().filter(|value| passes || !value.is_nan()) {
+        if let Some(value) = operand.as_constant().filter(|value| passes || !value.is_nan()) {
             return Ir::constant(op.on_value(value), span);
         }
         let operand = Box::new(operand);
         match op {
-            UnaryOp::TypeOf => Ir::new(Kind::TypeOf(operand), Type::String, span),
-            UnaryOp::Not => Ir::new(Kind::Unary(op, operand), Type::Boolean, span),
-            _ => Ir::new(Kind::Unary(op, operand), Type::Number, span),
+            UnaryOp::TypeOf => Ir::new(IrKind::TypeOf(operand), Type::String, span),
+            UnaryOp::Not => Ir::new(IrKind::Unary(op, operand), Type::Boolean, span),
+            _ => Ir::new(IrKind::Unary(op, operand), Type::Number, span),
         }
     }
 
     pub(crate) fn to_number(operand: Ir, span: Span) -> Ir {
-        match operand.constant_value() {
+        match operand.as_constant() {
             Some(value) => Ir::number(value.to_number(), span),
             None if operand.ty == Type::Number => operand,
-            None => Ir::new(Kind::ToNumber(Box::new(operand)), Type::Number, span),
+            None => Ir::new(IrKind::ToNumber(Box::new(operand)), Type::Number, span),
         }
     }
 
@@ -281,12 +288,12 @@ impl Ir {
         match operand.decided() {
             Some(value) => Ir::constant(Value::String(value.to_string().into()), span),
             None if operand.ty == Type::String => operand,
-            None => Ir::new(Kind::ToText(Box::new(operand)), Type::String, span),
+            None => Ir::new(IrKind::ToText(Box::new(operand)), Type::String, span),
         }
     }
 
     pub(crate) fn binary(op: BinaryOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let (Some(a), Some(b)) = (left.constant_value(), right.constant_value())
+        if let (Some(a), Some(b)) = (left.as_constant(), right.as_constant())
             && a.text_len() + b.text_len() < 1000
         {
             let value = op.on_values(a, b);
@@ -300,12 +307,11 @@ impl Ir {
             BinaryOp::Add if !(left.is_plain() && right.is_plain()) => Type::Any,
             _ => Type::Number,
         };
-        Ir::new(Kind::Binary(op, Box::new(left), Box::new(right)), ty, span)
+        Ir::new(IrKind::Binary(op, Box::new(left), Box::new(right)), ty, span)
     }
 
     pub(crate) fn logical(op: LogicalOp, left: Ir, right: Ir, span: Span) -> Ir {
-        if let Some(value) = left.constant_value().filter(|value| op == LogicalOp::Nullish || !value.is_nan())
-        {
+        if let Some(value) = left.as_constant().filter(|value| op == LogicalOp::Nullish || !value.is_nan()) {
             return Ir { span, ..if op.keeps(value) { left } else { right } };
         }
         let ty = match (op, left.ty) {
@@ -315,7 +321,7 @@ impl Ir {
             (LogicalOp::Nullish, Type::Undefined | Type::Null) => right.ty,
             _ => left.ty.or(right.ty),
         };
-        Ir::new(Kind::Logical(op, Box::new(left), Box::new(right)), ty, span)
+        Ir::new(IrKind::Logical(op, Box::new(left), Box::new(right)), ty, span)
     }
 
     pub(crate) fn choice(test: Ir, then: Ir, otherwise: Ir, span: Span) -> Ir {
@@ -323,20 +329,29 @@ impl Ir {
             return Ir { span, ..if value.truthy() { then } else { otherwise } };
         }
         let ty = then.ty.or(otherwise.ty);
-        Ir::new(Kind::Choice(Box::new(test), Box::new(then), Box::new(otherwise)), ty, span)
+        Ir::new(IrKind::Choice(Box::new(test), Box::new(then), Box::new(otherwise)), ty, span)
     }
 
-    pub(crate) fn math(function: math::Function, args: Vec<Ir>, span: Span) -> Ir {
+    pub(crate) fn math(function: math::MathFunction, args: Vec<Ir>, span: Span) -> Ir {
         let constants: Option<Vec<f64>> =
-            args.iter().map(|a| a.constant_value().map(Value::to_number)).collect();
+            args.iter().map(|a| a.as_constant().map(Value::to_number)).collect();
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         let applied = constants.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
         // A NaN that is lost is lost while running, where a watch sees it.
-        let fits = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
-        match applied.filter(fits).filter(|_| !args.is_empty()).map(|(_, x)| x) {
+        let kept = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
+        match applied.filter(kept).filter(|_| !args.is_empty()).map(|(_, x)| x) {
             Some(x) if ty == Type::Boolean => Ir::constant(Value::Boolean(x != 0.0), span),
             Some(x) => Ir::number(x, span),
-            None => Ir::new(Kind::Math(function, args), ty, span),
+            None => Ir::new(IrKind::Math(function, args), ty, span),
         }
     }
+}
+
+/// Whether statements never come to their end: all ways through them return.
+pub(crate) fn always_return(steps: &[IrStatement]) -> bool {
+    steps.iter().any(|step| match step {
+        IrStatement::Return(_) => true,
+        IrStatement::If(_, then, otherwise) => always_return(then) && always_return(otherwise),
+        _ => false,
+    })
 }

@@ -11,8 +11,8 @@
 //! | text to tokens | `lex` (nom) | tokens with byte spans |
 //! | tokens to tree | `parse` | [`ast`], always, with the mistakes beside it |
 //! | tree to meaning | `bind` | typed tree of `ir`, every name resolved |
-//! | meaning to form | `form` | blocks of operations, every value defined once |
-//! | form to code | `vm::emit`, `formula` | [`Program`]: operations on registers, formulas |
+//! | meaning to form | `lower` | blocks of operations, every value defined once |
+//! | form to code | `lower::emit`, `lower::pure` | [`Program`]: operations on registers, formulas |
 //! | running | `vm`, `row` | a [`Value`], or a [`RuntimeError`] |
 //! | running over samples | `columnar` | a column of numbers |
 //!
@@ -25,18 +25,23 @@ pub mod ast;
 pub mod dimension;
 pub mod rules;
 
+mod analysis;
 mod bind;
 mod chain;
+mod code;
 mod columnar;
 mod complete;
+mod context;
 mod effects;
-mod form;
 mod formula;
+mod global_names;
 mod globals;
 mod heap;
+mod host;
+mod host_terms;
 mod ir;
-mod known;
 mod lex;
+mod lower;
 mod math;
 mod natives;
 mod number;
@@ -47,11 +52,13 @@ mod print;
 mod program;
 mod reference;
 mod row;
+mod runtime_event;
 mod schema;
+mod ssa;
+mod types;
 mod value;
 mod vm;
 mod watch;
-mod words;
 
 #[cfg(test)]
 mod mock;
@@ -64,26 +71,29 @@ mod tests;
 #[path = "../../../tests/zz.rs"]
 mod zz;
 
+pub use analysis::measure::{DimensionClash, DimensionStore, KnownDimensions, TextDimensions};
 pub use bind::{Compiled, Compiler};
-pub use chain::{Mention, Named, chain_at, fields_in, names_in, texts_in, variables_of};
+pub use chain::{FieldMention, NamedObject, chain_at, fields_in, names_in, texts_in, variables_of};
 pub use columnar::{Columnar, Foreign, Recording};
 pub use complete::{Suggested, Suggestion, complete};
+pub use context::Context;
 pub use effects::{Access, Effects};
-pub use form::measure::{Clash, Given, Measured, Stored};
 pub use globals::{Globals, ProgramId};
-pub use heap::{Full, Heap, Ref};
+pub use heap::{Full, Heap};
+pub use host::Host;
+pub use host_terms::HostTerms;
 pub use labspec_finding::{Finding, Fix, Severity, Span, floor};
 pub use math::hypot;
 pub use natives::to_fixed;
 pub use parse::Parsed;
 pub use parse::{MAX_DEPTH, MAX_SOURCE, parse_expression, parse_statements};
 pub use print::{format_expression, format_statements, print, print_statements};
-pub use program::{Aggregate, Context, EventKind, Host, Program, RuntimeError, RuntimeEvent};
+pub use program::{Aggregate, Program};
 pub use reference::language_page;
+pub use runtime_event::{EventKind, RuntimeError, RuntimeEvent};
 pub use schema::{
-    Advice, CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, Help,
-    ObjectId, Param, Role, Schema, Touch, Type,
+    AngleAdvice, Entry, Field, FieldKind, FunctionInfo, Help, Param, ResultDimension, Role, Schema, Touch,
 };
-pub use value::{Value, View};
+pub use types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
+pub use value::{Ref, Value, View};
 pub use watch::{Comparison, Watch};
-pub use words::Words;

@@ -6,37 +6,37 @@ pub(crate) const FEW: usize = 16;
 
 /// A function of `Math`, or one of the global functions on numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Function(u8);
+pub(crate) struct MathFunction(u8);
 
 /// Name, smallest and largest number of arguments that make sense, and the function of all arguments.
-struct Row {
+struct MathRow {
     name: &'static str,
     least: usize,
     most: Option<usize>,
-    apply: Apply,
+    apply: MathEvaluation,
 }
 
 /// How a function takes its arguments.
 #[derive(Clone, Copy)]
-pub(crate) enum Apply {
+pub(crate) enum MathEvaluation {
     One(fn(f64) -> f64),
     Two(fn(f64, f64) -> f64),
     Many(fn(&[f64]) -> f64),
 }
 
-const fn one(name: &'static str, f: fn(f64) -> f64) -> Row {
-    Row { name, least: 1, most: Some(1), apply: Apply::One(f) }
+const fn one(name: &'static str, f: fn(f64) -> f64) -> MathRow {
+    MathRow { name, least: 1, most: Some(1), apply: MathEvaluation::One(f) }
 }
 
-const fn two(name: &'static str, f: fn(f64, f64) -> f64) -> Row {
-    Row { name, least: 2, most: Some(2), apply: Apply::Two(f) }
+const fn two(name: &'static str, f: fn(f64, f64) -> f64) -> MathRow {
+    MathRow { name, least: 2, most: Some(2), apply: MathEvaluation::Two(f) }
 }
 
-const fn many(name: &'static str, f: fn(&[f64]) -> f64) -> Row {
-    Row { name, least: 0, most: None, apply: Apply::Many(f) }
+const fn many(name: &'static str, f: fn(&[f64]) -> f64) -> MathRow {
+    MathRow { name, least: 0, most: None, apply: MathEvaluation::Many(f) }
 }
 
-const MATH: &[Row] = &[
+const MATH: &[MathRow] = &[
     one("abs", f64::abs),
     one("acos", libm::acos),
     one("acosh", libm::acosh),
@@ -139,15 +139,15 @@ const CONSTANTS: &[(&str, f64)] = &[
 ];
 
 /// The function `Math.name`.
-pub(crate) fn function(name: &str) -> Option<Function> {
+pub(crate) fn function(name: &str) -> Option<MathFunction> {
     let members = MATH.len() - GLOBALS;
-    MATH.iter().take(members).position(|row| row.name == name).map(|i| Function(i as u8))
+    MATH.iter().take(members).position(|row| row.name == name).map(|i| MathFunction(i as u8))
 }
 
 /// The global function `name`.
-pub(crate) fn global(name: &str) -> Option<Function> {
+pub(crate) fn global(name: &str) -> Option<MathFunction> {
     let members = MATH.len() - GLOBALS;
-    MATH.iter().skip(members).position(|row| row.name == name).map(|i| Function((members + i) as u8))
+    MATH.iter().skip(members).position(|row| row.name == name).map(|i| MathFunction((members + i) as u8))
 }
 
 /// The constant `Math.name`.
@@ -161,8 +161,8 @@ pub(crate) fn names() -> impl Iterator<Item = &'static str> {
     MATH.iter().take(members).map(|row| row.name).chain(CONSTANTS.iter().map(|(name, _)| *name))
 }
 
-impl Function {
-    fn row(self) -> &'static Row {
+impl MathFunction {
+    fn row(self) -> &'static MathRow {
         &MATH[usize::from(self.0)]
     }
 
@@ -193,7 +193,7 @@ impl Function {
     }
 
     /// What computes it.
-    pub(crate) fn apply_by(self) -> Apply {
+    pub(crate) fn apply_by(self) -> MathEvaluation {
         self.row().apply
     }
 
@@ -202,9 +202,9 @@ impl Function {
     pub(crate) fn apply(self, args: &[f64]) -> f64 {
         let arg = |i: usize| args.get(i).copied().unwrap_or(f64::NAN);
         match self.row().apply {
-            Apply::One(f) => f(arg(0)),
-            Apply::Two(f) => f(arg(0), arg(1)),
-            Apply::Many(f) => f(args),
+            MathEvaluation::One(f) => f(arg(0)),
+            MathEvaluation::Two(f) => f(arg(0), arg(1)),
+            MathEvaluation::Many(f) => f(args),
         }
     }
 }

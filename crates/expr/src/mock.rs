@@ -38,7 +38,7 @@ const FIELDS: &[Row] = &[
 ];
 
 /// What the host calls its things: those of a workbook. Names in examples are names that this host has.
-static WORDS: Words = Words {
+static WORDS: HostTerms = HostTerms {
     lab: "sheet",
     lesson: "workbook",
     world: "machine",
@@ -51,7 +51,7 @@ static WORDS: Words = Words {
     names: "`model`, `data`, `ctx`",
     statements: "`begin`, `tick` or `press`",
     keeper: "`tick`",
-    displayed: "a cell or a curve",
+    display: "a cell or a curve",
     clock: "the time of the machine is `data.time`",
     wait: "test `data.time` in the tick instead",
     split: "split it: into several keys, or a `begin` and a `tick`",
@@ -67,7 +67,7 @@ static WORDS: Words = Words {
 /// A rule of the host.
 const NO_ANGLE: &rules::Rule = &rules::Rule { code: "quaternion-as-angle", ..*rules::DEGREES };
 
-const QUATERNION: Advice = Advice {
+const QUATERNION: AngleAdvice = AngleAdvice {
     rule: NO_ANGLE,
     what: "a component of a quaternion",
     why: "four numbers that give the orientation together",
@@ -247,7 +247,7 @@ impl Schema for Mock {
             aggregate: false,
             reads: Touch::Nothing,
             writes: Touch::Nothing,
-            gives: Gives::Unknown,
+            gives: ResultDimension::Unknown,
             doc: doc.into(),
         };
         let both = vec![Param::Object(MODEL), Param::Object(DATA)];
@@ -318,7 +318,7 @@ impl Schema for Mock {
         Some(format!("data.joint(\"{joint}\").{name}[{}]", index % n))
     }
 
-    fn words(&self) -> &'static Words {
+    fn host_terms(&self) -> &'static HostTerms {
         &WORDS
     }
 

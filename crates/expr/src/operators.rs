@@ -1,7 +1,5 @@
-//! The operators: how they are written, how tightly they bind, and what they do to values (ECMAScript, chapter
-//! "Expressions"). Parser, printer, constant folding and the machine all use these definitions.
-
-use crate::value::Value;
+//! The operators: how they are written and how tightly they bind (ECMAScript, chapter "Expressions"). What they mean to
+//! numbers is in `operation`, what they mean to values in `value`.
 
 /// Operators before one operand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -31,17 +29,6 @@ impl UnaryOp {
     }
 }
 
-impl UnaryOp {
-    /// The operator on a value.
-    pub(crate) fn on_value(self, value: &Value) -> Value {
-        match self {
-            UnaryOp::Not => Value::Boolean(!value.truthy()),
-            UnaryOp::TypeOf => value.type_name().into(),
-            _ => Value::Number(self.on_number(value.to_number())),
-        }
-    }
-}
-
 /// Operators that choose one of their operands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum LogicalOp {
@@ -63,15 +50,6 @@ impl LogicalOp {
             LogicalOp::And => "&&",
             LogicalOp::Or => "||",
             LogicalOp::Nullish => "??",
-        }
-    }
-
-    /// Whether `left op right` is the left operand.
-    pub(crate) fn keeps(self, left: &Value) -> bool {
-        match self {
-            LogicalOp::And => !left.truthy(),
-            LogicalOp::Or => left.truthy(),
-            LogicalOp::Nullish => !left.is_nothing(),
         }
     }
 
@@ -180,35 +158,4 @@ impl BinaryOp {
     pub fn is_comparison(self) -> bool {
         matches!(self.power(), 8 | 9)
     }
-
-    /// The operator on two values.
-    pub(crate) fn on_values(self, a: &Value, b: &Value) -> Value {
-        match self {
-            BinaryOp::Add => a.plus(b),
-            BinaryOp::Equal => Value::Boolean(a.loosely_equals(b)),
-            BinaryOp::NotEqual => Value::Boolean(!a.loosely_equals(b)),
-            BinaryOp::StrictEqual => Value::Boolean(a.strictly_equals(b)),
-            BinaryOp::StrictNotEqual => Value::Boolean(!a.strictly_equals(b)),
-            _ if self.is_comparison() => match (a, b) {
-                (Value::String(x), Value::String(y)) => Value::Boolean(self.on_order(compare_utf16(x, y))),
-                _ => Value::Boolean(self.on_numbers(a.to_number(), b.to_number()) != 0.0),
-            },
-            _ => Value::Number(self.on_numbers(a.to_number(), b.to_number())),
-        }
-    }
-
-    /// Whether a comparison holds of two things in this order.
-    fn on_order(self, order: std::cmp::Ordering) -> bool {
-        match self {
-            BinaryOp::Less => order.is_lt(),
-            BinaryOp::LessEqual => order.is_le(),
-            BinaryOp::Greater => order.is_gt(),
-            _ => order.is_ge(),
-        }
-    }
-}
-
-/// JavaScript orders strings by UTF-16 code units, which differs from Rust's order beyond the basic plane.
-fn compare_utf16(a: &str, b: &str) -> std::cmp::Ordering {
-    a.encode_utf16().cmp(b.encode_utf16())
 }

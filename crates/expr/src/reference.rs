@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use crate::ast::{BinaryOp, LogicalOp};
+use crate::host_terms::HostTerms;
 use crate::math;
-use crate::natives::{self, On};
-use crate::words::Words;
+use crate::natives::{self, ReceiverKind};
+use crate::parse;
 
 /// The grammar, in the notation of ISO 14977: `,` is left out, `{ }` repeats, `[ ]` may be missing.
 const GRAMMAR: &str = r#"
@@ -40,54 +41,58 @@ place        = name | postfix "." name | postfix "[" expression "]" ;
 "#;
 
 /// A row of a table: how it is written, what it gives, an example with its value.
-struct Row {
+struct ReferenceRow {
     name: String,
     doc: &'static str,
     example: (String, &'static str),
 }
 
-fn rows(of: &[On], array: &str) -> Vec<Row> {
-    let natives = natives::rows().filter(|r| of.contains(&r.on));
-    let name = |row: &natives::Row| match row.calls() {
-        true if row.on == On::Nothing => format!("{}(v, f)", row.name),
+fn rows(of: &[ReceiverKind], array: &str) -> Vec<ReferenceRow> {
+    let natives = natives::public_rows().filter(|r| of.contains(&r.on));
+    let name = |row: &natives::Native| match row.calls() {
+        true if row.on == ReceiverKind::Nothing => format!("{}(v, f)", row.name),
         true => format!("{}(f)", row.name),
         false => row.name.to_owned(),
     };
-    natives.map(|r| Row { name: name(r), doc: r.doc, example: r.example(array) }).collect()
+    natives.map(|r| ReferenceRow { name: name(r), doc: r.doc, example: r.example(array) }).collect()
 }
 
-fn functions_of_math() -> Vec<Row> {
+fn functions_of_math() -> Vec<ReferenceRow> {
     let name = |name: &str| if name.starts_with("is") { name.to_owned() } else { format!("Math.{name}") };
     let rows = math::DOCS.iter();
-    rows.map(|&(n, doc, (source, value))| Row { name: name(n), doc, example: (source.into(), value) })
-        .collect()
+    rows.map(|&(n, doc, (source, value))| ReferenceRow {
+        name: name(n),
+        doc,
+        example: (source.into(), value),
+    })
+    .collect()
 }
 
 /// A section with a table.
-fn table(out: &mut String, title: &str, rows: Vec<Row>) {
+fn table(out: &mut String, title: &str, rows: Vec<ReferenceRow>) {
     let _ = write!(out, "\n## {title}\n\n| name | gives | example | value |\n|---|---|---|---|\n");
-    for Row { name, doc, example: (source, value) } in rows {
+    for ReferenceRow { name, doc, example: (source, value) } in rows {
         let cell = |s: &str| s.replace('|', "\\|");
         let _ = writeln!(out, "| `{name}` | {} | `{}` | `{}` |", cell(doc), cell(&source), cell(value));
     }
 }
 
 /// The page, in Markdown, with the words of a host.
-pub fn language_page(words: &Words) -> String {
+pub fn language_page(host_terms: &HostTerms) -> String {
     let mut out = format!(
         "# The language of {0}s\n\nThe core of JavaScript that {0}s use. Values are JavaScript's, bit for bit: double arithmetic, `%`, `||` that returns an operand, numbers to text. The functions of `Math` whose result the standard leaves to the engine (`sin`, `exp`, `pow`, `**` …) are the same on every machine, and as near to node's as [measured](../measured/math.md).\n\n## Grammar\n\n```ebnf",
-        words.lesson
+        host_terms.lesson
     );
     out.push_str(GRAMMAR);
     out.push_str("```\n\nA statement ends with `;`, with a line end where JavaScript ends it, or with `}`. Comments are `// …` and `/* … */`.\n\n## Operators\n\nFrom the loosest to the tightest:\n\n| level | operators |\n|---|---|\n");
     let logical = [LogicalOp::Or, LogicalOp::Nullish, LogicalOp::And];
     for power in 3..=14 {
-        let operators = BinaryOp::ALL.iter().filter(|o| o.power() == power).map(|o| o.symbol());
+        let binary = BinaryOp::ALL.iter().filter(|o| o.power() == power).map(|o| o.symbol());
         let symbols: Vec<String> = logical
             .iter()
             .filter(|o| o.power() == power)
             .map(|o| o.symbol())
-            .chain(operators)
+            .chain(binary)
             .map(|s| format!("`{}`", s.replace('|', "\\|")))
             .collect();
         if !symbols.is_empty() {
@@ -96,13 +101,16 @@ pub fn language_page(words: &Words) -> String {
     }
     out.push_str("\n`**` groups from the right, all others from the left; a sign directly before `**` is rejected, as in JavaScript.\n");
     let sections = [
-        ("Methods of lists and arrays", &[On::List, On::Growing, On::Untyped][..]),
-        ("Methods of texts", &[On::Text]),
-        ("Methods of numbers", &[On::Number]),
-        ("Functions", &[On::Nothing]),
+        (
+            "Methods of lists and arrays",
+            &[ReceiverKind::List, ReceiverKind::Growing, ReceiverKind::Untyped][..],
+        ),
+        ("Methods of texts", &[ReceiverKind::Text]),
+        ("Methods of numbers", &[ReceiverKind::Number]),
+        ("Functions", &[ReceiverKind::Nothing]),
     ];
     for (title, of) in sections {
-        table(&mut out, title, rows(of, words.array));
+        table(&mut out, title, rows(of, host_terms.array));
     }
     table(&mut out, "`Math`", functions_of_math());
     out.push_str("\nConstants: ");
@@ -113,10 +121,10 @@ pub fn language_page(words: &Words) -> String {
     let _ = writeln!(
         out,
         "A text has at most {} bytes and {} nested levels; a run does at most {} operations (an element that a method visits counts as five, a step of the {} as its own cost), functions call each other 200 deep, lists take 64 MB, a string 1 MB. Each limit has its own error.",
-        crate::MAX_SOURCE,
-        crate::MAX_DEPTH,
-        crate::vm::MAX_WORK / crate::vm::OPERATION,
-        words.world
+        parse::MAX_SOURCE,
+        parse::MAX_DEPTH,
+        crate::vm::MAX_WORK / crate::code::OPERATION,
+        host_terms.world
     );
     out
 }
@@ -128,8 +136,19 @@ mod tests {
 
     #[test]
     fn the_examples_give_what_they_say() {
-        let all = rows(&[On::List, On::Growing, On::Untyped, On::Text, On::Number, On::Nothing], "data.qpos");
-        for Row { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math()) {
+        let all = rows(
+            &[
+                ReceiverKind::List,
+                ReceiverKind::Growing,
+                ReceiverKind::Untyped,
+                ReceiverKind::Text,
+                ReceiverKind::Number,
+                ReceiverKind::Nothing,
+            ],
+            "data.qpos",
+        );
+        for ReferenceRow { name, example: (source, value), .. } in all.into_iter().chain(functions_of_math())
+        {
             let (_, got) = execute(&format!("ctx.out = String({source})"));
             assert_eq!(got.to_string(), value, "{name}: {source}");
         }
@@ -138,6 +157,6 @@ mod tests {
             let example = math::DOCS.iter().find(|(n, ..)| *n == name).map(|(.., (source, _))| *source);
             assert!(example.is_some_and(|e| e.contains(&format!("Math.{name}("))), "{name}: {example:?}");
         }
-        assert!(language_page(&Words::PLAIN).contains("| `map(f)` |"));
+        assert!(language_page(&HostTerms::PLAIN).contains("| `map(f)` |"));
     }
 }

@@ -3,25 +3,10 @@
 //! them back.
 
 use crate::dimension::{Dimension, Measure};
+use crate::host_terms::HostTerms;
 use crate::rules::Rule;
+use crate::types::{CollectionId, Elem, FieldKey, FunctionId, ObjectId, Type};
 use crate::value::Value;
-use crate::words::Words;
-
-/// An object with members: `model`, `model.opt`, the joint `"hinge"`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ObjectId(pub u32);
-
-/// Named objects of one sort: what `data.joint(…)` chooses from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct CollectionId(pub u32);
-
-/// A function of the host.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FunctionId(pub u32);
-
-/// An array or number of the host.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct FieldKey(pub u32);
 
 /// What a name stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,29 +68,6 @@ impl Field {
     }
 }
 
-/// What the elements of a field are, and so what is left of a number that is stored there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Elem {
-    /// Doubles.
-    #[default]
-    Double,
-    /// Integers of 32 bits.
-    Int,
-    /// Bytes.
-    Byte,
-}
-
-impl Elem {
-    /// What is kept of a number.
-    pub(crate) fn keep(self, x: f64) -> f64 {
-        match self {
-            Elem::Double => x,
-            Elem::Int => f64::from(crate::number::to_int32(x)),
-            Elem::Byte => f64::from(crate::number::to_int32(x) & 0xff),
-        }
-    }
-}
-
 /// What a field is.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FieldKind {
@@ -162,7 +124,7 @@ pub struct FunctionInfo {
     /// What it writes.
     pub writes: Touch,
     /// What the numbers that it gives measure.
-    pub gives: Gives,
+    pub gives: ResultDimension,
     /// One line of documentation.
     pub doc: String,
 }
@@ -183,7 +145,7 @@ pub(crate) fn signature(schema: &dyn Schema, info: &FunctionInfo) -> String {
 
 /// What the numbers of a result measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Gives {
+pub enum ResultDimension {
     /// That is not known.
     #[default]
     Unknown,
@@ -193,13 +155,13 @@ pub enum Gives {
     Argument(usize, Dimension),
 }
 
-impl Gives {
+impl ResultDimension {
     /// What a result measures whose arguments measure this.
-    pub(crate) fn result_of(self, argument: impl Fn(usize) -> Measure) -> Measure {
+    pub(crate) fn resolve(self, argument: impl Fn(usize) -> Measure) -> Measure {
         match self {
-            Gives::Unknown => Measure::Unknown,
-            Gives::This(dimension) => Measure::Known(dimension),
-            Gives::Argument(i, times) => match argument(i) {
+            ResultDimension::Unknown => Measure::Unknown,
+            ResultDimension::This(dimension) => Measure::Known(dimension),
+            ResultDimension::Argument(i, times) => match argument(i) {
                 Measure::Known(d) => d.product(times).map_or(Measure::Unknown, Measure::Known),
                 // A number of the text may stand for anything, and so may what it is multiplied with.
                 other => other,
@@ -231,81 +193,6 @@ pub enum Param {
     Lazy,
 }
 
-/// What is known of a value before running.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Type {
-    /// A double.
-    Number,
-    /// `true` or `false`
-    Boolean,
-    /// Text.
-    String,
-    /// `null`
-    Null,
-    /// `undefined`
-    Undefined,
-    /// Known only while running.
-    Any,
-    /// Nothing: the function is called for its effect.
-    Void,
-    /// A list.
-    List,
-    /// A record.
-    Record,
-    /// A function of the text.
-    Function,
-    /// An array of the simulation.
-    View,
-    /// No value ever: what a function gives that never returns.
-    Never,
-    /// A number, or `undefined`: an element at an index that may be past the end.
-    Element,
-}
-
-impl Type {
-    /// The type of a value that is one or the other.
-    pub fn or(self, other: Type) -> Type {
-        match (self, other) {
-            (Type::Never, one) | (one, Type::Never) => one,
-            (a, b) if a == b => a,
-            (
-                Type::Number | Type::Undefined | Type::Element,
-                Type::Number | Type::Undefined | Type::Element,
-            ) => Type::Element,
-            _ => Type::Any,
-        }
-    }
-
-    /// Whether it is nothing but numbers, truth values and nothing: then arithmetic on it can use plain numbers.
-    pub(crate) fn is_plain(self) -> bool {
-        !self.may_have_parts() && self != Type::String
-    }
-
-    /// Whether it may be something with parts: a list, a record, an array, a function.
-    pub(crate) fn may_have_parts(self) -> bool {
-        matches!(self, Type::List | Type::Record | Type::View | Type::Function | Type::Any)
-    }
-
-    /// In words, with an article.
-    pub fn describe(self) -> &'static str {
-        match self {
-            Type::Number => "a number",
-            Type::Boolean => "a boolean (true or false)",
-            Type::String => "a string",
-            Type::Null => "null",
-            Type::Undefined => "undefined",
-            Type::Any => "a value of any type",
-            Type::Void => "nothing",
-            Type::List => "a list",
-            Type::Record => "a record",
-            Type::Function => "a function",
-            Type::View => "an array",
-            Type::Never => "no value",
-            Type::Element => "a number, or undefined past the end",
-        }
-    }
-}
-
 /// What a single element of a field measures, as far as mistakes about it are known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Role {
@@ -315,12 +202,12 @@ pub enum Role {
     /// An angle in rad.
     Angle,
     /// A number that is easily taken for an angle and is none.
-    NoAngle(&'static Advice),
+    NoAngle(&'static AngleAdvice),
 }
 
 /// What a host says of a mistake that the language finds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Advice {
+pub struct AngleAdvice {
     /// The rule of the host that is broken.
     pub rule: &'static Rule,
     /// What it is that was written.
@@ -400,7 +287,7 @@ pub trait Schema {
     }
 
     /// What the result of a function measures; `first` is its first argument, where that is a known number or name.
-    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> ResultDimension {
         let _ = first;
         self.function(function).gives
     }
@@ -419,8 +306,8 @@ pub trait Schema {
     }
 
     /// What the host calls its things.
-    fn words(&self) -> &'static Words {
-        &Words::PLAIN
+    fn host_terms(&self) -> &'static HostTerms {
+        &HostTerms::PLAIN
     }
 
     /// What an author writes to have derived fields computed again, as `mj_forward`.

@@ -1,14 +1,18 @@
 //! Values of a program: JavaScript's primitive values and their conversions (ECMAScript, "Type Conversion" and
-//! "Testing and Comparison Operations"), and references to lists, records and functions, which live in a
-//! [`crate::Heap`].
+//! "Testing and Comparison Operations"), what the operators do to values, and
+//! references to lists, records and functions, which live in a [`crate::Heap`].
 
 use std::fmt;
 use std::sync::Arc;
 
-use crate::heap::Ref;
 use crate::number;
 use crate::operation::truthy;
-use crate::schema::{FieldKey, Type};
+use crate::operators::{BinaryOp, LogicalOp, UnaryOp};
+use crate::types::{FieldKey, Type};
+
+/// The number of a list, record or function in its [`crate::Heap`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Ref(pub(crate) u32);
 
 /// A value of JavaScript.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -186,6 +190,61 @@ impl From<&str> for Value {
     fn from(s: &str) -> Value {
         Value::String(s.into())
     }
+}
+
+impl UnaryOp {
+    /// The operator on a value.
+    pub(crate) fn on_value(self, value: &Value) -> Value {
+        match self {
+            UnaryOp::Not => Value::Boolean(!value.truthy()),
+            UnaryOp::TypeOf => value.type_name().into(),
+            _ => Value::Number(self.on_number(value.to_number())),
+        }
+    }
+}
+
+impl LogicalOp {
+    /// Whether `left op right` is the left operand.
+    pub(crate) fn keeps(self, left: &Value) -> bool {
+        match self {
+            LogicalOp::And => !left.truthy(),
+            LogicalOp::Or => left.truthy(),
+            LogicalOp::Nullish => !left.is_nothing(),
+        }
+    }
+}
+
+impl BinaryOp {
+    /// The operator on two values.
+    pub(crate) fn on_values(self, a: &Value, b: &Value) -> Value {
+        match self {
+            BinaryOp::Add => a.plus(b),
+            BinaryOp::Equal => Value::Boolean(a.loosely_equals(b)),
+            BinaryOp::NotEqual => Value::Boolean(!a.loosely_equals(b)),
+            BinaryOp::StrictEqual => Value::Boolean(a.strictly_equals(b)),
+            BinaryOp::StrictNotEqual => Value::Boolean(!a.strictly_equals(b)),
+            _ if self.is_comparison() => match (a, b) {
+                (Value::String(x), Value::String(y)) => Value::Boolean(self.on_order(compare_utf16(x, y))),
+                _ => Value::Boolean(self.on_numbers(a.to_number(), b.to_number()) != 0.0),
+            },
+            _ => Value::Number(self.on_numbers(a.to_number(), b.to_number())),
+        }
+    }
+
+    /// Whether a comparison holds of two things in this order.
+    fn on_order(self, order: std::cmp::Ordering) -> bool {
+        match self {
+            BinaryOp::Less => order.is_lt(),
+            BinaryOp::LessEqual => order.is_le(),
+            BinaryOp::Greater => order.is_gt(),
+            _ => order.is_ge(),
+        }
+    }
+}
+
+/// JavaScript orders strings by UTF-16 code units, which differs from Rust's order beyond the basic plane.
+fn compare_utf16(a: &str, b: &str) -> std::cmp::Ordering {
+    a.encode_utf16().cmp(b.encode_utf16())
 }
 
 #[cfg(test)]

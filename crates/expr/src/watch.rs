@@ -5,11 +5,9 @@
 //! NaN and `undefined` stand for "there is no number": an event that never happened, a root of a negative number. Arithmetic
 //! passes NaN on. Comparisons, tests, texts, indexes and most methods make an ordinary value of it; that is a loss.
 
-use crate::Span;
-use crate::heap::{Heap, Object};
 use crate::operation::truth;
 use crate::operators::{BinaryOp, UnaryOp};
-use crate::value::Value;
+use labspec_finding::Span;
 
 /// A comparison of two numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +51,11 @@ impl Watch {
         Watch { turned, compares: true, undefined: true, ..Watch::default() }
     }
 
+    /// Whether `undefined` counts as what is not a number.
+    pub(crate) fn counts_undefined(&self) -> bool {
+        self.undefined
+    }
+
     /// Whether it notes comparisons, besides losses.
     pub(crate) fn notes_comparisons(&self) -> bool {
         self.compares
@@ -82,13 +85,13 @@ impl Watch {
     /// The outcome of an operation on numbers, which it may have turned over.
     pub(crate) fn binary(&mut self, op: BinaryOp, a: f64, b: f64) -> f64 {
         let x = op.on_numbers(a, b);
-        self.record(a.is_nan() || b.is_nan(), x);
+        self.kept(a.is_nan() || b.is_nan(), x);
         if margin(op, a, b).is_some() { self.compared(op, a, b, x) } else { x }
     }
 
     pub(crate) fn unary(&mut self, op: UnaryOp, a: f64) -> f64 {
         let x = op.on_number(a);
-        self.record(a.is_nan(), x);
+        self.kept(a.is_nan(), x);
         x
     }
 
@@ -98,7 +101,7 @@ impl Watch {
     }
 
     /// What became of operands.
-    pub(crate) fn record(&mut self, nan: bool, result: f64) {
+    pub(crate) fn kept(&mut self, nan: bool, result: f64) {
         self.loses |= nan && !result.is_nan();
     }
 
@@ -111,26 +114,6 @@ impl Watch {
         }
         self.comparisons.push(Comparison { left: a, right: b, margin, holds: x != 0.0 });
         if self.turned == Some(at) { truth(x == 0.0) } else { x }
-    }
-
-    /// Whether a value is, or holds, what is not a number.
-    pub(crate) fn without_number(&self, heap: &Heap, value: &Value) -> bool {
-        self.within(heap, value, 8)
-    }
-
-    /// As [`Watch::without_number`], down to a depth.
-    fn within(&self, heap: &Heap, value: &Value, depth: usize) -> bool {
-        match value {
-            Value::Number(x) => x.is_nan(),
-            Value::Undefined => self.undefined,
-            Value::List(_) | Value::Record(_) if depth > 0 => match heap.object(value) {
-                Object::List(items) => items.iter().any(|v| self.within(heap, v, depth - 1)),
-                Object::Numbers(items, _) => items.iter().any(|x| x.is_nan()),
-                Object::Record(entries) => entries.iter().any(|(_, v)| self.within(heap, v, depth - 1)),
-                _ => false,
-            },
-            _ => false,
-        }
     }
 }
 
@@ -149,7 +132,7 @@ fn margin(op: BinaryOp, a: f64, b: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::mock::{Mock, World};
-    use crate::{Compiler, Context, Globals};
+    use crate::{Compiler, Context, Globals, Value};
     use proptest::prelude::*;
 
     /// Runs an expression in which `data.qpos[0]` is `x`; the value, and what was noted.

@@ -6,7 +6,7 @@ use super::context::ModelContext;
 use super::convert;
 use super::documents::OpenDocument;
 use labspec::bind::ModelNames;
-use labspec_expr::{Mention, Schema, fields_in};
+use labspec_expr::{FieldMention, Schema, fields_in};
 use lsp_types::InlayHint;
 use std::ops::Range;
 
@@ -46,8 +46,8 @@ pub(super) fn hints(
 
 /// The unit of a field, or of the element of one whose elements differ: the height of a free body is in m, the parts of its
 /// quaternion have none.
-fn unit(names: &ModelNames<'_>, mention: &Mention) -> Option<String> {
-    let Mention { field, element, .. } = mention;
+fn unit(names: &ModelNames<'_>, mention: &FieldMention) -> Option<String> {
+    let FieldMention { field, element, .. } = mention;
     let help = element.and_then(|i| names.element_help(field.key, field.first + i));
     let of_element =
         help.as_deref().and_then(|help| help.rsplit_once(", ")).map(|(_, unit)| unit.to_string());

@@ -8,31 +8,23 @@ use nom::multi::many0;
 use nom::sequence::{delimited, preceded, terminated};
 use nom::{IResult, Offset, Parser};
 
-use super::{Raw, Tok, blank, is_line_end};
+use super::blank::{blank, is_line_end};
+use super::token::{LiteralPart, RawToken, TokenKind};
 use crate::number::from_digits;
 use crate::rules;
-use crate::{Finding, Span};
-
-/// A part of a string or a template.
-#[derive(Clone)]
-pub(super) enum Part<'a> {
-    Plain(&'a str),
-    /// What an escape stands for.
-    Char(char),
-    /// A line that goes on.
-    Nothing,
-    /// An escape without a meaning.
-    Broken(&'a str),
-    /// The expression between `${` and `}`.
-    Code(&'a str),
-}
+use labspec_finding::{Finding, Span};
 
 /// What a number means that is followed directly by the letters `tail`. Also a bad number stands for a number, so that what
 /// follows is understood.
-pub(super) fn number_of(text: &str, tail: &str, span: Span, diagnostics: &mut Vec<Finding>) -> Tok<'static> {
+pub(super) fn number_of(
+    text: &str,
+    tail: &str,
+    span: Span,
+    diagnostics: &mut Vec<Finding>,
+) -> TokenKind<'static> {
     let value = if text.contains('_') { plain(&text.replace('_', "")) } else { plain(text) };
     diagnostics.extend(complaint(text, tail, value, span));
-    Tok::Number(value.unwrap_or(0.0))
+    TokenKind::Number(value.unwrap_or(0.0))
 }
 
 /// A number, its separators included.
@@ -121,28 +113,31 @@ fn complaint(text: &str, tail: &str, value: Option<f64>, span: Span) -> Option<F
 /// A string with this quote, up to its end or the end of its line.
 pub(super) fn string<'a>(
     quote: char,
-) -> impl Parser<&'a str, Output = Raw<'a>, Error = nom::error::Error<&'a str>> {
+) -> impl Parser<&'a str, Output = RawToken<'a>, Error = nom::error::Error<&'a str>> {
     let plain = take_while1(move |c| c != quote && !matches!(c, '\\' | '\n' | '\r'));
-    let parts = many0(alt((map(plain, Part::Plain), escape, broken)));
-    map((char(quote), parts, opt(char(quote))), move |(_, parts, end)| Raw::Text(quote, parts, end.is_some()))
+    let parts = many0(alt((map(plain, LiteralPart::Plain), escape, broken)));
+    map((char(quote), parts, opt(char(quote))), move |(_, parts, end)| {
+        RawToken::Text(quote, parts, end.is_some())
+    })
 }
 
 /// A template literal. One that is never closed, and an expression in it that is not, are failures.
-pub(super) fn template(input: &str) -> IResult<&str, Raw<'_>> {
+pub(super) fn template(input: &str) -> IResult<&str, RawToken<'_>> {
     let plain = take_while1(|c| !matches!(c, '`' | '$' | '\\' | '\r'));
     // JavaScript reads every line end as a line feed.
-    let line_end = value(Part::Char('\n'), alt((tag("\r\n"), tag("\r"))));
+    let line_end = value(LiteralPart::Char('\n'), alt((tag("\r\n"), tag("\r"))));
     let code = preceded(tag("${"), cut(terminated(code, char('}'))));
-    let part = alt((map(plain, Part::Plain), map(code, Part::Code), dollar, line_end, escape, broken));
-    map(delimited(char('`'), many0(part), cut(char('`'))), Raw::Template).parse(input)
+    let part =
+        alt((map(plain, LiteralPart::Plain), map(code, LiteralPart::Code), dollar, line_end, escape, broken));
+    map(delimited(char('`'), many0(part), cut(char('`'))), RawToken::Template).parse(input)
 }
 
-fn dollar(input: &str) -> IResult<&str, Part<'_>> {
-    map(tag("$"), Part::Plain).parse(input)
+fn dollar(input: &str) -> IResult<&str, LiteralPart<'_>> {
+    map(tag("$"), LiteralPart::Plain).parse(input)
 }
 
 /// A backslash with what follows it.
-fn escape(input: &str) -> IResult<&str, Part<'_>> {
+fn escape(input: &str) -> IResult<&str, LiteralPart<'_>> {
     let letter = map_opt(anychar, |c| {
         Some(match c {
             'n' => '\n',
@@ -171,11 +166,12 @@ fn escape(input: &str) -> IResult<&str, Part<'_>> {
     let itself = satisfy(|c| !c.is_ascii_digit() && !matches!(c, 'x' | 'u') && !is_line_end(c));
     let line_end = alt((tag("\r\n"), recognize(satisfy(is_line_end))));
     let meant = alt((letter, zero, preceded(char('x'), hexadecimal), preceded(char('u'), unicode), itself));
-    preceded(char('\\'), alt((map(meant, Part::Char), value(Part::Nothing, line_end)))).parse(input)
+    preceded(char('\\'), alt((map(meant, LiteralPart::Char), value(LiteralPart::Nothing, line_end))))
+        .parse(input)
 }
 
-fn broken(input: &str) -> IResult<&str, Part<'_>> {
-    map(recognize((char('\\'), opt(satisfy(|c| !is_line_end(c))))), Part::Broken).parse(input)
+fn broken(input: &str) -> IResult<&str, LiteralPart<'_>> {
+    map(recognize((char('\\'), opt(satisfy(|c| !is_line_end(c))))), LiteralPart::Broken).parse(input)
 }
 
 fn hex(digits: &str) -> Option<u32> {
@@ -186,7 +182,7 @@ fn hex(digits: &str) -> Option<u32> {
 fn code(input: &str) -> IResult<&str, &str> {
     /// A piece of code.
     #[derive(Clone, Copy, PartialEq)]
-    enum Piece {
+    enum LiteralPiece {
         Opens(Inside),
         Closes,
         Other,
@@ -200,30 +196,30 @@ fn code(input: &str) -> IResult<&str, &str> {
     let mut inside = vec![Inside::Braces];
     let mut behind = input;
     while let Some(around) = inside.last() {
-        let opens = |text, what| value(Piece::Opens(what), tag(text));
-        let other = || value(Piece::Other, anychar);
+        let opens = |text, what| value(LiteralPiece::Opens(what), tag(text));
+        let other = || value(LiteralPiece::Other, anychar);
         let (next, piece) = match around {
             Inside::Template => alt((
-                value(Piece::Other, (char('\\'), anychar)),
-                value(Piece::Closes, char('`')),
+                value(LiteralPiece::Other, (char('\\'), anychar)),
+                value(LiteralPiece::Closes, char('`')),
                 opens("${", Inside::Braces),
                 other(),
             ))
             .parse(behind)?,
             Inside::Braces => alt((
-                value(Piece::Other, alt((string('"'), string('\'')))),
-                value(Piece::Other, comment),
+                value(LiteralPiece::Other, alt((string('"'), string('\'')))),
+                value(LiteralPiece::Other, comment),
                 opens("`", Inside::Template),
                 opens("{", Inside::Braces),
-                value(Piece::Closes, char('}')),
+                value(LiteralPiece::Closes, char('}')),
                 other(),
             ))
             .parse(behind)?,
         };
         match piece {
-            Piece::Opens(what) => inside.push(what),
-            Piece::Closes => drop(inside.pop()),
-            Piece::Other => {}
+            LiteralPiece::Opens(what) => inside.push(what),
+            LiteralPiece::Closes => drop(inside.pop()),
+            LiteralPiece::Other => {}
         }
         if !inside.is_empty() {
             behind = next;
@@ -242,7 +238,7 @@ fn comment(input: &str) -> IResult<&str, ()> {
 
 /// What the parts of a string or a template stand for, added to a text.
 fn say<'a>(
-    parts: &[Part<'a>],
+    parts: &[LiteralPart<'a>],
     source: &str,
     diagnostics: &mut Vec<Finding>,
     mut code: impl FnMut(&mut String, &'a str),
@@ -250,11 +246,11 @@ fn say<'a>(
     let mut text = String::new();
     for part in parts {
         match part {
-            Part::Plain(plain) => text.push_str(plain),
-            Part::Char(c) => text.push(*c),
-            Part::Nothing => {}
-            Part::Code(inner) => code(&mut text, inner),
-            Part::Broken(escape) => {
+            LiteralPart::Plain(plain) => text.push_str(plain),
+            LiteralPart::Char(c) => text.push(*c),
+            LiteralPart::Nothing => {}
+            LiteralPart::Code(inner) => code(&mut text, inner),
+            LiteralPart::Broken(escape) => {
                 let start = source.offset(escape);
                 diagnostics.push(
                     Finding::error(
@@ -274,11 +270,11 @@ fn say<'a>(
 /// What a string means.
 pub(super) fn text_of(
     quote: char,
-    parts: &[Part<'_>],
+    parts: &[LiteralPart<'_>],
     closed: bool,
     (source, span): (&str, Span),
     diagnostics: &mut Vec<Finding>,
-) -> Tok<'static> {
+) -> TokenKind<'static> {
     let text = say(parts, source, diagnostics, |_, _| {});
     if !closed {
         diagnostics.push(
@@ -287,15 +283,15 @@ pub(super) fn text_of(
                 .help(format!("write `{quote}` where the string ends")),
         );
     }
-    Tok::Text(text)
+    TokenKind::Text(text)
 }
 
 /// What a template literal means: its texts, and the places of the expressions between them.
 pub(super) fn template_of(
-    parts: Vec<Part<'_>>,
+    parts: Vec<LiteralPart<'_>>,
     source: &str,
     diagnostics: &mut Vec<Finding>,
-) -> Tok<'static> {
+) -> TokenKind<'static> {
     let (mut texts, mut places) = (Vec::new(), Vec::new());
     let last = say(&parts, source, diagnostics, |text, code| {
         let start = source.offset(code);
@@ -303,17 +299,17 @@ pub(super) fn template_of(
         places.push(Span::new(start, start + code.len()));
     });
     texts.push(last);
-    Tok::Template(texts, places)
+    TokenKind::Template(texts, places)
 }
 
 /// A template literal that does not end, which takes the whole rest of the text.
-pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> Tok<'static> {
+pub(super) fn unclosed_template(start: usize, diagnostics: &mut Vec<Finding>) -> TokenKind<'static> {
     diagnostics.push(
         Finding::error(rules::BAD_STRING, Span::new(start, start + 1), "this backquote is not closed")
             .why("a template literal ends with a backquote, and every `${` in it with `}`")
             .help("write a backquote where the text ends"),
     );
-    Tok::Bad
+    TokenKind::Bad
 }
 
 #[cfg(test)]
@@ -321,7 +317,7 @@ mod tests {
     use super::super::tokens;
     use super::*;
 
-    fn read(source: &str) -> (Tok<'_>, Vec<Finding>) {
+    fn read(source: &str) -> (TokenKind<'_>, Vec<Finding>) {
         let mut found = Vec::new();
         let tokens = tokens(source, &mut found);
         (tokens[0].kind.clone(), found)
@@ -342,7 +338,7 @@ mod tests {
             if value.is_nan() {
                 assert_eq!(found.len(), 1, "{source}");
             } else {
-                assert_eq!((kind, found.len()), (Tok::Number(value), 0), "{source}");
+                assert_eq!((kind, found.len()), (TokenKind::Number(value), 0), "{source}");
             }
         }
         for source in ["2x", "10n", "010", "1__0", "1_", "0b2", "0x", "3.toFixed", "00"] {
@@ -358,7 +354,7 @@ mod tests {
             ("'a\\\nb'", "ab"),
             (r"'\q\0'", "q\0"),
         ] {
-            assert_eq!(read(source), (Tok::Text(text.into()), Vec::new()), "{source}");
+            assert_eq!(read(source), (TokenKind::Text(text.into()), Vec::new()), "{source}");
         }
         for source in ["'abc", "'\\x4'", "'\\u12'", "'\\uD800'", "'\\08'", "\"a\n\"", "'\\"] {
             assert!(!read(source).1.is_empty(), "{source}");

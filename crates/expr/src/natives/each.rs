@@ -1,7 +1,7 @@
 //! The methods that call a function for every element, written in the language itself. `v` is what stands before the point,
 //! `f` the function. Names with an underscore are functions of the machine for these texts alone (`list.rs`).
 
-use super::{Row, table};
+use super::native::{Native, table};
 
 /// A merge sort, `undefined` last, of two copies, `a` and `b`: runs of `w` elements of one become runs of twice as many in the other.
 macro_rules! merge_sort {
@@ -19,7 +19,7 @@ macro_rules! merge_sort {
     };
 }
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "every" List: "[1, 2].every(x => x > 0)" => "true",
         "whether a condition holds for all elements",
         1 => "(v, f) => { const n = v.length; for (let i = 0; i < n; i++) if (!f(v[i], i, v)) return false; return true }";

@@ -1,28 +1,28 @@
 //! What methods work with: the lists of a run, its host, its budget, and JavaScript's conversions.
 
-use crate::heap::{Full, Heap, MAX_TEXT, Object};
-use crate::ir::Shown;
-use crate::program::Host;
+use crate::heap::{Full, Heap, HeapObject, MAX_TEXT};
+use crate::host::Host;
+use crate::ir::ExposedView;
 use crate::rules::{self, Rule};
-use crate::schema::Elem;
+use crate::types::Elem;
 use crate::value::{Value, View};
 
 /// Why a method fails.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Trouble {
+pub(crate) struct NativeError {
     pub(crate) rule: &'static Rule,
     pub(crate) message: String,
 }
 
-impl Trouble {
-    pub(crate) fn new(rule: &'static Rule, message: impl Into<String>) -> Trouble {
-        Trouble { rule, message: message.into() }
+impl NativeError {
+    pub(crate) fn new(rule: &'static Rule, message: impl Into<String>) -> NativeError {
+        NativeError { rule, message: message.into() }
     }
 }
 
-impl From<Full> for Trouble {
-    fn from(Full: Full) -> Trouble {
-        Trouble::new(rules::MEMORY, "the lists take more than 64 MB")
+impl From<Full> for NativeError {
+    fn from(Full: Full) -> NativeError {
+        NativeError::new(rules::MEMORY, "the lists take more than 64 MB")
     }
 }
 
@@ -30,7 +30,7 @@ impl From<Full> for Trouble {
 pub(crate) struct Env<'a> {
     pub(crate) heap: &'a mut Heap,
     pub(crate) host: &'a mut dyn Host,
-    pub(crate) views: &'a [Shown],
+    pub(crate) views: &'a [ExposedView],
     /// Work that the run may still do.
     pub(crate) budget: &'a mut u64,
 }
@@ -42,7 +42,7 @@ const MAX_DEPTH: usize = 200;
 const ELEMENT: u64 = 10;
 
 /// Counts work. Where it is too much, nothing is left.
-pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), Trouble> {
+pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), NativeError> {
     let rest = budget.checked_sub(units);
     *budget = rest.unwrap_or(0);
     rest.map(|_| ()).ok_or_else(out_of_steps)
@@ -50,7 +50,7 @@ pub(crate) fn charge(budget: &mut u64, units: u64) -> Result<(), Trouble> {
 
 impl Env<'_> {
     /// Counts elements that are gone through.
-    pub(crate) fn spend(&mut self, elements: usize) -> Result<(), Trouble> {
+    pub(crate) fn spend(&mut self, elements: usize) -> Result<(), NativeError> {
         charge(self.budget, ELEMENT * elements as u64)
     }
 
@@ -68,18 +68,18 @@ impl Env<'_> {
     }
 
     /// Stores an element of a view that became a value.
-    pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), Trouble> {
-        let view_entry = self.views.iter().find(|s| s.view.field == view.field);
-        match view_entry {
-            Some(shown) if shown.assignable => {}
+    pub(crate) fn view_store(&mut self, view: View, index: usize, x: f64) -> Result<(), NativeError> {
+        let exposed = self.views.iter().find(|s| s.view.field == view.field);
+        match exposed {
+            Some(exposed) if exposed.assignable => {}
             Some(_) => {
-                return Err(Trouble::new(
+                return Err(NativeError::new(
                     rules::ASSIGN_DERIVED,
                     "an assignment stores into a computed array, which is overwritten later",
                 ));
             }
             None => {
-                return Err(Trouble::new(
+                return Err(NativeError::new(
                     rules::HOST_STORE,
                     "an assignment stores into an array that another text kept; name the array here instead",
                 ));
@@ -87,7 +87,7 @@ impl Env<'_> {
         }
         if index < self.view_len(view) {
             let stored = self.host.set(view.field, view.first as usize + index, x);
-            stored.map_err(|message| Trouble::new(rules::HOST_STORE, message))?;
+            stored.map_err(|message| NativeError::new(rules::HOST_STORE, message))?;
         }
         Ok(())
     }
@@ -106,26 +106,30 @@ impl Env<'_> {
     }
 
     /// All elements of a list or array, counted.
-    pub(crate) fn items(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
+    pub(crate) fn items(&mut self, value: &Value) -> Result<Vec<Value>, NativeError> {
         let n = self.len(value);
         self.spend(n)?;
         Ok(match value {
             Value::View(view) => (0..n).map(|i| self.view_item(*view, i)).collect(),
             _ => match self.heap.object(value) {
-                Object::List(items) => items.clone(),
-                Object::Numbers(items, _) => items.iter().map(|&x| Value::Number(x)).collect(),
+                HeapObject::List(items) => items.clone(),
+                HeapObject::Numbers(items, _) => items.iter().map(|&x| Value::Number(x)).collect(),
                 _ => Vec::new(),
             },
         })
     }
 
     /// JavaScript's `String(v)`. A function has a text there, that of its source, and none here.
-    pub(crate) fn text(&mut self, value: &Value) -> Result<String, Trouble> {
+    pub(crate) fn text(&mut self, value: &Value) -> Result<String, NativeError> {
         self.text_within(value, &mut Vec::new())
     }
 
     /// As [`Env::text`], inside of lists whose texts are being made: in their own text they are empty.
-    pub(crate) fn text_within(&mut self, value: &Value, lists: &mut Vec<Value>) -> Result<String, Trouble> {
+    pub(crate) fn text_within(
+        &mut self,
+        value: &Value,
+        lists: &mut Vec<Value>,
+    ) -> Result<String, NativeError> {
         if let Value::String(text) = value {
             return Ok(text.to_string());
         }
@@ -135,11 +139,14 @@ impl Env<'_> {
         if text.len() > MAX_TEXT { Err(too_long()) } else { Ok(text) }
     }
 
-    fn write(&mut self, value: &Value, lists: &mut Vec<Value>, out: &mut String) -> Result<(), Trouble> {
+    fn write(&mut self, value: &Value, lists: &mut Vec<Value>, out: &mut String) -> Result<(), NativeError> {
         match value {
             Value::String(text) => out.push_str(text),
             Value::Function(_) => {
-                return Err(Trouble::new(rules::NOT_A_VALUE, "a function is used as a text but not called"));
+                return Err(NativeError::new(
+                    rules::NOT_A_VALUE,
+                    "a function is used as a text but not called",
+                ));
             }
             Value::List(_) | Value::View(_) => {
                 if lists.iter().any(|list| list.strictly_equals(value)) {
@@ -147,7 +154,7 @@ impl Env<'_> {
                 }
                 if lists.len() >= MAX_DEPTH {
                     let message = format!("lists are nested more than {MAX_DEPTH} levels deep");
-                    return Err(Trouble::new(rules::TEXT_TOO_LONG, message));
+                    return Err(NativeError::new(rules::TEXT_TOO_LONG, message));
                 }
                 lists.push(value.clone());
                 for (i, item) in self.items(value)?.iter().enumerate() {
@@ -169,7 +176,7 @@ impl Env<'_> {
     }
 
     /// JavaScript's `Number(v)`.
-    pub(crate) fn number(&mut self, value: &Value) -> Result<f64, Trouble> {
+    pub(crate) fn number(&mut self, value: &Value) -> Result<f64, NativeError> {
         match value {
             Value::List(_) | Value::View(_) => match self.text(value) {
                 Ok(text) => Ok(crate::number::from_text(&text)),
@@ -182,7 +189,7 @@ impl Env<'_> {
     }
 
     /// A text as a value, when it is not too long.
-    pub(crate) fn string(&mut self, text: String) -> Result<Value, Trouble> {
+    pub(crate) fn string(&mut self, text: String) -> Result<Value, NativeError> {
         if text.len() > MAX_TEXT {
             return Err(too_long());
         }
@@ -191,7 +198,7 @@ impl Env<'_> {
     }
 
     /// What is spread: the elements of a list, the characters of a text.
-    pub(crate) fn spread(&mut self, value: &Value) -> Result<Vec<Value>, Trouble> {
+    pub(crate) fn spread(&mut self, value: &Value) -> Result<Vec<Value>, NativeError> {
         match value {
             Value::List(_) | Value::View(_) => self.items(value),
             Value::String(text) => {
@@ -202,18 +209,18 @@ impl Env<'_> {
             other => {
                 let what =
                     if other.is_nothing() { other.to_string() } else { other.type_of().describe().into() };
-                Err(Trouble::new(rules::NO_PARTS, format!("{what} has no elements to iterate over")))
+                Err(NativeError::new(rules::NO_PARTS, format!("{what} has no elements to iterate over")))
             }
         }
     }
 }
 
-pub(crate) fn too_long() -> Trouble {
-    Trouble::new(rules::TEXT_TOO_LONG, format!("a string exceeds {MAX_TEXT} bytes"))
+pub(crate) fn too_long() -> NativeError {
+    NativeError::new(rules::TEXT_TOO_LONG, format!("a string exceeds {MAX_TEXT} bytes"))
 }
 
-pub(crate) fn out_of_steps() -> Trouble {
-    Trouble::new(rules::BUDGET, "the step budget ran out, so this text was stopped")
+pub(crate) fn out_of_steps() -> NativeError {
+    NativeError::new(rules::BUDGET, "the step budget ran out, so this text was stopped")
 }
 
 /// JavaScript's ToIntegerOrInfinity.
@@ -240,7 +247,7 @@ pub(super) fn range(
     args: &[Value],
     first: usize,
     n: usize,
-) -> Result<(usize, usize), Trouble> {
+) -> Result<(usize, usize), NativeError> {
     let start = relative(env.number(arg(args, first))?, n);
     let end = match arg(args, first + 1) {
         Value::Undefined => n,

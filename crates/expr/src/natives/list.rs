@@ -1,13 +1,13 @@
 //! Methods of lists, typed arrays and arrays of the host (ECMAScript, "Array Objects", "TypedArray Objects").
 
-use super::env::{arg, integer, range, relative};
-use super::{Env, MANY, Outcome, Row, Trouble, no_method, table};
-use crate::heap::Object;
+use super::env::{Env, NativeError, arg, integer, range, relative};
+use super::native::{MANY, Native, NativeOutcome, no_method, table};
+use crate::heap::HeapObject;
 use crate::rules;
-use crate::schema::Elem;
+use crate::types::Elem;
 use crate::value::{Value, View};
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "at" List (1, 1) Item Moves at: "[1, 2, 3].at(-1)" => "3",
         "element at an index; a negative index counts from the end";
     "concat" Untyped (0, MANY) List Keeps concat: "[1].concat([2, 3], 4)" => "1,2,3,4",
@@ -41,7 +41,7 @@ pub(super) static ROWS: &[Row] = table! {
     "splice" Growing changes (1, MANY) List Moves splice: "[1, 2, 3].splice(1, 1)" => "2",
         "removes elements from an index on, inserts others there, and returns the removed ones";
     "subarray" List (0, 2) Receiver Moves subarray: "{array}.subarray(0, 2).length" => "2",
-        "a part of an array of the engine, not a copy";
+        "a part of an array of the model, not a copy";
     "toReversed" List (0, 0) List Moves to_reversed: "[1, 2].toReversed()" => "2,1",
         "a copy in reverse order";
     "toSorted" List (0, 0) List Looks to_sorted: "[3, 1, 2].toSorted()" => "1,2,3",
@@ -64,14 +64,14 @@ fn typed(env: &Env<'_>, value: &Value) -> Option<Elem> {
     match value {
         Value::View(view) => Some(env.elem(*view)),
         _ => match env.heap.object(value) {
-            Object::Numbers(_, elem) => Some(*elem),
+            HeapObject::Numbers(_, elem) => Some(*elem),
             _ => None,
         },
     }
 }
 
 /// A new list of the same kind as another.
-fn same_kind(env: &mut Env<'_>, as_in: &Value, items: Vec<Value>) -> Outcome {
+fn same_kind(env: &mut Env<'_>, as_in: &Value, items: Vec<Value>) -> NativeOutcome {
     match typed(env, as_in) {
         Some(elem) => {
             let mut numbers = Vec::with_capacity(items.len());
@@ -85,7 +85,7 @@ fn same_kind(env: &mut Env<'_>, as_in: &Value, items: Vec<Value>) -> Outcome {
 }
 
 /// Replaces all elements; of arrays of fixed size the number stays.
-fn replace(env: &mut Env<'_>, list: &Value, items: Vec<Value>) -> Result<(), Trouble> {
+fn replace(env: &mut Env<'_>, list: &Value, items: Vec<Value>) -> Result<(), NativeError> {
     for (i, item) in items.into_iter().enumerate() {
         store(env, list, i, &item)?;
     }
@@ -93,19 +93,19 @@ fn replace(env: &mut Env<'_>, list: &Value, items: Vec<Value>) -> Result<(), Tro
 }
 
 /// Stores an element that exists.
-fn store(env: &mut Env<'_>, list: &Value, index: usize, item: &Value) -> Result<(), Trouble> {
+fn store(env: &mut Env<'_>, list: &Value, index: usize, item: &Value) -> Result<(), NativeError> {
     if let Value::View(view) = list {
         let x = env.number(item)?;
         return env.view_store(*view, index, x);
     }
     let x = if typed(env, list).is_some() { env.number(item)? } else { 0.0 };
     match env.heap.object_mut(list) {
-        Some(Object::List(items)) => {
+        Some(HeapObject::List(items)) => {
             if let Some(place) = items.get_mut(index) {
                 *place = item.clone();
             }
         }
-        Some(Object::Numbers(items, elem)) => {
+        Some(HeapObject::Numbers(items, elem)) => {
             if let Some(place) = items.get_mut(index) {
                 *place = elem.keep(x);
             }
@@ -115,7 +115,7 @@ fn store(env: &mut Env<'_>, list: &Value, index: usize, item: &Value) -> Result<
     Ok(())
 }
 
-fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     let x = integer(env.number(arg(args, 0))?);
     let at = if x < 0.0 { n as f64 + x } else { x };
@@ -128,11 +128,11 @@ fn at(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     })
 }
 
-fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let mut items = env.items(list)?;
     for arg in args {
         // JavaScript takes lists apart, typed arrays not.
-        if matches!(env.heap.object(arg), Object::List(_)) {
+        if matches!(env.heap.object(arg), HeapObject::List(_)) {
             items.extend(env.items(arg)?);
         } else {
             items.push(arg.clone());
@@ -141,7 +141,7 @@ fn concat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(env.heap.list(items)?)
 }
 
-fn fill(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn fill(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     let (start, end) = range(env, args, 1, n)?;
     env.spend(end - start)?;
@@ -151,7 +151,7 @@ fn fill(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(list.clone())
 }
 
-fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let depth = match arg(args, 0) {
         Value::Undefined => 1.0,
         depth => integer(env.number(depth)?),
@@ -161,7 +161,7 @@ fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
         let mut next = Vec::new();
         let mut nested = false;
         for item in items {
-            if matches!(env.heap.object(&item), Object::List(_)) {
+            if matches!(env.heap.object(&item), HeapObject::List(_)) {
                 nested = true;
                 next.extend(env.items(&item)?);
             } else {
@@ -177,7 +177,7 @@ fn flat(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(env.heap.list(items)?)
 }
 
-fn includes(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn includes(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.items(list)?;
     let (from, _) = range(env, args.get(..2).unwrap_or(args), 1, items.len())?;
     let wanted = arg(args, 0);
@@ -190,14 +190,14 @@ fn is_nan(value: &Value) -> bool {
     matches!(value, Value::Number(x) if x.is_nan())
 }
 
-fn index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.items(list)?;
     let (from, _) = range(env, args.get(..2).unwrap_or(args), 1, items.len())?;
     let found = items.iter().enumerate().skip(from).find(|(_, v)| v.strictly_equals(arg(args, 0)));
     Ok(Value::Number(found.map_or(-1.0, |(i, _)| i as f64)))
 }
 
-fn last_index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn last_index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.items(list)?;
     let n = items.len() as f64;
     let last = match args.get(1) {
@@ -212,7 +212,7 @@ fn last_index_of(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Number(found.map_or(-1.0, |(i, _)| i as f64)))
 }
 
-fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let between = match arg(args, 0) {
         Value::Undefined => ",".to_owned(),
         other => env.text(other)?,
@@ -233,24 +233,24 @@ fn join(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     env.string(text)
 }
 
-fn pop(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn pop(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     Ok(match env.heap.object_mut(list) {
-        Some(Object::List(items)) => items.pop().unwrap_or_default(),
+        Some(HeapObject::List(items)) => items.pop().unwrap_or_default(),
         _ => Value::Undefined,
     })
 }
 
-fn push(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn push(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     for arg in args {
         env.heap.grow(arg)?;
     }
-    if let Some(Object::List(items)) = env.heap.object_mut(list) {
+    if let Some(HeapObject::List(items)) = env.heap.object_mut(list) {
         items.extend(args.iter().cloned());
     }
     Ok(Value::Number(env.len(list) as f64))
 }
 
-fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     let mut items = env.items(list)?;
     items.reverse();
     replace(env, list, items)?;
@@ -258,7 +258,7 @@ fn reverse(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
 }
 
 /// What is gone through, or taken apart by a list of names: a list as it is, a text as its characters.
-fn parts(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parts(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     match arg(args, 0) {
         list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
         other => {
@@ -268,13 +268,13 @@ fn parts(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     }
 }
 
-fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.spread(arg(args, 0))?;
     let offset = integer(env.number(arg(args, 1))?);
     let n = env.len(list);
     if offset < 0.0 || offset + items.len() as f64 > n as f64 {
         let message = format!("{} values from index {offset} on do not fit into {n} elements", items.len());
-        return Err(Trouble::new(rules::INDEX_RANGE, message));
+        return Err(NativeError::new(rules::INDEX_RANGE, message));
     }
     for (i, item) in items.iter().enumerate() {
         store(env, list, offset as usize + i, item)?;
@@ -282,16 +282,16 @@ fn set(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Undefined)
 }
 
-fn shift(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn shift(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     env.spend(n / 8)?;
     Ok(match env.heap.object_mut(list) {
-        Some(Object::List(items)) if !items.is_empty() => items.remove(0),
+        Some(HeapObject::List(items)) if !items.is_empty() => items.remove(0),
         _ => Value::Undefined,
     })
 }
 
-fn slice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn slice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.items(list)?;
     let (start, end) = range(env, args, 0, items.len())?;
     let part = items.get(start..end).unwrap_or(&[]).to_vec();
@@ -306,7 +306,7 @@ fn order_numbers(a: &Value, b: &Value) -> std::cmp::Ordering {
 }
 
 /// Orders elements of a list as texts, `undefined` last.
-fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, Trouble> {
+fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, NativeError> {
     let mut items = env.items(list)?;
     env.spend(8 * items.len())?;
     if typed(env, list).is_some() {
@@ -322,24 +322,24 @@ fn sorted(env: &mut Env<'_>, list: &Value) -> Result<Vec<Value>, Trouble> {
     Ok(keyed.into_iter().map(|(_, _, item)| item).collect())
 }
 
-fn sort(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn sort(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     let items = sorted(env, list)?;
     replace(env, list, items)?;
     Ok(list.clone())
 }
 
-fn to_sorted(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn to_sorted(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     let items = sorted(env, list)?;
     same_kind(env, list, items)
 }
 
-fn to_reversed(env: &mut Env<'_>, list: &Value, _: &[Value]) -> Outcome {
+fn to_reversed(env: &mut Env<'_>, list: &Value, _: &[Value]) -> NativeOutcome {
     let mut items = env.items(list)?;
     items.reverse();
     same_kind(env, list, items)
 }
 
-fn splice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn splice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     env.spend(n / 8)?;
     let start = relative(env.number(arg(args, 0))?, n);
@@ -352,13 +352,13 @@ fn splice(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
         env.heap.grow(item)?;
     }
     let removed = match env.heap.object_mut(list) {
-        Some(Object::List(items)) => items.splice(start..start + count, new.iter().cloned()).collect(),
+        Some(HeapObject::List(items)) => items.splice(start..start + count, new.iter().cloned()).collect(),
         _ => Vec::new(),
     };
     Ok(env.heap.list(removed)?)
 }
 
-fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     let (start, end) = range(env, args, 0, n)?;
     match list {
@@ -370,26 +370,26 @@ fn subarray(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
     }
 }
 
-fn unshift(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn unshift(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let n = env.len(list);
     env.spend(n / 8)?;
     for arg in args {
         env.heap.grow(arg)?;
     }
-    if let Some(Object::List(items)) = env.heap.object_mut(list) {
+    if let Some(HeapObject::List(items)) = env.heap.object_mut(list) {
         items.splice(0..0, args.iter().cloned());
     }
     Ok(Value::Number((n + args.len()) as f64))
 }
 
-fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
+fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> NativeOutcome {
     let mut items = env.items(list)?;
     let x = integer(env.number(arg(args, 0))?);
     let at = if x < 0.0 { items.len() as f64 + x } else { x };
     match items.get_mut(at as usize).filter(|_| at >= 0.0) {
         Some(place) => *place = arg(args, 1).clone(),
         None => {
-            return Err(Trouble::new(
+            return Err(NativeError::new(
                 rules::INDEX_RANGE,
                 format!("element {x} does not exist: the list has {}", items.len()),
             ));
@@ -399,7 +399,7 @@ fn with(env: &mut Env<'_>, list: &Value, args: &[Value]) -> Outcome {
 }
 
 /// A list of the same kind as another, with so many elements.
-fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let n = arg(args, 1).to_number() as usize;
     env.spend(n)?;
     let empty = if typed(env, arg(args, 0)).is_some() { Value::Number(0.0) } else { Value::Undefined };
@@ -407,7 +407,7 @@ fn like(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 }
 
 /// The elements of a list in a list of the same kind as another.
-fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     if typed(env, arg(args, 0)).is_none() {
         return Ok(arg(args, 1).clone());
     }
@@ -416,12 +416,12 @@ fn kind(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 }
 
 /// What `reduce` of nothing does.
-fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> Outcome {
-    Err(Trouble::new(rules::NO_PARTS, "`reduce` of an empty list needs an initial value"))
+fn empty(_: &mut Env<'_>, _: &Value, _: &[Value]) -> NativeOutcome {
+    Err(NativeError::new(rules::NO_PARTS, "`reduce` of an empty list needs an initial value"))
 }
 
 /// A list or an array, on which a method of this name is called.
-fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     match arg(args, 0) {
         list @ (Value::List(_) | Value::View(_)) => Ok(list.clone()),
         other => Err(no_method(other, &arg(args, 1).to_string())),
@@ -429,15 +429,15 @@ fn only_list(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
 }
 
 /// Lists have `flatMap`, typed arrays not.
-fn untyped(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn untyped(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let list = arg(args, 0);
     match env.heap.object(list) {
-        Object::List(_) => Ok(list.clone()),
+        HeapObject::List(_) => Ok(list.clone()),
         _ => Err(no_method(list, "flatMap")),
     }
 }
 
-fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn copy(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let items = env.items(arg(args, 0))?;
     same_kind(env, arg(args, 0), items)
 }

@@ -1,12 +1,12 @@
 //! Methods of numbers, and functions that make numbers, texts and truth values (ECMAScript, "Number Objects", "parseFloat", "parseInt").
 
-use super::env::{arg, integer};
-use super::{Env, Outcome, Row, Trouble, table};
-use crate::number as convert;
+use super::env::{Env, NativeError, arg, integer};
+use super::native::{Native, NativeOutcome, table};
+use crate::number;
 use crate::rules;
 use crate::value::Value;
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "toExponential" Number (0, 1) String Looks to_exponential_method: "(1234).toExponential(1)" => "1.2e+3",
         "in exponential form with this many decimals";
     "toFixed" Number (0, 1) String Looks to_fixed_method: "(2.345).toFixed(1)" => "2.3",
@@ -50,19 +50,19 @@ pub(crate) const NUMBER_CONSTANTS: &[(&str, f64)] = &[
 ];
 
 /// The number a method is called on.
-fn number_of_this(value: &Value) -> f64 {
+fn this_number(value: &Value) -> f64 {
     value.to_number()
 }
 
 /// An argument that counts digits, from `least` to 100.
-fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>, Trouble> {
+fn digits(env: &mut Env<'_>, args: &[Value], least: f64) -> Result<Option<usize>, NativeError> {
     if *arg(args, 0) == Value::Undefined {
         return Ok(None);
     }
     let x = integer(env.number(arg(args, 0))?);
     if !(least..=100.0).contains(&x) {
         let message = format!("{x} digits are not allowed: the range is {least} to 100");
-        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
+        return Err(NativeError::new(rules::ARGUMENT_TYPE, message));
     }
     Ok(Some(x as usize))
 }
@@ -80,7 +80,7 @@ fn fraction_bits(x: f64) -> i64 {
 /// JavaScript's `x.toFixed(digits)`: the exact value rounded, and a tie away from zero.
 pub fn to_fixed(x: f64, digits: usize) -> String {
     if !x.is_finite() || x.abs() >= 1e21 {
-        return convert::to_text(x);
+        return number::to_text(x);
     }
     let sign = if x < 0.0 { "-" } else { "" };
     let x = x.abs();
@@ -94,8 +94,8 @@ pub fn to_fixed(x: f64, digits: usize) -> String {
 
 /// A decimal number without its last digit, a 5, which counts as more than half.
 fn without_last(exact: &str) -> String {
-    let digits = exact.strip_suffix('5').unwrap_or(exact);
-    let mut out: Vec<char> = digits.strip_suffix('.').unwrap_or(digits).chars().collect();
+    let kept = exact.strip_suffix('5').unwrap_or(exact);
+    let mut out: Vec<char> = kept.strip_suffix('.').unwrap_or(kept).chars().collect();
     for c in out.iter_mut().rev() {
         match c {
             '9' => *c = '0',
@@ -144,15 +144,15 @@ fn exponential(sign: &str, mantissa: &str, exponent: i32) -> String {
     format!("{sign}{mantissa}e{e}{}", exponent.abs())
 }
 
-fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_fixed_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let digits = digits(env, args, 0.0)?.unwrap_or(0);
-    env.string(to_fixed(number_of_this(x), digits))
+    env.string(to_fixed(this_number(x), digits))
 }
 
-fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
-    let x = number_of_this(x);
+fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
+    let x = this_number(x);
     if !x.is_finite() {
-        return env.string(convert::to_text(x));
+        return env.string(number::to_text(x));
     }
     let digits = digits(env, args, 0.0)?;
     let sign = if x < 0.0 { "-" } else { "" };
@@ -167,12 +167,12 @@ fn to_exponential_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcom
     env.string(exponential(sign, &mantissa, exponent))
 }
 
-fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
-    let x = number_of_this(x);
+fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
+    let x = this_number(x);
     if !x.is_finite() {
-        return env.string(convert::to_text(x));
+        return env.string(number::to_text(x));
     }
-    let Some(precision) = digits(env, args, 1.0)? else { return env.string(convert::to_text(x)) };
+    let Some(precision) = digits(env, args, 1.0)? else { return env.string(number::to_text(x)) };
     let sign = if x < 0.0 { "-" } else { "" };
     let (mantissa, exponent) = scientific(x, precision - 1);
     if exponent < -6 || exponent >= precision as i32 {
@@ -188,18 +188,18 @@ fn to_precision_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome 
     env.string(format!("{sign}{text}"))
 }
 
-fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> Outcome {
+fn to_string_method(env: &mut Env<'_>, x: &Value, args: &[Value]) -> NativeOutcome {
     let radix = match arg(args, 0) {
         Value::Undefined => 10.0,
         radix => integer(env.number(radix)?),
     };
     if !(2.0..=36.0).contains(&radix) {
-        let message = format!("base {} is not allowed: the range is 2 to 36", convert::to_text(radix));
-        return Err(Trouble::new(rules::ARGUMENT_TYPE, message));
+        let message = format!("base {} is not allowed: the range is 2 to 36", number::to_text(radix));
+        return Err(NativeError::new(rules::ARGUMENT_TYPE, message));
     }
-    let x = number_of_this(x);
+    let x = this_number(x);
     if radix == 10.0 || !x.is_finite() {
-        return env.string(convert::to_text(x));
+        return env.string(number::to_text(x));
     }
     let sign = if x < 0.0 { "-" } else { "" };
     let (fraction, carries) = fraction_in(x.abs(), radix);
@@ -261,14 +261,14 @@ fn fraction_in(x: f64, radix: f64) -> (String, bool) {
     (format!(".{text}"), false)
 }
 
-fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn number(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Number(match args.first() {
         Some(value) => env.number(value)?,
         None => 0.0,
     }))
 }
 
-fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     match args.first() {
         Some(value) => {
             let text = env.text(value)?;
@@ -278,25 +278,25 @@ fn string(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     }
 }
 
-fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn boolean(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(arg(args, 0).truthy()))
 }
 
-fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_finite(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite())))
 }
 
-fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_integer(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_finite() && x.fract() == 0.0)))
 }
 
-fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn is_nan(_: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     Ok(Value::Boolean(matches!(arg(args, 0), Value::Number(x) if x.is_nan())))
 }
 
-fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let text = env.text(arg(args, 0))?;
-    let text = text.trim_start_matches(convert::is_space);
+    let text = text.trim_start_matches(number::is_space);
     let unsigned = text.strip_prefix(['-', '+']).unwrap_or(text);
     if unsigned.starts_with("Infinity") {
         return Ok(Value::Number(if text.starts_with('-') { f64::NEG_INFINITY } else { f64::INFINITY }));
@@ -321,14 +321,14 @@ fn parse_float(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Number(text.get(..end).and_then(|t| t.parse().ok()).unwrap_or(f64::NAN)))
 }
 
-fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
+fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> NativeOutcome {
     let text = env.text(arg(args, 0))?;
-    let text = text.trim_start_matches(convert::is_space);
+    let text = text.trim_start_matches(number::is_space);
     let (sign, text) = match text.strip_prefix('-') {
         Some(rest) => (-1.0, rest),
         None => (1.0, text.strip_prefix('+').unwrap_or(text)),
     };
-    let mut radix = convert::to_int32(env.number(arg(args, 1))?);
+    let mut radix = number::to_int32(env.number(arg(args, 1))?);
     let prefixed = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
     let text = match prefixed {
         Some(rest) if radix == 0 || radix == 16 => {
@@ -346,7 +346,7 @@ fn parse_int(env: &mut Env<'_>, _: &Value, args: &[Value]) -> Outcome {
     let x = match radix {
         _ if digits.is_empty() => f64::NAN,
         10 => digits.parse().unwrap_or(f64::NAN),
-        2 | 4 | 8 | 16 | 32 => convert::from_digits(digits, radix as u32).unwrap_or(f64::NAN),
+        2 | 4 | 8 | 16 | 32 => number::from_digits(digits, radix as u32).unwrap_or(f64::NAN),
         _ => digits
             .chars()
             .fold(0.0, |x, c| x * f64::from(radix) + f64::from(c.to_digit(radix as u32).unwrap_or(0))),

@@ -1,14 +1,14 @@
 //! Methods of texts (ECMAScript, "String Objects"). Indexes count UTF-16 code units, as JavaScript's do; half of a
 //! pair, cut off by an index, becomes the replacement character.
 
-use super::env::{arg, integer, range};
-use super::{Env, MANY, Outcome, Row, Trouble, table};
+use super::env::{Env, NativeError, arg, integer, range};
+use super::native::{MANY, Native, NativeOutcome, table};
 use crate::heap::MAX_TEXT;
 use crate::number::is_space;
 use crate::rules;
 use crate::value::Value;
 
-pub(super) static ROWS: &[Row] = table! {
+pub(super) static ROWS: &[Native] = table! {
     "at" Text (1, 1) Any Looks at: "'abc'.at(-1)" => "c",
         "character at an index; a negative index counts from the end";
     "concat" Text (0, MANY) String Looks concat: "'a'.concat('b', 1)" => "ab1",
@@ -63,16 +63,16 @@ fn units(value: &Value) -> Vec<u16> {
     str_of(value).encode_utf16().collect()
 }
 
-fn from_units(env: &mut Env<'_>, units: &[u16]) -> Outcome {
+fn from_units(env: &mut Env<'_>, units: &[u16]) -> NativeOutcome {
     let text = whole(units)?;
     env.string(text)
 }
 
 /// The text of units. Texts hold whole characters: half of one has no text.
-pub(crate) fn whole(units: &[u16]) -> Result<String, Trouble> {
+pub(crate) fn whole(units: &[u16]) -> Result<String, NativeError> {
     String::from_utf16(units).map_err(|_| {
         let message = "an index selects half of a two-unit character, which a text cannot hold; `[...text]` has whole characters";
-        Trouble::new(rules::ARGUMENT_TYPE, message)
+        NativeError::new(rules::ARGUMENT_TYPE, message)
     })
 }
 
@@ -81,7 +81,7 @@ fn units_before(text: &str, byte: usize) -> f64 {
     text.get(..byte).map_or(0, |before| before.encode_utf16().count()) as f64
 }
 
-fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let units = units(text);
     let x = integer(env.number(arg(args, 0))?);
     let at = if x < 0.0 { units.len() as f64 + x } else { x };
@@ -92,7 +92,7 @@ fn at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     from_units(env, units.get(at..at + 1).unwrap_or(&[]))
 }
 
-fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let mut all = str_of(text).to_owned();
     for arg in args {
         all.push_str(&env.text(arg)?);
@@ -101,7 +101,7 @@ fn concat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
 }
 
 /// The text from a start index on, in bytes, and that text.
-fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t str, Trouble> {
+fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t str, NativeError> {
     let start = integer(env.number(start)?).max(0.0);
     let mut seen = 0.0;
     for (byte, c) in text.char_indices() {
@@ -113,13 +113,13 @@ fn from_index<'t>(env: &mut Env<'_>, text: &'t str, start: &Value) -> Result<&'t
     Ok("")
 }
 
-fn includes(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn includes(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let wanted = env.text(arg(args, 0))?;
     let rest = from_index(env, str_of(text), arg(args, 1))?;
     Ok(Value::Boolean(rest.contains(&wanted)))
 }
 
-fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let wanted = env.text(arg(args, 0))?;
     let text = str_of(text);
     let rest = from_index(env, text, arg(args, 1))?;
@@ -128,19 +128,19 @@ fn index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     Ok(Value::Number(found.unwrap_or(-1.0)))
 }
 
-fn last_index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn last_index_of(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let wanted = env.text(arg(args, 0))?;
     let text = str_of(text);
     Ok(Value::Number(text.rfind(&wanted).map_or(-1.0, |byte| units_before(text, byte))))
 }
 
-fn slice(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn slice(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let units = units(text);
     let (start, end) = range(env, args, 0, units.len())?;
     from_units(env, units.get(start..end).unwrap_or(&[]))
 }
 
-fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let units = units(text);
     let n = units.len() as f64;
     let a = integer(env.number(arg(args, 0))?).clamp(0.0, n);
@@ -151,7 +151,7 @@ fn substring(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     from_units(env, units.get(a.min(b) as usize..a.max(b) as usize).unwrap_or(&[]))
 }
 
-fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let units = units(text);
     let at = integer(env.number(arg(args, 0))?);
     if at < 0.0 || at >= units.len() as f64 {
@@ -161,25 +161,25 @@ fn char_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     from_units(env, units.get(at..at + 1).unwrap_or(&[]))
 }
 
-fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn char_code_at(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let at = integer(env.number(arg(args, 0))?);
     let unit = if at < 0.0 { None } else { str_of(text).encode_utf16().nth(at as usize) };
     Ok(Value::Number(unit.map_or(f64::NAN, f64::from)))
 }
 
-fn starts_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn starts_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let wanted = env.text(arg(args, 0))?;
     let rest = from_index(env, str_of(text), arg(args, 1))?;
     Ok(Value::Boolean(rest.starts_with(&wanted)))
 }
 
-fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn ends_with(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let wanted = env.text(arg(args, 0))?;
     Ok(Value::Boolean(str_of(text).ends_with(&wanted)))
 }
 
 /// What fills a text up to a length.
-fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, Trouble> {
+fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, NativeError> {
     let filler = match arg(args, 1) {
         Value::Undefined => " ".to_owned(),
         filler => env.text(filler)?,
@@ -196,20 +196,23 @@ fn padding(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Result<String, Tr
     whole(&units)
 }
 
-fn pad_start(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn pad_start(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let padding = padding(env, text, args)?;
     env.string(padding + str_of(text))
 }
 
-fn pad_end(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn pad_end(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let padding = padding(env, text, args)?;
     env.string(str_of(text).to_owned() + &padding)
 }
 
-fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn repeat(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let count = integer(env.number(arg(args, 0))?);
     if count < 0.0 || count.is_infinite() {
-        return Err(Trouble::new(rules::ARGUMENT_TYPE, format!("a text cannot be repeated {count} times")));
+        return Err(NativeError::new(
+            rules::ARGUMENT_TYPE,
+            format!("a text cannot be repeated {count} times"),
+        ));
     }
     let text = str_of(text);
     if text.len() as f64 * count > MAX_TEXT as f64 {
@@ -237,7 +240,7 @@ fn replacement(pattern: &str, found: &str, before: &str, after: &str) -> String 
     out + rest
 }
 
-fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
     let text = str_of(text);
     let Some(at) = text.find(&from) else { return env.string(text.to_owned()) };
@@ -245,7 +248,7 @@ fn replace(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     env.string(format!("{before}{}{after}", replacement(&to, &from, before, after)))
 }
 
-fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let (from, to) = (env.text(arg(args, 0))?, env.text(arg(args, 1))?);
     let text = str_of(text);
     let mut out = String::new();
@@ -263,7 +266,7 @@ fn replace_all(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     env.string(out)
 }
 
-fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
+fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> NativeOutcome {
     let limit = match arg(args, 1) {
         Value::Undefined => usize::MAX,
         limit => crate::number::to_int32(env.number(limit)?) as u32 as usize,
@@ -285,22 +288,22 @@ fn split(env: &mut Env<'_>, text: &Value, args: &[Value]) -> Outcome {
     Ok(env.heap.list(parts)?)
 }
 
-fn to_lower_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn to_lower_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> NativeOutcome {
     env.string(str_of(text).to_lowercase())
 }
 
-fn to_upper_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn to_upper_case(env: &mut Env<'_>, text: &Value, _: &[Value]) -> NativeOutcome {
     env.string(str_of(text).to_uppercase())
 }
 
-fn trim(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn trim(env: &mut Env<'_>, text: &Value, _: &[Value]) -> NativeOutcome {
     env.string(str_of(text).trim_matches(is_space).to_owned())
 }
 
-fn trim_start(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn trim_start(env: &mut Env<'_>, text: &Value, _: &[Value]) -> NativeOutcome {
     env.string(str_of(text).trim_start_matches(is_space).to_owned())
 }
 
-fn trim_end(env: &mut Env<'_>, text: &Value, _: &[Value]) -> Outcome {
+fn trim_end(env: &mut Env<'_>, text: &Value, _: &[Value]) -> NativeOutcome {
     env.string(str_of(text).trim_end_matches(is_space).to_owned())
 }

@@ -1,14 +1,12 @@
 //! Functions of a text's own, and the patterns that take lists and records apart.
 
-use super::expr::Node;
-use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
+use super::node::{ASSIGNMENT, ExprNode};
+use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
+use super::refuse;
 use crate::ast::{Body, Element, ExprKind, Function, Name, Pattern, Stmt, StmtKind};
-use crate::lex::Tok;
+use crate::lex::TokenKind;
 use crate::rules;
-use crate::{Finding, Span};
-
-/// The binding power of an assignment, the loosest.
-const ASSIGNMENT: u8 = 1;
+use labspec_finding::{Finding, Span};
 
 /// Parameters that a function may have.
 const MAX_PARAMS: usize = 16;
@@ -16,7 +14,7 @@ const MAX_PARAMS: usize = 16;
 impl Parser<'_> {
     /// Whether the parenthesis ahead holds the parameters of an arrow function: `=>` stands behind it.
     pub(super) fn arrow_ahead(&self) -> bool {
-        *self.peek_at(self.behind_group(0)) == Tok::Symbol("=>")
+        *self.peek_at(self.behind_group(0)) == TokenKind::Symbol("=>")
     }
 
     /// How far ahead the token stands that follows the one at `n`, or the whole bracket that it opens.
@@ -25,9 +23,9 @@ impl Parser<'_> {
         // A search from every bracket of a hostile text would take forever; no list of parameters is this long.
         for n in n..n + 200 {
             match self.peek_at(n) {
-                Tok::Symbol("(" | "[" | "{") => open += 1,
-                Tok::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
-                Tok::End => break,
+                TokenKind::Symbol("(" | "[" | "{") => open += 1,
+                TokenKind::Symbol(")" | "]" | "}") => open = open.saturating_sub(1),
+                TokenKind::End => break,
                 _ => {}
             }
             if open == 0 {
@@ -38,7 +36,7 @@ impl Parser<'_> {
     }
 
     /// `x => …` or `(x, y) => …`
-    pub(super) fn arrow(&mut self) -> Attempt<Node> {
+    pub(super) fn arrow(&mut self) -> Attempt<ExprNode> {
         let start = self.span();
         let (function, height) = self.measured(|p| {
             let params = match p.eat("(") {
@@ -53,7 +51,7 @@ impl Parser<'_> {
     }
 
     /// `function (x) { … }` as a value.
-    pub(super) fn function_expression(&mut self) -> Attempt<Node> {
+    pub(super) fn function_expression(&mut self) -> Attempt<ExprNode> {
         let (function, height) = self.measured(|p| {
             let (name, function) = p.function()?;
             Ok(Function { name, ..function })
@@ -61,7 +59,7 @@ impl Parser<'_> {
         self.function_node(function?, height)
     }
 
-    fn function_node(&mut self, function: Function, height: usize) -> Attempt<Node> {
+    fn function_node(&mut self, function: Function, height: usize) -> Attempt<ExprNode> {
         let span = function.span;
         self.node(ExprKind::Function(Box::new(function)), span, height)
     }
@@ -87,14 +85,14 @@ impl Parser<'_> {
             return self.refuse(refuse::member_function(span));
         }
         let name = match self.peek() {
-            Tok::Word(_) => Some(self.new_name("the name of the function")?),
+            TokenKind::Word(_) => Some(self.new_name("the name of the function")?),
             _ => None,
         };
         let Some(opener) = self.eat("(") else {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(`, found {}", self.current_text()),
+                format!("expected `(`, found {}", self.describe_token()),
             )
             .help("write the parameters in parentheses, as `function f(x) { … }`");
             return self.refuse(report);
@@ -104,7 +102,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `{{`, found {}", self.current_text()),
+                format!("expected `{{`, found {}", self.describe_token()),
             )
             .help("write what the function does in braces, as `function f(x) { return 2 * x }`");
             return self.refuse(report);
@@ -159,8 +157,8 @@ impl Parser<'_> {
         }
         self.depth += 1;
         let pattern = match self.peek() {
-            Tok::Symbol("[") => self.list_pattern(),
-            Tok::Symbol("{") => self.record_pattern(),
+            TokenKind::Symbol("[") => self.list_pattern(),
+            TokenKind::Symbol("{") => self.record_pattern(),
             _ => self.new_name(what).map(Pattern::Name),
         };
         self.depth -= 1;
@@ -204,17 +202,17 @@ impl Parser<'_> {
                 return self.refuse(refuse::rest(span));
             }
             let span = self.span();
-            let Tok::Word(text) = self.peek() else {
+            let TokenKind::Word(text) = self.peek() else {
                 let report = Finding::error(
                     rules::MISSING_NAME,
                     span,
-                    format!("expected a key, found {}", self.current_text()),
+                    format!("expected a key, found {}", self.describe_token()),
                 )
-                .help(format!("write the keys to take, as `const {}`", self.words.parts));
+                .help(format!("write the keys to take, as `const {}`", self.host_terms.parts));
                 return self.refuse(report);
             };
             let key = Name { text: (*text).to_owned(), span };
-            let renamed = *self.peek_at(1) == Tok::Symbol(":");
+            let renamed = *self.peek_at(1) == TokenKind::Symbol(":");
             let element = if renamed {
                 self.bump();
                 self.bump();
@@ -233,16 +231,16 @@ impl Parser<'_> {
     }
 
     /// A name that is being given.
-    pub(super) fn new_name(&mut self, what: &str) -> Attempt<Name> {
+    fn new_name(&mut self, what: &str) -> Attempt<Name> {
         let span = self.span();
         let text = match self.peek() {
-            Tok::Word(word) => (*word).to_owned(),
-            Tok::Bad => return Err(Reported),
+            TokenKind::Word(word) => (*word).to_owned(),
+            TokenKind::Bad => return Err(Reported),
             _ => {
                 let report = Finding::error(
                     rules::MISSING_NAME,
                     span,
-                    format!("expected {what}, found {}", self.current_text()),
+                    format!("expected {what}, found {}", self.describe_token()),
                 )
                 .help("write a name, as `angle`");
                 return self.refuse(report);

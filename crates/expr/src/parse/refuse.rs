@@ -1,8 +1,8 @@
 //! Constructs of JavaScript that lessons do not have, on purpose: each with its reason and what to write instead.
 
+use crate::host_terms::HostTerms;
 use crate::rules;
-use crate::words::Words;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// The finding for a construct, in the plural.
 fn never(span: Span, name: &str, why: &str, help: &str) -> Finding {
@@ -16,8 +16,9 @@ const NO_TIME: &str = "every text runs to its end at once and never waits";
 const NO_EXCEPTIONS: &str = "mistakes are found before the run, so there is nothing to catch";
 const STORE_HELP: &str = "store values in variables, as `ctx.peak`";
 
-/// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name.
-pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
+/// The finding for a reserved word of JavaScript where it cannot stand; `None` for a word that is a name. One table, with a
+/// row for each construct.
+pub(super) fn word(word: &str, span: Span, host_terms: &HostTerms) -> Option<Finding> {
     let misplaced = |help: &str| {
         Finding::error(rules::MISPLACED, span, format!("`{word}` is not allowed here")).help(help)
     };
@@ -29,7 +30,9 @@ pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
         "new" => {
             never(span, "objects made with `new`", NO_OBJECTS, "write a list `[0, 0]` or a record `{a: 1}`")
         }
-        "async" | "await" | "yield" => never(span, &format!("`{word}` and waiting"), NO_TIME, words.wait),
+        "async" | "await" | "yield" => {
+            never(span, &format!("`{word}` and waiting"), NO_TIME, host_terms.wait)
+        }
         "try" | "catch" | "finally" | "throw" => {
             never(span, "exceptions", NO_EXCEPTIONS, "test for the case itself, with `if` or `? :`")
         }
@@ -62,7 +65,7 @@ pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
             span,
             "`debugger` statements",
             "a text does not run in a debugger",
-            &format!("show the value in {}", words.displayed),
+            &format!("show the value in {}", host_terms.display),
         ),
         "switch" | "case" | "default" => never(
             span,
@@ -79,31 +82,31 @@ pub(super) fn word(word: &str, span: Span, words: &Words) -> Option<Finding> {
 }
 
 /// `new Date()`
-pub(super) fn new_date(span: Span, words: &Words) -> Finding {
+pub(super) fn new_date(span: Span, host_terms: &HostTerms) -> Finding {
     never(
         span,
         "dates",
         &format!(
             "a {} must give the same numbers in every run, so it cannot use the wall clock",
-            words.lesson
+            host_terms.lesson
         ),
-        words.clock,
+        host_terms.clock,
     )
 }
 
 /// Whether a word means something of its own, so that it cannot be the name of a variable.
 pub(super) fn is_reserved(text: &str) -> bool {
     let keywords = ["true", "false", "null", "const", "let", "var", "function", "typeof"];
-    keywords.contains(&text) || word(text, Span::default(), &Words::PLAIN).is_some()
+    keywords.contains(&text) || word(text, Span::default(), &HostTerms::PLAIN).is_some()
 }
 
 /// The finding for a symbol that starts or continues a construct that is not read.
-pub(super) fn symbol(text: &str, span: Span, words: &Words) -> Option<Finding> {
+pub(super) fn symbol(text: &str, span: Span, host_terms: &HostTerms) -> Option<Finding> {
     Some(match text {
         "/" | "/=" => never(
             span,
             "regular expressions",
-            &format!("a {} computes with numbers; text is only displayed", words.lesson),
+            &format!("a {} computes with numbers; text is only displayed", host_terms.lesson),
             "compare strings with `===`, or use `includes` and `startsWith`",
         ),
         "@" | "#" => never(span, "decorators and private names", NO_OBJECTS, STORE_HELP),

@@ -1,10 +1,11 @@
 //! Statements, automatic semicolons, and where reading goes on after a mistake.
 
-use super::{Attempt, MAX_DEPTH, Parser, Reported, refuse};
-use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
-use crate::lex::Tok;
+use super::parser::{Attempt, MAX_DEPTH, Parser, Reported};
+use super::refuse;
+use crate::ast::{Expr, ExprKind, Pattern, Stmt, StmtKind};
+use crate::lex::TokenKind;
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl Parser<'_> {
     /// All statements to the end of the text.
@@ -29,44 +30,6 @@ impl Parser<'_> {
         statements
     }
 
-    /// A statement, or the mark of one that could not be read and has been skipped.
-    fn recovered(&mut self, closer: &str) -> Stmt {
-        let (first, span) = (self.at, self.span());
-        let kind = self.statement().unwrap_or(StmtKind::Error);
-        let failed = kind == StmtKind::Error;
-        let stmt = Stmt { kind, span: span.to(self.last_span()) };
-        // An opening word that was reported has been skipped with all that belongs to it.
-        if failed && !self.at_boundary(first) {
-            self.skip_statement(first, closer);
-        }
-        stmt
-    }
-
-    /// Whether the reader stands where a statement ended.
-    fn at_boundary(&self, first: usize) -> bool {
-        self.at > first && (self.ended() || self.newline() || self.at_behind(";") || self.at_behind("}"))
-    }
-
-    /// Whether the token before is this symbol.
-    fn at_behind(&self, symbol: &str) -> bool {
-        let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
-        before.is_some_and(|t| matches!(t.kind, Tok::Symbol(s) if s == symbol))
-    }
-
-    /// Skips what is left of a statement that started at token `first`: to behind its semicolon, to the next
-    /// line, or to the end of the block. Takes at least one token, except there.
-    fn skip_statement(&mut self, first: usize, closer: &str) {
-        while !self.ended() && !self.is(closer) {
-            if self.at > first && self.newline() {
-                return;
-            }
-            if self.eat(";").is_some() {
-                return;
-            }
-            self.skip_group();
-        }
-    }
-
     /// One statement with its end.
     pub(super) fn statement(&mut self) -> Attempt<StmtKind> {
         if self.depth >= MAX_DEPTH {
@@ -86,9 +49,9 @@ impl Parser<'_> {
 
     fn statement_inside(&mut self) -> Attempt<StmtKind> {
         let word = match self.peek() {
-            Tok::Word(word) => *word,
-            Tok::Symbol("{") => return self.block().map(StmtKind::Block),
-            Tok::Symbol(")" | "]" | "}") => {
+            TokenKind::Word(word) => *word,
+            TokenKind::Symbol("{") => return self.block().map(StmtKind::Block),
+            TokenKind::Symbol(")" | "]" | "}") => {
                 let report = self.unexpected_behind(Span::default());
                 self.diagnostics.extend(report);
                 return Err(Reported);
@@ -99,44 +62,12 @@ impl Parser<'_> {
             "const" | "let" | "var" => self.declaration(),
             "if" => self.condition(),
             "for" => self.for_loop(),
-            "while" => {
-                self.bump();
-                let test = self.head("while")?;
-                let body = Box::new(self.body("while")?);
-                Ok(StmtKind::While { test, body })
-            }
-            "do" => {
-                self.bump();
-                let body = Box::new(self.body("do")?);
-                if !self.is_word("while") {
-                    let report =
-                        Finding::error(rules::DO_WITHOUT_WHILE, self.span(), "a `do` loop has no `while`")
-                            .help("write `do { … } while (test)`");
-                    return self.refuse(report);
-                }
-                self.bump();
-                let test = self.head("while")?;
-                self.eat(";");
-                Ok(StmtKind::DoWhile { body, test })
-            }
-            "break" | "continue" => {
-                let span = self.bump();
-                if !self.newline() && matches!(self.peek(), Tok::Word(_)) {
-                    let report = refuse::label(self.span());
-                    return self.refuse(report);
-                }
-                self.end_of_statement(span)?;
-                Ok(if word == "break" { StmtKind::Break } else { StmtKind::Continue })
-            }
-            "return" => {
-                let span = self.bump();
-                let bare = self.newline() || self.ended() || self.is(";") || self.is("}");
-                let value = if bare { None } else { Some(self.assignment()?) };
-                self.end_of_statement(span.to(self.last_span()))?;
-                Ok(StmtKind::Return(value))
-            }
+            "while" => self.while_loop(),
+            "do" => self.do_loop(),
+            "break" | "continue" => self.loop_exit(word == "break"),
+            "return" => self.return_statement(),
             "function" => self.function_declaration(),
-            _ if *self.peek_at(1) == Tok::Symbol(":") => {
+            _ if *self.peek_at(1) == TokenKind::Symbol(":") => {
                 let report = refuse::label(self.span());
                 self.diagnostics.push(report);
                 self.bump();
@@ -155,6 +86,46 @@ impl Parser<'_> {
         }
     }
 
+    fn while_loop(&mut self) -> Attempt<StmtKind> {
+        self.bump();
+        let test = self.head("while")?;
+        let body = Box::new(self.body("while")?);
+        Ok(StmtKind::While { test, body })
+    }
+
+    fn do_loop(&mut self) -> Attempt<StmtKind> {
+        self.bump();
+        let body = Box::new(self.body("do")?);
+        if !self.is_word("while") {
+            let report = Finding::error(rules::DO_WITHOUT_WHILE, self.span(), "a `do` loop has no `while`")
+                .help("write `do { … } while (test)`");
+            return self.refuse(report);
+        }
+        self.bump();
+        let test = self.head("while")?;
+        self.eat(";");
+        Ok(StmtKind::DoWhile { body, test })
+    }
+
+    /// `break` or `continue`.
+    fn loop_exit(&mut self, breaks: bool) -> Attempt<StmtKind> {
+        let span = self.bump();
+        if !self.newline() && matches!(self.peek(), TokenKind::Word(_)) {
+            let report = refuse::label(self.span());
+            return self.refuse(report);
+        }
+        self.end_of_statement(span)?;
+        Ok(if breaks { StmtKind::Break } else { StmtKind::Continue })
+    }
+
+    fn return_statement(&mut self) -> Attempt<StmtKind> {
+        let span = self.bump();
+        let bare = self.newline() || self.ended() || self.is(";") || self.is("}");
+        let value = if bare { None } else { Some(self.assignment()?) };
+        self.end_of_statement(span.to(self.last_span()))?;
+        Ok(StmtKind::Return(value))
+    }
+
     /// An expression for its effect, or several joined by commas.
     fn expression_statement(&mut self) -> Attempt<StmtKind> {
         let expr = self.sequence()?;
@@ -162,7 +133,7 @@ impl Parser<'_> {
         Ok(StmtKind::Expr(expr))
     }
 
-    fn sequence(&mut self) -> Attempt<Expr> {
+    pub(super) fn sequence(&mut self) -> Attempt<Expr> {
         let first = self.assignment()?;
         if !self.is(",") || self.decimal_comma().is_some() {
             return Ok(first);
@@ -181,9 +152,12 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` after `{word}`, found {}", self.current_text()),
+                format!("expected `(` after `{word}`, found {}", self.describe_token()),
             )
-            .help(format!("write the condition in parentheses, as `{word} ({} > 1)`", self.words.number));
+            .help(format!(
+                "write the condition in parentheses, as `{word} ({} > 1)`",
+                self.host_terms.number
+            ));
             return self.refuse(report);
         };
         Ok(self.enclosed(opener, ")", 1)?.0.expr)
@@ -208,7 +182,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_STATEMENT,
                 span,
-                format!("expected a statement after `{word}`, found {}", self.current_text()),
+                format!("expected a statement after `{word}`, found {}", self.describe_token()),
             )
             .help("write the statement to run, or several statements in braces");
             return self.refuse(report);
@@ -247,7 +221,7 @@ impl Parser<'_> {
             let report = Finding::error(
                 rules::MISSING_BRACKET,
                 self.span(),
-                format!("expected `(` after `for`, found {}", self.current_text()),
+                format!("expected `(` after `for`, found {}", self.describe_token()),
             )
             .help("write `for (let i = 0; i < n; i++) { … }`");
             return self.refuse(report);
@@ -258,7 +232,7 @@ impl Parser<'_> {
             return Ok(StmtKind::ForOf { constant, target, items, body });
         }
         let init = match self.peek() {
-            Tok::Symbol(";") => None,
+            TokenKind::Symbol(";") => None,
             _ => {
                 let span = self.span();
                 let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
@@ -285,7 +259,7 @@ impl Parser<'_> {
         let declares = ["const", "let", "var"].iter().any(|w| self.is_word(w));
         let constant = self.is_word("const");
         let behind = self.behind_group(usize::from(declares));
-        let of = |word: &str| matches!(self.peek_at(behind), Tok::Word(w) if *w == word);
+        let of = |word: &str| matches!(self.peek_at(behind), TokenKind::Word(w) if *w == word);
         if !of("of") && !of("in") {
             return Ok(None);
         }
@@ -320,169 +294,15 @@ impl Parser<'_> {
         let report = Finding::error(
             rules::LOOP_HEAD,
             self.span(),
-            format!("expected `;`, found {}", self.current_text()),
+            format!("expected `;`, found {}", self.describe_token()),
         )
         .why("the head of a `for` has three parts: start, condition, step")
         .help("write `for (let i = 0; i < n; i++) { … }`");
         self.refuse(report)
     }
 
-    /// The finding for a word that opens a statement, when an expression is wanted.
-    pub(super) fn statement_keyword(&self) -> Option<Finding> {
-        let Tok::Word(word) = self.peek() else { return None };
-        match *word {
-            "const" | "let" | "var" => Some(
-                Finding::error(
-                    rules::EXPRESSION_ONLY,
-                    self.span(),
-                    format!("`{word}` declares a name, but only one value is read here"),
-                )
-                .why("this text is an expression, which returns a value and changes nothing")
-                .help(format!(
-                    "write a single expression, or compute the part in {} and store it in `ctx`",
-                    self.words.keeper
-                )),
-            ),
-            "if" | "for" | "while" | "do" | "return" | "break" | "continue" => Some(
-                Finding::error(
-                    rules::EXPRESSION_ONLY,
-                    self.span(),
-                    format!("`{word}` starts a statement, but only one value is read here"),
-                )
-                .why("this text is an expression, which returns a value and changes nothing")
-                .help(format!(
-                    "choose a value with `test ? a : b`, or compute it in {} and store it in `ctx`",
-                    self.words.keeper
-                )),
-            ),
-            "switch" | "try" | "class" | "with" | "throw" | "import" | "export" | "debugger" | "else"
-            | "case" | "default" | "catch" | "finally" | "async" => {
-                refuse::word(word, self.span(), self.words)
-            }
-            _ => None,
-        }
-    }
-
-    /// Skips a refused statement with its header, its body and what hangs on it (`else`, `catch`).
-    fn skip_construct(&mut self) {
-        loop {
-            let opener = match self.peek() {
-                Tok::Word(word) => *word,
-                _ => return,
-            };
-            self.bump();
-            match opener {
-                "function" | "class" | "async" => {
-                    while !self.ended() && !self.is("{") && !self.is(";") {
-                        self.skip_group();
-                    }
-                }
-                "if" | "for" | "while" | "switch" | "with" | "catch" if self.is("(") => self.skip_group(),
-                _ => {}
-            }
-            if self.statement_keyword().is_some() {
-                continue;
-            }
-            if self.is("{") {
-                self.skip_group();
-            } else if !self.at_behind(";") {
-                let first = self.at;
-                if !self.ended() {
-                    self.skip_statement(first, "}");
-                }
-            }
-            let hangs_on = ["else", "catch", "finally"].iter().any(|w| self.is_word(w));
-            if !(hangs_on || opener == "do" && self.is_word("while")) {
-                return;
-            }
-        }
-    }
-
-    /// The declaration that stands for `class name`, so that uses of the name are not mistakes of their own.
-    fn class_name(&self) -> Option<StmtKind> {
-        let (Tok::Word(text), true) = (self.peek_at(1), self.is_word("class")) else { return None };
-        let span = self.tokens.get(self.at + 1)?.span;
-        let value = Some(Expr { kind: ExprKind::Error, span });
-        let target = Pattern::Name(Name { text: (*text).to_owned(), span });
-        Some(StmtKind::Declare { constant: true, declarators: vec![Declarator { target, value }] })
-    }
-
-    /// `const a = 1, b = 2` with its end.
-    fn declaration(&mut self) -> Attempt<StmtKind> {
-        let (first, opener) = (self.at, self.span());
-        let (kind, failed) = self.declarators()?;
-        if failed {
-            // The names are kept, so that their uses are not mistakes of their own.
-            if !self.at_boundary(first) {
-                self.skip_statement(first, "}");
-            }
-            return Ok(kind);
-        }
-        let span = opener.to(self.last_span());
-        self.end_of_statement(span)?;
-        Ok(kind)
-    }
-
-    /// `const a = 1, b = 2`, and whether the last value could not be read.
-    fn declarators(&mut self) -> Attempt<(StmtKind, bool)> {
-        let constant = self.is_word("const");
-        if self.is_word("var") {
-            let report = refuse::var(self.span());
-            self.diagnostics.push(report);
-        }
-        let opener = self.bump();
-        let mut declarators = Vec::new();
-        loop {
-            let declarator = self.declarator(constant, opener)?;
-            let failed = matches!(&declarator.value, Some(e) if e.kind == ExprKind::Error);
-            declarators.push(declarator);
-            if failed && !self.is(",") {
-                return Ok((StmtKind::Declare { constant, declarators }, true));
-            }
-            if !self.is(",") || self.decimal_comma().is_some() {
-                return Ok((StmtKind::Declare { constant, declarators }, false));
-            }
-            self.bump();
-        }
-    }
-
-    fn declarator(&mut self, constant: bool, opener: Span) -> Attempt<Declarator> {
-        let span = self.span();
-        if !matches!(self.peek(), Tok::Word(_) | Tok::Bad | Tok::Symbol("[" | "{")) {
-            let report = Finding::error(
-                rules::MISSING_NAME,
-                span,
-                format!("expected a name, found {}", self.current_text()),
-            )
-            .why(format!("`{}` declares a name", opener.text(self.source)))
-            .help(format!("write `const angle = {}[0]`", self.words.array));
-            return self.refuse(report);
-        }
-        let target = self.pattern("a name")?;
-        let unread = Expr { kind: ExprKind::Error, span };
-        let value = self.eat("=").map(|_| self.assignment().unwrap_or(unread));
-        if value.is_none() && (constant || !matches!(target, Pattern::Name(_))) {
-            let text = target.span().text(self.source).to_owned();
-            let word = opener.text(self.source);
-            let report = Finding::error(
-                rules::DECLARED_WITHOUT_VALUE,
-                span,
-                format!("`{text}` is declared with `{word}` but has no value"),
-            );
-            return self.refuse(match target {
-                Pattern::Name(_) => report
-                    .why("a `const` name can never change, so it needs its value at once")
-                    .help(format!("write `const {text} = …`, or `let {text}` if it gets its value later")),
-                _ => report
-                    .why("there is nothing to take the parts from")
-                    .help(format!("write `{word} {text} = …`")),
-            });
-        }
-        Ok(Declarator { target, value })
-    }
-
     /// A semicolon, a line end or the end of the text.
-    fn end_of_statement(&mut self, statement: Span) -> Attempt<()> {
+    pub(super) fn end_of_statement(&mut self, statement: Span) -> Attempt<()> {
         if self.eat(";").is_some() || self.ended() || self.newline() || self.is("}") {
             return Ok(());
         }
@@ -490,66 +310,4 @@ impl Parser<'_> {
         self.diagnostics.extend(report);
         Err(Reported)
     }
-
-    /// The finding for whatever stands behind something complete; `None` when it is already reported.
-    pub(super) fn unexpected_behind(&mut self, before: Span) -> Option<Finding> {
-        let span = self.span();
-        let text = self.current_text();
-        match self.peek() {
-            Tok::Bad => None,
-            Tok::Symbol(",") => {
-                let decimal = self.decimal_comma();
-                Some(refuse::comma(span, decimal))
-            }
-            Tok::Symbol(closer @ (")" | "]" | "}")) => Some(
-                Finding::error(rules::UNOPENED, span, format!("`{closer}` closes nothing"))
-                    .why("no bracket is open here")
-                    .help("remove it, or write the bracket that it should close")
-                    .guess(span, ""),
-            ),
-            Tok::Symbol(":") => Some(
-                Finding::error(rules::HALF_CHOICE, span, "this `:` has no `?` before it")
-                    .help("write a conditional expression as `test ? a : b`"),
-            ),
-            Tok::Symbol(text) if refuse::symbol(text, span, self.words).is_some() && *text != "/" => {
-                refuse::symbol(text, span, self.words)
-            }
-            Tok::Symbol(text) => Some(
-                Finding::error(rules::MISPLACED, span, format!("`{text}` is not allowed here"))
-                    .help("remove it"),
-            ),
-            Tok::Word(word) if matches!(*word, "in" | "instanceof") => refuse::word(word, span, self.words),
-            _ => {
-                let left = shorten(before.text(self.source));
-                Some(
-                    Finding::error(rules::MISSING_OPERATOR, span, format!("{text} directly follows `{left}` without an operator"))
-                        .why("the operation between them is unknown")
-                        .help("add the missing part: an operator, as `*` for a product, a comma in a list, or `;` between statements"),
-                )
-            }
-        }
-    }
-
-    /// When the comma ahead stands between digits without a space, as in `0,5`: the place and the number meant.
-    fn decimal_comma(&self) -> Option<(Span, String)> {
-        let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i))?;
-        let behind = self.tokens.get(self.at + 1)?;
-        let numbers = matches!((&before.kind, &behind.kind), (Tok::Number(_), Tok::Number(_)));
-        let whole = before.span.text(self.source);
-        let fraction = behind.span.text(self.source);
-        let plain = |s: &str| s.chars().all(|c| c.is_ascii_digit());
-        let close = before.span.end + 1 == behind.span.start;
-        (numbers && close && plain(whole) && plain(fraction))
-            .then(|| (before.span.to(behind.span), format!("{whole}.{fraction}")))
-    }
-}
-
-/// The last part of a long text.
-fn shorten(text: &str) -> String {
-    let count = text.chars().count();
-    if count <= 30 {
-        return text.to_owned();
-    }
-    let tail: String = text.chars().skip(count - 29).collect();
-    format!("…{tail}")
 }

@@ -6,7 +6,7 @@ pub const ASSIGN_ARRAY: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an assignment replaces a whole array instead of one element",
-    why: "JavaScript throws, or replaces the field, and the engine never sees the new values",
+    why: "JavaScript throws, or replaces the field, and the model never sees the new values",
     bad: Example::Statements("⟦data.qpos⟧ = 1"),
     good: Example::Statements("data.qpos[7] = 1"),
 };

@@ -6,7 +6,7 @@ pub const ASSIGN_DERIVED: &Rule = &Rule {
     severity: Severity::Error,
     layer: Layer::Program,
     summary: "an assignment writes a computed field",
-    why: "the engine computes the field again, so the stored value is lost",
+    why: "the field is computed again, so the stored value is lost",
     bad: Example::Statements("⟦data.xpos[5]⟧ = 1"),
     good: Example::Statements("data.qpos[2] = 1"),
 };

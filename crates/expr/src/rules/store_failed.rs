@@ -1,11 +1,11 @@
 use labspec_finding::{Example, Layer, Rule, Severity};
 
-/// The engine rejects a stored value.
+/// The host rejects a stored value.
 pub const HOST_STORE: &Rule = &Rule {
     code: "store-failed",
     severity: Severity::Error,
     layer: Layer::Program,
-    summary: "the engine rejects a stored value",
+    summary: "the model rejects a stored value",
     why: "nothing is stored, and the page shows no error",
     bad: Example::Statements("⟦model.opt.timestep = 0⟧"),
     good: Example::Statements("model.opt.timestep = 0.001"),

@@ -3,7 +3,7 @@
 use crate::mock::{Mock, World, execute};
 use crate::*;
 
-fn check(rows: &[(&str, &str)]) {
+fn check_rows(rows: &[(&str, &str)]) {
     for (source, expected) in rows {
         let source = format!("{source}; ctx.out = String(ctx.out)");
         assert_eq!(execute(&source).1.to_string(), *expected, "{source}");
@@ -12,7 +12,7 @@ fn check(rows: &[(&str, &str)]) {
 
 #[test]
 fn conditions_and_loops() {
-    check(&[
+    check_rows(&[
         ("if (data.time > 1) ctx.out = 1; else if (data.ncon) ctx.out = 2; else ctx.out = 3", "2"),
         ("let s = 0; for (let i = 0; i < 5; i++) s += i; ctx.out = s", "10"),
         (
@@ -32,7 +32,7 @@ fn conditions_and_loops() {
 
 #[test]
 fn functions() {
-    check(&[
+    check_rows(&[
         ("const f = (x, k = 3) => x * k; ctx.out = [f(2), f(2, 5)]", "6,10"),
         ("function fact(n) { return n <= 1 ? 1 : n * fact(n - 1) } ctx.out = fact(10)", "3628800"),
         (
@@ -75,7 +75,7 @@ fn functions_live_in_ctx() {
 
 #[test]
 fn lists_and_records() {
-    check(&[
+    check_rows(&[
         ("const v = [1, 2, 3]; v[5] = 9; ctx.out = v", "1,2,3,,,9"),
         ("const [a, , b = 7] = [1, 2]; ctx.out = [a, b]", "1,7"),
         ("const {x, y: {z}} = {x: 1, y: {z: 2}}; ctx.out = [x, z]", "1,2"),

@@ -45,7 +45,7 @@ fn show(world: &World, heap: &Heap, value: &Value, depth: usize, out: &mut Strin
         }
         Value::Record(_) => {
             out.push('{');
-            if let heap::Object::Record(entries) = heap.object(value) {
+            if let heap::HeapObject::Record(entries) = heap.object(value) {
                 for (i, (key, value)) in entries.iter().enumerate() {
                     if i > 0 {
                         out.push(' ');

@@ -317,7 +317,7 @@ fn compile_all(source: &str) {
             let _ = program.run(&mut world, &mut Context::new(), Some(&Value::Number(1.0)));
         }
     }
-    globals.unset(&Words::PLAIN);
+    globals.unset(&HostTerms::PLAIN);
 }
 
 proptest! {

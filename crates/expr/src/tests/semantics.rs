@@ -13,7 +13,7 @@ fn same(a: &Value, b: &Value) -> bool {
     }
 }
 
-fn check(rows: &[(&str, Value)]) {
+fn check_rows(rows: &[(&str, Value)]) {
     for (source, expected) in rows {
         let got = evaluate(source);
         assert!(same(&got, expected), "{source} is {got:?}, not {expected:?}");
@@ -40,7 +40,7 @@ fn s(text: &str) -> Value {
 
 #[test]
 fn numbers() {
-    check(&[
+    check_rows(&[
         ("0.1 + 0.2", n(0.30000000000000004)),
         ("1 / 0", n(f64::INFINITY)),
         ("-1 / 0", n(f64::NEG_INFINITY)),
@@ -78,7 +78,7 @@ fn numbers() {
 
 #[test]
 fn functions_of_math() {
-    check(&[
+    check_rows(&[
         ("Math.round(-2.5)", n(-2.0)),
         ("Math.round(2.5)", n(3.0)),
         ("Math.round(-0.4)", n(-0.0)),
@@ -109,7 +109,7 @@ fn functions_of_math() {
 
 #[test]
 fn equality_and_order() {
-    check(&[
+    check_rows(&[
         ("NaN === NaN", b(false)),
         ("NaN !== NaN", b(true)),
         ("0 === -0", b(true)),
@@ -139,7 +139,7 @@ fn equality_and_order() {
 
 #[test]
 fn truth_and_choice() {
-    check(&[
+    check_rows(&[
         ("0 || 5", n(5.0)),
         ("NaN || 'x'", s("x")),
         ("'' || 0", n(0.0)),
@@ -165,7 +165,7 @@ fn truth_and_choice() {
 
 #[test]
 fn text() {
-    check(&[
+    check_rows(&[
         ("'a' + 1", s("a1")),
         ("1 + 2 + 'a'", s("3a")),
         ("'a' + 1 + 2", s("a12")),
@@ -198,7 +198,7 @@ fn text() {
 
 #[test]
 fn fields_and_names() {
-    check(&[
+    check_rows(&[
         ("data.time", n(0.0)),
         ("data.qpos[2]", n(102.0)),
         ("data.qpos[data.time + 2]", n(102.0)),
@@ -237,7 +237,7 @@ fn what_a_page_throws_is_thrown() {
         let thrown = program.run(&mut World::new(), &mut Context::for_globals(&globals), None);
         assert!(thrown.is_err(), "{source}: {thrown:?}");
     }
-    check(&[
+    check_rows(&[
         ("(() => { const [a, b] = [[1, 2]][0]; return a + b })()", n(3.0)),
         ("(() => { const [a, b] = ['xy'][0]; return b + a })()", s("yx")),
         ("(() => { const [a] = '😀x'; return a })()", s("😀")),

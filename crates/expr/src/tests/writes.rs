@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::node::{here, there};
-use crate::natives::On;
+use crate::natives::ReceiverKind;
 use crate::needs::needs;
 
 /// What is stored. `n` is the number of the statement's own, so that every type is also known at run time alone.
@@ -202,8 +202,8 @@ fn every_method_of_every_kind_of_list() {
     if !needs("node") {
         return;
     }
-    let names = crate::natives::rows()
-        .filter(|row| matches!(row.on, On::List | On::Growing | On::Untyped))
+    let names = crate::natives::public_rows()
+        .filter(|row| matches!(row.on, ReceiverKind::List | ReceiverKind::Growing | ReceiverKind::Untyped))
         .map(|row| row.name);
     let mut sources = Vec::new();
     for name in names {

@@ -1,30 +1,21 @@
 //! What a watched run notes of each operation: whether an operand that is not a number became something else, and how
 //! comparisons of numbers came out ([`crate::Watch`]).
 
-use super::{CodeUnit, Frame, Machine, span_of, truth};
-use crate::form::{Args, Num, Op, Val};
-use crate::heap::Object;
-use crate::natives::{self, Nan};
+use super::machine::{Machine, RegisterFrame, span_of};
+use super::operands::Operands;
+use crate::code::MachineFunction;
+use crate::heap::{Heap, HeapObject};
+use crate::ir::MethodId;
+use crate::natives::{self, NanBehaviour};
+use crate::operation::truth;
 use crate::operators::BinaryOp;
-use crate::schema::Elem;
+use crate::ssa::{Args, Num, Op, Val};
+use crate::types::Elem;
 use crate::value::Value;
-
-/// What is known of an operation before it runs: its result may take the place of an operand.
-#[derive(Clone, Copy)]
-pub(super) struct Operands {
-    /// An operand is not a number.
-    nan: bool,
-    /// The sides of a comparison of numbers, or of another operation on two.
-    sides: Option<(BinaryOp, f64, f64)>,
-}
-
-impl Operands {
-    pub(super) const NONE: Operands = Operands { nan: false, sides: None };
-}
 
 impl Machine<'_> {
     /// Looks at the operands of an operation. What decides a way or a place is lost here, whatever comes out.
-    pub(super) fn before(&mut self, op: Op, unit: &CodeUnit, f: Frame) -> Operands {
+    pub(super) fn before(&mut self, op: Op, unit: &MachineFunction, f: RegisterFrame) -> Operands {
         let sides = match op {
             Op::Binary(_, op, a, b) => Some((op, self.num(f, a), self.num(f, b))),
             Op::Compare(_, op, a, b) => match (self.val(f, a), self.val(f, b)) {
@@ -37,7 +28,7 @@ impl Machine<'_> {
             Op::Binary(..) => sides.is_some_and(|(_, a, b)| a.is_nan() || b.is_nan()),
             Op::Unary(_, _, a) => self.num(f, a).is_nan(),
             Op::Math(_, function, args) => {
-                let numbers = args.operands_in(&unit.args);
+                let numbers = args.operands(&unit.args);
                 // The extreme of nothing is not a number that anything was measured of.
                 (numbers.is_empty() || numbers.iter().any(|n| self.num(f, Num(*n)).is_nan()))
                     && !function.gives_boolean()
@@ -68,7 +59,7 @@ impl Machine<'_> {
     }
 
     /// Whether an operation takes a way, an element or a text by what is not a number.
-    fn decides_by_nothing(&self, op: Op, f: Frame) -> bool {
+    fn decides_by_nothing(&self, op: Op, f: RegisterFrame) -> bool {
         match op {
             Op::JumpIf(_, test, _) | Op::Select(_, test, ..) => self.num(f, test).is_nan(),
             Op::LoadAt(_, _, a) | Op::LoadValueAt(_, _, a) | Op::StoreAt(_, a, _) => self.num(f, a).is_nan(),
@@ -79,7 +70,7 @@ impl Machine<'_> {
             Op::Put(_, a, _) | Op::StoreGlobalNamed(a, _) => self.is_no_number(f, a),
             Op::StoreItem(list, index, value, _) => {
                 let whole = match self.context.heap.object(self.val(f, list)) {
-                    Object::Numbers(_, elem) => *elem != Elem::Double,
+                    HeapObject::Numbers(_, elem) => *elem != Elem::Double,
                     _ => false,
                 };
                 self.is_no_number(f, index) || whole && self.is_no_number(f, value)
@@ -89,7 +80,7 @@ impl Machine<'_> {
     }
 
     /// Looks at the result of an operation: NaN is passed on, everything else lost it.
-    pub(super) fn after(&mut self, op: Op, operands: Operands, f: Frame) {
+    pub(super) fn after(&mut self, op: Op, operands: Operands, f: RegisterFrame) {
         let passed = match op {
             Op::Binary(d, ..)
             | Op::Unary(d, ..)
@@ -120,7 +111,7 @@ impl Machine<'_> {
         }
     }
 
-    pub(super) fn settle(&mut self, unit: &CodeUnit, at: usize) {
+    pub(super) fn settle(&mut self, unit: &MachineFunction, at: usize) {
         if let Some(watch) = &mut self.context.watch {
             watch.settle(span_of(unit, at));
         }
@@ -133,13 +124,13 @@ impl Machine<'_> {
     }
 
     /// Whether a value is NaN, or nothing where that counts.
-    fn is_no_number(&self, f: Frame, value: Val) -> bool {
+    fn is_no_number(&self, f: RegisterFrame, value: Val) -> bool {
         let value = self.val(f, value);
         value.is_primitive() && self.without_number(value)
     }
 
     /// Whether a value is NaN, or a list that holds one.
-    fn has_no_number(&self, f: Frame, value: Val) -> bool {
+    fn has_no_number(&self, f: RegisterFrame, value: Val) -> bool {
         self.without_number(self.val(f, value))
     }
 
@@ -149,19 +140,17 @@ impl Machine<'_> {
                 let first = view.first as usize;
                 (0..self.length(*view)).any(|i| self.host.get(view.field, first + i).is_none_or(f64::is_nan))
             }
-            _ => self
-                .context
-                .watch
-                .as_ref()
-                .is_some_and(|watch| watch.without_number(&self.context.heap, value)),
+            _ => self.context.watch.as_ref().is_some_and(|watch| {
+                is_without_number(&self.context.heap, value, watch.counts_undefined(), 8)
+            }),
         }
     }
 
-    fn any_without_number(&self, args: Args, unit: &CodeUnit, f: Frame) -> bool {
-        args.operands_in(&unit.args).iter().any(|a| self.has_no_number(f, Val(*a)))
+    fn any_without_number(&self, args: Args, unit: &MachineFunction, f: RegisterFrame) -> bool {
+        args.operands(&unit.args).iter().any(|a| self.has_no_number(f, Val(*a)))
     }
 
-    fn is_empty_list(&self, f: Frame, list: Val) -> bool {
+    fn is_empty_list(&self, f: RegisterFrame, list: Val) -> bool {
         match self.val(f, list) {
             Value::View(view) => self.length(*view) == 0,
             value => self.context.heap.len(value) == Some(0),
@@ -169,7 +158,7 @@ impl Machine<'_> {
     }
 
     /// Whether a comparison of values has a side that is not a number. To compare with `undefined` is to ask for it.
-    fn compares_nothing(&self, f: Frame, op: BinaryOp, a: Val, b: Val) -> bool {
+    fn compares_nothing(&self, f: RegisterFrame, op: BinaryOp, a: Val, b: Val) -> bool {
         let (a, b) = (self.val(f, a), self.val(f, b));
         let equality = op.power() == 8;
         match (a, b) {
@@ -179,15 +168,31 @@ impl Machine<'_> {
         }
     }
 
-    fn method_looks(&self, name: natives::Name, args: Args, unit: &CodeUnit, f: Frame) -> bool {
-        let Some((receiver, args)) = args.operands_in(&unit.args).split_first() else { return false };
+    fn method_looks(&self, name: MethodId, args: Args, unit: &MachineFunction, f: RegisterFrame) -> bool {
+        let Some((receiver, args)) = args.operands(&unit.args).split_first() else { return false };
         let nan = self.becomes(name, self.val(f, Val(*receiver)));
         nan.of_elements() && self.has_no_number(f, Val(*receiver))
             || nan.of_arguments() && args.iter().any(|a| self.has_no_number(f, Val(*a)))
     }
 
     /// What becomes of NaN in a method of a value; a function that a record holds may do anything with it.
-    fn becomes(&self, name: natives::Name, receiver: &Value) -> Nan {
-        natives::row_of(&self.context.heap, name, receiver).map_or(Nan::Looks, |row| row.nan)
+    fn becomes(&self, name: MethodId, receiver: &Value) -> NanBehaviour {
+        natives::find_row(&self.context.heap, name, receiver).map_or(NanBehaviour::Looks, |row| row.nan)
+    }
+}
+
+/// Whether a value is, or holds down to a depth, what is not a number.
+fn is_without_number(heap: &Heap, value: &Value, undefined: bool, depth: usize) -> bool {
+    let inner = |value: &Value| is_without_number(heap, value, undefined, depth - 1);
+    match value {
+        Value::Number(x) => x.is_nan(),
+        Value::Undefined => undefined,
+        Value::List(_) | Value::Record(_) if depth > 0 => match heap.object(value) {
+            HeapObject::List(items) => items.iter().any(inner),
+            HeapObject::Numbers(items, _) => items.iter().any(|x| x.is_nan()),
+            HeapObject::Record(entries) => entries.iter().any(|(_, value)| inner(value)),
+            _ => false,
+        },
+        _ => false,
     }
 }

@@ -5,18 +5,18 @@ use super::{Bound, ControlProgram, ModelNames, Programs, Scope};
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_core::Model;
 use labspec_expr::dimension::{Dimension, Measure};
-use labspec_expr::{Compiler, Given, Measured};
+use labspec_expr::{Compiler, KnownDimensions, TextDimensions};
 use std::collections::BTreeMap;
 
 /// What the texts of a lab measure, in the order of its [`Programs`]. A text with mistakes has nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Dimensions {
     /// Traces, then readouts.
-    pub probes: Vec<Option<Measured>>,
+    pub probes: Vec<Option<TextDimensions>>,
     /// Controls.
-    pub controls: Vec<Option<Measured>>,
+    pub controls: Vec<Option<TextDimensions>>,
     /// Setup and controller.
-    pub others: Vec<Option<Measured>>,
+    pub others: Vec<Option<TextDimensions>>,
 }
 
 /// Rounds in which variables learn from each other; what has not settled then is unknown.
@@ -30,7 +30,7 @@ pub fn dimensions(lab: &Lab, model: &Model, programs: &Programs) -> Dimensions {
 /// The dimension of an expression that names what a lab's texts name; `None` where it is not certain.
 pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -> Option<Dimension> {
     let (work, variables, _) = settle(lab, model, programs);
-    let given = Given { variables, ..Given::default() };
+    let given = KnownDimensions { variables, ..KnownDimensions::default() };
     let mut globals = programs.globals.clone();
     let program = Compiler::new(&work.names, &mut globals).expression(code).program?;
     match program.measured(&work.names, &given).value {
@@ -40,9 +40,9 @@ pub fn dimension_of(lab: &Lab, model: &Model, programs: &Programs, code: &str) -
 }
 
 /// What the variables of a lab hold, for texts that read them.
-pub(crate) fn given(lab: &Lab, model: &Model, programs: &Programs) -> Given {
+pub(crate) fn given(lab: &Lab, model: &Model, programs: &Programs) -> KnownDimensions {
     let (_, variables, _) = settle(lab, model, programs);
-    Given { variables, ..Given::default() }
+    KnownDimensions { variables, ..KnownDimensions::default() }
 }
 
 /// Measures all texts until the variables that they store have settled.
@@ -92,7 +92,7 @@ impl Work<'_> {
     /// Every text once.
     fn round(&self, variables: &BTreeMap<u32, Measure>) -> Dimensions {
         let (lab, programs) = (self.lab, self.programs);
-        let given = Given { variables: variables.clone(), ..Given::default() };
+        let given = KnownDimensions { variables: variables.clone(), ..KnownDimensions::default() };
         let one = |bound: &Option<Bound>| self.one(bound, &given);
         let controls = lab.controls.iter().zip(&programs.controls);
         Dimensions {
@@ -104,19 +104,24 @@ impl Work<'_> {
         }
     }
 
-    fn one(&self, bound: &Option<Bound>, given: &Given) -> Option<Measured> {
+    fn one(&self, bound: &Option<Bound>, given: &KnownDimensions) -> Option<TextDimensions> {
         bound.as_ref().map(|bound| bound.program.measured(&self.names, given))
     }
 
-    fn control(&self, control: &Control, program: &ControlProgram, given: &Given) -> Option<Measured> {
+    fn control(
+        &self,
+        control: &Control,
+        program: &ControlProgram,
+        given: &KnownDimensions,
+    ) -> Option<TextDimensions> {
         let of_value = given_by(control);
         match program {
             ControlProgram::Press(run) => self.one(run, given),
             ControlProgram::Change(_, action) => {
-                let measured = self.one(&action.run, &Given { value: of_value, ..given.clone() });
+                let measured = self.one(&action.run, &KnownDimensions { value: of_value, ..given.clone() });
                 let mut measured = match (measured, action.param) {
                     (Some(measured), _) => measured,
-                    (None, Some(_)) => Measured::default(),
+                    (None, Some(_)) => TextDimensions::default(),
                     (None, None) => return None,
                 };
                 if let Some(slot) = action.param {

@@ -10,7 +10,7 @@ use labspec_bind::units::written;
 use labspec_core::Model;
 use labspec_core::reflect::FieldId;
 use labspec_expr::dimension::{Dimension, Measure};
-use labspec_expr::{Measured, Schema};
+use labspec_expr::{Schema, TextDimensions};
 
 /// What units contradict.
 pub(super) fn check_units(lab: &Lab, model: &Model, programs: &Programs, findings: &mut Vec<Finding>) {
@@ -138,7 +138,7 @@ fn wrong_control(
     control: &Control,
     names: &dyn Schema,
     bound: &Bound,
-    measured: &Measured,
+    measured: &TextDimensions,
 ) -> Option<Finding> {
     let Measure::Known(_) = given_by(control) else { return None };
     let (stored, found, wanted) = measured.stores.iter().find_map(|stored| {
@@ -166,8 +166,8 @@ fn wrong_control(
 }
 
 /// Sums and comparisons of what cannot be added or compared.
-fn clashes(bound: &Bound, measured: &Measured, severity: Severity) -> Vec<Finding> {
-    let one = |clash: &labspec_expr::Clash| {
+fn clashes(bound: &Bound, measured: &TextDimensions, severity: Severity) -> Vec<Finding> {
+    let one = |clash: &labspec_expr::DimensionClash| {
         let message = format!("{} and {} are added or compared", written(&clash.left), written(&clash.right));
         let mut found = Finding::new(rules::MIXED_DIMENSIONS, bound.text.span_of(clash.span.into()), message)
             .help("check the index and the field: one of the two may be a different quantity than intended");

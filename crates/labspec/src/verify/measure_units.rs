@@ -1,6 +1,6 @@
 //! What is known of the units of the measures.
 
-use labspec_expr::Given;
+use labspec_expr::KnownDimensions;
 use labspec_expr::dimension::Measure;
 
 /// What the measures of each run measure, by the place of the run.
@@ -10,6 +10,6 @@ pub(super) type RunUnits = Vec<Vec<(String, Measure)>>;
 #[derive(Debug)]
 pub(super) struct MeasureUnits {
     /// What the controls of the lab give.
-    pub(super) given: Given,
+    pub(super) given: KnownDimensions,
     pub(super) runs: RunUnits,
 }

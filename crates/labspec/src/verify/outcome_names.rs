@@ -5,8 +5,8 @@ use super::measure_units::RunUnits;
 use crate::bind::{ModelNames, NUMBERS, Scope};
 use labspec_expr::dimension::Measure;
 use labspec_expr::{
-    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, Gives, ObjectId, Role,
-    Schema, Words,
+    CollectionId, Elem, Entry, Field, FieldKey, FieldKind, FunctionId, FunctionInfo, HostTerms, ObjectId,
+    ResultDimension, Role, Schema,
 };
 use std::cell::Cell;
 
@@ -182,7 +182,7 @@ impl Schema for OutcomeNames<'_> {
         }
     }
 
-    fn gives(&self, function: FunctionId, first: Option<f64>) -> Gives {
+    fn gives(&self, function: FunctionId, first: Option<f64>) -> ResultDimension {
         self.model.gives(function, first)
     }
 
@@ -198,8 +198,8 @@ impl Schema for OutcomeNames<'_> {
         self.model.result_field(function, object)
     }
 
-    fn words(&self) -> &'static Words {
-        self.model.words()
+    fn host_terms(&self) -> &'static HostTerms {
+        self.model.host_terms()
     }
 
     fn refresh(&self) -> Option<String> {

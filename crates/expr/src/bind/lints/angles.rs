@@ -1,16 +1,17 @@
 //! Angles: degrees written for radians, and numbers taken for angles that are none.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr};
-use crate::bind::types::Shape;
+use crate::bind::types::ExpressionShape;
 use crate::number;
 use crate::rules;
-use crate::schema::{FieldKey, Role};
-use crate::{Finding, Span};
+use crate::schema::Role;
+use crate::types::FieldKey;
+use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// What a function of angles gets.
-    pub(super) fn angle(&mut self, span: Span, by: &str, shape: &Shape) {
+    pub(super) fn angle(&mut self, span: Span, by: &str, shape: &ExpressionShape) {
         if let Some(x) = shape.number()
             && in_degrees(x)
             && number::to_text(x) == self.text(span)
@@ -28,7 +29,7 @@ impl Look<'_> {
         }
         let typed = self.typed;
         let (Some(a), Some(b)) = (typed.shape(left.span), typed.shape(right.span)) else { return };
-        let converts = |shape: &Shape| {
+        let converts = |shape: &ExpressionShape| {
             shape.number().is_some_and(|x| x == 180.0 || (x - 1f64.to_degrees()).abs() < 0.01)
         };
         if converts(a) {
@@ -40,7 +41,7 @@ impl Look<'_> {
     }
 
     /// Warns where an angle is needed, of a number that the host knows to be none.
-    fn no_angle(&mut self, span: Span, shape: &Shape, needs: &str) {
+    fn no_angle(&mut self, span: Span, shape: &ExpressionShape, needs: &str) {
         let Some((field, at)) = shape.element else { return };
         let Role::NoAngle(advice) = self.schema.role(field, at) else { return };
         let what = match self.schema.element_help(field, at) {
@@ -56,7 +57,12 @@ impl Look<'_> {
     }
 
     /// Degrees that are stored in an angle.
-    pub(super) fn degrees_stored(&mut self, span: Span, to: Option<(FieldKey, usize)>, shape: &Shape) {
+    pub(super) fn degrees_stored(
+        &mut self,
+        span: Span,
+        to: Option<(FieldKey, usize)>,
+        shape: &ExpressionShape,
+    ) {
         let (Some((field, at)), Some(x)) = (to, shape.number()) else { return };
         if in_degrees(x) && self.schema.role(field, at) == Role::Angle {
             self.degrees(span, "this angle is in radians");

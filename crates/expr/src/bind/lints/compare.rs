@@ -1,11 +1,11 @@
 //! Comparisons that do not say what they seem to say, and `^`.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind};
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// A comparison with the literal NaN.
     #[inline(never)]
     pub(super) fn compared_with_nan(&mut self, op: BinaryOp, left: &Expr, right: &Expr, span: Span) {

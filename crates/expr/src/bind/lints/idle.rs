@@ -1,13 +1,13 @@
 //! What is computed or written for nothing.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, Stmt, StmtKind};
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// A statement that changes nothing.
     #[inline(never)]
     pub(super) fn unused(&mut self, expr: &Expr) {
@@ -65,9 +65,9 @@ impl Look<'_> {
 
     /// The first statement behind a `return` or a jump.
     pub(super) fn never_reached(&mut self, statements: &[Stmt]) {
-        let has_effect = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
+        let runs = |s: &&Stmt| !matches!(s.kind, StmtKind::Function { .. } | StmtKind::Empty);
         let Some(at) = statements.iter().position(|statement| self.leaves(statement)) else { return };
-        if let Some(dead) = statements.iter().skip(at + 1).find(has_effect) {
+        if let Some(dead) = statements.iter().skip(at + 1).find(runs) {
             self.found.push(
                 Finding::warning(rules::UNREACHABLE, dead.span, "this is never reached")
                     .why("the statement before it always leaves")

@@ -1,14 +1,14 @@
 //! Texts where numbers belong.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
-use crate::bind::types::Shape;
+use crate::bind::types::ExpressionShape;
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// `-text`
     #[inline(never)]
     pub(super) fn text_operand(&mut self, op: UnaryOp, expr: &Expr) {
@@ -44,7 +44,7 @@ impl Look<'_> {
     }
 
     /// A text that is stored where numbers live.
-    pub(super) fn text_stored(&mut self, span: Span, shape: &Shape) {
+    pub(super) fn text_stored(&mut self, span: Span, shape: &ExpressionShape) {
         if shape.ty != Type::String {
             return;
         }
@@ -61,7 +61,7 @@ impl Look<'_> {
     }
 
     /// A text that a function of numbers gets.
-    pub(super) fn text_for_number(&mut self, span: Span, by: &str, shape: &Shape) {
+    pub(super) fn text_for_number(&mut self, span: Span, by: &str, shape: &ExpressionShape) {
         if shape.ty == Type::String {
             let message = format!("`{by}` needs a number, but this is a string");
             self.found.push(
@@ -74,7 +74,7 @@ impl Look<'_> {
 }
 
 /// What to write in place of a text, with the reasons for one without a number, one with a number, and an unknown one.
-fn instead(report: Finding, shape: &Shape, [none, number, unknown]: [&str; 3]) -> Finding {
+fn instead(report: Finding, shape: &ExpressionShape, [none, number, unknown]: [&str; 3]) -> Finding {
     let span = Span::from(report.span.clone());
     match shape.constant.as_ref().map(Value::to_number) {
         Some(x) if x.is_nan() => report.why(none).help("write the number"),

@@ -1,9 +1,9 @@
 //! What stands twice where it is meant once: an element that is stored and at once stored again, an argument beside itself.
 
-use super::Look;
+use super::pass::LintPass;
 use crate::ast::{Expr, ExprKind, Stmt, StmtKind};
 use crate::rules;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// Functions that a second argument of the same value says nothing to, or says wrongly.
 const FUNCTIONS: [&str; 3] = ["Math.hypot", "Math.max", "Math.min"];
@@ -21,7 +21,7 @@ fn stored(statement: &Stmt) -> Option<(&Expr, &Expr)> {
 const LONG: usize = 400;
 const MANY: usize = 8;
 
-impl Look<'_> {
+impl LintPass<'_> {
     /// A text without its spaces; `None` where it is long.
     fn bare(&self, span: Span) -> Option<String> {
         let text = self.text(span);

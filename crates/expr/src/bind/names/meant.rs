@@ -1,49 +1,50 @@
 //! What was probably meant by a name that means nothing.
 
-use super::unknown::LANGUAGE;
-use super::{Use, Walk};
+use super::language::LANGUAGE;
+use super::walk::{NameUse, NameWalk};
 use crate::math;
-use crate::schema::{Entry, ObjectId, Schema};
+use crate::schema::{Entry, Schema};
+use crate::types::ObjectId;
 use labspec_finding::{nearest, ranked};
 
-impl Use {
+impl NameUse {
     /// Whether something of the host can be used like this.
     fn fits(self, entry: &Entry) -> bool {
         match (self, entry) {
-            (Use::Callee, Entry::Function(_) | Entry::Collection(_)) => true,
-            (Use::Callee, _) | (Use::Value | Use::Holder, Entry::Function(_)) => false,
-            (Use::Value, Entry::Collection(_)) => false,
-            (Use::Value | Use::Holder, _) => true,
+            (NameUse::Callee, Entry::Function(_) | Entry::Collection(_)) => true,
+            (NameUse::Callee, _) | (NameUse::Value | NameUse::Holder, Entry::Function(_)) => false,
+            (NameUse::Value, Entry::Collection(_)) => false,
+            (NameUse::Value | NameUse::Holder, _) => true,
         }
     }
 
     /// Whether a word of the language can.
     fn fits_word(self, word: &str) -> bool {
         match word {
-            "Math" | "ctx" => self == Use::Holder,
-            "NaN" | "Infinity" | "undefined" => self == Use::Value,
-            "Object" | "Array" => self == Use::Holder,
+            "Math" | "ctx" => self == NameUse::Holder,
+            "NaN" | "Infinity" | "undefined" => self == NameUse::Value,
+            "Object" | "Array" => self == NameUse::Holder,
             "Number" | "String" => true,
-            _ => self != Use::Holder,
+            _ => self != NameUse::Holder,
         }
     }
 }
 
-impl Walk<'_, '_> {
+impl NameWalk<'_, '_> {
     /// What a misspelt name, or one whose object was left out, probably means.
-    pub(super) fn meant(&self, name: &str, used: Use) -> Option<String> {
+    pub(super) fn meant(&self, name: &str, used: NameUse) -> Option<String> {
         let schema = self.around.schema?;
         let fits = |entry: Option<Entry>| entry.is_some_and(|e| used.fits(&e));
         for (path, object) in objects(schema) {
             // A choice by name has no members: behind a point something else was probably meant.
             let entry = schema.member(object, name);
-            let entry = entry.filter(|e| used == Use::Callee || !matches!(e, Entry::Collection(_)));
+            let entry = entry.filter(|e| used == NameUse::Callee || !matches!(e, Entry::Collection(_)));
             if fits(entry) {
                 return Some(format!("{path}.{name}"));
             }
         }
         let of_math = match used {
-            Use::Callee => math::function(name).is_some(),
+            NameUse::Callee => math::function(name).is_some(),
             _ => math::constant(name).is_some(),
         };
         if of_math {
@@ -52,11 +53,11 @@ impl Walk<'_, '_> {
         let mut roots = schema.root_names();
         roots.retain(|root| fits(schema.root(root)));
         let words = LANGUAGE.into_iter().filter(|word| used.fits_word(word));
-        let candidates = self.own_names().chain(roots.iter().map(String::as_str)).chain(words);
+        let candidates = self.text_names().chain(roots.iter().map(String::as_str)).chain(words);
         if let Some(meant) = nearest(name, candidates) {
             return Some(meant.to_owned());
         }
-        if self.persistent.contains(name) || self.around.globals.slot(name).is_some() {
+        if self.kept.contains(name) || self.around.globals.slot(name).is_some() {
             return Some(format!("ctx.{name}"));
         }
         // On an object that was not even written, only a name that is nearly the same was meant.
@@ -85,7 +86,7 @@ fn objects(schema: &dyn Schema) -> Vec<(String, ObjectId)> {
 }
 
 /// The member of any object, except `but`, whose name is nearest to what was written, with its distance.
-pub(in super::super) fn meant_elsewhere(
+pub(in crate::bind) fn meant_elsewhere(
     schema: &dyn Schema,
     name: &str,
     but: Option<ObjectId>,

@@ -1,12 +1,13 @@
 //! Statements: which names they declare, and in which order these get their values.
 
-use super::{Walk, unknown};
+use super::language::{is_language, report_taken};
+use super::walk::{NameWalk, WHOLE};
 use crate::ast::{Declarator, Element, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
 use crate::schema::Schema;
 
-impl<'a> Walk<'a, '_> {
+impl<'a> NameWalk<'a, '_> {
     /// Statements with names of their own.
-    pub(in super::super) fn block(&mut self, statements: &'a [Stmt]) {
+    pub(in crate::bind) fn block(&mut self, statements: &'a [Stmt]) {
         let reach = self.reach.len();
         self.hoist(statements);
         for statement in statements {
@@ -17,9 +18,8 @@ impl<'a> Walk<'a, '_> {
 
     /// Forgets the names of a block, after a look into the functions that nothing named.
     pub(super) fn leave(&mut self, reach: usize) {
-        let reached = self.reach.get(reach..).unwrap_or(&[]);
-        let held: Vec<usize> =
-            reached.iter().filter_map(|byte| self.names.declared.get(byte)?.holds).collect();
+        let block = self.reach.get(reach..).unwrap_or(&[]);
+        let held: Vec<usize> = block.iter().filter_map(|byte| self.names.declared.get(byte)?.holds).collect();
         held.into_iter().for_each(|function| self.visit(function));
         self.reach.truncate(reach);
     }
@@ -57,11 +57,11 @@ impl<'a> Walk<'a, '_> {
         let is = |byte: &usize| self.names.declared.get(byte).is_some_and(|d| d.name == name.text);
         let taken = self.reach.iter().skip(first).any(is);
         // At the top of a text the names of the lab are parameters of the same function, in JavaScript.
-        let top = first == 0 && self.function == super::WHOLE;
+        let top = first == 0 && self.function == WHOLE;
         let host = |schema: &dyn Schema| schema.root(&name.text).is_some();
-        let outer = top && (super::is_language(&name.text) || self.around.schema.is_some_and(host));
+        let outer = top && (is_language(&name.text) || self.around.schema.is_some_and(host));
         if taken || outer {
-            self.found.push(unknown::taken(name, taken));
+            self.found.push(report_taken(name, taken));
             return;
         }
         self.declare(name, constant, false);
@@ -195,7 +195,7 @@ impl<'a> Walk<'a, '_> {
 }
 
 /// Calls `work` for every name of a pattern.
-pub(in super::super) fn names_of<'p>(pattern: &'p Pattern, work: &mut dyn FnMut(&'p Name)) {
+pub(in crate::bind) fn names_of<'p>(pattern: &'p Pattern, work: &mut dyn FnMut(&'p Name)) {
     match pattern {
         Pattern::Name(name) => work(name),
         Pattern::List { items, .. } => items.iter().flatten().for_each(|e| names_of(&e.target, work)),

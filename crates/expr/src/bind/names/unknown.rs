@@ -1,33 +1,11 @@
 //! What is said of a name that means nothing, or that cannot be used like this.
 
-use super::{Use, Walk};
-use crate::ast::Name;
+use super::language::list_names;
+use super::walk::{NameUse, NameWalk};
+use crate::host_terms::HostTerms;
 use crate::parse::MAX_DIAGNOSTICS;
 use crate::rules;
-use crate::words::Words;
-use crate::{Finding, Span};
-use labspec_finding::nearest;
-
-/// Names of the language itself.
-pub(super) const LANGUAGE: [&str; 14] = [
-    "Math",
-    "NaN",
-    "Infinity",
-    "undefined",
-    "isNaN",
-    "isFinite",
-    "ctx",
-    "Array",
-    "Number",
-    "String",
-    "Boolean",
-    "Object",
-    "parseFloat",
-    "parseInt",
-];
-
-/// Names that hold functions of the language.
-pub(in super::super) const NAMESPACES: [&str; 4] = ["Array", "Number", "String", "Object"];
+use labspec_finding::{Finding, Span, nearest};
 
 /// Names of a browser or of Node.
 const PAGE: [&str; 8] =
@@ -40,15 +18,15 @@ const MORE: [&str; 10] =
     ["Promise", "Symbol", "Reflect", "Proxy", "RegExp", "Map", "Set", "JSON", "Intl", "arguments"];
 
 /// Why the language does not have such a name, and what to do instead.
-fn absent(name: &str, words: &Words) -> Option<(String, String)> {
-    let Words { lab, lesson, .. } = words;
+fn absent(name: &str, host_terms: &HostTerms) -> Option<(String, String)> {
+    let HostTerms { lab, lesson, .. } = host_terms;
     let (why, help) = match name {
         _ if PAGE.contains(&name) => (
             format!("a {lesson} must run without a page: in a browser, on a command line, in a notebook"),
-            format!("use a name of the {lab}: {}", words.names),
+            format!("use a name of the {lab}: {}", host_terms.names),
         ),
         _ if PRINT.contains(&name) => {
-            ("there is no console".into(), format!("show the value in {}", words.displayed))
+            ("there is no console".into(), format!("show the value in {}", host_terms.display))
         }
         _ if OUTSIDE.contains(&name) => (
             format!("a {lesson} cannot access anything outside itself"),
@@ -59,7 +37,7 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
             "write the expression itself".into(),
         ),
         _ if CLOCK.contains(&name) => {
-            ("the wall clock would make every run different".into(), words.clock.into())
+            ("the wall clock would make every run different".into(), host_terms.clock.into())
         }
         _ if MORE.contains(&name) => (
             format!("a {lesson} works on numbers, and needs only lists and records"),
@@ -72,25 +50,21 @@ fn absent(name: &str, words: &Words) -> Option<(String, String)> {
     Some((why, help))
 }
 
-/// Members through which JavaScript reaches the machinery behind a value.
-pub(in super::super) const MACHINERY: [&str; 5] =
-    ["constructor", "prototype", "__proto__", "hasOwnProperty", "valueOf"];
-
-impl Walk<'_, '_> {
-    pub(super) fn unknown(&self, name: &str, span: Span, used: Use) -> Finding {
-        let words = self.words();
+impl NameWalk<'_, '_> {
+    pub(super) fn unknown(&self, name: &str, span: Span, used: NameUse) -> Finding {
+        let host_terms = self.host_terms();
         if name == "value" {
             return Finding::error(rules::NO_VALUE_HERE, span, "`value` is not defined here")
-                .why(words.input.0)
-                .help(words.input.1);
+                .why(host_terms.input.0)
+                .help(host_terms.input.1);
         }
-        if let Some((why, help)) = absent(name, words) {
+        if let Some((why, help)) = absent(name, host_terms) {
             return Finding::error(rules::NOT_IN_LANGUAGE, span, format!("`{name}` is not in this language"))
                 .why(why)
                 .help(help);
         }
         let report = match used {
-            Use::Callee => {
+            NameUse::Callee => {
                 Finding::error(rules::UNKNOWN_FUNCTION, span, format!("unknown function `{name}`"))
             }
             _ => Finding::error(rules::UNKNOWN_NAME, span, format!("unknown name `{name}`")),
@@ -101,22 +75,24 @@ impl Walk<'_, '_> {
         match self.meant(name, used) {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => {
-                let members = match used {
-                    Use::Callee => "to define your own function, write `const f = (x) => …` first".to_owned(),
+                let help = match used {
+                    NameUse::Callee => {
+                        "to define your own function, write `const f = (x) => …` first".to_owned()
+                    }
                     _ => {
                         format!("to define your own number, write `ctx.{name} = …` or `const {name} = …`")
                     }
                 };
                 let mut names = self.root_names();
                 names.extend(["ctx".to_owned(), "Math".to_owned()]);
-                report.why(format!("the names here are {}", list(&names))).help(members)
+                report.why(format!("the names here are {}", list_names(&names))).help(help)
             }
         }
     }
 
     /// What the host calls its things.
-    fn words(&self) -> &'static Words {
-        self.around.schema.map_or(&Words::PLAIN, |schema| schema.words())
+    fn host_terms(&self) -> &'static HostTerms {
+        self.around.schema.map_or(&HostTerms::PLAIN, |schema| schema.host_terms())
     }
 
     fn root_names(&self) -> Vec<String> {
@@ -130,7 +106,7 @@ impl Walk<'_, '_> {
             Some(meant) => report.help(format!("did you mean `{meant}`?")).guess(span, meant),
             None => report.help(format!(
                 "write `const {name} = …` for this text only, or `ctx.{name} = …` to keep it in the {}",
-                self.words().lab
+                self.host_terms().lab
             )),
         }
     }
@@ -138,60 +114,11 @@ impl Walk<'_, '_> {
     /// The name that is probably meant by a misspelt one on the left of `=`.
     fn nearest(&self, name: &str) -> Option<String> {
         let roots = self.root_names();
-        nearest(name, self.own_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
+        nearest(name, self.text_names().chain(roots.iter().map(String::as_str))).map(str::to_owned)
     }
 
     /// The names in reach that the text declares.
-    pub(super) fn own_names(&self) -> impl Iterator<Item = &str> {
+    pub(super) fn text_names(&self) -> impl Iterator<Item = &str> {
         self.reach.iter().filter_map(|byte| Some(self.names.declared.get(byte)?.name.as_str()))
     }
-}
-
-/// The finding for a second declaration, or one of a name that means something already.
-pub(super) fn taken(name: &Name, here: bool) -> Finding {
-    let why = if here { "it is declared above" } else { "it already has a meaning in every text" };
-    Finding::error(rules::NAME_TAKEN, name.span, format!("`{}` cannot be declared here", name.text))
-        .why(format!("{why}; JavaScript rejects a second declaration"))
-        .help(if here {
-            "assign it without `const` or `let`, or choose another name"
-        } else {
-            "choose another name"
-        })
-}
-
-/// The finding for a use before the declaration.
-pub(super) fn too_early(name: &str, span: Span) -> Finding {
-    Finding::error(rules::USED_TOO_EARLY, span, format!("`{name}` is used before its declaration"))
-        .why("statements run from top to bottom: here the name has no value yet")
-        .help(format!("move the declaration of `{name}` up"))
-}
-
-/// The finding for a `const` that is assigned.
-pub(super) fn constant(name: &str, span: Span) -> Finding {
-    Finding::error(rules::ASSIGN_CONST, span, format!("`{name}` is declared with `const`"))
-        .why("a `const` name keeps its first value; JavaScript stops the program here")
-        .help(format!("declare it with `let {name}`, or use another name"))
-}
-
-/// The finding for a name of the language that is assigned.
-pub(super) fn not_assignable(name: &str, span: Span) -> Finding {
-    let report = Finding::error(rules::NOT_ASSIGNABLE, span, format!("`{name}` cannot be assigned"));
-    match name {
-        "ctx" => report.why("it holds the global variables").help("assign a variable, as `ctx.peak = 0`"),
-        "value" => report.why("it is set from outside").help("use another name, as `const x = value / 2`"),
-        _ => report.why("it has the same meaning everywhere").help("use another name"),
-    }
-}
-
-/// Whether the language itself gives a meaning to a name.
-pub(in super::super) fn is_language(name: &str) -> bool {
-    LANGUAGE.contains(&name) || name == "value"
-}
-
-/// A list of names for a message, cut when it is long.
-pub(in super::super) fn list(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let quoted: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
-    let more = names.len().saturating_sub(SHOWN);
-    if more > 0 { format!("{} and {more} more", quoted.join(", ")) } else { quoted.join(", ") }
 }

@@ -1,17 +1,18 @@
 //! Elements: indexes of fields, `ctx['name']`, named objects, and what is said of arrays used whole.
 
+use super::binder::{Binder, Entity};
 use super::member::{quoted, view_of};
-use super::{Attempt, Binder, Reported, Thing};
 use crate::ast::{Expr, ExprKind};
-use crate::bind::names::list;
-use crate::ir::{Index, Ir, Kind};
+use crate::bind::names::list_names;
+use crate::host_terms::HostTerms;
+use crate::ir::{Index, Ir, IrKind};
 use crate::number;
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::{CollectionId, Field, Help, ObjectId, Type};
+use crate::schema::{Field, Help};
+use crate::types::{CollectionId, ObjectId, Type};
 use crate::value::Value;
-use crate::words::Words;
-use crate::{Finding, Fix, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Fix, Span, nearest};
 
 /// What chooses a `ctx` variable.
 pub(super) enum GlobalName {
@@ -28,24 +29,24 @@ impl<'a> Binder<'a> {
         index: &'a Expr,
         optional: bool,
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         if let Some(field) = self.call_as_field(object) {
             let index = self.index(&field, index, span)?;
-            return Ok(Thing::Value(self.load(&field, index, span)));
+            return Ok(Entity::Value(self.load(&field, index, span)));
         }
-        let thing = self.thing(object);
-        if let Ok(Thing::Globals) = thing {
-            return self.read_named_global(index, span).map(Thing::Value);
+        let thing = self.entity(object);
+        if let Ok(Entity::Globals) = thing {
+            return self.read_named_global(index, span).map(Entity::Value);
         }
         match thing {
-            Ok(Thing::Field(field)) => {
+            Ok(Entity::Field(field)) => {
                 let index = self.index(&field, index, span)?;
                 self.name_element(&field, &index, span);
-                Ok(Thing::Value(self.load(&field, index, span)))
+                Ok(Entity::Value(self.load(&field, index, span)))
             }
-            Ok(Thing::Value(ir)) if ir.ty.may_have_parts() || ir.ty == Type::String || optional => {
+            Ok(Entity::Value(ir)) if ir.ty.may_have_parts() || ir.ty == Type::String || optional => {
                 let ir = if optional { self.present(ir) } else { ir };
-                self.value_element(ir, index, span).map(Thing::Value)
+                self.value_element(ir, index, span).map(Entity::Value)
             }
             Ok(other) => {
                 let report = self.not_indexable(&other, object, index, span);
@@ -81,7 +82,7 @@ impl<'a> Binder<'a> {
     fn explain_element(&mut self, field: &Field, index: usize, span: Span) {
         let (schema, key, first) = (self.schema, field.key, field.first);
         self.explain(span, || {
-            let mut help = super::member::field_help(field, schema.words());
+            let mut help = super::member::field_help(field, schema.host_terms());
             help.title = format!("{}[{index}]", field.path);
             help.lines.splice(0..0, schema.element_help(key, first + index));
             help
@@ -92,16 +93,16 @@ impl<'a> Binder<'a> {
     fn value_element(&mut self, object: Ir, index: &'a Expr, span: Span) -> Attempt<Ir> {
         let index = self.value(index)?;
         if let Some(n) = self.known_length(&object)
-            && let Some(Value::Number(x)) = index.constant_value()
+            && let Some(Value::Number(x)) = index.as_constant()
             && (*x < 0.0 || *x >= n as f64)
         {
-            let index_text = number::to_text(*x);
+            let text = number::to_text(*x);
             let count = if n == 1 { "1 element".into() } else { format!("{n} elements") };
             self.report(
                 Finding::error(
                     rules::INDEX_RANGE,
                     index.span,
-                    format!("index {index_text} is past the end of this list"),
+                    format!("index {text} is past the end of this list"),
                 )
                 .why(format!("it has {count}, and reading past them gives `undefined`"))
                 .help(format!("indexes are 0 to {}", n.saturating_sub(1))),
@@ -109,7 +110,7 @@ impl<'a> Binder<'a> {
             return Err(Reported);
         }
         let ty = if object.ty == Type::View { Type::Element } else { Type::Any };
-        Ok(Ir::new(Kind::Element(Box::new(object), Box::new(index)), ty, span))
+        Ok(Ir::new(IrKind::Element(Box::new(object), Box::new(index)), ty, span))
     }
 
     /// An element of a field, read.
@@ -124,19 +125,19 @@ impl<'a> Binder<'a> {
             _ => false,
         };
         let ty = if certain { Type::Number } else { Type::Element };
-        Ir::new(Kind::Load(view, index), ty, span)
+        Ir::new(IrKind::Load(view, index), ty, span)
     }
 
     /// The name in `ctx['name']`.
     pub(super) fn global_name(&mut self, index: &'a Expr) -> Attempt<GlobalName> {
         let ir = self.value(index)?;
-        match ir.constant_value() {
+        match ir.as_constant() {
             Some(name @ (Value::String(_) | Value::Number(_))) => Ok(GlobalName::Known(name.to_string())),
             _ => {
                 // `'q' + i` names only what begins with `q`.
                 let begins = match &ir.kind {
-                    Kind::Binary(crate::ast::BinaryOp::Add, left, _) => {
-                        left.constant_value().map(Value::to_string)
+                    IrKind::Binary(crate::ast::BinaryOp::Add, left, _) => {
+                        left.as_constant().map(Value::to_string)
                     }
                     _ => None,
                 };
@@ -149,7 +150,7 @@ impl<'a> Binder<'a> {
     fn read_named_global(&mut self, index: &'a Expr, span: Span) -> Attempt<Ir> {
         match self.global_name(index)? {
             GlobalName::Known(name) => self.global(&name, span),
-            GlobalName::Computed(ir) => Ok(Ir::new(Kind::GlobalNamed(Box::new(ir)), Type::Any, span)),
+            GlobalName::Computed(ir) => Ok(Ir::new(IrKind::GlobalNamed(Box::new(ir)), Type::Any, span)),
         }
     }
 
@@ -170,7 +171,7 @@ impl<'a> Binder<'a> {
                 .fix(span, object),
             );
         }
-        match (ir.constant_value(), ir.ty) {
+        match (ir.as_constant(), ir.ty) {
             (Some(Value::Number(x)), _) => {
                 let at = self.known_index(field, *x, index.span)?;
                 Ok(Index::At(at))
@@ -190,10 +191,10 @@ impl<'a> Binder<'a> {
                     field.path,
                     range(field)
                 ));
-                report = match ir.constant_value() {
+                report = match ir.as_constant() {
                     Some(Value::String(_)) => report.help(format!(
                         "to select an object by its name, write `{}` or similar",
-                        self.words().choice
+                        self.host_terms().choice
                     )),
                     _ => report.help("write an integer"),
                 };
@@ -203,13 +204,11 @@ impl<'a> Binder<'a> {
     }
 
     /// Checks an index whose value is known.
-    pub(super) fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
-        let index_text = number::to_text(x);
+    fn known_index(&mut self, field: &Field, x: f64, span: Span) -> Attempt<usize> {
+        let text = number::to_text(x);
         if x < 0.0 {
-            let mut report =
-                Finding::error(rules::INDEX_NEGATIVE, span, format!("index {index_text} is negative")).why(
-                    "indexes start at 0; JavaScript gives `undefined` here and does not count from the end",
-                );
+            let mut report = Finding::error(rules::INDEX_NEGATIVE, span, format!("index {text} is negative"))
+                .why("indexes start at 0; JavaScript gives `undefined` here and does not count from the end");
             report = match field.len() {
                 Some(n) if n as f64 + x >= 0.0 && x.fract() == 0.0 => {
                     report.help(format!("to count from the end, write `{}[{}]`", field.path, n as f64 + x))
@@ -220,7 +219,7 @@ impl<'a> Binder<'a> {
         }
         if x.fract() != 0.0 || !x.is_finite() {
             return self.refuse(
-                Finding::error(rules::INDEX_FRACTION, span, format!("index {index_text} is not an integer"))
+                Finding::error(rules::INDEX_FRACTION, span, format!("index {text} is not an integer"))
                     .why("an element has an integer index; JavaScript gives `undefined` here")
                     .help("round it, as `Math.floor(x)`, or write an integer"),
             );
@@ -228,13 +227,13 @@ impl<'a> Binder<'a> {
         // Whole numbers beyond usize become usize::MAX, which is out of every range.
         let at = x as usize;
         if field.len().is_some_and(|n| at >= n) {
-            let report = out_of_range(field, &index_text, span, self.words());
+            let report = out_of_range(field, &text, span, self.host_terms());
             return self.refuse(report);
         }
         Ok(at)
     }
 
-    pub(super) fn not_indexable(&self, thing: &Thing, object: &Expr, index: &Expr, span: Span) -> Finding {
+    pub(super) fn not_indexable(&self, thing: &Entity, object: &Expr, index: &Expr, span: Span) -> Finding {
         let text = self.text(object.span);
         let error = |message: String| Finding::error(rules::NOT_INDEXABLE, span, message);
         let name = match &index.kind {
@@ -242,40 +241,40 @@ impl<'a> Binder<'a> {
             _ => None,
         };
         match (thing, name) {
-            (Thing::Collection(id), _) => {
+            (Entity::Collection(id), _) => {
                 self.collection_needs_call(*id, object.span, name.map(|n| (n, span)))
             }
-            (Thing::Object(_) | Thing::Math, Some(name)) => {
+            (Entity::Object(_) | Entity::Math, Some(name)) => {
                 error(format!("members of `{text}` are not selected with brackets"))
                     .why("names are resolved before the run, so they need a point")
                     .help(format!("write `{text}.{name}`"))
                     .fix(span, format!("{text}.{name}"))
             }
-            (Thing::Object(id), None) => {
+            (Entity::Object(id), None) => {
                 error(format!("{} is not an array", quoted(&self.schema.describe(*id))))
                     .help("select a field first, with a point")
             }
-            (Thing::Value(ir), _) if matches!(ir.kind, Kind::Load(..)) => {
+            (Entity::Value(ir), _) if matches!(ir.kind, IrKind::Load(..)) => {
                 error(format!("`{text}` is already a single number"))
                     .why("arrays are flat: one index selects one number, and the rows follow each other")
                     .help(format!(
                         "write one index, as `{}[3 * i + k]` for row i, column k",
-                        self.words().matrix
+                        self.host_terms().matrix
                     ))
             }
-            (Thing::Value(_), _) => {
+            (Entity::Value(_), _) => {
                 error(format!("`{text}` is a single value, not an array")).help("remove the index")
             }
             (
-                Thing::Function(_)
-                | Thing::MathFunction(_)
-                | Thing::Method(..)
-                | Thing::Native(_)
-                | Thing::Closure(_),
+                Entity::Function(_)
+                | Entity::MathFunction(_)
+                | Entity::Method(..)
+                | Entity::Native(_)
+                | Entity::Closure(_),
                 _,
             ) => self.not_called(thing, object.span),
             _ => error(format!("`{text}` is not an array"))
-                .help(format!("select a field with a point, as `{}`", self.words().array)),
+                .help(format!("select a field with a point, as `{}`", self.host_terms().array)),
         }
     }
 
@@ -322,7 +321,7 @@ impl<'a> Binder<'a> {
                 Some(first) => report(object).help(format!("write `{text}(\"{first}\")`")),
                 None => report(object)
                     .why(format!("no {noun} has a name here"))
-                    .help(format!("give the {noun} a name in the {}", self.words().model)),
+                    .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
             },
         }
     }
@@ -334,7 +333,7 @@ impl<'a> Binder<'a> {
         callee: Span,
         args: &'a [Expr],
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         let noun = self.schema.noun(id).to_owned();
         let [arg] = args else {
             let message =
@@ -345,8 +344,8 @@ impl<'a> Binder<'a> {
             );
         };
         match self.object_name(id, arg)? {
-            Chosen::Known(object) => Ok(Thing::Object(object)),
-            Chosen::Computed(name) => Ok(Thing::Picked(id, name)),
+            Chosen::Known(object) => Ok(Entity::Object(object)),
+            Chosen::Computed(name) => Ok(Entity::Picked(id, name)),
         }
     }
 
@@ -355,22 +354,22 @@ impl<'a> Binder<'a> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
         let ir = self.value(arg)?;
-        let name = match (ir.constant_value(), ir.ty) {
+        let name = match (ir.as_constant(), ir.ty) {
             (Some(Value::String(name)), _) => name.clone(),
             (None, Type::String | Type::Any | Type::Never) => {
                 if names.is_empty() {
                     return self.refuse(
                         Finding::error(rules::UNKNOWN_OBJECT, arg.span, format!("no {noun} has a name here"))
-                            .help(format!("give the {noun} a name in the {}", self.words().model)),
+                            .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
                     );
                 }
                 return Ok(Chosen::Computed(ir));
             }
             _ => {
-                let choices = if names.is_empty() {
+                let text = if names.is_empty() {
                     String::new()
                 } else {
-                    format!("; the names are {}", list(&names))
+                    format!("; the names are {}", list_names(&names))
                 };
                 return self.refuse(
                     Finding::error(
@@ -378,8 +377,11 @@ impl<'a> Binder<'a> {
                         arg.span,
                         format!("a {noun} must be selected by its name, not by {}", ir.ty.describe()),
                     )
-                    .why(format!("the indexes of objects change when the {} changes", self.words().model))
-                    .help(format!("write the name in quotes{choices}")),
+                    .why(format!(
+                        "the indexes of objects change when the {} changes",
+                        self.host_terms().model
+                    ))
+                    .help(format!("write the name in quotes{text}")),
                 );
             }
         };
@@ -397,8 +399,8 @@ impl<'a> Binder<'a> {
             }
             None if names.is_empty() => report
                 .why(format!("no {noun} has a name here"))
-                .help(format!("give the {noun} a name in the {}", self.words().model)),
-            None => report.why(format!("the names are {}", list(&names))).help("use one of them"),
+                .help(format!("give the {noun} a name in the {}", self.host_terms().model)),
+            None => report.why(format!("the names are {}", list_names(&names))).help("use one of them"),
         };
         self.refuse(report)
     }
@@ -427,16 +429,16 @@ fn owner(field: &Field, n: usize) -> String {
 }
 
 /// The finding for an index past the end.
-pub(super) fn out_of_range(field: &Field, index_text: &str, span: Span, words: &Words) -> Finding {
+fn out_of_range(field: &Field, text: &str, span: Span, host_terms: &HostTerms) -> Finding {
     let what = match field.is_empty() {
         true => format!("`{}` has no elements", field.path),
-        false => format!("index {index_text} is past the end of `{}`", field.path),
+        false => format!("index {text} is past the end of `{}`", field.path),
     };
-    past_the_end(field, span, what, words)
+    past_the_end(field, span, what, host_terms)
 }
 
 /// The finding for elements that a field does not have.
-pub(super) fn past_the_end(field: &Field, span: Span, what: String, words: &Words) -> Finding {
+pub(super) fn past_the_end(field: &Field, span: Span, what: String, host_terms: &HostTerms) -> Finding {
     let n = field.len().unwrap_or(0);
     let report = Finding::error(rules::INDEX_RANGE, span, what);
     let shape = if field.shape.len() > 1 && n > 0 {
@@ -452,7 +454,7 @@ pub(super) fn past_the_end(field: &Field, span: Span, what: String, words: &Word
     match n {
         0 => report
             .why(why)
-            .help(format!("add the missing object to the {}, or use another field", words.model)),
+            .help(format!("add the missing object to the {}, or use another field", host_terms.model)),
         _ => report
             .why(format!("{why}, and reading past the end gives `undefined`"))
             .help(format!("indexes are{}", range(field))),

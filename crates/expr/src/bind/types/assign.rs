@@ -1,22 +1,24 @@
 //! Assignments: what may stand on the left, and why not what may not.
 
 use super::access::GlobalName;
+use super::binder::{Binder, Entity, VariableMeaning};
 use super::member::{machinery, view_of};
-use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing, Want};
+use super::typed::Expectation;
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp};
 use crate::bind::names::MACHINERY;
-use crate::ir::{Gives, Index, Ir, Kind, Place};
+use crate::ir::{AssignmentTarget, Index, Ir, IrKind, UpdateResult};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::{Field, FieldKind, Type};
-use crate::{Finding, Span};
+use crate::schema::{Field, FieldKind};
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `target = value` of a control that sets.
     pub(super) fn set(&mut self, target: &'a Expr, given: Type) -> Attempt<Ir> {
         let place = self.place(target)?;
-        let value = Ir::new(Kind::Input, given, target.span);
-        Ok(Ir::new(Kind::Store(Box::new(place), None, Box::new(value)), given, target.span))
+        let value = Ir::new(IrKind::Input, given, target.span);
+        Ok(Ir::new(IrKind::Store(Box::new(place), None, Box::new(value)), given, target.span))
     }
 
     /// An expression that changes something: an assignment, `++`, or one of their like.
@@ -40,7 +42,7 @@ impl<'a> Binder<'a> {
         span: Span,
     ) -> Attempt<Ir> {
         let place = self.place(target);
-        let scalar = matches!(place, Ok(Place::Element(..)));
+        let scalar = matches!(place, Ok(AssignmentTarget::Element(..)));
         let value = match &value.kind {
             ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } => self.changing(value),
             ExprKind::Array(_) if scalar => {
@@ -62,20 +64,23 @@ impl<'a> Binder<'a> {
             Some(_) => Type::Number,
         };
         self.stored(target, &place, ty);
-        Ok(Ir::new(Kind::Store(Box::new(place), op, Box::new(value)), ty, span))
+        Ok(Ir::new(IrKind::Store(Box::new(place), op, Box::new(value)), ty, span))
     }
 
     /// `target ||= value` and its like.
     fn assign_if(&mut self, target: &'a Expr, op: LogicalOp, value: &'a Expr, span: Span) -> Attempt<Ir> {
         let place = self.place(target);
-        let value =
-            if matches!(place, Ok(Place::Element(..))) { self.operand(value) } else { self.value(value) };
+        let value = if matches!(place, Ok(AssignmentTarget::Element(..))) {
+            self.operand(value)
+        } else {
+            self.value(value)
+        };
         let (place, value) = (place?, value?);
         self.check_kept(&place, &value)?;
         self.want_stored(&place, None, &value);
         let ty = self.type_of_place(&place).or(value.ty);
         self.stored(target, &place, ty);
-        Ok(Ir::new(Kind::StoreIf(op, Box::new(place), Box::new(value)), ty, span))
+        Ok(Ir::new(IrKind::StoreIf(op, Box::new(place), Box::new(value)), ty, span))
     }
 
     /// `target++` and its like.
@@ -83,15 +88,15 @@ impl<'a> Binder<'a> {
         let place = self.place(target)?;
         self.stored(target, &place, Type::Number);
         let (step, gives) =
-            (if increment { 1.0 } else { -1.0 }, if prefix { Gives::New } else { Gives::Old });
-        Ok(Ir::new(Kind::Update(Box::new(place), step, gives), Type::Number, span))
+            (if increment { 1.0 } else { -1.0 }, if prefix { UpdateResult::New } else { UpdateResult::Old });
+        Ok(Ir::new(IrKind::Update(Box::new(place), step, gives), Type::Number, span))
     }
 
     /// The type of what a place holds.
-    fn type_of_place(&mut self, place: &Place) -> Type {
+    fn type_of_place(&mut self, place: &AssignmentTarget) -> Type {
         match place {
-            Place::Element(..) => Type::Element,
-            Place::Local(id) => match self.keys.get(*id as usize) {
+            AssignmentTarget::Element(..) => Type::Element,
+            AssignmentTarget::Local(id) => match self.keys.get(*id as usize) {
                 Some(key) => self.facts.ty(*key),
                 None => Type::Any,
             },
@@ -100,17 +105,17 @@ impl<'a> Binder<'a> {
     }
 
     /// Notes what is stored in a variable of the text.
-    fn stored(&mut self, target: &Expr, place: &Place, ty: Type) {
-        let (Place::Local(id), ExprKind::Name(_)) = (place, &target.kind) else { return };
+    fn stored(&mut self, target: &Expr, place: &AssignmentTarget, ty: Type) {
+        let (AssignmentTarget::Local(id), ExprKind::Name(_)) = (place, &target.kind) else { return };
         if let Some(key) = self.keys.get(*id as usize) {
             self.facts.see(*key, ty);
         }
     }
 
     /// Refuses to keep an array of the simulation in `ctx`: it would still change there.
-    fn check_kept(&mut self, place: &Place, value: &Ir) -> Attempt<()> {
-        let is_global = matches!(place, Place::Global(_) | Place::GlobalNamed(_));
-        if !(is_global && value.ty == Type::View) {
+    fn check_kept(&mut self, place: &AssignmentTarget, value: &Ir) -> Attempt<()> {
+        let kept = matches!(place, AssignmentTarget::Global(_) | AssignmentTarget::GlobalNamed(_));
+        if !(kept && value.ty == Type::View) {
             return Ok(());
         }
         let text = self.text(value.span);
@@ -118,7 +123,7 @@ impl<'a> Binder<'a> {
             Finding::error(
                 rules::WHOLE_ARRAY,
                 value.span,
-                format!("`{text}` is an array of the {}, but `ctx` stores values", self.words().world),
+                format!("`{text}` is an array of the {}, but `ctx` stores values", self.host_terms().world),
             )
             .why("the stored array would keep changing, which is rarely intended")
             .help(format!("store a copy, as `{text}.slice()`, or a single element, as `{text}[0]`"))
@@ -127,36 +132,36 @@ impl<'a> Binder<'a> {
     }
 
     /// What can be assigned to.
-    fn place(&mut self, target: &'a Expr) -> Attempt<Place> {
+    fn place(&mut self, target: &'a Expr) -> Attempt<AssignmentTarget> {
         match &target.kind {
             ExprKind::Name(name) => self.named_place(name, target.span),
-            ExprKind::Member { object, name, optional: false } => match self.thing(object)? {
-                Thing::Globals => self.global_place(&name.text, target.span),
-                Thing::Value(ir) => self.member_place(ir, name, target.span),
+            ExprKind::Member { object, name, optional: false } => match self.entity(object)? {
+                Entity::Globals => self.global_place(&name.text, target.span),
+                Entity::Value(ir) => self.member_place(ir, name, target.span),
                 thing => {
                     let thing = self.member_of(thing, object.span, name, false, target.span)?;
                     self.place_of(thing, target)
                 }
             },
-            ExprKind::Index { object, index, optional: false } => match self.thing(object) {
-                Ok(Thing::Globals) => match self.global_name(index)? {
+            ExprKind::Index { object, index, optional: false } => match self.entity(object) {
+                Ok(Entity::Globals) => match self.global_name(index)? {
                     GlobalName::Known(name) => self.global_place(&name, target.span),
-                    GlobalName::Computed(name) => Ok(Place::GlobalNamed(name)),
+                    GlobalName::Computed(name) => Ok(AssignmentTarget::GlobalNamed(name)),
                 },
-                Ok(Thing::Field(field)) => {
+                Ok(Entity::Field(field)) => {
                     let checked = self.check_assignable(&field, target.span);
                     let index = self.index(&field, index, target.span)?;
                     checked?;
                     self.name_element(&field, &index, target.span);
-                    Ok(Place::Element(view_of(&field), index))
+                    Ok(AssignmentTarget::Element(view_of(&field), index))
                 }
-                Ok(Thing::Value(ir)) if ir.ty.may_have_parts() => {
+                Ok(Entity::Value(ir)) if ir.ty.may_have_parts() => {
                     let index = self.value(index)?;
-                    Ok(Place::Item(ir, index))
+                    Ok(AssignmentTarget::Item(ir, index))
                 }
                 Ok(thing) => {
                     let report = match thing {
-                        Thing::Value(ref ir) if !matches!(ir.kind, Kind::Load(..)) => {
+                        Entity::Value(ref ir) if !matches!(ir.kind, IrKind::Load(..)) => {
                             self.not_a_place(target)
                         }
                         other => self.not_indexable(&other, object, index, target.span),
@@ -177,12 +182,12 @@ impl<'a> Binder<'a> {
     }
 
     /// `value.name` on the left.
-    fn member_place(&mut self, ir: Ir, name: &crate::ast::Name, span: Span) -> Attempt<Place> {
+    fn member_place(&mut self, ir: Ir, name: &crate::ast::Name, span: Span) -> Attempt<AssignmentTarget> {
         if MACHINERY.contains(&name.text.as_str()) {
             return self.refuse(machinery(&name.text, name.span));
         }
         if matches!(ir.ty, Type::Record | Type::Any | Type::Never | Type::List) {
-            return Ok(Place::Member(ir, name.text.as_str().into()));
+            return Ok(AssignmentTarget::Member(ir, name.text.as_str().into()));
         }
         let message =
             format!("`{}` is {}, so it has no members to assign", self.text(ir.span), ir.ty.describe());
@@ -192,20 +197,20 @@ impl<'a> Binder<'a> {
         )
     }
 
-    fn global_place(&mut self, name: &str, span: Span) -> Attempt<Place> {
+    fn global_place(&mut self, name: &str, span: Span) -> Attempt<AssignmentTarget> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, true);
-        Ok(Place::Global(slot))
+        Ok(AssignmentTarget::Global(slot))
     }
 
     /// A plain name on the left.
-    fn named_place(&mut self, name: &str, span: Span) -> Attempt<Place> {
+    fn named_place(&mut self, name: &str, span: Span) -> Attempt<AssignmentTarget> {
         if let Some(variable) = self.variable(name, span)? {
             return match variable.meaning {
-                Meaning::Unknown if variable.ready => Err(Reported),
+                VariableMeaning::Unknown if variable.ready => Err(Reported),
                 _ => {
                     self.capture(&variable);
-                    Ok(Place::Local(variable.id))
+                    Ok(AssignmentTarget::Local(variable.id))
                 }
             };
         }
@@ -215,17 +220,17 @@ impl<'a> Binder<'a> {
     }
 
     /// A thing behind a name or a point on the left.
-    fn place_of(&mut self, thing: Thing, target: &Expr) -> Attempt<Place> {
+    fn place_of(&mut self, thing: Entity, target: &Expr) -> Attempt<AssignmentTarget> {
         match thing {
-            Thing::Field(field) => {
+            Entity::Field(field) => {
                 self.check_assignable(&field, target.span)?;
                 if field.is_scalar() {
-                    return Ok(Place::Element(view_of(&field), Index::At(0)));
+                    return Ok(AssignmentTarget::Element(view_of(&field), Index::At(0)));
                 }
                 let text = self.text(target.span).to_owned();
                 self.refuse(
                     Finding::error(rules::ASSIGN_ARRAY, target.span, format!("`{}` is an array and cannot be replaced as a whole", field.path))
-                        .why(format!("its elements are the memory of the {}; assigning the name would change none of them", self.words().world))
+                        .why(format!("its elements are the memory of the {}; assigning the name would change none of them", self.host_terms().world))
                         .help(format!("assign an element, as `{text}[0] = …`, or all of them with `{text}.fill(…)` or `{text}.set([…], 0)`")),
                 )
             }
@@ -254,7 +259,7 @@ impl<'a> Binder<'a> {
                 .why("it is a computation")
                 .help("write the field on the left of `=` and the computation on the right"),
             _ => {
-                let (array, lab) = (self.words().array, self.words().lab);
+                let (array, lab) = (self.host_terms().array, self.host_terms().lab);
                 report.help(format!(
                     "assign a field, as `{array}[0]`, or a variable of the {lab}, as `ctx.peak`"
                 ))
@@ -270,10 +275,10 @@ impl<'a> Binder<'a> {
                 Finding::error(
                     rules::ASSIGN_STRUCTURE,
                     span,
-                    format!("`{}` is fixed with the {}", field.path, self.words().model),
+                    format!("`{}` is fixed with the {}", field.path, self.host_terms().model),
                 )
                 .why(format!("it is {}; the positions of other fields depend on it", doc(field)))
-                .help(format!("change the {} itself", self.words().model)),
+                .help(format!("change the {} itself", self.host_terms().model)),
             ),
             FieldKind::Derived { by } => {
                 let computed =
@@ -295,14 +300,16 @@ impl<'a> Binder<'a> {
     }
 
     /// Notes where a number belongs.
-    fn want_stored(&mut self, place: &Place, op: Option<BinaryOp>, value: &Ir) {
+    fn want_stored(&mut self, place: &AssignmentTarget, op: Option<BinaryOp>, value: &Ir) {
         let at = match (place, op) {
-            (Place::Element(view, Index::At(i)), None) => Some((view.field, view.first as usize + i)),
-            (Place::Element(..), _) => None,
+            (AssignmentTarget::Element(view, Index::At(i)), None) => {
+                Some((view.field, view.first as usize + i))
+            }
+            (AssignmentTarget::Element(..), _) => None,
             (_, Some(op)) if op != BinaryOp::Add => None,
             _ => return,
         };
-        self.want(value, value.span, Want::Element(at));
+        self.want(value, value.span, Expectation::Element(at));
     }
 }
 

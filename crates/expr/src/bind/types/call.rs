@@ -1,17 +1,20 @@
 //! Calls: signatures of the host's functions, `Math`, named objects, functions of the text, and aggregates.
 
 use super::access::Chosen;
+use super::binder::{Binder, Entity};
 use super::member::quoted;
-use super::{Attempt, Binder, Reported, Thing, Want};
+use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, Item, Kind, Step, Tree, Unit};
+use crate::ir::{FreeFunctionId, Ir, IrFunction, IrItem, IrKind, IrProgram, IrStatement, MemberTable};
 use crate::math;
 use crate::natives;
+use crate::parse::{Attempt, Reported};
 use crate::program::{Aggregate, Program};
 use crate::rules;
-use crate::schema::{FunctionId, FunctionInfo, Help, Param, Type, signature};
+use crate::schema::{FunctionInfo, Help, Param, signature};
+use crate::types::{CollectionId, FunctionId, ObjectId, Type};
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// Functions of an angle.
 const OF_ANGLES: [&str; 3] = ["Math.sin", "Math.cos", "Math.tan"];
@@ -24,8 +27,8 @@ impl<'a> Binder<'a> {
         args: &'a [Expr],
         optional: bool,
         span: Span,
-    ) -> Attempt<Thing> {
-        let thing = match self.thing(callee) {
+    ) -> Attempt<Entity> {
+        let thing = match self.entity(callee) {
             Ok(thing) => thing,
             Err(Reported) => {
                 self.only_check(args);
@@ -33,13 +36,13 @@ impl<'a> Binder<'a> {
             }
         };
         match thing {
-            Thing::Collection(id) => self.named(id, callee.span, args, span),
-            Thing::Function(id) => self.host_call(id, args, callee.span, span).map(Thing::Value),
-            Thing::MathFunction(function) => self.math_call(function, args, span).map(Thing::Value),
-            Thing::Method(receiver, name) => self.method(*receiver, name, args, span).map(Thing::Value),
-            Thing::Native(function) => self.native_call(function, args, span).map(Thing::Value),
-            Thing::Namespace(name) => match natives::free(name) {
-                Some(function) => self.native_call(function, args, span).map(Thing::Value),
+            Entity::Collection(id) => self.named(id, callee.span, args, span),
+            Entity::Function(id) => self.host_call(id, args, callee.span, span).map(Entity::Value),
+            Entity::MathFunction(function) => self.math_call(function, args, span).map(Entity::Value),
+            Entity::Method(receiver, name) => self.method(*receiver, name, args, span).map(Entity::Value),
+            Entity::Native(function) => self.native_call(function, args, span).map(Entity::Value),
+            Entity::Namespace(name) => match natives::find_function(name) {
+                Some(function) => self.native_call(function, args, span).map(Entity::Value),
                 None => {
                     self.only_check(args);
                     self.refuse(
@@ -53,11 +56,11 @@ impl<'a> Binder<'a> {
                     )
                 }
             },
-            Thing::Closure(at) => self.call_known(at, args, span).map(Thing::Value),
-            Thing::Value(ir) if matches!(ir.ty, Type::Function | Type::Any | Type::Never) => {
+            Entity::Closure(at) => self.call_known(at, args, span).map(Entity::Value),
+            Entity::Value(ir) if matches!(ir.ty, Type::Function | Type::Any | Type::Never) => {
                 let callee = if optional { self.present(ir) } else { ir };
                 let items = self.items(args)?;
-                Ok(Thing::Value(self.call_value(callee, items, span)))
+                Ok(Entity::Value(self.call_value(callee, items, span)))
             }
             other => {
                 self.only_check(args);
@@ -69,16 +72,16 @@ impl<'a> Binder<'a> {
 
     /// A function of the language: `Number(x)`, `Array.from(v, f)`.
     #[inline(never)]
-    fn native_call(&mut self, function: natives::Free, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    fn native_call(&mut self, function: FreeFunctionId, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let row = function.row();
         let args = self.taken(args, row.arity().1);
-        if let (Some(method), [first, rest @ ..]) = (function.written(args.len()), args) {
-            let first = self.value(first).map(Thing::Value)?;
-            return self.call_written(method, row, first, rest, span);
+        if let (Some(method), [first, rest @ ..]) = (function.source_function(args.len()), args) {
+            let first = self.value(first).map(Entity::Value)?;
+            return self.inline_method(method, row, first, rest, span);
         }
         self.check_arity(&[row], args, span)?;
         let items = self.items(args)?;
-        if let [Item { value, spread: false }] = items.as_slice() {
+        if let [IrItem { value, spread: false }] = items.as_slice() {
             match row.name {
                 "Number" if value.is_plain() => return Ok(Ir::to_number(value.clone(), span)),
                 "String" => return Ok(Ir::to_text(value.clone(), span)),
@@ -86,7 +89,7 @@ impl<'a> Binder<'a> {
                 _ => {}
             }
         }
-        Ok(Ir::new(Kind::Native(function, items), row.returns(Type::Any), span))
+        Ok(Ir::new(IrKind::Native(function, items), row.returns(Type::Any), span))
     }
 
     /// The arguments that a function takes of those that a method of the prelude hands over: element, index and list.
@@ -98,25 +101,25 @@ impl<'a> Binder<'a> {
     pub(super) fn only_check(&mut self, args: &'a [Expr]) {
         for arg in args {
             let _ = match &arg.kind {
-                ExprKind::Spread(inner) => self.thing(inner),
-                _ => self.thing(arg),
+                ExprKind::Spread(inner) => self.entity(inner),
+                _ => self.entity(arg),
             };
         }
     }
 
     #[inline(never)]
-    fn not_callable(&self, thing: &Thing, span: Span) -> Finding {
+    fn not_callable(&self, thing: &Entity, span: Span) -> Finding {
         let text = self.text(span);
         let what = match thing {
-            Thing::Field(field) if !field.is_scalar() => "an array",
-            Thing::Field(_) => "a number",
-            Thing::Object(_) | Thing::Math | Thing::Globals => "an object",
-            Thing::Value(ir) => ir.ty.describe(),
+            Entity::Field(field) if !field.is_scalar() => "an array",
+            Entity::Field(_) => "a number",
+            Entity::Object(_) | Entity::Math | Entity::Globals => "an object",
+            Entity::Value(ir) => ir.ty.describe(),
             _ => "a value",
         };
         let report = Finding::error(rules::NOT_CALLABLE, span, format!("`{text}` is {what}, not a function"));
         match thing {
-            Thing::Field(field) if !field.is_scalar() => report
+            Entity::Field(field) if !field.is_scalar() => report
                 .why("parentheses call a function")
                 .help(format!("select elements with square brackets, as `{text}[0]`")),
             _ => report
@@ -126,10 +129,10 @@ impl<'a> Binder<'a> {
     }
 
     /// The finding for a function that is named but not called.
-    pub(super) fn not_called(&self, thing: &Thing, span: Span) -> Finding {
+    pub(super) fn not_called(&self, thing: &Entity, span: Span) -> Finding {
         let text = self.text(span);
         let call = match thing {
-            Thing::Function(id) => {
+            Entity::Function(id) => {
                 let signature = self.signature(&self.schema.function(*id));
                 let arguments = signature.split_once('(').map_or(")", |(_, rest)| rest);
                 format!("{text}({arguments}")
@@ -142,21 +145,13 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn math_call(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    fn math_call(&mut self, function: math::MathFunction, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let path = function.path();
         let title = path.clone();
         let args = self.taken(args, function.arity().1.unwrap_or(usize::MAX));
         // A method that calls a function for every element hands over the index and the list as well.
         if let Some(site) = self.site.filter(|_| args.len() > 2 && function.arity().1.is_none()) {
-            let called = site.called();
-            let report = Finding::error(
-                rules::ARGUMENT_TYPE,
-                span,
-                format!("`{path}` would also receive the index and the whole list"),
-            )
-            .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
-            .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"));
-            return self.refuse(report);
+            return self.refuse(report_extra_arguments(&path, &site.called(), span));
         }
         self.explain(span, || Help {
             title: format!("{title}(…)"), lines: vec![function.doc().to_owned()]
@@ -169,9 +164,9 @@ impl<'a> Binder<'a> {
         for arg in args {
             match self.math_argument(&path, function, arg) {
                 Ok(ir) => {
-                    self.want(&ir, arg.span, Want::Number(path.clone()));
+                    self.want(&ir, arg.span, Expectation::Number(path.clone()));
                     if OF_ANGLES.contains(&path.as_str()) {
-                        self.want(&ir, arg.span, Want::Angle(path.clone()));
+                        self.want(&ir, arg.span, Expectation::Angle(path.clone()));
                     }
                     numbers.push(Ir::to_number(ir, arg.span));
                 }
@@ -194,7 +189,7 @@ impl<'a> Binder<'a> {
             let report =
                 Finding::warning(rules::ARGUMENT_COUNT, first.to(last), message).why("JavaScript ignores it");
             self.report(if path == "Math.round" {
-                let rounding = self.words().rounding;
+                let rounding = self.host_terms().rounding;
                 report.help(format!("to round to decimals, write `Math.round(100 * x) / 100`{rounding}"))
             } else {
                 report.help("remove it")
@@ -205,11 +200,11 @@ impl<'a> Binder<'a> {
     }
 
     /// An argument of a function of `Math`: `Math.max([1, 2])` wants to be `Math.max(...[1, 2])`.
-    fn math_argument(&mut self, path: &str, function: math::Function, arg: &'a Expr) -> Attempt<Ir> {
-        let thing = self.thing(arg)?;
+    fn math_argument(&mut self, path: &str, function: math::MathFunction, arg: &'a Expr) -> Attempt<Ir> {
+        let thing = self.entity(arg)?;
         let report = match &thing {
-            Thing::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
-            Thing::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
+            Entity::Field(field) if !field.is_scalar() => Some(self.whole_array(field, arg.span)),
+            Entity::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Some(self.not_single(ir)),
             _ => None,
         };
         match report.filter(|_| function.arity().1.is_none()) {
@@ -224,7 +219,7 @@ impl<'a> Binder<'a> {
 
     /// A function of `Math` over lists: written out where their length is known.
     #[inline(never)]
-    fn math_over(&mut self, function: math::Function, args: &'a [Expr], span: Span) -> Attempt<Ir> {
+    fn math_over(&mut self, function: math::MathFunction, args: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(args)?;
         if items.iter().all(|i| !i.spread) {
             let numbers = items.into_iter().map(|i| Ir::to_number(i.value, span)).collect();
@@ -233,9 +228,9 @@ impl<'a> Binder<'a> {
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         let list = match items.as_slice() {
             [only] if only.value.ty != Type::String => only.value.clone(),
-            _ => Ir::new(Kind::List(items), Type::List, span),
+            _ => Ir::new(IrKind::List(items), Type::List, span),
         };
-        Ok(Ir::new(Kind::MathOver(function, Box::new(list)), ty, span))
+        Ok(Ir::new(IrKind::MathOver(function, Box::new(list)), ty, span))
     }
 
     /// A call of a function of the host.
@@ -283,7 +278,7 @@ impl<'a> Binder<'a> {
         if failed {
             return Err(Reported);
         }
-        Ok(Ir::new(Kind::Call(id, passed), info.returns, span))
+        Ok(Ir::new(IrKind::Call(id, passed), info.returns, span))
     }
 
     fn wrong_count(&self, info: &FunctionInfo, args: &[Expr], callee: Option<Span>, span: Span) -> Finding {
@@ -322,45 +317,15 @@ impl<'a> Binder<'a> {
     ) -> Attempt<Option<Ir>> {
         let span = arg.span;
         match param {
-            Param::Object(wanted) => {
-                if matches!(self.thing(arg)?, Thing::Object(id) if id == wanted) {
-                    return Ok(None);
-                }
-                let object = self.schema.describe(wanted);
-                let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
-                self.refuse(
-                    Finding::error(rules::ARGUMENT_TYPE, span, message)
-                        .why("there is only one such object, and it belongs in this position")
-                        .help(format!("write `{}`", self.signature(info))),
-                )
-            }
-            Param::Name(collection) => {
-                match self.object_name(collection, arg)? {
-                    Chosen::Known(object) => Ok(Some(Ir::number(f64::from(object.0), span))),
-                    // By name while running: the numbers of all objects of the collection.
-                    Chosen::Computed(name) => {
-                        let noun = self.schema.noun(collection).to_owned();
-                        let names = self.schema.names(collection);
-                        let id = |n: &String| {
-                            Some((
-                                n.as_str().into(),
-                                Value::Number(f64::from(self.schema.lookup(collection, n)?.0)),
-                            ))
-                        };
-                        let mut of: Vec<_> = names.iter().filter_map(id).collect();
-                        of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
-                        let picks = crate::ir::Picks { noun, of, scalar: false };
-                        Ok(Some(Ir::new(Kind::Pick(picks.into(), Box::new(name)), Type::Number, span)))
-                    }
-                }
-            }
+            Param::Object(wanted) => self.object_argument(info, i, wanted, arg).map(|()| None),
+            Param::Name(collection) => self.name_argument(collection, arg).map(Some),
             Param::Number | Param::Angle => {
                 let ir = self.operand(arg)?;
                 if ir.ty == Type::String {
                     return self.wrong_type(info, i, &ir, "a number");
                 }
                 if param == Param::Angle {
-                    self.want(&ir, span, Want::Angle(info.name.clone()));
+                    self.want(&ir, span, Expectation::Angle(info.name.clone()));
                 }
                 Ok(Some(Ir::to_number(ir, span)))
             }
@@ -371,22 +336,7 @@ impl<'a> Binder<'a> {
                 }
                 Ok(Some(Ir::to_text(ir, span)))
             }
-            Param::Numbers => {
-                let ir = self.value(arg)?;
-                match ir.ty {
-                    Type::List | Type::View | Type::Any | Type::Never => {}
-                    _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
-                }
-                // A copy, so that the function sees one kind of list only.
-                let copy = natives::free("Array.from").filter(|_| ir.ty != Type::List);
-                Ok(Some(match copy {
-                    Some(copy) => {
-                        let item = Item { value: ir, spread: false };
-                        Ir::new(Kind::Native(copy, vec![item]), Type::List, span)
-                    }
-                    None => ir,
-                }))
-            }
+            Param::Numbers => self.numbers_argument(info, i, arg).map(Some),
             Param::Boolean => {
                 let ir = self.value(arg)?;
                 Ok(Some(Ir::not(Ir::not(ir, span), span)))
@@ -395,12 +345,69 @@ impl<'a> Binder<'a> {
         }
     }
 
+    /// An argument that must be an object of the host.
+    fn object_argument(
+        &mut self,
+        info: &FunctionInfo,
+        i: usize,
+        wanted: ObjectId,
+        arg: &'a Expr,
+    ) -> Attempt<()> {
+        if matches!(self.entity(arg)?, Entity::Object(id) if id == wanted) {
+            return Ok(());
+        }
+        let object = self.schema.describe(wanted);
+        let message = format!("argument {} of `{}` must be {}", i + 1, info.name, quoted(&object));
+        self.refuse(
+            Finding::error(rules::ARGUMENT_TYPE, arg.span, message)
+                .why("there is only one such object, and it belongs in this position")
+                .help(format!("write `{}`", self.signature(info))),
+        )
+    }
+
+    /// The name of an object of a collection, as its number.
+    fn name_argument(&mut self, collection: CollectionId, arg: &'a Expr) -> Attempt<Ir> {
+        match self.object_name(collection, arg)? {
+            Chosen::Known(object) => Ok(Ir::number(f64::from(object.0), arg.span)),
+            // By name while running: the numbers of all objects of the collection.
+            Chosen::Computed(name) => {
+                let noun = self.schema.noun(collection).to_owned();
+                let names = self.schema.names(collection);
+                let id = |n: &String| {
+                    Some((n.as_str().into(), Value::Number(f64::from(self.schema.lookup(collection, n)?.0))))
+                };
+                let mut of: Vec<_> = names.iter().filter_map(id).collect();
+                of.sort_by(|a: &(std::sync::Arc<str>, Value), b| a.0.cmp(&b.0));
+                let picks = MemberTable { noun, of, scalar: false };
+                Ok(Ir::new(IrKind::Pick(picks.into(), Box::new(name)), Type::Number, arg.span))
+            }
+        }
+    }
+
+    /// A list of numbers.
+    fn numbers_argument(&mut self, info: &FunctionInfo, i: usize, arg: &'a Expr) -> Attempt<Ir> {
+        let ir = self.value(arg)?;
+        match ir.ty {
+            Type::List | Type::View | Type::Any | Type::Never => {}
+            _ => return self.wrong_type(info, i, &ir, "a list of numbers"),
+        }
+        // A copy, so that the function sees one kind of list only.
+        let copy = natives::find_function("Array.from").filter(|_| ir.ty != Type::List);
+        Ok(match copy {
+            Some(copy) => {
+                let item = IrItem { value: ir, spread: false };
+                Ir::new(IrKind::Native(copy, vec![item]), Type::List, arg.span)
+            }
+            None => ir,
+        })
+    }
+
     fn wrong_type<T>(&mut self, info: &FunctionInfo, i: usize, ir: &Ir, wanted: &str) -> Attempt<T> {
         let message =
             format!("argument {} of `{}` must be {wanted}, not {}", i + 1, info.name, ir.ty.describe());
         let report = Finding::error(rules::ARGUMENT_TYPE, ir.span, message).why(info.doc.clone());
-        let known = ir.constant_value().map(|v| (v.type_of(), v.to_number()));
-        self.refuse(match known {
+        let constant = ir.as_constant().map(|v| (v.type_of(), v.to_number()));
+        self.refuse(match constant {
             Some((Type::String, x)) if !x.is_nan() => {
                 let meant = crate::number::to_text(x);
                 report.help(format!("write `{meant}` without quotes")).fix(ir.span, meant)
@@ -429,8 +436,8 @@ impl<'a> Binder<'a> {
             // Each argument reads and writes on its own account.
             let aggregates = std::mem::take(&mut self.aggregates);
             let variables = std::mem::take(&mut self.variables);
-            let outer = std::mem::take(&mut self.scopes);
-            let alone = Tree { units: vec![Unit::default()], ..Tree::default() };
+            let functions = std::mem::take(&mut self.functions);
+            let alone = IrProgram { units: vec![IrFunction::default()], ..IrProgram::default() };
             let tree = std::mem::replace(&mut self.tree, alone);
             let keys = std::mem::take(&mut self.keys);
             let unit = std::mem::take(&mut self.unit);
@@ -440,14 +447,14 @@ impl<'a> Binder<'a> {
             };
             let result = if let Ok(Some(ir)) = &bound { Some(ir.ty) } else { None };
             if let Ok(Some(ir)) = &bound {
-                self.finish(vec![Step::Return(ir.clone())], result);
+                self.finish(vec![IrStatement::Return(ir.clone())], result);
             }
             let aggregates = std::mem::replace(&mut self.aggregates, aggregates);
             self.settle();
             let tree = std::mem::replace(&mut self.tree, tree);
             self.keys = keys;
             self.variables = variables;
-            self.scopes = outer;
+            self.functions = functions;
             self.unit = unit;
             match bound {
                 Ok(Some(ir)) => {
@@ -463,11 +470,22 @@ impl<'a> Binder<'a> {
         let slot = self.next_aggregate;
         self.next_aggregate += 1;
         self.aggregates.push(Aggregate { function: id, args: programs, slot, span });
-        Ok(Ir::new(Kind::Aggregate(slot as u32), Type::Number, span))
+        Ok(Ir::new(IrKind::Aggregate(slot as u32), Type::Number, span))
     }
 }
 
 /// `1 argument`, `2 arguments`
 pub(super) fn count(n: usize, what: &str) -> String {
     if n == 1 { format!("1 {what}") } else { format!("{n} {what}s") }
+}
+
+/// The finding for a function of `Math` that a method would call with the index and the list.
+fn report_extra_arguments(path: &str, called: &str, span: Span) -> Finding {
+    Finding::error(
+        rules::ARGUMENT_TYPE,
+        span,
+        format!("`{path}` would also receive the index and the whole list"),
+    )
+    .why(format!("`{called}` passes them after the element, and JavaScript converts a list to NaN"))
+    .help(format!("write `(a, b) => {path}(a, b)` instead of `{path}`; for all elements of a list, write `{path}(...list)`"))
 }

@@ -2,20 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use crate::schema::Type;
+use crate::types::Type;
 
 /// A place whose type is looked for: the call whose written method declares it (0 for the text itself), the byte of what
 /// declares it, and what it is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Key {
+pub(super) struct FactKey {
     pub(super) site: usize,
     pub(super) at: usize,
-    pub(super) what: What,
+    pub(super) what: FactKind,
 }
 
 /// What is declared at a byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum What {
+pub(super) enum FactKind {
     /// A variable.
     Name,
     /// A parameter that is taken apart at once.
@@ -39,8 +39,8 @@ const ROUNDS: usize = 6;
 /// assigned again or used early, a parameter, or what a function gives. After [`ROUNDS`] rounds all joins are taken to hold
 /// anything. In the round after that no type depends on an earlier round any more, and the one after it finds nothing new.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Facts {
-    types: BTreeMap<Key, Fact>,
+pub(super) struct TypeFacts {
+    types: BTreeMap<FactKey, Fact>,
     /// A type has grown after it was read in this round.
     stale: bool,
     rounds: usize,
@@ -54,18 +54,18 @@ struct Fact {
     join: bool,
 }
 
-impl Facts {
-    fn at(&mut self, key: Key) -> &mut Fact {
+impl TypeFacts {
+    fn at(&mut self, key: FactKey) -> &mut Fact {
         self.types.entry(key).or_insert(Fact { ty: Type::Never, read: false, join: false })
     }
 
     /// The place is a join.
-    pub(super) fn join(&mut self, key: Key) {
+    pub(super) fn join(&mut self, key: FactKey) {
         self.at(key).join = true;
     }
 
     /// What is known of the type at a place.
-    pub(super) fn ty(&mut self, key: Key) -> Type {
+    pub(super) fn ty(&mut self, key: FactKey) -> Type {
         let wide = self.rounds >= ROUNDS;
         let fact = self.at(key);
         fact.read = true;
@@ -73,7 +73,7 @@ impl Facts {
     }
 
     /// What was found at a place in this round and before.
-    pub(super) fn found(&self, key: Key) -> Type {
+    pub(super) fn found(&self, key: FactKey) -> Type {
         match self.types.get(&key) {
             Some(fact) if fact.join && self.rounds >= ROUNDS => Type::Any,
             Some(fact) => fact.ty,
@@ -82,7 +82,7 @@ impl Facts {
     }
 
     /// One more type at a place.
-    pub(super) fn see(&mut self, key: Key, ty: Type) {
+    pub(super) fn see(&mut self, key: FactKey, ty: Type) {
         let wide = self.rounds >= ROUNDS;
         let fact = self.at(key);
         let joined = fact.ty.or(ty);

@@ -1,62 +1,63 @@
 //! Functions of a text: bound when they are first called, with the types that they are called with.
 
-use super::facts::Key;
-use super::scope::{Known, Meaning};
-use super::{Attempt, Binder, Reported, Thing, What};
+use super::binder::{Binder, Entity, KnownFunction, VariableMeaning};
+use super::facts::{FactKey, FactKind};
 use crate::ast::{Body, Element, Expr, ExprKind, Function, Pattern};
-use crate::ir::{Ir, Item, Kind, LocalId, Step, Unit, UnitId};
+use crate::ir::{Ir, IrFunction, IrItem, IrKind, IrStatement, LocalId, UnitId, always_return};
 use crate::operators::BinaryOp;
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::Type;
-use crate::{Finding, Span};
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// A function that the text gives at this place.
-    pub(super) fn new_function(&mut self, function: &'a Function) -> Thing {
-        self.scopes.push(Known {
+    pub(super) fn new_function(&mut self, function: &'a Function) -> Entity {
+        self.functions.push(KnownFunction {
             function,
-            key: self.key(function.span.start, What::Result),
+            key: self.key(function.span.start, FactKind::Result),
             around: self.unit,
             unit: None,
             site: self.site,
         });
-        Thing::Closure(self.scopes.len() - 1)
+        Entity::Closure(self.functions.len() - 1)
     }
 
     /// The place of a parameter, by which its type is kept.
-    fn param_key(&self, param: &Element) -> Key {
-        let what = if matches!(param.target, Pattern::Name(_)) { What::Name } else { What::Parameter };
+    fn param_key(&self, param: &Element) -> FactKey {
+        let what =
+            if matches!(param.target, Pattern::Name(_)) { FactKind::Name } else { FactKind::Parameter };
         self.key(param.target.span().start, what)
     }
 
     /// The function as code, called with these types.
     fn unit_of(&mut self, at: usize, types: &[Type]) -> Attempt<UnitId> {
-        let Some(known) = self.scopes.get(at).cloned() else { return Err(Reported) };
-        let site = std::mem::replace(&mut self.site, known.site);
-        for (i, param) in known.function.params.iter().enumerate() {
+        let Some(called) = self.functions.get(at).cloned() else { return Err(Reported) };
+        let site = std::mem::replace(&mut self.site, called.site);
+        for (i, param) in called.function.params.iter().enumerate() {
             let key = self.param_key(param);
             self.facts.join(key);
             self.facts.see(key, types.get(i).copied().unwrap_or(Type::Undefined));
         }
-        let unit = known.unit.unwrap_or_else(|| self.bind_function(at, &known));
+        let unit = called.unit.unwrap_or_else(|| self.bind_function(at, &called));
         self.site = site;
         Ok(unit)
     }
 
-    fn bind_function(&mut self, at: usize, scope: &Known<'a>) -> UnitId {
+    fn bind_function(&mut self, at: usize, called: &KnownFunction<'a>) -> UnitId {
         let unit = self.tree.units.len() as UnitId;
-        self.tree.units.push(Unit::default());
-        if let Some(known) = self.scopes.get_mut(at) {
-            known.unit = Some(unit);
+        self.tree.units.push(IrFunction::default());
+        if let Some(called) = self.functions.get_mut(at) {
+            called.unit = Some(unit);
         }
-        self.facts.join(scope.key);
-        let first = self.scopes.len();
+        self.facts.join(called.key);
+        let first = self.functions.len();
         let outer = (self.unit, self.loops, self.guards);
         (self.unit, self.loops, self.guards) = (unit, 0, 1);
-        let (params, body) = self.body(scope.function);
+        let (params, body) = self.body(called.function);
         self.leave(first);
         (self.unit, self.loops, self.guards) = outer;
-        let result = self.facts.ty(scope.key);
+        let result = self.facts.ty(called.key);
         if let Some(unit) = self.tree.units.get_mut(unit as usize) {
             unit.params = params;
             unit.body = body;
@@ -65,7 +66,7 @@ impl<'a> Binder<'a> {
         unit
     }
 
-    fn body(&mut self, function: &'a Function) -> (Vec<LocalId>, Vec<Step>) {
+    fn body(&mut self, function: &'a Function) -> (Vec<LocalId>, Vec<IrStatement>) {
         let mut steps = Vec::new();
         let mut places = Vec::new();
         for param in &function.params {
@@ -85,19 +86,19 @@ impl<'a> Binder<'a> {
         for (param, place) in function.params.iter().zip(&places) {
             self.param(param, *place, &mut steps);
         }
-        let key = self.key(function.span.start, What::Result);
+        let key = self.key(function.span.start, FactKind::Result);
         match &function.body {
             Body::Value(expr) => {
                 if let Ok(ir) = self.body_value(expr) {
                     self.facts.see(key, ir.ty);
-                    steps.push(Step::Return(ir));
+                    steps.push(IrStatement::Return(ir));
                 }
             }
             Body::Block(statements) => {
                 self.returns.push(key);
                 steps.extend(self.block(statements));
                 self.returns.pop();
-                if !ends(&steps) {
+                if !always_return(&steps) {
                     self.facts.see(key, Type::Undefined);
                 }
             }
@@ -112,10 +113,10 @@ impl<'a> Binder<'a> {
                 self.changing(expr)
             }
             ExprKind::Call { .. } => {
-                let thing = self.thing(expr)?;
+                let thing = self.entity(expr)?;
                 match thing {
                     // A function without a result gives `undefined`.
-                    Thing::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
+                    Entity::Value(ir) if ir.ty == Type::Void => Ok(Ir { ty: Type::Undefined, ..ir }),
                     other => self.value_of(other, expr.span),
                 }
             }
@@ -124,47 +125,53 @@ impl<'a> Binder<'a> {
     }
 
     /// A parameter gets its default, and is taken apart.
-    fn param(&mut self, param: &'a Element, place: LocalId, steps: &mut Vec<Step>) {
+    fn param(&mut self, param: &'a Element, place: LocalId, steps: &mut Vec<IrStatement>) {
         let span = param.target.span();
         let key = self.param_key(param);
-        let read = |ty| Ir::new(Kind::Local(place), ty, span);
+        let read = |ty| Ir::new(IrKind::Local(place), ty, span);
         if let Some(default) = &param.default
             && let Ok(value) = self.value(default)
         {
             self.facts.see(key, value.ty);
             let ty = self.facts.ty(key);
             let test = Ir::binary(BinaryOp::StrictEqual, read(ty), Ir::undefined(span), span);
-            let store = Kind::Store(Box::new(crate::ir::Place::Local(place)), None, Box::new(value));
-            steps.push(Step::If(test, vec![Step::Effect(Ir::new(store, ty, span))], Vec::new()));
+            let store =
+                IrKind::Store(Box::new(crate::ir::AssignmentTarget::Local(place)), None, Box::new(value));
+            steps.push(IrStatement::If(
+                test,
+                vec![IrStatement::Effect(Ir::new(store, ty, span))],
+                Vec::new(),
+            ));
         }
         let ty = self.facts.ty(key);
         match &param.target {
-            Pattern::Name(name) => self.give(name, Meaning::Slot),
+            Pattern::Name(name) => self.give(name, VariableMeaning::Slot),
             pattern => self.take_apart(pattern, read(ty), steps),
         }
     }
 
     /// A function that nothing has called yet, as if it were called with anything.
     pub(super) fn bind_with_anything(&mut self, at: usize) {
-        let n = self.scopes.get(at).map_or(0, |k| k.function.params.len());
+        let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let _ = self.unit_of(at, &vec![Type::Any; n]);
     }
 
     /// A function as a value: it may be called from anywhere, with anything.
     pub(super) fn closure_value(&mut self, at: usize, span: Span) -> Attempt<Ir> {
-        let n = self.scopes.get(at).map_or(0, |k| k.function.params.len());
+        let n = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let unit = self.unit_of(at, &vec![Type::Any; n])?;
         self.capture_for(at);
-        Ok(Ir::new(Kind::Closure(unit), Type::Function, span))
+        Ok(Ir::new(IrKind::Closure(unit), Type::Function, span))
     }
 
     /// What a called function uses, its caller must hand in.
     fn capture_for(&mut self, at: usize) {
-        let Some(known) = self.scopes.get(at) else { return };
-        let (Key { site, at, .. }, names) = (known.key, known.site.map_or(self.names, |site| site.names));
+        let Some(called) = self.functions.get(at) else { return };
+        let (FactKey { site, at, .. }, names) =
+            (called.key, called.site.map_or(self.names, |site| site.names));
         for byte in names.taken(at) {
-            let found = self.variables.get(&Key { site, at: byte, what: What::Name }).cloned();
-            if let Some(found) = found.filter(|v| !matches!(v.meaning, Meaning::Alias(_))) {
+            let found = self.variables.get(&FactKey { site, at: byte, what: FactKind::Name }).cloned();
+            if let Some(found) = found.filter(|v| !matches!(v.meaning, VariableMeaning::Alias(_))) {
                 self.capture(&found);
             }
         }
@@ -177,9 +184,9 @@ impl<'a> Binder<'a> {
             let items = self.items(args)?;
             return Ok(self.call_value(callee, items, span));
         }
-        let wanted = self.scopes.get(at).map_or(0, |k| k.function.params.len());
+        let wanted = self.functions.get(at).map_or(0, |k| k.function.params.len());
         let needed = self
-            .scopes
+            .functions
             .get(at)
             .map_or(0, |k| k.function.params.iter().rposition(|p| p.default.is_none()).map_or(0, |i| i + 1));
         let mut values = Vec::new();
@@ -192,7 +199,7 @@ impl<'a> Binder<'a> {
             }
             match self.value(arg) {
                 Ok(ir) if i < wanted => values.push(ir),
-                Ok(ir) => extra.push(Step::Effect(ir)),
+                Ok(ir) => extra.push(IrStatement::Effect(ir)),
                 Err(Reported) => failed = true,
             }
         }
@@ -215,26 +222,17 @@ impl<'a> Binder<'a> {
         let types: Vec<Type> = values.iter().map(|v| v.ty).collect();
         let unit = self.unit_of(at, &types)?;
         self.capture_for(at);
-        let Some(key) = self.scopes.get(at).map(|k| k.key) else { return Err(Reported) };
-        let call = Ir::new(Kind::Invoke(unit, values), self.facts.ty(key), span);
+        let Some(key) = self.functions.get(at).map(|k| k.key) else { return Err(Reported) };
+        let call = Ir::new(IrKind::Invoke(unit, values), self.facts.ty(key), span);
         if extra.is_empty() {
             return Ok(call);
         }
         let ty = call.ty;
-        Ok(Ir::new(Kind::Block(extra, Box::new(call)), ty, span))
+        Ok(Ir::new(IrKind::Block(extra, Box::new(call)), ty, span))
     }
 
     /// A call of a function that is known only while running.
-    pub(super) fn call_value(&mut self, callee: Ir, args: Vec<Item>, span: Span) -> Ir {
-        Ir::new(Kind::InvokeValue(Box::new(callee), args), Type::Any, span)
+    pub(super) fn call_value(&mut self, callee: Ir, args: Vec<IrItem>, span: Span) -> Ir {
+        Ir::new(IrKind::InvokeValue(Box::new(callee), args), Type::Any, span)
     }
-}
-
-/// Whether statements never come to their end: all ways through them return.
-pub(super) fn ends(steps: &[Step]) -> bool {
-    steps.iter().any(|step| match step {
-        Step::Return(_) => true,
-        Step::If(_, then, otherwise) => ends(then) && ends(otherwise),
-        _ => false,
-    })
 }

@@ -1,24 +1,25 @@
 //! Lists, records, templates, and declarations that take lists and records apart.
 
-use super::scope::Meaning;
-use super::{Attempt, Binder, Reported, Thing, What};
+use super::binder::{Binder, Entity, VariableMeaning};
+use super::facts::FactKind;
 use crate::ast::{Element, Expr, ExprKind, Pattern, Property};
 use crate::bind::names::names_of;
-use crate::ir::{Entry, Ir, Item, Kind, Step};
+use crate::ir::{Ir, IrEntry, IrItem, IrKind, IrStatement};
 use crate::operators::BinaryOp;
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::Type;
-use crate::{Finding, Span};
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// Items of a list, or arguments, with their spreads.
-    pub(super) fn items(&mut self, items: &'a [Expr]) -> Attempt<Vec<Item>> {
+    pub(super) fn items(&mut self, items: &'a [Expr]) -> Attempt<Vec<IrItem>> {
         let mut bound = Vec::new();
         let mut failed = false;
         for item in items {
             let spread = match &item.kind {
                 ExprKind::Spread(inner) => self.spread(inner),
-                _ => self.value(item).map(|value| vec![Item { value, spread: false }]),
+                _ => self.value(item).map(|value| vec![IrItem { value, spread: false }]),
             };
             match spread {
                 Ok(items) => bound.extend(items),
@@ -29,17 +30,17 @@ impl<'a> Binder<'a> {
     }
 
     /// `...list`: written out when it is a short array of known size.
-    fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<Item>> {
-        let thing = self.thing(inner)?;
-        if let Thing::Field(field) = &thing
+    fn spread(&mut self, inner: &'a Expr) -> Attempt<Vec<IrItem>> {
+        let thing = self.entity(inner)?;
+        if let Entity::Field(field) = &thing
             && !field.is_scalar()
             && let Some(elements) = self.elements(field, inner.span)
         {
-            return Ok(elements.into_iter().map(|value| Item { value, spread: false }).collect());
+            return Ok(elements.into_iter().map(|value| IrItem { value, spread: false }).collect());
         }
         let value = self.value_of(thing, inner.span)?;
         self.expect_elements(&value)?;
-        Ok(vec![Item { value, spread: true }])
+        Ok(vec![IrItem { value, spread: true }])
     }
 
     /// Refuses what has no elements to go through.
@@ -57,9 +58,8 @@ impl<'a> Binder<'a> {
         self.refuse(match value.ty {
             Type::Number => report.help("to count, write `for (let i = 0; i < n; i++)`"),
             Type::Record => report.help(format!("write `Object.values({text})` for its values")),
-            _ => {
-                report.help(format!("write a list, as `[1, 2, 3]`, or an array, as `{}`", self.words().array))
-            }
+            _ => report
+                .help(format!("write a list, as `[1, 2, 3]`, or an array, as `{}`", self.host_terms().array)),
         })
     }
 
@@ -67,7 +67,7 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn list(&mut self, items: &'a [Expr], span: Span) -> Attempt<Ir> {
         let items = self.items(items)?;
-        Ok(Ir::new(Kind::List(items), Type::List, span))
+        Ok(Ir::new(IrKind::List(items), Type::List, span))
     }
 
     /// `{a: 1}`
@@ -79,20 +79,20 @@ impl<'a> Binder<'a> {
             let entry = match property {
                 Property::Named { key, value } => self
                     .check_machinery(&key.text, key.span)
-                    .and_then(|()| Ok(Entry::Named(key.text.as_str().into(), self.value(value)?))),
+                    .and_then(|()| Ok(IrEntry::Named(key.text.as_str().into(), self.value(value)?))),
                 Property::Computed { key, value } => {
                     let key = self.value(key);
                     let value = self.value(value);
-                    key.and_then(|key| Ok(Entry::Computed(Ir::to_text(key, span), value?)))
+                    key.and_then(|key| Ok(IrEntry::Computed(Ir::to_text(key, span), value?)))
                 }
-                Property::Spread(value) => self.value(value).map(Entry::Spread),
+                Property::Spread(value) => self.value(value).map(IrEntry::Spread),
             };
             match entry {
                 Ok(entry) => entries.push(entry),
                 Err(Reported) => failed = true,
             }
         }
-        if failed { Err(Reported) } else { Ok(Ir::new(Kind::Record(entries), Type::Record, span)) }
+        if failed { Err(Reported) } else { Ok(Ir::new(IrKind::Record(entries), Type::Record, span)) }
     }
 
     /// `` `text ${value}` ``
@@ -118,7 +118,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Names parts of a value that is kept in a place of its own, so that it can be read again and again.
-    pub(super) fn take_apart(&mut self, pattern: &'a Pattern, whole: Ir, steps: &mut Vec<Step>) {
+    pub(super) fn take_apart(&mut self, pattern: &'a Pattern, whole: Ir, steps: &mut Vec<IrStatement>) {
         match pattern {
             Pattern::Name(name) => self.give_value(name, whole, steps),
             Pattern::List { items, span } => {
@@ -126,11 +126,11 @@ impl<'a> Binder<'a> {
                     return self.forget(pattern);
                 }
                 // What is not known to be a list is made one, or refused, as in JavaScript.
-                let whole = match (whole.ty, crate::natives::free("_parts")) {
+                let whole = match (whole.ty, crate::natives::find_function("_parts")) {
                     (Type::List | Type::View, _) | (_, None) => whole,
                     (_, Some(function)) => {
-                        let item = Item { value: whole, spread: false };
-                        let parts = Ir::new(Kind::Native(function, vec![item]), Type::List, *span);
+                        let item = IrItem { value: whole, spread: false };
+                        let parts = Ir::new(IrKind::Native(function, vec![item]), Type::List, *span);
                         self.keep(parts, Span { start: span.end, ..*span }, steps)
                     }
                 };
@@ -138,7 +138,7 @@ impl<'a> Binder<'a> {
                     let Some(item) = item else { continue };
                     let ty = if whole.ty == Type::View { Type::Element } else { Type::Any };
                     let index = Box::new(Ir::number(i as f64, *span));
-                    let part = Ir::new(Kind::Element(Box::new(whole.clone()), index), ty, *span);
+                    let part = Ir::new(IrKind::Element(Box::new(whole.clone()), index), ty, *span);
                     self.part(item, part, steps);
                 }
             }
@@ -158,7 +158,7 @@ impl<'a> Binder<'a> {
     }
 
     /// One part, with its default.
-    fn part(&mut self, element: &'a Element, part: Ir, steps: &mut Vec<Step>) {
+    fn part(&mut self, element: &'a Element, part: Ir, steps: &mut Vec<IrStatement>) {
         let span = element.target.span();
         let mut value = part;
         if let Some(default) = &element.default {
@@ -177,24 +177,29 @@ impl<'a> Binder<'a> {
     }
 
     /// Puts a value into a place without a name.
-    pub(super) fn keep(&mut self, value: Ir, span: Span, steps: &mut Vec<Step>) -> Ir {
-        let key = self.key(span.start, What::Part);
+    pub(super) fn keep(&mut self, value: Ir, span: Span, steps: &mut Vec<IrStatement>) -> Ir {
+        let key = self.key(span.start, FactKind::Part);
         self.facts.see(key, value.ty);
         let (place, ty) = (self.new_local(key, false), self.facts.ty(key));
-        steps.push(Step::Declare(place, value));
-        Ir::new(Kind::Local(place), ty, span)
+        steps.push(IrStatement::Declare(place, value));
+        Ir::new(IrKind::Local(place), ty, span)
     }
 
     /// The names of a pattern that could not be bound: their uses are no mistakes of their own.
     pub(super) fn forget(&mut self, pattern: &'a Pattern) {
-        names_of(pattern, &mut |name| self.give(name, Meaning::Unknown));
+        names_of(pattern, &mut |name| self.give(name, VariableMeaning::Unknown));
     }
 
     /// `const {kinetic, total} = lib.energy()` checks the names against what the function gives.
-    pub(super) fn destructure(&mut self, pattern: &'a Pattern, value: &'a Expr, steps: &mut Vec<Step>) {
-        let Ok(thing) = self.thing(value) else { return self.forget(pattern) };
+    pub(super) fn destructure(
+        &mut self,
+        pattern: &'a Pattern,
+        value: &'a Expr,
+        steps: &mut Vec<IrStatement>,
+    ) {
+        let Ok(thing) = self.entity(value) else { return self.forget(pattern) };
         // Parts of `model`, `data` or `Math` are other words for them.
-        if let (Pattern::Record { entries, .. }, Thing::Object(_) | Thing::Math | Thing::Globals) =
+        if let (Pattern::Record { entries, .. }, Entity::Object(_) | Entity::Math | Entity::Globals) =
             (pattern, &thing)
         {
             for (key, element) in entries {
@@ -213,13 +218,13 @@ impl<'a> Binder<'a> {
             }
             return;
         }
-        if let (Pattern::Record { entries, .. }, Thing::Value(ir)) = (pattern, &thing) {
-            let entry_types: Vec<Attempt<Ir>> = entries
+        if let (Pattern::Record { entries, .. }, Entity::Value(ir)) = (pattern, &thing) {
+            let values: Vec<Attempt<Ir>> = entries
                 .iter()
                 .filter(|_| ir.ty == Type::Record)
                 .map(|(key, _)| self.record_member(ir.clone(), key, key.span))
                 .collect();
-            if entry_types.iter().any(Result::is_err) {
+            if values.iter().any(Result::is_err) {
                 return self.forget(pattern);
             }
         }
@@ -232,17 +237,23 @@ impl<'a> Binder<'a> {
         }
     }
 
-    fn give_part(&mut self, name: &'a crate::ast::Name, part: Thing, span: Span, steps: &mut Vec<Step>) {
+    fn give_part(
+        &mut self,
+        name: &'a crate::ast::Name,
+        part: Entity,
+        span: Span,
+        steps: &mut Vec<IrStatement>,
+    ) {
         match part {
-            single @ Thing::Value(_) => match self.value_of(single, span) {
+            single @ Entity::Value(_) => match self.value_of(single, span) {
                 Ok(ir) => self.give_value(name, ir, steps),
-                Err(Reported) => self.give(name, Meaning::Unknown),
+                Err(Reported) => self.give(name, VariableMeaning::Unknown),
             },
-            Thing::Field(field) if field.is_scalar() => {
+            Entity::Field(field) if field.is_scalar() => {
                 let ir = self.load(&field, crate::ir::Index::At(0), span);
                 self.give_value(name, ir, steps);
             }
-            other => self.give(name, Meaning::Alias(other)),
+            other => self.give(name, VariableMeaning::Alias(other)),
         }
     }
 }

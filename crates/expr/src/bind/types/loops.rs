@@ -1,15 +1,19 @@
 //! Loops, and what is known of the numbers that count them.
 
-use super::access::past_the_end;
-use super::{Attempt, Binder, Reported, Thing, What};
+use super::access::{past_the_end, range};
+use super::binder::{Binder, Entity};
+use super::facts::FactKind;
+use super::member::view_of;
 use crate::ast::{BinaryOp, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
-use crate::bind::names::{Declared, names_of};
-use crate::ir::{Ir, Item, Kind, Loop, Place, Step};
-use crate::number;
+use crate::bind::names::{Declaration, names_of};
+use crate::ir::{AssignmentTarget, Index, Ir, IrItem, IrKind, IrLoop, IrStatement, LocalId, UpdateResult};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::{Field, Type};
+use crate::schema::Field;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use crate::{natives, number};
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// `for (init; test; update) body`
@@ -20,9 +24,9 @@ impl<'a> Binder<'a> {
         update: Option<&'a Expr>,
         body: &'a Stmt,
         span: Span,
-        steps: &mut Vec<Step>,
+        steps: &mut Vec<IrStatement>,
     ) {
-        let depth = self.scopes.len();
+        let functions = self.functions.len();
         let mut names: Vec<&Name> = Vec::new();
         if let Some(init) = init {
             if let StmtKind::Declare { declarators, .. } = &init.kind {
@@ -47,16 +51,22 @@ impl<'a> Binder<'a> {
         for name in names {
             let key = self.key_of(name);
             if let Some(variable) = self.variables.get(&key)
-                && self.declaration(key).is_some_and(Declared::is_shared)
+                && self.declaration(key).is_some_and(Declaration::is_shared)
             {
-                after.push(Step::Renew(variable.id));
+                after.push(IrStatement::Renew(variable.id));
             }
         }
         if let Some(update) = update {
             self.effect_into(update, &mut after);
         }
-        steps.push(Step::Loop(Box::new(Loop { test, late: false, body: inside, update: after, span })));
-        self.leave(depth);
+        steps.push(IrStatement::Loop(Box::new(IrLoop {
+            test,
+            late: false,
+            body: inside,
+            update: after,
+            span,
+        })));
+        self.leave(functions);
     }
 
     pub(super) fn while_loop(
@@ -65,21 +75,21 @@ impl<'a> Binder<'a> {
         body: &'a Stmt,
         late: bool,
         span: Span,
-        steps: &mut Vec<Step>,
+        steps: &mut Vec<IrStatement>,
     ) {
         let bound = self.test(test);
         self.guards += 1;
         let inside = self.body_of_loop(body);
         self.guards -= 1;
         if let Ok(ir) = bound {
-            if ir.constant_value().is_some_and(Value::truthy) && !leaves(&inside) {
+            if ir.as_constant().is_some_and(Value::truthy) && !leaves(&inside) {
                 self.report(
                     Finding::error(rules::BUDGET, test.span, "this loop never ends")
                         .why("its condition is always true, and nothing in it leaves the loop")
                         .help("write a condition that becomes false, or leave the loop with `break`"),
                 );
             }
-            steps.push(Step::Loop(Box::new(Loop {
+            steps.push(IrStatement::Loop(Box::new(IrLoop {
                 test: Some(ir),
                 late,
                 body: inside,
@@ -96,68 +106,23 @@ impl<'a> Binder<'a> {
         items: &'a Expr,
         body: &'a Stmt,
         span: Span,
-        steps: &mut Vec<Step>,
+        steps: &mut Vec<IrStatement>,
     ) {
-        let list = self.thing(items);
-        let known = self.scopes.len();
+        let list = self.entity(items);
+        let functions = self.functions.len();
         // The list, how long it is and where the loop stands are kept in places without names.
-        let at = |me: &mut Self, what: What, ty: Type| {
-            let key = me.key(span.start, what);
-            me.facts.see(key, ty);
-            me.new_local(key, false)
+        let counter = self.unnamed_local(span, FactKind::Counter, Type::Number);
+        let read_counter = Ir::new(IrKind::Local(counter), Type::Number, items.span);
+        let elements = match list {
+            Ok(Entity::Field(field)) if !field.is_scalar() => {
+                Ok(self.elements_of_field(&field, &read_counter, items.span))
+            }
+            Ok(thing) => self.elements_of_value(thing, &read_counter, items.span, span, steps),
+            Err(Reported) => Err(Reported),
         };
-        let counter = at(self, What::Counter, Type::Number);
-        let read_counter = Ir::new(Kind::Local(counter), Type::Number, items.span);
-        let one_more = |span| {
-            Step::Effect(Ir::new(
-                Kind::Update(Box::new(Place::Local(counter)), 1.0, crate::ir::Gives::New),
-                Type::Number,
-                span,
-            ))
-        };
+        let Ok((length, item)) = elements else { return self.dead_loop(target, body, functions) };
         let mut turn = Vec::new();
-        let (length, item) = match list {
-            Ok(Thing::Field(field)) if !field.is_scalar() => {
-                let length = match field.len() {
-                    Some(n) => Ir::number(n as f64, items.span),
-                    None => Ir::new(Kind::Length(super::member::view_of(&field)), Type::Number, items.span),
-                };
-                let index = crate::ir::Index::Computed(Box::new(read_counter.clone()));
-                let has_length = field.len().is_some();
-                let mut item = self.load(&field, index, items.span);
-                // The counter stays below the length.
-                item.ty = if has_length { Type::Number } else { item.ty };
-                (length, item)
-            }
-            Ok(thing) => {
-                let Ok(value) = self.value_of(thing, items.span) else {
-                    return self.dead_loop(target, body, known);
-                };
-                if self.expect_elements(&value).is_err() {
-                    return self.dead_loop(target, body, known);
-                }
-                // A text is taken apart into its characters, of which some take two units.
-                let function = crate::natives::free("_parts");
-                let value = match (value.ty, function) {
-                    (Type::List | Type::View, _) | (_, None) => value,
-                    (_, Some(function)) => {
-                        let whole = Item { value, spread: false };
-                        Ir::new(Kind::Native(function, vec![whole]), Type::List, items.span)
-                    }
-                };
-                let ty = value.ty;
-                let list = at(self, What::List, ty);
-                steps.push(Step::Declare(list, value));
-                let list = Ir::new(Kind::Local(list), ty, items.span);
-                let length =
-                    Ir::new(Kind::Member(Box::new(list.clone()), "length".into()), Type::Number, items.span);
-                let element = if ty == Type::View { Type::Element } else { Type::Any };
-                let item = Kind::Element(Box::new(list), Box::new(read_counter.clone()));
-                (length, Ir::new(item, element, items.span))
-            }
-            Err(Reported) => return self.dead_loop(target, body, known),
-        };
-        steps.push(Step::Declare(counter, Ir::number(0.0, items.span)));
+        steps.push(IrStatement::Declare(counter, Ir::number(0.0, items.span)));
         let test = Ir::binary(BinaryOp::Less, read_counter, length, items.span);
         self.hoist_pattern(target, &mut turn);
         match target {
@@ -170,20 +135,78 @@ impl<'a> Binder<'a> {
         self.guards += 1;
         turn.extend(self.body_of_loop(body));
         self.guards -= 1;
-        let update = vec![one_more(items.span)];
-        steps.push(Step::Loop(Box::new(Loop { test: Some(test), late: false, body: turn, update, span })));
-        self.leave(known);
+        let one_more = IrKind::Update(Box::new(AssignmentTarget::Local(counter)), 1.0, UpdateResult::New);
+        let update = vec![IrStatement::Effect(Ir::new(one_more, Type::Number, items.span))];
+        steps.push(IrStatement::Loop(Box::new(IrLoop {
+            test: Some(test),
+            late: false,
+            body: turn,
+            update,
+            span,
+        })));
+        self.leave(functions);
+    }
+
+    /// A place that has no name in the text.
+    fn unnamed_local(&mut self, span: Span, what: FactKind, ty: Type) -> LocalId {
+        let key = self.key(span.start, what);
+        self.facts.see(key, ty);
+        self.new_local(key, false)
+    }
+
+    /// The number of elements of an array of the host, and the element at the counter of a loop.
+    fn elements_of_field(&mut self, field: &Field, counter: &Ir, span: Span) -> (Ir, Ir) {
+        let length = match field.len() {
+            Some(n) => Ir::number(n as f64, span),
+            None => Ir::new(IrKind::Length(view_of(field)), Type::Number, span),
+        };
+        let index = Index::Computed(Box::new(counter.clone()));
+        let fixed = field.len().is_some();
+        let mut item = self.load(field, index, span);
+        // The counter stays below the length.
+        item.ty = if fixed { Type::Number } else { item.ty };
+        (length, item)
+    }
+
+    /// The same of any other list, which is kept in a place of its own.
+    fn elements_of_value(
+        &mut self,
+        list: Entity,
+        counter: &Ir,
+        span: Span,
+        site: Span,
+        steps: &mut Vec<IrStatement>,
+    ) -> Attempt<(Ir, Ir)> {
+        let value = self.value_of(list, span)?;
+        self.expect_elements(&value)?;
+        // A text is taken apart into its characters, of which some take two units.
+        let function = natives::find_function("_parts");
+        let value = match (value.ty, function) {
+            (Type::List | Type::View, _) | (_, None) => value,
+            (_, Some(function)) => {
+                let whole = IrItem { value, spread: false };
+                Ir::new(IrKind::Native(function, vec![whole]), Type::List, span)
+            }
+        };
+        let ty = value.ty;
+        let list = self.unnamed_local(site, FactKind::List, ty);
+        steps.push(IrStatement::Declare(list, value));
+        let list = Ir::new(IrKind::Local(list), ty, span);
+        let length = Ir::new(IrKind::Member(Box::new(list.clone()), "length".into()), Type::Number, span);
+        let element = if ty == Type::View { Type::Element } else { Type::Any };
+        let item = IrKind::Element(Box::new(list), Box::new(counter.clone()));
+        Ok((length, Ir::new(item, element, span)))
     }
 
     /// A loop over something that is a mistake: its body may hold more of them.
-    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, depth: usize) {
+    fn dead_loop(&mut self, target: &'a Pattern, body: &'a Stmt, functions: usize) {
         self.hoist_pattern(target, &mut Vec::new());
         self.forget(target);
         self.body_of_loop(body);
-        self.leave(depth);
+        self.leave(functions);
     }
 
-    fn body_of_loop(&mut self, body: &'a Stmt) -> Vec<Step> {
+    fn body_of_loop(&mut self, body: &'a Stmt) -> Vec<IrStatement> {
         self.loops += 1;
         let steps = self.scoped(body);
         self.loops -= 1;
@@ -191,7 +214,7 @@ impl<'a> Binder<'a> {
     }
 
     /// A statement with names of its own.
-    pub(super) fn scoped(&mut self, statement: &'a Stmt) -> Vec<Step> {
+    pub(super) fn scoped(&mut self, statement: &'a Stmt) -> Vec<IrStatement> {
         match &statement.kind {
             StmtKind::Block(statements) => self.block(statements),
             _ => self.block(std::slice::from_ref(statement)),
@@ -202,11 +225,11 @@ impl<'a> Binder<'a> {
     fn counted(
         &mut self,
         names: &[&Name],
-        init: Option<&Step>,
+        init: Option<&IrStatement>,
         test: Option<&Ir>,
         update: Option<&Expr>,
     ) -> bool {
-        let ([name], Some(Step::Declare(id, start))) = (names, init) else { return false };
+        let ([name], Some(IrStatement::Declare(id, start))) = (names, init) else { return false };
         let counts = |e: &Expr| matches!(&e.kind, ExprKind::Name(n) if *n == name.text);
         let single = match update.map(|u| &u.kind) {
             Some(ExprKind::Update { target, increment: true, .. }) if counts(target) => true,
@@ -217,14 +240,14 @@ impl<'a> Binder<'a> {
             }
             _ => return false,
         };
-        let Some(Kind::Binary(op @ (BinaryOp::Less | BinaryOp::LessEqual), left, right)) =
+        let Some(IrKind::Binary(op @ (BinaryOp::Less | BinaryOp::LessEqual), left, right)) =
             test.map(|t| &t.kind)
         else {
             return false;
         };
         // Assigned by the update alone: an assignment in the body is one more.
         let key = self.key_of(name);
-        if !matches!(left.kind, Kind::Local(counter) if counter == *id) || self.assignments(key) > 1 {
+        if !matches!(left.kind, IrKind::Local(counter) if counter == *id) || self.assignments(key) > 1 {
             return false;
         }
         let (Some((least, _)), Some((_, bound))) = (self.range_of(start), self.range_of(right)) else {
@@ -242,9 +265,9 @@ impl<'a> Binder<'a> {
     /// Smallest and largest value of a number, as far as known.
     pub(super) fn range_of(&self, ir: &Ir) -> Option<(f64, f64)> {
         match &ir.kind {
-            Kind::Constant(Value::Number(x)) => Some((*x, *x)),
-            Kind::Local(id) => self.variables.get(self.keys.get(*id as usize)?)?.range,
-            Kind::Binary(op, a, b) => {
+            IrKind::Constant(Value::Number(x)) => Some((*x, *x)),
+            IrKind::Local(id) => self.variables.get(self.keys.get(*id as usize)?)?.range,
+            IrKind::Binary(op, a, b) => {
                 let ((a0, a1), (b0, b1)) = (self.range_of(a)?, self.range_of(b)?);
                 let range = match op {
                     BinaryOp::Add => (a0 + b0, a1 + b1),
@@ -269,31 +292,27 @@ impl<'a> Binder<'a> {
             return Ok(());
         }
         if most >= n as f64 {
-            let bound_text = number::to_text(most);
+            let index_text = number::to_text(most);
             let text = self.text(index.span);
             let message = format!(
-                "in the last iteration of the loop, `{text}` is {bound_text}: past the end of `{}`",
+                "in the last iteration of the loop, `{text}` is {index_text}: past the end of `{}`",
                 field.path
             );
-            return self.refuse(past_the_end(field, index.span, message, self.words()));
+            return self.refuse(past_the_end(field, index.span, message, self.host_terms()));
         }
         if least < 0.0 {
-            let bound_text = number::to_text(least);
+            let index_text = number::to_text(least);
             return self.refuse(
                 Finding::error(
                     rules::INDEX_NEGATIVE,
                     index.span,
                     format!(
-                        "in the loop, `{}` becomes {bound_text}, which is negative",
+                        "in the loop, `{}` becomes {index_text}, which is negative",
                         self.text(index.span)
                     ),
                 )
                 .why("indexes start at 0; JavaScript gives `undefined` here")
-                .help(format!(
-                    "indexes of `{}` are{}",
-                    field.path,
-                    super::access::range(field)
-                )),
+                .help(format!("indexes of `{}` are{}", field.path, range(field))),
             );
         }
         Ok(())
@@ -301,20 +320,20 @@ impl<'a> Binder<'a> {
 }
 
 /// Whether statements may leave the loop that they stand in.
-fn leaves(steps: &[Step]) -> bool {
+fn leaves(steps: &[IrStatement]) -> bool {
     steps.iter().any(|step| match step {
-        Step::Break | Step::Return(_) => true,
-        Step::If(_, then, otherwise) => leaves(then) || leaves(otherwise),
-        Step::Loop(inner) => returns(&inner.body),
+        IrStatement::Break | IrStatement::Return(_) => true,
+        IrStatement::If(_, then, otherwise) => leaves(then) || leaves(otherwise),
+        IrStatement::Loop(inner) => returns(&inner.body),
         _ => false,
     })
 }
 
-fn returns(steps: &[Step]) -> bool {
+fn returns(steps: &[IrStatement]) -> bool {
     steps.iter().any(|step| match step {
-        Step::Return(_) => true,
-        Step::If(_, then, otherwise) => returns(then) || returns(otherwise),
-        Step::Loop(inner) => returns(&inner.body),
+        IrStatement::Return(_) => true,
+        IrStatement::If(_, then, otherwise) => returns(then) || returns(otherwise),
+        IrStatement::Loop(inner) => returns(&inner.body),
         _ => false,
     })
 }

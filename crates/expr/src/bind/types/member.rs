@@ -1,34 +1,34 @@
 //! What names stand for: those at the start of an expression, and those behind a point.
 
-use super::{Attempt, Binder, Receiver, Reported, Thing};
+use super::binder::{Binder, Entity, MethodReceiver};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::bind::names::{MACHINERY, NAMESPACES, list, meant_elsewhere};
-use crate::ir::{Ir, Kind};
+use crate::bind::names::{MACHINERY, NAMESPACES, list_names, meant_elsewhere};
+use crate::host_terms::HostTerms;
+use crate::ir::{Ir, IrKind};
 use crate::math;
 use crate::natives;
-use crate::parse::MAX_DIAGNOSTICS;
+use crate::parse::{Attempt, MAX_DIAGNOSTICS, Reported};
 use crate::rules;
-use crate::schema::{Entry, Field, FieldKind, Help, ObjectId, Type};
+use crate::schema::{Entry, Field, FieldKind, Help};
+use crate::types::{ObjectId, Type};
 use crate::value::{Value, View};
-use crate::words::Words;
-use crate::{Finding, Span};
-use labspec_finding::{nearest, ranked};
+use labspec_finding::{Finding, Span, nearest, ranked};
 
 impl<'a> Binder<'a> {
-    pub(super) fn thing_inside(&mut self, expr: &'a Expr) -> Attempt<Thing> {
+    pub(super) fn entity_inside(&mut self, expr: &'a Expr) -> Attempt<Entity> {
         match &expr.kind {
             ExprKind::Name(name) => self.root(name, expr.span),
             ExprKind::Member { object, name, optional } => self.member(object, name, *optional, expr.span),
             ExprKind::Index { object, index, optional } => self.element(object, index, *optional, expr.span),
             ExprKind::Call { callee, args, optional } => self.call(callee, args, *optional, expr.span),
             ExprKind::Function(function) => Ok(self.new_function(function)),
-            _ => self.operation(expr).map(Thing::Value),
+            _ => self.operation(expr).map(Entity::Value),
         }
     }
 
     /// A name at the start of an expression.
     #[inline(never)]
-    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Thing> {
+    pub(super) fn root(&mut self, name: &str, span: Span) -> Attempt<Entity> {
         if let Some(variable) = self.variable(name, span)? {
             let thing = self.read_variable(&variable, span)?;
             self.explain_thing(&thing, name, span);
@@ -38,12 +38,12 @@ impl<'a> Binder<'a> {
             return Ok(thing);
         }
         if self.site.is_some()
-            && let Some(function) = natives::free(name)
+            && let Some(function) = natives::find_function(name)
         {
-            return Ok(Thing::Native(function));
+            return Ok(Entity::Native(function));
         }
         if let (true, Some(ty)) = (name == "value", self.value) {
-            return Ok(Thing::Value(Ir::new(Kind::Input, ty, span)));
+            return Ok(Entity::Value(Ir::new(IrKind::Input, ty, span)));
         }
         // The first pass has told of what means nothing.
         let Some(entry) = self.schema.root(name) else {
@@ -57,19 +57,19 @@ impl<'a> Binder<'a> {
 
     /// Notes what a name or a member is.
     #[inline(never)]
-    pub(super) fn explain_thing(&mut self, thing: &Thing, text: &str, span: Span) {
+    fn explain_thing(&mut self, thing: &Entity, text: &str, span: Span) {
         let schema = self.schema;
         match thing {
-            Thing::Field(field) => self.explain(span, || field_help(field, schema.words())),
-            Thing::Object(id) => {
+            Entity::Field(field) => self.explain(span, || field_help(field, schema.host_terms())),
+            Entity::Object(id) => {
                 self.explain(span, || Help { title: schema.describe(*id), lines: Vec::new() });
             }
-            Thing::Function(id) => {
+            Entity::Function(id) => {
                 let info = schema.function(*id);
                 let title = self.signature(&info);
                 self.explain(span, || Help { title, lines: vec![info.doc] });
             }
-            Thing::Value(ir) => {
+            Entity::Value(ir) => {
                 let ty = ir.ty;
                 self.explain(span, || Help { title: text.to_owned(), lines: vec![ty.describe().to_owned()] });
             }
@@ -79,8 +79,8 @@ impl<'a> Binder<'a> {
 
     /// `object.name`, or `object?.name`
     #[inline(never)]
-    fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
-        let thing = self.thing(object)?;
+    fn member(&mut self, object: &'a Expr, name: &Name, optional: bool, span: Span) -> Attempt<Entity> {
+        let thing = self.entity(object)?;
         let found = self.member_of(thing, object.span, name, optional, span)?;
         self.explain_thing(&found, &name.text, name.span);
         Ok(found)
@@ -90,62 +90,62 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn member_of(
         &mut self,
-        thing: Thing,
+        thing: Entity,
         object: Span,
         name: &Name,
         optional: bool,
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         match thing {
-            Thing::Object(id) => match self.schema.member(id, &name.text) {
+            Entity::Object(id) => match self.schema.member(id, &name.text) {
                 Some(entry) => Ok(from_entry(entry, span)),
                 None => {
                     let report = self.unknown_member(id, name, span);
                     self.refuse(report)
                 }
             },
-            Thing::Math => self.math_member(name, span),
-            Thing::Globals => self.global(&name.text, span).map(Thing::Value),
-            Thing::Namespace(holder) => self.namespace_member(holder, name, span),
-            Thing::Field(field) if field.is_scalar() && self.is_method(&name.text, Type::Number) => {
+            Entity::Math => self.math_member(name, span),
+            Entity::Globals => self.global(&name.text, span).map(Entity::Value),
+            Entity::Namespace(holder) => self.namespace_member(holder, name, span),
+            Entity::Field(field) if field.is_scalar() && self.is_method(&name.text, Type::Number) => {
                 let ir = self.load(&field, crate::ir::Index::At(0), object);
                 self.value_member(ir, name, optional, span)
             }
-            Thing::Field(field) => self.field_member(field, object, name, span),
-            Thing::Picked(id, chosen) => self.picked_member(id, chosen, name, span),
-            Thing::Collection(id) => {
+            Entity::Field(field) => self.field_member(field, object, name, span),
+            Entity::Picked(id, chosen) => self.picked_member(id, chosen, name, span),
+            Entity::Collection(id) => {
                 let report = self.collection_needs_call(id, object, Some((&name.text, span)));
                 self.refuse(report)
             }
-            thing @ (Thing::Function(_)
-            | Thing::MathFunction(_)
-            | Thing::Method(..)
-            | Thing::Native(_)
-            | Thing::Closure(_)) => {
+            thing @ (Entity::Function(_)
+            | Entity::MathFunction(_)
+            | Entity::Method(..)
+            | Entity::Native(_)
+            | Entity::Closure(_)) => {
                 let report = self.not_called(&thing, object);
                 self.refuse(report)
             }
-            Thing::Value(ir) => self.value_member(ir, name, optional, span),
+            Entity::Value(ir) => self.value_member(ir, name, optional, span),
         }
     }
 
     /// `Array.from` and its like.
     #[inline(never)]
-    fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Thing> {
+    fn namespace_member(&mut self, holder: &'static str, name: &Name, span: Span) -> Attempt<Entity> {
         let path = format!("{holder}.{}", name.text);
-        if let Some(function) = natives::free(&path) {
-            return Ok(Thing::Native(function));
+        if let Some(function) = natives::find_function(&path) {
+            return Ok(Entity::Native(function));
         }
         let constants = if holder == "Number" { natives::NUMBER_CONSTANTS } else { &[] };
         if let Some((_, x)) = constants.iter().find(|(n, _)| *n == name.text) {
-            return Ok(Thing::Value(Ir::number(*x, span)));
+            return Ok(Entity::Value(Ir::number(*x, span)));
         }
         if MACHINERY.contains(&name.text.as_str()) {
             return self.refuse(machinery(&name.text, name.span));
         }
         let report =
             Finding::error(rules::UNKNOWN_FUNCTION, name.span, format!("`{holder}` has no `{}`", name.text));
-        let names: Vec<&str> = natives::rows()
+        let names: Vec<&str> = natives::public_rows()
             .filter_map(|row| row.name.strip_prefix(holder)?.strip_prefix('.'))
             .chain(constants.iter().map(|(n, _)| *n))
             .collect();
@@ -153,7 +153,7 @@ impl<'a> Binder<'a> {
             Some(meant) => report.help(format!("did you mean `{holder}.{meant}`?")).guess(name.span, meant),
             None => {
                 let names: Vec<String> = names.iter().map(|n| (*n).to_owned()).collect();
-                report.why(format!("it has {}", list(&names)))
+                report.why(format!("it has {}", list_names(&names)))
             }
         })
     }
@@ -162,7 +162,7 @@ impl<'a> Binder<'a> {
     pub(super) fn global(&mut self, name: &str, span: Span) -> Attempt<Ir> {
         self.check_machinery(name, span)?;
         let slot = self.globals.mention(name, self.program, span, false);
-        Ok(Ir::new(Kind::Global(slot), Type::Any, span))
+        Ok(Ir::new(IrKind::Global(slot), Type::Any, span))
     }
 
     pub(super) fn check_machinery(&mut self, name: &str, span: Span) -> Attempt<()> {
@@ -173,21 +173,21 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Thing> {
+    fn math_member(&mut self, name: &Name, span: Span) -> Attempt<Entity> {
         if let Some(x) = math::constant(&name.text) {
-            return Ok(Thing::Value(Ir::constant(Value::Number(x), span)));
+            return Ok(Entity::Value(Ir::constant(Value::Number(x), span)));
         }
         if let Some(function) = math::function(&name.text) {
-            return Ok(Thing::MathFunction(function));
+            return Ok(Entity::MathFunction(function));
         }
         if name.text == "random" {
             return self.refuse(
                 Finding::error(rules::NOT_RANDOM, span, "random numbers are not in this language")
                     .why(format!(
                         "the same {} must give the same numbers every time, so that its answers can be checked",
-                        self.words().lesson
+                        self.host_terms().lesson
                     ))
-                    .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.words().number)),
+                    .help(format!("use a fixed sequence, as `Math.sin(1000 * {})`", self.host_terms().number)),
             );
         }
         let report =
@@ -203,20 +203,21 @@ impl<'a> Binder<'a> {
 
     /// `.length` and the methods of an array.
     #[inline(never)]
-    fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Thing> {
+    fn field_member(&mut self, field: Field, object: Span, name: &Name, span: Span) -> Attempt<Entity> {
         let array = !field.is_scalar();
         let text = name.text.as_str();
-        if let Some(method) = natives::name(text).filter(|_| array && self.is_method(text, Type::View)) {
-            return Ok(Thing::Method(Box::new(Receiver::Field(field)), method));
+        if let Some(method) = natives::find_method(text).filter(|_| array && self.is_method(text, Type::View))
+        {
+            return Ok(Entity::Method(Box::new(MethodReceiver::Field(field)), method));
         }
         match text {
-            "length" if array => Ok(Thing::Value(match field.len() {
+            "length" if array => Ok(Entity::Value(match field.len() {
                 Some(n) => Ir::number(n as f64, span),
-                None => Ir::new(Kind::Length(view_of(&field)), Type::Number, span),
+                None => Ir::new(IrKind::Length(view_of(&field)), Type::Number, span),
             })),
             text @ ("push" | "pop" | "shift" | "unshift" | "splice") if array => self.refuse(
                 Finding::error(rules::NOT_CALLABLE, name.span, format!("`{}` has a fixed number of elements", field.path))
-                    .why(format!("`{text}` changes the number of elements of a list, but this array is the memory of the {}", self.words().world))
+                    .why(format!("`{text}` changes the number of elements of a list, but this array is the memory of the {}", self.host_terms().world))
                     .help(format!("store elements, as `{}[0] = 1`, or copy it into your own list: `const list = [...{}]`", field.path, field.path)),
             ),
             text if MACHINERY.contains(&text) => self.refuse(machinery(text, name.span)),
@@ -292,33 +293,33 @@ impl<'a> Binder<'a> {
             }
             (Some((_, meant)), _) => report.help(format!("did you mean `{meant}`?")).guess(name.span, meant),
             (None, _) if names.is_empty() => report.why("it has no fields"),
-            (None, _) => report.why(format!("its fields are {}", list(&names))),
+            (None, _) => report.why(format!("its fields are {}", list_names(&names))),
         }
     }
 }
 
 /// Names that mean the same in every lab.
-fn language(name: &str, span: Span) -> Option<Thing> {
-    let constant = |value| Some(Thing::Value(Ir::constant(value, span)));
+fn language(name: &str, span: Span) -> Option<Entity> {
+    let constant = |value| Some(Entity::Value(Ir::constant(value, span)));
     match name {
         "undefined" => constant(Value::Undefined),
         "NaN" => constant(Value::Number(f64::NAN)),
         "Infinity" => constant(Value::Number(f64::INFINITY)),
-        "Math" => Some(Thing::Math),
-        "ctx" => Some(Thing::Globals),
+        "Math" => Some(Entity::Math),
+        "ctx" => Some(Entity::Globals),
         // `String(x)` is a function and `String` a holder of others: which is meant shows behind the name.
         _ => match NAMESPACES.iter().find(|n| **n == name) {
-            Some(holder) => Some(Thing::Namespace(holder)),
+            Some(holder) => Some(Entity::Namespace(holder)),
             None if name.starts_with('_') || name.contains('.') => None,
-            None => {
-                math::global(name).map(Thing::MathFunction).or_else(|| natives::free(name).map(Thing::Native))
-            }
+            None => math::global(name)
+                .map(Entity::MathFunction)
+                .or_else(|| natives::find_function(name).map(Entity::Native)),
         },
     }
 }
 
 /// What a field is, in the words of its table.
-pub(super) fn field_help(field: &Field, words: &Words) -> Help {
+pub(super) fn field_help(field: &Field, host_terms: &HostTerms) -> Help {
     let mut lines = Vec::new();
     if !field.doc.is_empty() {
         let unit = if field.unit.is_empty() { String::new() } else { format!(", {}", field.unit) };
@@ -331,30 +332,30 @@ pub(super) fn field_help(field: &Field, words: &Words) -> Help {
     if !shape.is_empty() {
         lines.push(format!("{} numbers", shape.join(" × ")));
     }
-    lines.push(kind_in_words(&field.kind, words));
+    lines.push(kind_in_words(&field.kind, host_terms));
     Help { title: field.path.clone(), lines }
 }
 
 /// What assigning means.
-fn kind_in_words(kind: &FieldKind, words: &Words) -> String {
+fn kind_in_words(kind: &FieldKind, host_terms: &HostTerms) -> String {
     match kind {
         FieldKind::State => "state: evolves in time, can be set".into(),
         FieldKind::Input => "input: set from outside".into(),
         FieldKind::Constant => "constant: can be changed".into(),
-        FieldKind::Inertial => format!("constant: a change needs {}", words.recompute),
-        FieldKind::Structure => format!("fixed with the {}", words.model),
+        FieldKind::Inertial => format!("constant: a change needs {}", host_terms.recompute),
+        FieldKind::Structure => format!("fixed with the {}", host_terms.model),
         FieldKind::Derived { by } if by.is_empty() => "computed".into(),
         FieldKind::Derived { by } => format!("computed by {by}"),
     }
 }
 
-fn from_entry(entry: Entry, span: Span) -> Thing {
+fn from_entry(entry: Entry, span: Span) -> Entity {
     match entry {
-        Entry::Object(id) => Thing::Object(id),
-        Entry::Field(field) => Thing::Field(field),
-        Entry::Collection(id) => Thing::Collection(id),
-        Entry::Function(id) => Thing::Function(id),
-        Entry::Constant(value) => Thing::Value(Ir::constant(value, span)),
+        Entry::Object(id) => Entity::Object(id),
+        Entry::Field(field) => Entity::Field(field),
+        Entry::Collection(id) => Entity::Collection(id),
+        Entry::Function(id) => Entity::Function(id),
+        Entry::Constant(value) => Entity::Value(Ir::constant(value, span)),
     }
 }
 

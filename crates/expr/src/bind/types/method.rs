@@ -1,82 +1,85 @@
 //! Calls of methods: of arrays of the simulation, lists, texts and numbers.
 
+use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::view_of;
-use super::{Attempt, Binder, Receiver, Thing, Want};
+use super::typed::Expectation;
 use crate::ast::{Expr, ExprKind};
-use crate::ir::{Ir, Item, Kind};
-use crate::natives::{self, On, Row};
+use crate::ir::{Ir, IrItem, IrKind, MethodId};
+use crate::natives::{self, Native, ReceiverKind};
+use crate::parse::Attempt;
 use crate::rules;
-use crate::schema::{Field, Type};
+use crate::schema::Field;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 /// A value that is a list when it is computed, or the run ends: what is called on it is a method of lists.
 fn listed(ir: Ir, method: &str) -> Ir {
-    let Some(function) = natives::free("_list") else { return ir };
+    let Some(function) = natives::find_function("_list") else { return ir };
     let span = ir.span;
-    let items = [ir, Ir::constant(method.into(), span)].map(|value| Item { value, spread: false });
-    Ir::new(Kind::Native(function, items.into()), Type::Any, span)
+    let items = [ir, Ir::constant(method.into(), span)].map(|value| IrItem { value, spread: false });
+    Ir::new(IrKind::Native(function, items.into()), Type::Any, span)
 }
 
 impl<'a> Binder<'a> {
     /// Whether values of a type have a method.
     pub(super) fn is_method(&self, text: &str, ty: Type) -> bool {
-        natives::name(text).is_some_and(|n| n.rows_for(ty).next().is_some())
+        natives::find_method(text).is_some_and(|n| n.rows_for(ty).next().is_some())
     }
 
     /// The methods of values of a type.
     pub(super) fn method_names(&self, ty: Type) -> Vec<&'static str> {
-        let names = natives::rows().map(|row| row.name).filter(|name| self.is_method(name, ty));
+        let names = natives::public_rows().map(|row| row.name).filter(|name| self.is_method(name, ty));
         names.chain(["length"]).collect()
     }
 
     /// `receiver.name(args)`
     pub(super) fn method(
         &mut self,
-        receiver: Receiver,
-        name: natives::Name,
+        receiver: MethodReceiver,
+        name: MethodId,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<Ir> {
-        if let Receiver::Field(field) = &receiver
+        if let MethodReceiver::Field(field) = &receiver
             && let Some(ir) = self.field_method(field, name.text(), args, span)?
         {
             return Ok(ir);
         }
         let changes = name.rows().any(|row| row.changes);
-        if let (Receiver::Field(field), true) = (&receiver, changes) {
+        if let (MethodReceiver::Field(field), true) = (&receiver, changes) {
             self.check_assignable(field, span)?;
         }
         let ty = match &receiver {
-            Receiver::Field(_) => Type::View,
-            Receiver::Value(ir) => ir.ty,
+            MethodReceiver::Field(_) => Type::View,
+            MethodReceiver::Value(ir) => ir.ty,
         };
-        let rows: Vec<&'static Row> = name.rows_for(ty).collect();
+        let rows: Vec<&'static Native> = name.rows_for(ty).collect();
         let run = rows.iter().copied().filter(|row| !row.calls());
         let runs = run.clone().next().is_some();
         if let Some(row) = rows.iter().copied().find(|row| row.calls() && !(runs && args.is_empty())) {
-            let function = self.written(row, args, span)?;
+            let function = self.source_function(row, args, span)?;
             let first = match receiver {
-                Receiver::Field(field) => Thing::Field(field),
-                Receiver::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Thing::Value(ir),
-                Receiver::Value(ir) => Thing::Value(listed(ir, row.name)),
+                MethodReceiver::Field(field) => Entity::Field(field),
+                MethodReceiver::Value(ir) if matches!(ir.ty, Type::List | Type::View) => Entity::Value(ir),
+                MethodReceiver::Value(ir) => Entity::Value(listed(ir, row.name)),
             };
-            return self.call_written(function, row, first, args, span);
+            return self.inline_method(function, row, first, args, span);
         }
         let receiver = match receiver {
-            Receiver::Field(field) => self.field_value(&field, span),
-            Receiver::Value(ir) => ir,
+            MethodReceiver::Field(field) => self.field_value(&field, span),
+            MethodReceiver::Value(ir) => ir,
         };
         self.check_arity(&rows, args, span)?;
         let items = self.items(args)?;
         let ty = run.map(|row| row.returns(ty)).reduce(Type::or).unwrap_or(Type::Any);
-        Ok(Ir::new(Kind::Method(name, Box::new(receiver), items), ty, span))
+        Ok(Ir::new(IrKind::Method(name, Box::new(receiver), items), ty, span))
     }
 
     /// The function of the language that computes a method with these arguments.
-    fn written(
+    fn source_function(
         &mut self,
-        row: &'static Row,
+        row: &'static Native,
         args: &'a [Expr],
         span: Span,
     ) -> Attempt<&'a crate::ast::Function> {
@@ -91,7 +94,7 @@ impl<'a> Binder<'a> {
                 .help(format!("write them out, as `{example}`")),
             );
         }
-        match row.written(args.len()) {
+        match row.source_function(args.len()) {
             Some(function) => Ok(function),
             None => self.refuse(
                 Finding::error(
@@ -109,23 +112,28 @@ impl<'a> Binder<'a> {
     }
 
     /// The example of a method, from its name on: `.map(x => 2 * x)`.
-    fn call_of(&self, row: &Row) -> String {
+    fn call_of(&self, row: &Native) -> String {
         let (example, _) = row.example("");
         let at = example.find(row.name).unwrap_or(0);
         let from = example.split_at(at).1;
-        if row.on == On::Nothing { from.to_owned() } else { format!(".{from}") }
+        if row.on == ReceiverKind::Nothing { from.to_owned() } else { format!(".{from}") }
     }
 
     /// The finding for something else where a method takes a function.
-    pub(super) fn needs_function(&self, row: &Row, span: Span) -> Finding {
-        let point = if row.on == On::Nothing { "" } else { "." };
+    pub(super) fn needs_function(&self, row: &Native, span: Span) -> Finding {
+        let point = if row.on == ReceiverKind::Nothing { "" } else { "." };
         Finding::error(rules::ARGUMENT_TYPE, span, format!("`{point}{}` needs a function", row.name))
             .why("it is called for every element")
             .help(format!("write `{}`", self.call_of(row)))
     }
 
     /// Checks how many arguments a function of the language gets, which one of these rows computes.
-    pub(super) fn check_arity(&mut self, rows: &[&'static Row], args: &'a [Expr], span: Span) -> Attempt<()> {
+    pub(super) fn check_arity(
+        &mut self,
+        rows: &[&'static Native],
+        args: &'a [Expr],
+        span: Span,
+    ) -> Attempt<()> {
         let Some(row) = rows.first() else { return Ok(()) };
         let least = rows.iter().map(|row| row.arity().0).min().unwrap_or(0);
         let most = rows.iter().map(|row| row.arity().1).max().unwrap_or(0);
@@ -139,8 +147,8 @@ impl<'a> Binder<'a> {
             (_, usize::MAX) => format!("at least {}", super::call::count(least, "argument")),
             _ => format!("{least} to {}", super::call::count(most, "argument")),
         };
-        let point = if row.on == On::Nothing { "" } else { "." };
-        let (example, value) = row.example(self.words().array);
+        let point = if row.on == ReceiverKind::Nothing { "" } else { "." };
+        let (example, value) = row.example(self.host_terms().array);
         self.refuse(
             Finding::error(
                 rules::ARGUMENT_COUNT,
@@ -166,42 +174,26 @@ impl<'a> Binder<'a> {
                 let assignable = self.check_assignable(field, span);
                 let value = self.operand(value)?;
                 assignable?;
-                self.want(&value, value.span, Want::Element(None));
-                Kind::Fill(view, Box::new(value))
+                self.want(&value, value.span, Expectation::Element(None));
+                IrKind::Fill(view, Box::new(value))
             }
             ("set", [Expr { kind: ExprKind::Array(items), .. }, rest @ ..])
                 if rest.len() < 2 && !items.iter().any(|i| matches!(i.kind, ExprKind::Spread(_))) =>
             {
                 let assignable = self.check_assignable(field, span);
-                let offset = match rest.first() {
-                    Some(offset) => {
-                        let ir = self.operand(offset)?;
-                        match ir.constant_value() {
-                            Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => *x as usize,
-                            Some(_) => {
-                                let report = Finding::error(
-                                    rules::ARGUMENT_TYPE,
-                                    offset.span,
-                                    "the second argument of `.set` must be an integer from 0 on",
-                                )
-                                .why("it is the index of the first stored element")
-                                .help("write the number, as `.set([0, 0, 1], 7)`");
-                                return self.refuse(report);
-                            }
-                            // Known only while running: the general method.
-                            None => return Ok(None),
-                        }
-                    }
-                    None => 0,
+                // Known only while running: the general method.
+                let Some(offset) = rest.first().map_or(Ok(Some(0)), |offset| self.known_offset(offset))?
+                else {
+                    return Ok(None);
                 };
                 let bound: Vec<Attempt<Ir>> = items.iter().map(|item| self.operand(item)).collect();
                 let values = bound.into_iter().collect::<Attempt<Vec<Ir>>>()?;
                 for value in &values {
-                    self.want(value, value.span, Want::Element(None));
+                    self.want(value, value.span, Expectation::Element(None));
                 }
                 self.check_fits(field, values.len(), offset, span)?;
                 assignable?;
-                Kind::StoreAll(view, offset, values)
+                IrKind::StoreAll(view, offset, values)
             }
             ("set", [first, ..]) if matches!(first.kind, ExprKind::Number(_)) => {
                 return self.refuse(
@@ -218,6 +210,25 @@ impl<'a> Binder<'a> {
             _ => return Ok(None),
         };
         Ok(Some(Ir::new(kind, Type::Void, span)))
+    }
+
+    /// The second argument of `.set`, where it is known.
+    fn known_offset(&mut self, offset: &'a Expr) -> Attempt<Option<usize>> {
+        let ir = self.operand(offset)?;
+        match ir.as_constant() {
+            Some(Value::Number(x)) if *x >= 0.0 && x.fract() == 0.0 => Ok(Some(*x as usize)),
+            Some(_) => {
+                let report = Finding::error(
+                    rules::ARGUMENT_TYPE,
+                    offset.span,
+                    "the second argument of `.set` must be an integer from 0 on",
+                )
+                .why("it is the index of the first stored element")
+                .help("write the number, as `.set([0, 0, 1], 7)`");
+                self.refuse(report)
+            }
+            None => Ok(None),
+        }
     }
 
     fn check_fits(&mut self, field: &Field, count: usize, offset: usize, span: Span) -> Attempt<()> {

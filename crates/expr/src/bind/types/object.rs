@@ -2,45 +2,52 @@
 
 use std::sync::Arc;
 
+use super::binder::{Binder, Entity, MethodReceiver};
 use super::member::{machinery, view_of};
-use super::{Attempt, Binder, Receiver, Thing};
 use crate::ast::{Expr, ExprKind, Name};
-use crate::bind::names::{MACHINERY, Named, list};
-use crate::ir::{Index, Ir, Kind, Picks};
+use crate::bind::names::{MACHINERY, NameMeaning, list_names};
+use crate::ir::{Index, Ir, IrKind, MemberTable};
 use crate::natives;
+use crate::parse::Attempt;
 use crate::rules;
-use crate::schema::{CollectionId, Entry, Field, Param, Type};
+use crate::schema::{Entry, Field, Param};
+use crate::types::{CollectionId, Type};
 use crate::value::{Value, View};
-use crate::{Finding, Span};
-use labspec_finding::nearest;
+use labspec_finding::{Finding, Span, nearest};
 
 /// The most elements that a literal spread of an array of the simulation writes out.
 const MAX_WRITTEN_OUT: usize = 64;
 
 impl<'a> Binder<'a> {
     /// `value.name`
-    pub(super) fn value_member(&mut self, ir: Ir, name: &Name, optional: bool, span: Span) -> Attempt<Thing> {
+    pub(super) fn value_member(
+        &mut self,
+        ir: Ir,
+        name: &Name,
+        optional: bool,
+        span: Span,
+    ) -> Attempt<Entity> {
         let text = name.text.as_str();
         if MACHINERY.contains(&text) {
             return self.refuse(machinery(text, name.span));
         }
         let ir = if optional { self.present(ir) } else { ir };
-        if let Some(method) = natives::name(text).filter(|_| self.is_method(text, ir.ty)) {
-            return Ok(Thing::Method(Box::new(Receiver::Value(ir)), method));
+        if let Some(method) = natives::find_method(text).filter(|_| self.is_method(text, ir.ty)) {
+            return Ok(Entity::Method(Box::new(MethodReceiver::Value(ir)), method));
         }
         match ir.ty {
             Type::List | Type::View | Type::String if text == "length" => {
-                Ok(Thing::Value(match self.known_length(&ir).filter(|_| is_still(&ir)) {
+                Ok(Entity::Value(match self.known_length(&ir).filter(|_| is_still(&ir)) {
                     Some(n) => Ir::number(n as f64, span),
-                    None => Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Number, span),
+                    None => Ir::new(IrKind::Member(Box::new(ir), text.into()), Type::Number, span),
                 }))
             }
-            Type::Record => self.record_member(ir, name, span).map(Thing::Value),
+            Type::Record => self.record_member(ir, name, span).map(Entity::Value),
             Type::Any | Type::Never => {
-                Ok(Thing::Value(Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Any, span)))
+                Ok(Entity::Value(Ir::new(IrKind::Member(Box::new(ir), text.into()), Type::Any, span)))
             }
             _ if optional => {
-                Ok(Thing::Value(Ir::new(Kind::Member(Box::new(ir), text.into()), Type::Any, span)))
+                Ok(Entity::Value(Ir::new(IrKind::Member(Box::new(ir), text.into()), Type::Any, span)))
             }
             ty => {
                 let report = self.no_member(ty, name, span, ir.span);
@@ -52,10 +59,10 @@ impl<'a> Binder<'a> {
     /// A member of a record, checked when it is known what makes the record.
     pub(super) fn record_member(&mut self, ir: Ir, name: &Name, span: Span) -> Attempt<Ir> {
         let mut ty = Type::Any;
-        if let Kind::Call(id, _) = &ir.kind {
+        if let IrKind::Call(id, _) = &ir.kind {
             let info = self.schema.function(*id);
             match info.members.iter().find(|(member, _)| *member == name.text) {
-                Some((_, declared)) => ty = *declared,
+                Some((_, found)) => ty = *found,
                 None if info.members.is_empty() => {}
                 None => {
                     let names: Vec<String> = info.members.iter().map(|(n, _)| n.clone()).collect();
@@ -64,7 +71,7 @@ impl<'a> Binder<'a> {
                         name.span,
                         format!("the result of `{}` has no `{}`", info.name, name.text),
                     )
-                    .why(format!("it has {}", list(&names)));
+                    .why(format!("it has {}", list_names(&names)));
                     return self.refuse(match nearest(&name.text, names.iter().map(String::as_str)) {
                         Some(meant) => {
                             report.help(format!("did you mean `{meant}`?")).guess(name.span, meant)
@@ -74,7 +81,7 @@ impl<'a> Binder<'a> {
                 }
             }
         }
-        Ok(Ir::new(Kind::Member(Box::new(ir), name.text.as_str().into()), ty, span))
+        Ok(Ir::new(IrKind::Member(Box::new(ir), name.text.as_str().into()), ty, span))
     }
 
     /// The finding for a member of something that has none of this name.
@@ -107,16 +114,16 @@ impl<'a> Binder<'a> {
     pub(super) fn present(&mut self, ir: Ir) -> Ir {
         let (ty, span) = (ir.ty, ir.span);
         let ty = if ty == Type::Element { Type::Number } else { ty };
-        Ir::new(Kind::Present(Box::new(ir)), ty, span)
+        Ir::new(IrKind::Present(Box::new(ir)), ty, span)
     }
 
     /// The number of elements of a list that is written out or that a function of known size gives.
     pub(super) fn known_length(&self, ir: &Ir) -> Option<usize> {
         match &ir.kind {
-            Kind::List(items) if items.iter().all(|i| !i.spread) => Some(items.len()),
-            Kind::Call(id, _) => self.schema.function(*id).length,
-            Kind::Constant(Value::View(view)) => view.count(),
-            Kind::Constant(Value::String(text)) => Some(text.encode_utf16().count()),
+            IrKind::List(items) if items.iter().all(|i| !i.spread) => Some(items.len()),
+            IrKind::Call(id, _) => self.schema.function(*id).length,
+            IrKind::Constant(Value::View(view)) => view.count(),
+            IrKind::Constant(Value::String(text)) => Some(text.encode_utf16().count()),
             _ => None,
         }
     }
@@ -127,7 +134,7 @@ impl<'a> Binder<'a> {
         let ExprKind::Member { object: holder, name, .. } = &callee.kind else { return None };
         let ExprKind::Name(root) = &holder.kind else { return None };
         let [Expr { kind: ExprKind::String(chosen), .. }] = args.as_slice() else { return None };
-        if self.names.at(holder.span.start) != Named::Outside {
+        if self.names.at(holder.span.start) != NameMeaning::Outside {
             return None;
         }
         let Some(Entry::Object(holder)) = self.schema.root(root) else { return None };
@@ -145,7 +152,7 @@ impl<'a> Binder<'a> {
         chosen: Ir,
         name: &Name,
         span: Span,
-    ) -> Attempt<Thing> {
+    ) -> Attempt<Entity> {
         let noun = self.schema.noun(id).to_owned();
         let names = self.schema.names(id);
         let mut of: Vec<(Arc<str>, Value)> = Vec::new();
@@ -165,8 +172,8 @@ impl<'a> Binder<'a> {
         }
         if of.is_empty() {
             // Any of the objects shows what members there are.
-            let field = names.first().and_then(|n| self.schema.lookup(id, n));
-            let report = match field {
+            let object = names.first().and_then(|n| self.schema.lookup(id, n));
+            let report = match object {
                 Some(object) => self.unknown_member(object, name, span),
                 None => Finding::error(
                     rules::UNKNOWN_FIELD,
@@ -188,8 +195,8 @@ impl<'a> Binder<'a> {
             Some((_, value)) => value.type_of(),
             None => Type::Any,
         };
-        let picks = Picks { noun, of, scalar };
-        Ok(Thing::Value(Ir::new(Kind::Pick(picks.into(), Box::new(chosen)), ty, span)))
+        let picks = MemberTable { noun, of, scalar };
+        Ok(Entity::Value(Ir::new(IrKind::Pick(picks.into(), Box::new(chosen)), ty, span)))
     }
 
     /// An array of the simulation as a value.
@@ -201,9 +208,9 @@ impl<'a> Binder<'a> {
     /// Notes that an array becomes a value.
     pub(super) fn show(&mut self, field: &Field) -> View {
         let view = view_of(field);
-        let displayed = crate::ir::Shown { view, elem: field.elem, assignable: field.is_assignable() };
-        if !self.tree.views.contains(&displayed) {
-            self.tree.views.push(displayed);
+        let exposed = crate::ir::ExposedView { view, elem: field.elem, assignable: field.is_assignable() };
+        if !self.tree.views.contains(&exposed) {
+            self.tree.views.push(exposed);
         }
         view
     }
@@ -218,8 +225,8 @@ impl<'a> Binder<'a> {
 /// Whether computing a value does nothing else, so that it can be left out.
 fn is_still(ir: &Ir) -> bool {
     match &ir.kind {
-        Kind::Constant(_) | Kind::Global(_) => true,
-        Kind::List(items) => items.iter().all(|i| !i.spread && is_still(&i.value)),
+        IrKind::Constant(_) | IrKind::Global(_) => true,
+        IrKind::List(items) => items.iter().all(|i| !i.spread && is_still(&i.value)),
         _ => false,
     }
 }

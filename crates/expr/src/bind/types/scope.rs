@@ -1,99 +1,59 @@
 //! Variables: their places, the functions that use them, and what they stand for.
 
-use super::facts::Key;
-use super::written::Site;
-use super::{Attempt, Binder, Reported, Thing, What};
-use crate::Finding;
-use crate::Span;
-use crate::ast::{Declarator, Function, Name, Pattern, Stmt, StmtKind};
-use crate::bind::names::{Declared, Named, names_of};
-use crate::ir::{Ir, Kind, Local, LocalId, Step, UnitId};
+use super::binder::{Binder, Entity, Variable, VariableMeaning};
+use super::facts::{FactKey, FactKind};
+use crate::ast::{Declarator, Name, Pattern, Stmt, StmtKind};
+use crate::bind::names::{Declaration, NameMeaning, names_of};
+use crate::ir::{Ir, IrKind, IrStatement, Local, LocalId};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::Type;
-
-/// A name that the text gives.
-#[derive(Clone, Debug)]
-pub(super) struct Variable {
-    pub(super) key: Key,
-    pub(super) id: LocalId,
-    /// The function that it belongs to.
-    pub(super) unit: UnitId,
-    /// Its declaration has run.
-    pub(super) ready: bool,
-    pub(super) meaning: Meaning,
-    /// Smallest and largest value, of a loop that counts between known bounds.
-    pub(super) range: Option<(f64, f64)>,
-}
-
-/// What a name stands for.
-#[derive(Clone, Debug)]
-pub(super) enum Meaning {
-    /// A value, kept in a place of its own.
-    Slot,
-    /// Another word for a thing: `const v = list`.
-    Alias(Thing),
-    /// Its declaration has a mistake, reported there.
-    Unknown,
-}
-
-/// A function of the text.
-#[derive(Clone)]
-pub(super) struct Known<'a> {
-    pub(super) function: &'a Function,
-    /// What it gives.
-    pub(super) key: Key,
-    /// The function around it.
-    pub(super) around: UnitId,
-    /// What it was bound as.
-    pub(super) unit: Option<UnitId>,
-    /// The call whose written method it stands in.
-    pub(super) site: Option<Site>,
-}
+use crate::types::Type;
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// The key of something declared at a byte.
-    pub(super) fn key(&self, at: usize, what: What) -> Key {
-        Key { site: self.site.map_or(0, |site| site.id), at, what }
+    pub(super) fn key(&self, at: usize, what: FactKind) -> FactKey {
+        FactKey { site: self.site.map_or(0, |site| site.id), at, what }
     }
 
     /// The key of a variable.
-    pub(super) fn key_of(&self, name: &Name) -> Key {
-        self.key(name.span.start, What::Name)
+    pub(super) fn key_of(&self, name: &Name) -> FactKey {
+        self.key(name.span.start, FactKind::Name)
     }
 
     /// What the first pass found of a declaration.
-    pub(super) fn declaration(&self, key: Key) -> Option<&'a Declared> {
+    pub(super) fn declaration(&self, key: FactKey) -> Option<&'a Declaration> {
         self.site.map_or(self.names, |site| site.names).declared(key.at)
     }
 
     /// In how many places a variable is assigned after its declaration.
-    pub(super) fn assignments(&self, key: Key) -> usize {
+    pub(super) fn assignments(&self, key: FactKey) -> usize {
         self.declaration(key).map_or(0, |declared| declared.assigned)
     }
 
     /// Statements with names of their own.
-    pub(super) fn block(&mut self, statements: &'a [Stmt]) -> Vec<Step> {
-        let depth = self.scopes.len();
+    pub(super) fn block(&mut self, statements: &'a [Stmt]) -> Vec<IrStatement> {
+        let functions = self.functions.len();
         let mut steps = Vec::new();
         self.hoist(statements, &mut steps);
         for statement in statements {
             self.statement(statement, &mut steps);
         }
-        self.leave(depth);
+        self.leave(functions);
         steps
     }
 
     /// The end of a block: functions that nothing called are looked through for mistakes.
-    pub(super) fn leave(&mut self, depth: usize) {
-        for i in depth..self.scopes.len() {
-            if self.scopes.get(i).is_some_and(|k| k.unit.is_none()) {
+    pub(super) fn leave(&mut self, functions: usize) {
+        for i in functions..self.functions.len() {
+            if self.functions.get(i).is_some_and(|k| k.unit.is_none()) {
                 self.bind_with_anything(i);
             }
         }
     }
 
     /// Names that a block declares get their places; functions can be called from its start.
-    fn hoist(&mut self, statements: &'a [Stmt], steps: &mut Vec<Step>) {
+    fn hoist(&mut self, statements: &'a [Stmt], steps: &mut Vec<IrStatement>) {
         for statement in statements {
             match &statement.kind {
                 StmtKind::Declare { declarators, .. } => {
@@ -108,22 +68,22 @@ impl<'a> Binder<'a> {
         for statement in statements {
             if let StmtKind::Function { name, function } = &statement.kind {
                 let thing = self.new_function(function);
-                self.give(name, Meaning::Alias(thing));
+                self.give(name, VariableMeaning::Alias(thing));
             }
         }
     }
 
-    pub(super) fn hoist_pattern(&mut self, pattern: &'a Pattern, steps: &mut Vec<Step>) {
+    pub(super) fn hoist_pattern(&mut self, pattern: &'a Pattern, steps: &mut Vec<IrStatement>) {
         names_of(pattern, &mut |name| self.hoist_name(name, steps));
     }
 
-    fn hoist_name(&mut self, name: &Name, steps: &mut Vec<Step>) {
+    fn hoist_name(&mut self, name: &Name, steps: &mut Vec<IrStatement>) {
         if self.declaration(self.key_of(name)).is_none() {
             return; // it could not be declared
         }
         let id = self.declare_variable(name);
         if self.tree.locals.get(id as usize).is_some_and(|l| l.shared) {
-            steps.push(Step::Reserve(id));
+            steps.push(IrStatement::Reserve(id));
         }
     }
 
@@ -131,25 +91,31 @@ impl<'a> Binder<'a> {
     pub(super) fn declare_variable(&mut self, name: &Name) -> LocalId {
         let key = self.key_of(name);
         let declared = self.declaration(key);
-        if declared.is_some_and(Declared::joins) {
+        if declared.is_some_and(Declaration::joins) {
             self.facts.join(key);
         }
-        let id = self.new_local(key, declared.is_some_and(Declared::is_shared));
-        let variable =
-            Variable { key, id, unit: self.unit, ready: false, meaning: Meaning::Unknown, range: None };
+        let id = self.new_local(key, declared.is_some_and(Declaration::is_shared));
+        let variable = Variable {
+            key,
+            id,
+            unit: self.unit,
+            ready: false,
+            meaning: VariableMeaning::Unknown,
+            range: None,
+        };
         self.variables.insert(key, variable);
         id
     }
 
     /// A place for values. Its type is known at the end of the round.
-    pub(super) fn new_local(&mut self, key: Key, shared: bool) -> LocalId {
+    pub(super) fn new_local(&mut self, key: FactKey, shared: bool) -> LocalId {
         self.tree.locals.push(Local { ty: Type::Never, shared });
         self.keys.push(key);
         (self.tree.locals.len() - 1) as LocalId
     }
 
     /// The declaration of a name has run.
-    pub(super) fn give(&mut self, name: &Name, meaning: Meaning) {
+    pub(super) fn give(&mut self, name: &Name, meaning: VariableMeaning) {
         let key = self.key_of(name);
         if let Some(variable) = self.variables.get_mut(&key) {
             variable.ready = true;
@@ -158,30 +124,30 @@ impl<'a> Binder<'a> {
     }
 
     /// A declared name that holds a value: the step that stores it.
-    pub(super) fn give_value(&mut self, name: &Name, value: Ir, steps: &mut Vec<Step>) {
+    pub(super) fn give_value(&mut self, name: &Name, value: Ir, steps: &mut Vec<IrStatement>) {
         let key = self.key_of(name);
         let changes = self.assignments(key) > 0;
         self.facts.see(key, value.ty);
         let Some(variable) = self.variables.get_mut(&key) else {
-            steps.push(Step::Effect(value)); // a name that could not be declared
+            steps.push(IrStatement::Effect(value)); // a name that could not be declared
             return;
         };
         variable.ready = true;
         // A name for a known value that never changes is that value.
-        if value.constant_value().is_some() && !changes {
-            variable.meaning = Meaning::Alias(Thing::Value(value));
+        if value.as_constant().is_some() && !changes {
+            variable.meaning = VariableMeaning::Alias(Entity::Value(value));
             return;
         }
-        variable.meaning = Meaning::Slot;
-        steps.push(Step::Declare(variable.id, value));
+        variable.meaning = VariableMeaning::Slot;
+        steps.push(IrStatement::Declare(variable.id, value));
     }
 
     /// What the first pass found of a name, and the variable that it means.
     pub(super) fn variable(&mut self, name: &str, span: Span) -> Attempt<Option<Variable>> {
         match self.site.map_or(self.names, |site| site.names).at(span.start) {
-            Named::Outside => Ok(None),
-            Named::Wrong => Err(Reported),
-            Named::Declared(byte) => match self.variables.get(&self.key(byte, What::Name)) {
+            NameMeaning::Outside => Ok(None),
+            NameMeaning::Wrong => Err(Reported),
+            NameMeaning::Declared(byte) => match self.variables.get(&self.key(byte, FactKind::Name)) {
                 Some(variable) => Ok(Some(variable.clone())),
                 None => self.refuse(
                     Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here"))
@@ -193,14 +159,14 @@ impl<'a> Binder<'a> {
     }
 
     /// What a variable stands for where it is read.
-    pub(super) fn read_variable(&mut self, variable: &Variable, span: Span) -> Attempt<Thing> {
+    pub(super) fn read_variable(&mut self, variable: &Variable, span: Span) -> Attempt<Entity> {
         match &variable.meaning {
-            Meaning::Alias(thing) => Ok(thing.clone()),
-            Meaning::Unknown if variable.ready => Err(Reported),
+            VariableMeaning::Alias(thing) => Ok(thing.clone()),
+            VariableMeaning::Unknown if variable.ready => Err(Reported),
             _ => {
                 self.capture(variable);
                 let ty = self.facts.ty(variable.key);
-                Ok(Thing::Value(Ir::new(Kind::Local(variable.id), ty, span)))
+                Ok(Entity::Value(Ir::new(IrKind::Local(variable.id), ty, span)))
             }
         }
     }
@@ -209,13 +175,13 @@ impl<'a> Binder<'a> {
     pub(super) fn capture(&mut self, variable: &Variable) {
         let mut unit = self.unit;
         while unit != variable.unit {
-            let Some(known) = self.scopes.iter().find(|k| k.unit == Some(unit)) else { return };
+            let Some(called) = self.functions.iter().find(|k| k.unit == Some(unit)) else { return };
             if let Some(unit) = self.tree.units.get_mut(unit as usize)
                 && !unit.captures.contains(&variable.id)
             {
                 unit.captures.push(variable.id);
             }
-            unit = known.around;
+            unit = called.around;
         }
     }
 }

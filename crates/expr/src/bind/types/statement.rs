@@ -1,16 +1,17 @@
 //! Statements: declarations, effects, choices, and expressions that change nothing.
 
-use super::scope::Meaning;
-use super::{Attempt, Binder, Mode, Thing};
+use super::binder::{Binder, Entity, VariableMeaning};
 use crate::ast::{Declarator, Expr, ExprKind, Name, Pattern, Stmt, StmtKind};
-use crate::ir::{Entry, Ir, Item, Kind, Step};
+use crate::bind::source::TextKind;
+use crate::ir::{Ir, IrEntry, IrItem, IrKind, IrStatement};
+use crate::parse::Attempt;
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
-    pub(super) fn statement(&mut self, statement: &'a Stmt, steps: &mut Vec<Step>) {
+    pub(super) fn statement(&mut self, statement: &'a Stmt, steps: &mut Vec<IrStatement>) {
         let span = statement.span;
         match &statement.kind {
             StmtKind::Error | StmtKind::Empty | StmtKind::Function { .. } => {}
@@ -31,10 +32,10 @@ impl<'a> Binder<'a> {
                     self.guards += 1;
                 }
                 let Ok(test) = test else { return };
-                match test.constant_value().filter(|v| !v.is_nan()).map(Value::truthy) {
+                match test.as_constant().filter(|v| !v.is_nan()).map(Value::truthy) {
                     Some(true) => steps.extend(then),
                     Some(false) => steps.extend(otherwise),
-                    None => steps.push(Step::If(test, then, otherwise)),
+                    None => steps.push(IrStatement::If(test, then, otherwise)),
                 }
             }
             StmtKind::For { init, test, update, body } => {
@@ -60,13 +61,13 @@ impl<'a> Binder<'a> {
                     return;
                 }
                 self.guards += 1;
-                steps.push(if word == "break" { Step::Break } else { Step::Continue });
+                steps.push(if word == "break" { IrStatement::Break } else { IrStatement::Continue });
             }
             StmtKind::Return(value) => self.leave_function(value.as_ref(), span, steps),
         }
     }
 
-    fn leave_function(&mut self, value: Option<&'a Expr>, span: Span, steps: &mut Vec<Step>) {
+    fn leave_function(&mut self, value: Option<&'a Expr>, span: Span, steps: &mut Vec<IrStatement>) {
         let ir = match value {
             None => Ok(Ir::undefined(span)),
             Some(value) => self.value(value),
@@ -76,7 +77,7 @@ impl<'a> Binder<'a> {
         if let Some(key) = self.returns.last().copied() {
             self.facts.see(key, ir.ty);
         }
-        steps.push(Step::Return(ir));
+        steps.push(IrStatement::Return(ir));
     }
 
     /// A condition.
@@ -85,8 +86,8 @@ impl<'a> Binder<'a> {
             let report = self.assignment_inside(*op, *op_span, test.span);
             return self.refuse(report);
         }
-        let thing = self.thing(test)?;
-        if let Thing::Field(field) = &thing
+        let thing = self.entity(test)?;
+        if let Entity::Field(field) = &thing
             && !field.is_scalar()
         {
             let report = self.whole_array(field, test.span);
@@ -96,12 +97,12 @@ impl<'a> Binder<'a> {
     }
 
     /// An expression as a statement; nothing to run when it has no effect.
-    pub(super) fn effect_into(&mut self, expr: &'a Expr, steps: &mut Vec<Step>) {
+    pub(super) fn effect_into(&mut self, expr: &'a Expr, steps: &mut Vec<IrStatement>) {
         if let ExprKind::Sequence(parts) = &expr.kind {
             return parts.iter().for_each(|part| self.effect_into(part, steps));
         }
         if let Ok(Some(ir)) = self.effect(expr) {
-            steps.push(Step::Effect(ir));
+            steps.push(IrStatement::Effect(ir));
         }
     }
 
@@ -111,16 +112,16 @@ impl<'a> Binder<'a> {
                 self.changing(expr).map(Some)
             }
             ExprKind::Call { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => {
-                let ir = match self.thing(expr)? {
+                let ir = match self.entity(expr)? {
                     // The bare name of a function whose arguments are implied.
-                    Thing::Function(id) if self.schema.function(id).implied => {
+                    Entity::Function(id) if self.schema.function(id).implied => {
                         self.host_call(id, &[], expr.span, expr.span)?
                     }
-                    Thing::Value(ir) if acts(&ir) => ir,
-                    thing @ (Thing::Function(_)
-                    | Thing::MathFunction(_)
-                    | Thing::Method(..)
-                    | Thing::Closure(_)) => {
+                    Entity::Value(ir) if acts(&ir) => ir,
+                    thing @ (Entity::Function(_)
+                    | Entity::MathFunction(_)
+                    | Entity::Method(..)
+                    | Entity::Closure(_)) => {
                         let report = self.not_called(&thing, expr.span);
                         return self.refuse(report);
                     }
@@ -160,12 +161,12 @@ impl<'a> Binder<'a> {
     }
 
     /// `name = value`, or a pattern, of a declaration.
-    fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<Step>) {
+    fn declare(&mut self, constant: bool, declarator: &'a Declarator, steps: &mut Vec<IrStatement>) {
         match (&declarator.target, &declarator.value) {
             (Pattern::Name(name), Some(value)) => match self.declared(name, constant, value, steps) {
-                Ok(Some(thing)) => self.give(name, Meaning::Alias(thing)),
+                Ok(Some(thing)) => self.give(name, VariableMeaning::Alias(thing)),
                 Ok(None) => {}
-                Err(_) => self.give(name, Meaning::Unknown),
+                Err(_) => self.give(name, VariableMeaning::Unknown),
             },
             (Pattern::Name(name), None) => {
                 let value = Ir::undefined(name.span);
@@ -182,21 +183,21 @@ impl<'a> Binder<'a> {
         name: &'a Name,
         constant: bool,
         value: &'a Expr,
-        steps: &mut Vec<Step>,
-    ) -> Attempt<Option<Thing>> {
+        steps: &mut Vec<IrStatement>,
+    ) -> Attempt<Option<Entity>> {
         if let ExprKind::Assign { .. } | ExprKind::AssignLogical { .. } = &value.kind {
             let ir = self.changing(value)?;
             self.give_value(name, ir, steps);
             return Ok(None);
         }
         let changes = !constant && self.assignments(self.key_of(name)) > 0;
-        let thing = match self.thing(value)? {
-            alias @ (Thing::Field(_) | Thing::Closure(_) | Thing::Native(_) | Thing::MathFunction(_))
-                if !changes && !matches!(&alias, Thing::Field(f) if f.is_scalar()) =>
+        let thing = match self.entity(value)? {
+            alias @ (Entity::Field(_) | Entity::Closure(_) | Entity::Native(_) | Entity::MathFunction(_))
+                if !changes && !matches!(&alias, Entity::Field(f) if f.is_scalar()) =>
             {
                 return Ok(Some(alias));
             }
-            single @ (Thing::Value(_) | Thing::Field(_) | Thing::Closure(_)) => {
+            single @ (Entity::Value(_) | Entity::Field(_) | Entity::Closure(_)) => {
                 let ir = self.value_of(single, value.span)?;
                 self.give_value(name, ir, steps);
                 return Ok(None);
@@ -214,7 +215,7 @@ impl<'a> Binder<'a> {
                         name.text
                     ),
                 )
-                .why(format!("a name for a part of the {} always means that part", self.words().world))
+                .why(format!("a name for a part of the {} always means that part", self.host_terms().world))
                 .help(format!("declare it with `const {}`, and use another name for the number", name.text)),
             );
         }
@@ -223,7 +224,7 @@ impl<'a> Binder<'a> {
 
     /// Whether the text only reads values.
     pub(super) fn only_reads(&self) -> bool {
-        self.mode != Mode::Statements
+        self.mode != TextKind::Statements
     }
 }
 
@@ -233,41 +234,43 @@ fn as_value(ir: Ir) -> Ir {
 }
 
 /// Whether statements jump out of where they stand.
-fn jumps(steps: &[Step]) -> bool {
+fn jumps(steps: &[IrStatement]) -> bool {
     steps.iter().any(|step| match step {
-        Step::Return(_) | Step::Break | Step::Continue => true,
-        Step::If(_, then, otherwise) => jumps(then) || jumps(otherwise),
+        IrStatement::Return(_) | IrStatement::Break | IrStatement::Continue => true,
+        IrStatement::If(_, then, otherwise) => jumps(then) || jumps(otherwise),
         _ => false,
     })
 }
 
 /// Whether computing this does something, or may.
 fn acts(ir: &Ir) -> bool {
-    let any = |items: &[Item]| items.iter().any(|i| acts(&i.value));
+    let any = |items: &[IrItem]| items.iter().any(|i| acts(&i.value));
     match &ir.kind {
-        Kind::Call(..)
-        | Kind::Store(..)
-        | Kind::StoreIf(..)
-        | Kind::Update(..)
-        | Kind::Fill(..)
-        | Kind::StoreAll(..)
-        | Kind::Invoke(..)
-        | Kind::InvokeValue(..)
-        | Kind::Block(..) => true,
-        Kind::Method(name, object, args) => name.rows().any(|r| r.changes) || acts(object) || any(args),
-        Kind::Native(function, args) => function.row().name == "_empty" || any(args),
-        Kind::Unary(_, a) | Kind::ToNumber(a) | Kind::ToText(a) | Kind::TypeOf(a) => acts(a),
-        Kind::Chain(a) | Kind::Present(a) | Kind::Pick(_, a) | Kind::GlobalNamed(a) | Kind::Member(a, _) => {
-            acts(a)
-        }
-        Kind::MathOver(_, a) => acts(a),
-        Kind::Binary(_, a, b) | Kind::Logical(_, a, b) | Kind::Element(a, b) => acts(a) || acts(b),
-        Kind::Choice(a, b, c) => acts(a) || acts(b) || acts(c),
-        Kind::Math(_, args) => args.iter().any(acts),
-        Kind::List(items) => any(items),
-        Kind::Record(entries) => entries.iter().any(|e| match e {
-            Entry::Named(_, v) | Entry::Spread(v) => acts(v),
-            Entry::Computed(k, v) => acts(k) || acts(v),
+        IrKind::Call(..)
+        | IrKind::Store(..)
+        | IrKind::StoreIf(..)
+        | IrKind::Update(..)
+        | IrKind::Fill(..)
+        | IrKind::StoreAll(..)
+        | IrKind::Invoke(..)
+        | IrKind::InvokeValue(..)
+        | IrKind::Block(..) => true,
+        IrKind::Method(name, object, args) => name.rows().any(|r| r.changes) || acts(object) || any(args),
+        IrKind::Native(function, args) => function.row().name == "_empty" || any(args),
+        IrKind::Unary(_, a) | IrKind::ToNumber(a) | IrKind::ToText(a) | IrKind::TypeOf(a) => acts(a),
+        IrKind::Chain(a)
+        | IrKind::Present(a)
+        | IrKind::Pick(_, a)
+        | IrKind::GlobalNamed(a)
+        | IrKind::Member(a, _) => acts(a),
+        IrKind::MathOver(_, a) => acts(a),
+        IrKind::Binary(_, a, b) | IrKind::Logical(_, a, b) | IrKind::Element(a, b) => acts(a) || acts(b),
+        IrKind::Choice(a, b, c) => acts(a) || acts(b) || acts(c),
+        IrKind::Math(_, args) => args.iter().any(acts),
+        IrKind::List(items) => any(items),
+        IrKind::Record(entries) => entries.iter().any(|e| match e {
+            IrEntry::Named(_, v) | IrEntry::Spread(v) => acts(v),
+            IrEntry::Computed(k, v) => acts(k) || acts(v),
         }),
         _ => false,
     }

@@ -1,12 +1,13 @@
 //! The rounds end, soon, and with an answer that holds, whatever they are given.
 
-use super::{Bound, Facts, Key, What, bind};
+use super::binder::{BindContext, BoundText, bind};
+use super::facts::{FactKey, FactKind, TypeFacts};
 use crate::bind::names::{Surroundings, resolve};
-use crate::bind::{Compiler, Tree};
+use crate::bind::source::SourceTree;
 use crate::globals::Globals;
 use crate::mock::{Mock, execute};
 use crate::parse_statements;
-use crate::schema::Type;
+use crate::types::Type;
 
 /// All types.
 const TYPES: [Type; 13] = [
@@ -25,17 +26,17 @@ const TYPES: [Type; 13] = [
     Type::Element,
 ];
 
-fn bound(source: &str) -> Bound {
+fn bound(source: &str) -> BoundText {
     let parsed = parse_statements(source);
     assert!(parsed.diagnostics.is_empty(), "{:?}", parsed.diagnostics);
-    let tree = Tree::Statements(&parsed.tree);
+    let tree = SourceTree::Statements(&parsed.tree);
     let mut globals = Globals::new();
     let around = Surroundings { schema: Some(&Mock), globals: &globals, mode: tree.mode(), has_value: false };
     let (names, found) = resolve(around, |walk| walk.block(&parsed.tree));
     assert!(found.is_empty() && !names.stopped, "{found:?}");
-    let mut compiler = Compiler::new(&Mock, &mut globals);
-    let id = compiler.globals.next_program();
-    bind(&mut compiler, source, tree, &names, id)
+    let id = globals.next_program();
+    let mut context = BindContext { schema: &Mock, globals: &mut globals, value: None, explains: false };
+    bind(&mut context, source, tree, &names, id)
 }
 
 #[test]
@@ -54,8 +55,8 @@ fn types_join_in_a_lattice_of_four_levels() {
             }
         }
     }
-    let key = Key { site: 0, at: 0, what: What::Name };
-    let mut facts = Facts::default();
+    let key = FactKey { site: 0, at: 0, what: FactKind::Name };
+    let mut facts = TypeFacts::default();
     for ty in TYPES {
         facts.see(key, ty);
     }

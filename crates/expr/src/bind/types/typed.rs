@@ -3,34 +3,34 @@
 
 use std::collections::BTreeSet;
 
-use crate::Span;
-use crate::ir::{Index, Ir, Kind};
+use crate::ir::{Index, Ir, IrKind};
 use crate::operators::UnaryOp;
-use crate::schema::{FieldKey, Type};
+use crate::types::{FieldKey, Type};
 use crate::value::Value;
+use labspec_finding::Span;
 
 /// What is known of a text, part by part.
 #[derive(Default)]
-pub(in super::super) struct Typed {
+pub(in crate::bind) struct TypedText {
     /// In the order of their places, once all are known; the last one of a place counts.
-    shapes: Vec<(Span, Shape)>,
-    idle: BTreeSet<Span>,
+    pub(super) shapes: Vec<(Span, ExpressionShape)>,
+    pub(super) idle: BTreeSet<Span>,
     /// Values that are needed for something.
-    pub(in super::super) wants: Vec<(Span, Want, Shape)>,
+    pub(in crate::bind) wants: Vec<(Span, Expectation, ExpressionShape)>,
 }
 
 /// What is known of a value.
 #[derive(Clone)]
-pub(in super::super) struct Shape {
-    pub(in super::super) ty: Type,
+pub(in crate::bind) struct ExpressionShape {
+    pub(in crate::bind) ty: Type,
     /// The value, where it is known.
-    pub(in super::super) constant: Option<Value>,
+    pub(in crate::bind) constant: Option<Value>,
     /// The element of a field of the host that it is.
-    pub(in super::super) element: Option<(FieldKey, usize)>,
+    pub(in crate::bind) element: Option<(FieldKey, usize)>,
 }
 
 /// What a value is needed for.
-pub(in super::super) enum Want {
+pub(in crate::bind) enum Expectation {
     /// A number, by a function.
     Number(String),
     /// An angle, by a function.
@@ -39,13 +39,13 @@ pub(in super::super) enum Want {
     Element(Option<(FieldKey, usize)>),
 }
 
-impl Shape {
-    fn from_ir(ir: &Ir) -> Shape {
-        Shape { ty: ir.ty, constant: ir.constant_value().cloned(), element: element(ir) }
+impl ExpressionShape {
+    pub(super) fn of_ir(ir: &Ir) -> ExpressionShape {
+        ExpressionShape { ty: ir.ty, constant: ir.as_constant().cloned(), element: element(ir) }
     }
 
     /// The value, where it is a known number.
-    pub(in super::super) fn number(&self) -> Option<f64> {
+    pub(in crate::bind) fn number(&self) -> Option<f64> {
         match self.constant {
             Some(Value::Number(x)) => Some(x),
             _ => None,
@@ -56,50 +56,27 @@ impl Shape {
 /// The element that a number is.
 fn element(ir: &Ir) -> Option<(FieldKey, usize)> {
     match &ir.kind {
-        Kind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
-        Kind::ToNumber(inner) | Kind::Unary(UnaryOp::Minus, inner) => element(inner),
+        IrKind::Load(view, Index::At(i)) => Some((view.field, view.first as usize + i)),
+        IrKind::ToNumber(inner) | IrKind::Unary(UnaryOp::Minus, inner) => element(inner),
         _ => None,
     }
 }
 
-impl Typed {
+impl TypedText {
     /// All is known.
     pub(super) fn sort(&mut self) {
         self.shapes.sort_by_key(|(span, _)| *span);
     }
 
     /// What is known of the expression at a place.
-    pub(in super::super) fn shape(&self, span: Span) -> Option<&Shape> {
+    pub(in crate::bind) fn shape(&self, span: Span) -> Option<&ExpressionShape> {
         let behind = self.shapes.partition_point(|(at, _)| *at <= span);
         let (at, shape) = self.shapes.get(behind.checked_sub(1)?)?;
         (*at == span).then_some(shape)
     }
 
     /// Whether the statement at a place does nothing.
-    pub(in super::super) fn is_idle(&self, span: Span) -> bool {
+    pub(in crate::bind) fn is_idle(&self, span: Span) -> bool {
         self.idle.contains(&span)
-    }
-}
-
-impl super::Binder<'_> {
-    /// Notes what an expression is.
-    pub(super) fn note(&mut self, span: Span, ir: &Ir) {
-        if self.site.is_none() {
-            self.typed.shapes.push((span, Shape::from_ir(ir)));
-        }
-    }
-
-    /// Notes that a statement does nothing.
-    pub(super) fn idle(&mut self, span: Span) {
-        if self.site.is_none() {
-            self.typed.idle.insert(span);
-        }
-    }
-
-    /// Notes what a value is needed for.
-    pub(super) fn want(&mut self, ir: &Ir, span: Span, want: Want) {
-        if self.site.is_none() {
-            self.typed.wants.push((span, want, Shape::from_ir(ir)));
-        }
     }
 }

@@ -1,37 +1,39 @@
 //! Values: operators, their types, and the mistakes that JavaScript turns into NaN without a word.
 
+use super::binder::{Binder, Entity};
 use super::member::quoted;
-use super::{Attempt, Binder, Mode, Reported, Thing};
 use crate::ast::{BinaryOp, Expr, ExprKind, LogicalOp, UnaryOp};
-use crate::ir::{Index, Ir, Kind};
+use crate::bind::source::TextKind;
+use crate::ir::{Index, Ir, IrKind};
+use crate::parse::{Attempt, Reported};
 use crate::rules;
-use crate::schema::Type;
+use crate::types::Type;
 use crate::value::Value;
-use crate::{Finding, Span};
+use labspec_finding::{Finding, Span};
 
 impl<'a> Binder<'a> {
     /// A part of the source as a value of any kind.
     pub(super) fn value(&mut self, expr: &'a Expr) -> Attempt<Ir> {
-        let thing = self.thing(expr)?;
+        let thing = self.entity(expr)?;
         self.value_of(thing, expr.span)
     }
 
     /// The value that a thing is.
     #[inline(never)]
-    pub(super) fn value_of(&mut self, thing: Thing, span: Span) -> Attempt<Ir> {
+    pub(super) fn value_of(&mut self, thing: Entity, span: Span) -> Attempt<Ir> {
         let report = match thing {
-            Thing::Value(ir) if ir.ty == Type::Void => self.no_result(span),
-            Thing::Value(ir) => {
+            Entity::Value(ir) if ir.ty == Type::Void => self.no_result(span),
+            Entity::Value(ir) => {
                 self.note(span, &ir);
                 return Ok(ir);
             }
-            Thing::Field(field) if field.is_scalar() => {
+            Entity::Field(field) if field.is_scalar() => {
                 let ir = self.load(&field, Index::At(0), span);
                 self.note(span, &ir);
                 return Ok(ir);
             }
-            Thing::Field(field) => return Ok(self.field_value(&field, span)),
-            Thing::Closure(at) => return self.closure_value(at, span),
+            Entity::Field(field) => return Ok(self.field_value(&field, span)),
+            Entity::Closure(at) => return self.closure_value(at, span),
             other => self.not_a_value(&other, span),
         };
         self.refuse(report)
@@ -39,12 +41,12 @@ impl<'a> Binder<'a> {
 
     /// A part of the source as a single value: a number, a text, a truth value.
     pub(super) fn operand(&mut self, expr: &'a Expr) -> Attempt<Ir> {
-        let thing = self.thing(expr)?;
+        let thing = self.entity(expr)?;
         self.operand_of(thing, expr.span)
     }
 
-    pub(super) fn operand_of(&mut self, thing: Thing, span: Span) -> Attempt<Ir> {
-        if let Thing::Field(field) = &thing
+    pub(super) fn operand_of(&mut self, thing: Entity, span: Span) -> Attempt<Ir> {
+        if let Entity::Field(field) = &thing
             && !field.is_scalar()
         {
             let report = self.whole_array(field, span);
@@ -68,7 +70,7 @@ impl<'a> Binder<'a> {
     #[inline(never)]
     pub(super) fn not_single(&self, ir: &Ir) -> Finding {
         let text = self.text(ir.span);
-        let message = format!("{} is {}, not a single value", self.source_text(ir.span), ir.ty.describe());
+        let message = format!("{} is {}, not a single value", self.describe_span(ir.span), ir.ty.describe());
         let code =
             if matches!(ir.ty, Type::List | Type::View) { rules::WHOLE_ARRAY } else { rules::NOT_A_VALUE };
         let report = Finding::error(code, ir.span, message);
@@ -79,7 +81,7 @@ impl<'a> Binder<'a> {
             Type::Function => report.why("it is not called").help(format!("write `{text}(…)`")),
             Type::Record => {
                 let member = match &ir.kind {
-                    Kind::Call(id, _) => self.schema.function(*id).members.first().map(|(n, _)| n.clone()),
+                    IrKind::Call(id, _) => self.schema.function(*id).members.first().map(|(n, _)| n.clone()),
                     _ => None,
                 };
                 let member = member.unwrap_or_else(|| "x".into());
@@ -94,28 +96,28 @@ impl<'a> Binder<'a> {
     }
 
     #[inline(never)]
-    fn not_a_value(&self, thing: &Thing, span: Span) -> Finding {
+    fn not_a_value(&self, thing: &Entity, span: Span) -> Finding {
         let text = self.text(span);
         let error = |message: String| Finding::error(rules::NOT_A_VALUE, span, message);
         match thing {
-            Thing::Collection(id) => self.collection_needs_call(*id, span, None),
-            Thing::Function(_) | Thing::MathFunction(_) | Thing::Method(..) | Thing::Native(_) => {
+            Entity::Collection(id) => self.collection_needs_call(*id, span, None),
+            Entity::Function(_) | Entity::MathFunction(_) | Entity::Method(..) | Entity::Native(_) => {
                 self.not_called(thing, span)
             }
-            Thing::Namespace(name) => error(format!("`{name}` is not a value"))
+            Entity::Namespace(name) => error(format!("`{name}` is not a value"))
                 .why("it holds functions")
                 .help(format!("call it, as `{name}(x)`, or one of its functions")),
-            Thing::Picked(..) => {
-                error(format!("`{text}` is an object of the {}, not a value", self.words().world))
+            Entity::Picked(..) => {
+                error(format!("`{text}` is an object of the {}, not a value", self.host_terms().world))
                     .help(format!("write one of its fields, as `{text}.id`"))
             }
-            Thing::Math => {
+            Entity::Math => {
                 error("`Math` is not a value".into()).help("write one of its functions, as `Math.sqrt(x)`")
             }
-            Thing::Globals => {
+            Entity::Globals => {
                 error("`ctx` is not a value".into()).help("write one of its variables, as `ctx.peak`")
             }
-            Thing::Object(id) => {
+            Entity::Object(id) => {
                 let report = error(format!("{} is not a value", quoted(&self.schema.describe(*id))));
                 match self.schema.member_names(*id).first() {
                     Some(first) => report
@@ -124,7 +126,7 @@ impl<'a> Binder<'a> {
                     None => report,
                 }
             }
-            Thing::Value(_) | Thing::Field(_) | Thing::Closure(_) => {
+            Entity::Value(_) | Entity::Field(_) | Entity::Closure(_) => {
                 error(format!("`{text}` is not a value"))
             }
         }
@@ -185,10 +187,10 @@ impl<'a> Binder<'a> {
     /// The end of a chain with `?.` in it.
     #[inline(never)]
     fn chain(&mut self, inner: &'a Expr, span: Span) -> Attempt<Ir> {
-        let thing = self.thing(inner)?;
+        let thing = self.entity(inner)?;
         let ir = self.value_of(thing, span)?;
         let ty = ir.ty.or(Type::Undefined);
-        Ok(Ir::new(Kind::Chain(Box::new(ir)), ty, span))
+        Ok(Ir::new(IrKind::Chain(Box::new(ir)), ty, span))
     }
 
     /// The finding for what has no place inside an expression.
@@ -204,7 +206,7 @@ impl<'a> Binder<'a> {
                 let symbol = if *increment { "++" } else { "--" };
                 Finding::error(rules::ASSIGN_INSIDE, span, format!("`{symbol}` inside an expression"))
                     .why("this text can only read a value")
-                    .help(format!("change the variable in {}", self.words().keeper))
+                    .help(format!("change the variable in {}", self.host_terms().keeper))
             }
             _ => Finding::error(rules::MISPLACED, span, "this is not allowed inside an expression")
                 .help("write a single value"),
@@ -220,20 +222,22 @@ impl<'a> Binder<'a> {
     }
 
     pub(super) fn assignment_inside(&self, op: Option<BinaryOp>, op_span: Span, span: Span) -> Finding {
-        if self.mode == Mode::Expression && op.is_some() {
+        if self.mode == TextKind::Expression && op.is_some() {
             return Finding::error(
                 rules::EXPRESSION_ONLY,
                 op_span,
                 "an assignment is used where only a value is read",
             )
             .why("this text is an expression, which returns a value and changes nothing")
-            .help(format!("assign in {}, and read the variable here", self.words().statements));
+            .help(format!("assign in {}, and read the variable here", self.host_terms().statements));
         }
         let symbol = self.text(op_span);
         let report =
             Finding::error(rules::ASSIGN_INSIDE, op_span, format!("`{symbol}` assigns; it does not compare"));
         let report = match self.mode {
-            Mode::Statements => report.why("it would change the value, although a test was probably meant"),
+            TextKind::Statements => {
+                report.why("it would change the value, although a test was probably meant")
+            }
             _ => report
                 .why(format!("this text can only read a value, but `{}` would change one", self.text(span))),
         };
@@ -257,20 +261,20 @@ impl<'a> Binder<'a> {
     /// `+` joins them to a text.
     #[inline(never)]
     fn comparable(&mut self, op: BinaryOp, left: &'a Expr, right: &'a Expr) -> Attempt<(Ir, Ir)> {
-        let things = (self.thing(left), self.thing(right));
+        let things = (self.entity(left), self.entity(right));
         let (left_thing, right_thing) = (things.0?, things.1?);
-        let fine = |other: &Thing| match other {
-            Thing::Value(ir) if op == BinaryOp::Add => ir.ty == Type::String,
-            Thing::Value(ir) => matches!(ir.ty, Type::Null | Type::Undefined),
+        let fine = |other: &Entity| match other {
+            Entity::Value(ir) if op == BinaryOp::Add => ir.ty == Type::String,
+            Entity::Value(ir) => matches!(ir.ty, Type::Null | Type::Undefined),
             _ => false,
         };
-        let parts = |t: &Thing| match t {
-            Thing::Value(ir) => ir.ty != Type::View && ir.ty.may_have_parts(),
+        let parts = |t: &Entity| match t {
+            Entity::Value(ir) => ir.ty != Type::View && ir.ty.may_have_parts(),
             _ => false,
         };
         let loose = fine(&left_thing) || fine(&right_thing);
         let loose = loose || op != BinaryOp::Add && parts(&left_thing) && parts(&right_thing);
-        let mut bind = |thing: Thing, span: Span| {
+        let mut bind = |thing: Entity, span: Span| {
             if loose { self.value_of(thing, span) } else { self.operand_of(thing, span) }
         };
         let (a, b) = (bind(left_thing, left.span), bind(right_thing, right.span));

@@ -1,0 +1,49 @@
+//! What methods and free functions hand on: elements of what they are called on, or numbers of their own.
+
+use crate::dimension::Measure;
+use crate::ir::{FreeFunctionId, MethodId};
+use crate::natives::{Native, NativeResult, ReceiverKind};
+
+/// What a method gives; what it is called on comes first. Where lists and texts have one of the same name, it may be either.
+pub(super) fn method(name: MethodId, args: &[Measure]) -> Measure {
+    name.rows().map(|row| of_row(row, args)).reduce(Measure::or).unwrap_or_default()
+}
+
+fn of_row(row: &Native, args: &[Measure]) -> Measure {
+    let receiver = args.first().copied().unwrap_or_default();
+    match (row.gives, row.on, row.name) {
+        (NativeResult::Boolean | NativeResult::Number, ..) => Measure::NUMBER,
+        (.., "concat" | "with") => args.iter().copied().reduce(Measure::or).unwrap_or_default(),
+        // Digits of another base, and texts that are put together, are other numbers.
+        (.., "toString") if args.len() > 1 => Measure::Unknown,
+        (_, ReceiverKind::Text, "repeat" | "padEnd" | "padStart" | "replace" | "replaceAll") => {
+            Measure::Unknown
+        }
+        (NativeResult::Any, ReceiverKind::Growing | ReceiverKind::Text, _) => receiver,
+        (NativeResult::Any | NativeResult::Undefined, ..) => Measure::Unknown,
+        (
+            NativeResult::String
+            | NativeResult::List
+            | NativeResult::Receiver
+            | NativeResult::Item
+            | NativeResult::Element,
+            ..,
+        ) => receiver,
+    }
+}
+
+/// What a free function gives.
+pub(super) fn free(function: FreeFunctionId, args: &[Measure]) -> Measure {
+    let arg = |i: usize| args.get(i).copied().unwrap_or_default();
+    match (function.row().gives, function.row().name) {
+        (NativeResult::Boolean, _) => Measure::NUMBER,
+        (_, "Number" | "parseFloat" | "Number.parseFloat" | "parseInt" | "Number.parseInt" | "String") => {
+            arg(0)
+        }
+        (_, "Array.from" | "Object.values" | "_copy" | "_untyped" | "_list") => arg(0),
+        (_, "_kind") => arg(1),
+        (_, "_like" | "_empty") => Measure::Anything,
+        (_, "Array.of") => args.iter().copied().reduce(Measure::or).unwrap_or(Measure::Anything),
+        _ => Measure::Unknown,
+    }
+}

@@ -1,0 +1,153 @@
+//! The compiler of the texts of one lab: the passes in order.
+
+use super::lints;
+use super::names::{self, Surroundings};
+use super::source::SourceTree;
+use super::types::{self, BindContext};
+use crate::globals::{Globals, ProgramId};
+use crate::parse::{self, Parsed, in_order};
+use crate::program::Program;
+use crate::rules;
+use crate::schema::{Help, Schema};
+use crate::types::Type;
+
+use labspec_finding::{Finding, Fix, Span};
+
+/// Compiles the texts of one lab.
+pub struct Compiler<'s> {
+    schema: &'s dyn Schema,
+    globals: &'s mut Globals,
+    value: Option<Type>,
+    explains: bool,
+    tells: bool,
+}
+
+/// The result of compiling one text.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// Which text this was for the [`Globals`].
+    pub id: ProgramId,
+    /// The program; `None` when there are errors.
+    pub program: Option<Program>,
+    /// Findings in source order.
+    pub diagnostics: Vec<Finding>,
+    /// What the parts of the text are, for a person who points at them, if wanted.
+    pub help: Vec<(Span, Help)>,
+    /// Bare indexes that could be written by the name of their object: `data.qpos[9]` as
+    /// `data.joint("light_free").qpos[2]`, if wanted. Both mean the same element of the model at hand.
+    pub named: Vec<Fix>,
+}
+
+impl Compiled {
+    /// The source with every bare index that belongs to a named object written by its name.
+    pub fn modernized(&self, source: &str) -> String {
+        let mut out = String::new();
+        let mut at = 0;
+        let mut fixes: Vec<&Fix> = self.named.iter().collect();
+        fixes.sort_by_key(|f| (f.span.start, f.span.end));
+        for fix in fixes {
+            // An index inside an index stays.
+            if let Some(before) = source.get(at..fix.span.start) {
+                out.push_str(before);
+                out.push_str(&fix.text);
+                at = fix.span.end;
+            }
+        }
+        out + source.get(at..).unwrap_or("")
+    }
+}
+
+impl<'s> Compiler<'s> {
+    /// A compiler for texts that name things of `schema` and share the variables `globals`.
+    pub fn new(schema: &'s dyn Schema, globals: &'s mut Globals) -> Compiler<'s> {
+        Compiler { schema, globals, value: None, explains: false, tells: false }
+    }
+
+    /// A compiler for texts of a control, which gives a `value` of this type; `None` where no control gives one.
+    pub fn with_value(self, value: Option<Type>) -> Compiler<'s> {
+        Compiler { value, ..self }
+    }
+
+    /// A compiler that also makes [`Compiled::help`] and [`Compiled::named`], which take longer than the program itself.
+    pub fn explaining(self) -> Compiler<'s> {
+        Compiler { explains: true, ..self }
+    }
+
+    /// A compiler for a host that tells of typographic quotes itself: there is no program where they stand, and no finding.
+    pub fn without_quotes(self) -> Compiler<'s> {
+        Compiler { tells: true, ..self }
+    }
+
+    /// An expression: a trace, a readout, a condition. It reads and changes nothing, unless a function does.
+    pub fn expression(&mut self, source: &str) -> Compiled {
+        let Parsed { tree, diagnostics, quotes_left_to_host } =
+            parse::expression(source, self.schema.host_terms(), self.tells);
+        self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Expression(&tree))
+    }
+
+    /// Statements: `setup`, `controller`, `apply`, `run`.
+    pub fn statements(&mut self, source: &str) -> Compiled {
+        let Parsed { tree, diagnostics, quotes_left_to_host } =
+            parse::statements(source, self.schema.host_terms(), self.tells);
+        self.compile(source, diagnostics, quotes_left_to_host, SourceTree::Statements(&tree))
+    }
+
+    /// The target of a control (`set`): the program stores `value` there. Without a known type of `value` it
+    /// may be anything.
+    pub fn assignment(&mut self, target: &str) -> Compiled {
+        let Parsed { tree, diagnostics, quotes_left_to_host } =
+            parse::expression(target, self.schema.host_terms(), self.tells);
+        self.compile(target, diagnostics, quotes_left_to_host, SourceTree::Target(&tree))
+    }
+
+    fn compile(
+        &mut self,
+        source: &str,
+        mut found: Vec<Finding>,
+        quotes_left_to_host: bool,
+        tree: SourceTree<'_>,
+    ) -> Compiled {
+        let id = self.globals.next_program();
+        let around = Surroundings {
+            schema: Some(self.schema),
+            globals: self.globals,
+            mode: tree.mode(),
+            has_value: self.value.is_some(),
+        };
+        let (names, wrong) = names::resolve(around, |walk| match tree {
+            SourceTree::Expression(expr) => walk.value(expr),
+            SourceTree::Statements(statements) => walk.block(statements),
+            SourceTree::Target(target) => walk.place(target),
+        });
+        found.extend(wrong);
+        if names.stopped {
+            return Compiled {
+                id,
+                program: None,
+                diagnostics: in_order(found),
+                help: Vec::new(),
+                named: Vec::new(),
+            };
+        }
+        let mut context = BindContext {
+            schema: self.schema,
+            globals: self.globals,
+            value: self.value,
+            explains: self.explains,
+        };
+        let bound = types::bind(&mut context, source, tree, &names, id);
+        found.extend(lints::lint(self.schema, source, tree, &bound.typed));
+        found.extend(bound.found);
+        // Nothing is left out of a program without a word.
+        if let Some(span) = bound.unresolved.filter(|_| !found.iter().any(Finding::is_error)) {
+            let name = source.get(span.start..span.end).unwrap_or("");
+            found.push(Finding::error(rules::UNKNOWN_NAME, span, format!("`{name}` has no value here")));
+        }
+        let failed = quotes_left_to_host || found.iter().any(Finding::is_error);
+        let parts = bound.program.filter(|_| !failed);
+        let program = parts.map(|parts| {
+            Program::new(&parts.tree, self.schema, parts.result, parts.aggregates, self.globals)
+        });
+        Compiled { id, program, diagnostics: in_order(found), help: bound.help, named: bound.named }
+    }
+}

@@ -1,0 +1,464 @@
+//! SsaProgram to code: names become registers, parameters of blocks become moves, and what nothing uses is left out. An
+//! operation whose result goes to a parameter puts it there itself where it can.
+
+use std::collections::BTreeMap;
+
+use super::pure;
+use super::registers::{RegisterFile, order_moves};
+use crate::code::{MachineCode, MachineFunction, OPERATION};
+use crate::row::{Row, WantedResult};
+use crate::ssa::{
+    Args, BasicBlock, BlockEdge, BlockId, Num, Op, Operand, OperandUse, Representation, SsaFunction,
+    SsaProgram, Terminator, Val,
+};
+use crate::value::Value;
+use labspec_finding::Span;
+
+/// Numeric operations in a row from which on a formula is faster, as measured.
+const WORTH: usize = 5;
+/// Most operations of one formula, so that a byte can name its registers.
+const MOST: usize = 64;
+
+/// The code of a program. `often`: it will run often enough for formulas within it.
+pub(crate) fn emit(form: SsaProgram, often: bool) -> MachineCode {
+    let units = form.units.iter().map(|function| emit_function(function, often)).collect();
+    MachineCode { form, units }
+}
+
+/// The code of a function.
+fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
+    let (numbers, values) =
+        (RegisterFile::for_names(form.same.numbers.len()), RegisterFile::for_names(form.same.values.len()));
+    let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
+    let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
+    let code = MachineFunction { ops, spans, ..MachineFunction::default() };
+    let worth = if often { WORTH } else { usize::MAX };
+    let mut emit = Emit { worth, form, code, numbers, values, kept, starts, jumps: Vec::new() };
+    emit.count_uses();
+    emit.first_registers();
+    for block in 0..emit.form.blocks.len() as u32 {
+        emit.block(block);
+    }
+    emit.finish()
+}
+
+/// The work on one function.
+struct Emit<'f> {
+    /// Operations that make a formula.
+    worth: usize,
+    form: &'f SsaFunction,
+    code: MachineFunction,
+    numbers: RegisterFile,
+    values: RegisterFile,
+    /// Operations that something needs.
+    kept: Vec<bool>,
+    /// Where each block begins in the code, if anything leads to it.
+    starts: Vec<Option<u32>>,
+    /// Jumps, and the blocks that they lead to.
+    jumps: Vec<(usize, BlockId)>,
+}
+
+impl<'f> Emit<'f> {
+    /// Counts how often each name is used, from the end on, so that what is needed by nothing needs nothing.
+    fn count_uses(&mut self) {
+        let form = self.form;
+        for (at, block) in form.blocks.iter().enumerate().rev() {
+            match &block.end {
+                Terminator::If(_, test, _) => self.count_use(Operand::Number(*test)),
+                Terminator::IfNothing(_, value, _) => self.count_use(Operand::Value(*value)),
+                Terminator::Return(Some(at)) => self.count_use(*at),
+                Terminator::Return(None) | Terminator::Jump(_) | Terminator::Again(_) => {}
+            }
+            if let Some(edge) = edge(&block.end) {
+                self.count_edge_uses(edge, matches!(block.end, Terminator::Again(_)));
+            }
+            for i in form.range(at as BlockId).rev() {
+                self.count_operation_uses(i);
+            }
+        }
+    }
+
+    fn count_use(&mut self, at: Operand) {
+        match self.form.same.at(at) {
+            Operand::Number(n) => self.numbers.used(n.0),
+            Operand::Value(v) => self.values.used(v.0),
+        }
+    }
+
+    /// What a block hands on. `back`: to the start of a loop, whose parameters may be needed by what was counted already.
+    fn count_edge_uses(&mut self, edge: &BlockEdge, back: bool) {
+        let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
+        for (param, arg) in params.iter().zip(&edge.args) {
+            let needed = match param {
+                Operand::Number(n) => self.numbers.uses(n.0) > 0,
+                Operand::Value(v) => self.values.uses(v.0) > 0,
+            };
+            if needed || back {
+                self.count_use(*arg);
+            }
+        }
+    }
+
+    /// Whether an operation is needed, and what it then reads.
+    fn count_operation_uses(&mut self, i: usize) {
+        let Emit { form, numbers, values, kept, .. } = self;
+        let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else { return };
+        let mut needed = !op.is_pure();
+        op.each(&mut |u| match u {
+            OperandUse::Gives(n) => needed |= numbers.uses(n.0) > 0,
+            OperandUse::GivesValue(v) => needed |= values.uses(v.0) > 0,
+            _ => {}
+        });
+        *keep = needed;
+        if !needed {
+            return;
+        }
+        op.each(&mut |u| match u {
+            OperandUse::Reads(n) => numbers.used(form.same.number(*n).0),
+            OperandUse::ReadsValue(v) => values.used(form.same.value(*v).0),
+            OperandUse::ReadsAll(args) => {
+                args.operands(&form.args).iter().for_each(|n| numbers.used(form.same.number(Num(*n)).0));
+            }
+            OperandUse::ReadsValues(args) => {
+                args.operands(&form.args).iter().for_each(|v| values.used(form.same.value(Val(*v)).0));
+            }
+            OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
+        });
+    }
+
+    /// What is handed over.
+    fn first_registers(&mut self) {
+        for slot in self.form.params.iter().chain(&self.form.captures) {
+            match slot {
+                Representation::Value => self.values.register(self.values.count),
+                _ => self.numbers.register(self.numbers.count),
+            };
+        }
+    }
+
+    fn number(&mut self, n: Num) -> Num {
+        Num(self.numbers.register(self.form.same.number(n).0))
+    }
+
+    fn value(&mut self, v: Val) -> Val {
+        Val(self.values.register(self.form.same.value(v).0))
+    }
+
+    fn push(&mut self, op: Op, span: Span) {
+        self.code.ops.push(op);
+        self.code.spans.push(span);
+    }
+
+    fn block(&mut self, at: BlockId) {
+        let form: &'f SsaFunction = self.form;
+        let Some(BasicBlock { end, span, .. }) = form.blocks.get(at as usize) else { return };
+        // A block that nothing leads to is left out. Ways lead forward, so they were seen before.
+        let reached = self.starts.get(at as usize).is_some_and(|s| at == 0 || s.is_some());
+        if !reached {
+            return;
+        }
+        if let Some(start) = self.starts.get_mut(at as usize) {
+            *start = Some(self.code.ops.len() as u32);
+        }
+        self.settle(at, end);
+        let range = self.form.range(at);
+        let (mut i, end_of_block) = (range.start, range.end);
+        while i < end_of_block {
+            let numeric = |i: &usize| self.form.ops.get(*i).is_some_and(Op::is_numeric);
+            let stop =
+                (i..end_of_block.min(i + MOST)).find(|i| !numeric(i)).unwrap_or(end_of_block.min(i + MOST));
+            if !self.formula(i, stop) {
+                (i..stop.max(i + 1)).for_each(|i| self.op(i));
+            }
+            i = stop.max(i + 1);
+        }
+        self.end(at, end, *span);
+    }
+
+    /// Numeric operations that follow each other, as one formula, where that is worth it; whether it was.
+    fn formula(&mut self, first: usize, stop: usize) -> bool {
+        if stop - first.min(stop) < self.worth {
+            return false;
+        }
+        let kept = (first..stop).filter(|i| self.kept.get(*i) == Some(&true));
+        let ops: Vec<Op> = kept.filter_map(|i| self.form.ops.get(i).copied()).collect();
+        if ops.len() < self.worth {
+            return false;
+        }
+        let count = ops.len() as u32;
+        let Emit { form, numbers, code, .. } = self;
+        let mut inputs = Vec::new();
+        let mut input = |n: Num| {
+            let register = numbers.register(n.0);
+            inputs.push(register);
+            register
+        };
+        let Some((mut formula, given)) = pure::stretch(form, &ops, &mut input) else { return false };
+        // What is used by more than the operations themselves.
+        let mut left: BTreeMap<u32, u32> = given.iter().map(|(n, _)| (n.0, numbers.uses(n.0))).collect();
+        for mut op in ops {
+            let mut use_up = |n: Num| {
+                if let Some(left) = left.get_mut(&form.same.number(n).0) {
+                    *left -= 1;
+                }
+            };
+            op.each(&mut |u| match u {
+                OperandUse::Reads(n) => use_up(*n),
+                OperandUse::ReadsAll(args) => args.operands(&form.args).iter().for_each(|n| use_up(Num(*n))),
+                _ => {}
+            });
+        }
+        let outer: Vec<(Num, u32)> =
+            given.into_iter().filter(|(n, _)| left.get(&n.0).is_some_and(|left| *left > 0)).collect();
+        let mut steps: Vec<u32> = outer.iter().map(|(_, step)| *step).collect();
+        formula.finish(&mut steps);
+        let mut wanted = Vec::with_capacity(outer.len());
+        for ((name, _), step) in outer.iter().zip(&steps) {
+            let register = numbers.register(name.0);
+            let Ok(register) = u8::try_from(register) else { return false };
+            let at_once = !inputs.contains(&u32::from(register));
+            wanted.push(WantedResult { step: *step, register, at_once });
+        }
+        // What is kept only within the formula stands behind the registers that are known so far.
+        let free =
+            (numbers.count..numbers.count + formula.steps.len() as u32).map_while(|r| u8::try_from(r).ok());
+        let Some(row) = Row::part(&formula, &wanted, free) else { return false };
+        numbers.count = numbers.count.max(row.registers());
+        let at = code.formulas.len() as u32;
+        code.formulas.push((row, count));
+        let span = self.form.spans.get(first).copied().unwrap_or_default();
+        self.push(Op::Formula(at), span);
+        true
+    }
+
+    /// Lets operations of a block put their results where its end wants them.
+    fn settle(&mut self, at: BlockId, end: &Terminator) {
+        let mut wanted: Vec<(Operand, Operand)> = Vec::new();
+        match end {
+            Terminator::Jump(edge) | Terminator::Again(edge) => wanted = self.moves(edge),
+            Terminator::Return(Some(from @ Operand::Number(_))) => {
+                wanted.push((Operand::Number(Num(0)), *from))
+            }
+            Terminator::Return(Some(from @ Operand::Value(_))) => {
+                wanted.push((Operand::Value(Val(0)), *from))
+            }
+            _ => {}
+        }
+        if wanted.is_empty() {
+            return;
+        }
+        let again = matches!(end, Terminator::Again(_));
+        // From the last operation on: what was read behind an operation must still stand where it stood.
+        let mut read: Vec<Operand> =
+            if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
+        for i in self.form.range(at).rev() {
+            if self.kept.get(i) != Some(&true) {
+                continue;
+            }
+            let Some(mut op) = self.form.ops.get(i).copied() else { continue };
+            let mut gives = None;
+            op.each(&mut |u| match u {
+                OperandUse::Gives(n) => gives = Some(Operand::Number(*n)),
+                OperandUse::GivesValue(v) => gives = Some(Operand::Value(*v)),
+                _ => {}
+            });
+            if let Some(gives) = gives
+                && let Some((to, _)) = wanted.iter().find(|(to, from)| *from == gives && !read.contains(to))
+            {
+                match (gives, *to) {
+                    (Operand::Number(n), Operand::Number(to)) if self.numbers.uses(n.0) == 1 => {
+                        let register = if to.0 == 0 { 0 } else { self.numbers.register(to.0) };
+                        self.numbers.set(n.0, register);
+                    }
+                    (Operand::Value(v), Operand::Value(to)) if self.values.uses(v.0) == 1 => {
+                        let register = if to.0 == 0 { 0 } else { self.values.register(to.0) };
+                        self.values.set(v.0, register);
+                    }
+                    _ => {}
+                }
+            }
+            if again {
+                self.reads(op, &mut read);
+            }
+        }
+    }
+
+    /// Parameters of the block that an edge leads to, with what they get; both as names.
+    fn moves(&self, edge: &BlockEdge) -> Vec<(Operand, Operand)> {
+        let params = self.form.blocks.get(edge.to as usize).map_or(&[][..], |b| &b.params);
+        let needed = |param: &Operand| match param {
+            Operand::Number(n) => self.numbers.uses(n.0) > 0,
+            Operand::Value(v) => self.values.uses(v.0) > 0,
+        };
+        let pairs = params.iter().zip(&edge.args).filter(|(param, _)| needed(param));
+        pairs.map(|(param, from)| (*param, self.form.same.at(*from))).collect()
+    }
+
+    /// Adds what an operation reads.
+    fn reads(&self, mut op: Op, read: &mut Vec<Operand>) {
+        let (same, list) = (&self.form.same, &self.form.args);
+        op.each(&mut |u| match u {
+            OperandUse::Reads(n) => read.push(Operand::Number(same.number(*n))),
+            OperandUse::ReadsValue(v) => read.push(Operand::Value(same.value(*v))),
+            OperandUse::ReadsAll(a) => {
+                read.extend(a.operands(list).iter().map(|n| Operand::Number(same.number(Num(*n)))))
+            }
+            OperandUse::ReadsValues(a) => {
+                read.extend(a.operands(list).iter().map(|v| Operand::Value(same.value(Val(*v)))))
+            }
+            OperandUse::Gives(_) | OperandUse::GivesValue(_) => {}
+        });
+    }
+
+    fn op(&mut self, i: usize) {
+        if self.kept.get(i) != Some(&true) {
+            return;
+        }
+        let (Some(mut op), Some(&span)) = (self.form.ops.get(i).copied(), self.form.spans.get(i)) else {
+            return;
+        };
+        let Emit { form, numbers, values, code, .. } = self;
+        // Operands first: the result may take the place of one.
+        let mut list = |args: Args, name: &mut dyn FnMut(u32) -> u32| {
+            let first = code.args.len() as u32;
+            code.args.extend(args.operands(&form.args).iter().map(|a| name(*a)));
+            first
+        };
+        let mut args = None;
+        op.each(&mut |u| match u {
+            OperandUse::Gives(n) => n.0 = numbers.register(n.0),
+            OperandUse::GivesValue(v) => v.0 = values.register(v.0),
+            OperandUse::Reads(n) => n.0 = numbers.register(form.same.number(*n).0),
+            OperandUse::ReadsValue(v) => v.0 = values.register(form.same.value(*v).0),
+            OperandUse::ReadsAll(a) => {
+                args = Some(list(a, &mut |n| numbers.register(form.same.number(Num(n)).0)))
+            }
+            OperandUse::ReadsValues(a) => {
+                args = Some(list(a, &mut |v| values.register(form.same.value(Val(v)).0)))
+            }
+        });
+        if let (Some(first), Some(place)) = (args, op.args_mut()) {
+            place.first = first;
+        }
+        self.push(op, span);
+    }
+
+    fn end(&mut self, at: BlockId, end: &Terminator, span: Span) {
+        if let Some(edge) = edge(end) {
+            self.move_all(edge, span);
+            let jump = match end {
+                Terminator::If(when, test, _) => Op::JumpIf(*when, self.number(*test), 0),
+                Terminator::IfNothing(when, value, _) => Op::JumpIfNothing(*when, self.value(*value), 0),
+                Terminator::Again(_) => Op::Again(0, 0),
+                _ => Op::Jump(0),
+            };
+            let reach = |starts: &mut Vec<Option<u32>>, block: BlockId| {
+                if let Some(start) = starts.get_mut(block as usize) {
+                    start.get_or_insert(0);
+                }
+            };
+            if matches!(end, Terminator::If(..) | Terminator::IfNothing(..)) {
+                reach(&mut self.starts, at + 1);
+            }
+            if !matches!(end, Terminator::Again(_)) {
+                reach(&mut self.starts, edge.to);
+            }
+            if !(matches!(jump, Op::Jump(_)) && edge.to == at + 1) {
+                self.jumps.push((self.code.ops.len(), edge.to));
+                self.push(jump, span);
+            }
+            return;
+        }
+        match end {
+            Terminator::Return(Some(Operand::Number(n))) => {
+                let from = self.number(*n);
+                if from.0 != 0 {
+                    self.push(Op::Move(Num(0), from), span);
+                }
+            }
+            Terminator::Return(Some(Operand::Value(v))) => {
+                let from = self.value(*v);
+                if from.0 != 0 {
+                    self.push(Op::MoveValue(Val(0), from), span);
+                }
+            }
+            _ => {
+                let nothing = Val(self.values.count);
+                self.values.count += 1;
+                self.code.values.push((nothing, Value::Undefined));
+                self.push(Op::MoveValue(Val(0), nothing), span);
+            }
+        }
+        self.push(Op::Return, span);
+    }
+
+    /// All parameters of a block get their values at once, whatever order the moves have.
+    fn move_all(&mut self, edge: &BlockEdge, span: Span) {
+        let (mut numbers, mut values) = (Vec::new(), Vec::new());
+        for (to, from) in self.moves(edge) {
+            match (to, from) {
+                (Operand::Number(to), Operand::Number(from)) => {
+                    numbers.push((self.number(to).0, self.number(from).0))
+                }
+                (Operand::Value(to), Operand::Value(from)) => {
+                    values.push((self.value(to).0, self.value(from).0))
+                }
+                // A parameter and what it gets are of one kind.
+                _ => {}
+            }
+        }
+        for (to, from) in order_moves(numbers, &mut self.numbers.count) {
+            self.push(Op::Move(Num(to), Num(from)), span);
+        }
+        for (to, from) in order_moves(values, &mut self.values.count) {
+            self.push(Op::MoveValue(Val(to), Val(from)), span);
+        }
+    }
+
+    fn finish(mut self) -> MachineFunction {
+        for (jump, to) in &self.jumps {
+            let here = self.starts.get(*to as usize).copied().flatten().unwrap_or_default();
+            if let Some(
+                Op::Jump(to) | Op::JumpIf(_, _, to) | Op::JumpIfNothing(_, _, to) | Op::Again(to, _),
+            ) = self.code.ops.get_mut(*jump)
+            {
+                *to = here;
+            }
+        }
+        let Emit { form, mut code, numbers, values, .. } = self;
+        // Constants stand in registers where something else than a formula reads them.
+        let register = |file: &RegisterFile, name: u32| file.registers.get(name as usize).copied().flatten();
+        let constants = form.numbers.iter().filter_map(|(n, x)| Some((Num(register(&numbers, n.0)?), *x)));
+        code.numbers.extend(constants);
+        let constants =
+            form.values.iter().filter_map(|(v, x)| Some((Val(register(&values, v.0)?), x.clone())));
+        code.values.extend(constants);
+        // The cost of everything before each operation; a formula costs what is in it.
+        let mut costs = vec![0];
+        for op in &code.ops {
+            let formula = |f: u32| code.formulas.get(f as usize).map_or(1, |(_, count)| u64::from(*count));
+            let cost = if let Op::Formula(f) = op { formula(*f) } else { 1 };
+            costs.push(costs.last().copied().unwrap_or(0) + OPERATION * cost);
+        }
+        let before = |at: usize| costs.get(at).copied().unwrap_or(0);
+        for (at, op) in code.ops.iter_mut().enumerate() {
+            if let Op::Again(to, cost) = op {
+                *cost = u32::try_from(before(at + 1) - before(*to as usize)).unwrap_or(u32::MAX);
+            }
+        }
+        code.cost = before(code.ops.len()) + OPERATION * (code.numbers.len() + code.values.len()) as u64;
+        (code.number_count, code.value_count) = (numbers.count, values.count);
+        (code.params, code.captures, code.result) = (form.params.clone(), form.captures.clone(), form.result);
+        code
+    }
+}
+
+fn edge(end: &Terminator) -> Option<&BlockEdge> {
+    match end {
+        Terminator::Jump(edge)
+        | Terminator::Again(edge)
+        | Terminator::If(_, _, edge)
+        | Terminator::IfNothing(_, _, edge) => Some(edge),
+        Terminator::Return(_) => None,
+    }
+}

@@ -1,0 +1,415 @@
+//! Variables and the ways between blocks. While the tree is walked it is known what every variable holds; where ways
+//! come together, variables that differ become parameters. A loop is the only place whose ways are not all known when
+//! it begins: a variable that is read in it gets a parameter at its start, which is taken back at the end when nothing
+//! was stored (Braun et al., "Simple and efficient construction of static single assignment form", 2013).
+
+use std::collections::BTreeMap;
+
+use super::builder::{EarlyExits, FunctionBuilder, LoopContext, PendingEdge, Variables};
+use crate::ir::LocalId;
+use crate::operation::truthy;
+use crate::ssa::{BasicBlock, BlockEdge, BlockId, Num, Op, Operand, Terminator, Val};
+use crate::value::Value;
+use labspec_finding::Span;
+
+/// The variables that ways store.
+fn stored_on<'w>(ways: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalId> {
+    let mut locals: Vec<LocalId> =
+        ways.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
+    locals.sort_unstable();
+    locals.dedup();
+    locals
+}
+
+/// Operations that cost no more than a question.
+const LITTLE: usize = 4;
+
+/// A question about a number: the answer that leads further off.
+fn question(end: &Terminator) -> Option<(bool, Num)> {
+    if let Terminator::If(when, test, _) = end { Some((*when, *test)) } else { None }
+}
+
+impl FunctionBuilder<'_> {
+    pub(super) fn mark(&self) -> usize {
+        self.variables.log.len()
+    }
+
+    /// Forgets what was stored since.
+    pub(super) fn back_to(&mut self, mark: usize) {
+        for (local, before) in self.variables.log.drain(mark..).rev() {
+            if let Some(now) = self.variables.now.get_mut(local as usize) {
+                *now = before;
+            }
+        }
+    }
+
+    /// A variable of the work itself.
+    pub(super) fn temporary(&mut self) -> LocalId {
+        self.temporaries += 1;
+        self.tree.locals.len() as u32 + self.temporaries
+    }
+
+    pub(super) fn write(&mut self, local: LocalId, at: Operand) {
+        let Variables { now, log } = &mut self.variables;
+        if now.len() <= local as usize {
+            now.resize(local as usize + 1, None);
+        }
+        if let Some(place) = now.get_mut(local as usize) {
+            log.push((local, place.replace((at, self.loops.len() as u32))));
+        }
+    }
+
+    /// What a variable holds; `None` when nothing was stored.
+    fn find(&mut self, local: LocalId) -> Option<Operand> {
+        let (mut at, level) = self.variables.now.get(local as usize).copied().flatten()?;
+        if (level as usize) < self.loops.len() {
+            for i in level as usize..self.loops.len() {
+                let param = self.loops.get(i).and_then(|l| l.params.get(&local)).map(|(param, _)| *param);
+                at = match param {
+                    Some(param) => param,
+                    None => {
+                        let param = self.like(at);
+                        if let Some(level) = self.loops.get_mut(i) {
+                            level.params.insert(local, (param, at));
+                        }
+                        param
+                    }
+                };
+            }
+            self.write(local, at);
+        }
+        Some(at)
+    }
+
+    pub(super) fn read_number(&mut self, local: LocalId) -> Num {
+        match self.find(local) {
+            Some(Operand::Number(n)) => n,
+            _ => self.constant(f64::NAN),
+        }
+    }
+
+    pub(super) fn read_value(&mut self, local: LocalId) -> Val {
+        match self.find(local) {
+            Some(Operand::Value(v)) => v,
+            _ => self.constant_value(&Value::Undefined),
+        }
+    }
+
+    /// Whether something was stored.
+    pub(super) fn has(&self, local: LocalId) -> bool {
+        self.variables.now.get(local as usize).is_some_and(Option::is_some)
+    }
+
+    /// A new name of the same kind.
+    fn like(&mut self, at: Operand) -> Operand {
+        match at {
+            Operand::Number(_) => Operand::Number(self.new_number()),
+            Operand::Value(_) => Operand::Value(self.new_value()),
+        }
+    }
+
+    /// The block of the work.
+    fn here(&self) -> BlockId {
+        (self.unit.blocks.len() as u32).saturating_sub(1)
+    }
+
+    /// Begins a block.
+    pub(super) fn begin(&mut self, after: BlockId) {
+        let first = self.unit.ops.len() as u32;
+        let end = Terminator::Return(None);
+        self.unit.blocks.push(BasicBlock { first, params: Vec::new(), after, end, span: Span::default() });
+        self.dead = false;
+    }
+
+    fn stored_since(&self, mark: usize) -> Vec<(LocalId, Operand)> {
+        let log = self.variables.log.get(mark..).unwrap_or(&[]);
+        let mut locals: Vec<LocalId> = log.iter().map(|(local, _)| *local).collect();
+        locals.sort_unstable();
+        locals.dedup();
+        let now = |l: LocalId| self.variables.now.get(l as usize).copied().flatten().map(|(at, _)| (l, at));
+        locals.into_iter().filter_map(now).collect()
+    }
+
+    /// Ends the block; nothing follows.
+    pub(super) fn end(&mut self, end: Terminator, span: Span) {
+        let span = self.site.unwrap_or(span);
+        if let Some(block) = self.unit.blocks.last_mut().filter(|_| !self.dead) {
+            (block.end, block.span) = (end, span);
+        }
+        self.dead = true;
+    }
+
+    /// Ends the block; on to a place that is not known yet. `mark`: what was stored since goes along.
+    pub(super) fn jump(&mut self, mark: usize, span: Span) -> Option<PendingEdge> {
+        let way = (!self.dead).then(|| PendingEdge { from: self.here(), stored: self.stored_since(mark) });
+        self.end(Terminator::Jump(BlockEdge::default()), span);
+        way
+    }
+
+    /// Ends the block with a question; the work goes on where the answer is the other one.
+    pub(super) fn jump_if(&mut self, end: Terminator, mark: usize, span: Span) -> Option<PendingEdge> {
+        if self.dead {
+            return None;
+        }
+        if let Terminator::If(when, test, _) = end
+            && let Some(x) = self.unit.constant(test)
+            && !x.is_nan()
+        {
+            // The answer is known: there is one way.
+            return if truthy(x) == when { self.jump(mark, span) } else { None };
+        }
+        let way = PendingEdge { from: self.here(), stored: self.stored_since(mark) };
+        let after = way.from;
+        self.end(end, span);
+        self.begin(after);
+        Some(way)
+    }
+
+    fn edge(&mut self, from: BlockId) -> Option<&mut BlockEdge> {
+        match &mut self.unit.blocks.get_mut(from as usize)?.end {
+            Terminator::Jump(edge)
+            | Terminator::If(_, _, edge)
+            | Terminator::IfNothing(_, _, edge)
+            | Terminator::Again(edge) => Some(edge),
+            Terminator::Return(_) => None,
+        }
+    }
+
+    /// The ways come together here. `after`: the block that all of them passed last. Variables hold what they held
+    /// there; what they hold now follows from the ways.
+    fn land(&mut self, after: BlockId, ways: impl IntoIterator<Item = Option<PendingEdge>>) {
+        let ways: Vec<PendingEdge> = ways.into_iter().flatten().collect();
+        if ways.is_empty() {
+            self.dead = true;
+            return;
+        }
+        self.begin(after);
+        let to = self.here();
+        for way in &ways {
+            if let Some(edge) = self.edge(way.from) {
+                edge.to = to;
+            }
+        }
+        for local in stored_on(&ways) {
+            let held: Vec<Option<Operand>> = ways.iter().map(|way| way.held(local)).collect();
+            let before = if held.contains(&None) { self.find(local) } else { None };
+            let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
+            // What one of the ways does not know is not used any more.
+            let Some(held) = held else { continue };
+            let Some(&first) = held.first() else { continue };
+            let same = |at: &Operand| self.unit.same.at(*at) == self.unit.same.at(first);
+            if held.iter().all(same) {
+                self.write(local, first);
+                continue;
+            }
+            let param = self.like(first);
+            for (way, at) in ways.iter().zip(held) {
+                if let Some(edge) = self.edge(way.from) {
+                    edge.args.push(at);
+                }
+            }
+            if let Some(block) = self.unit.blocks.last_mut() {
+                block.params.push(param);
+            }
+            self.write(local, param);
+        }
+    }
+
+    /// Where a question leads two ways that come together again.
+    pub(super) fn fork(
+        &mut self,
+        test: Terminator,
+        span: Span,
+        next: impl FnOnce(&mut Self),
+        there: impl FnOnce(&mut Self),
+    ) {
+        let (mark, from, question) = (self.mark(), self.here(), question(&test));
+        let way = self.jump_if(test, mark, span);
+        next(self);
+        let end = self.jump(mark, span);
+        self.back_to(mark);
+        self.land(from, [way]);
+        there(self);
+        let other = self.jump(mark, span);
+        self.back_to(mark);
+        self.meet(from, question, other, end);
+    }
+
+    /// The same where the second way has nothing on it.
+    pub(super) fn skip(&mut self, test: Terminator, span: Span, next: impl FnOnce(&mut Self)) {
+        let (mark, from, question) = (self.mark(), self.here(), question(&test));
+        let way = self.jump_if(test, mark, span);
+        next(self);
+        let end = self.jump(mark, span);
+        self.back_to(mark);
+        self.meet(from, question, way, end);
+    }
+
+    /// Two ways of a question come together. Where little was computed on them, and nothing else done, there is no
+    /// question any more: both are computed, and one is chosen.
+    fn meet(
+        &mut self,
+        from: BlockId,
+        question: Option<(bool, Num)>,
+        there: Option<PendingEdge>,
+        next: Option<PendingEdge>,
+    ) {
+        if let (Some((when, test)), Some(there), Some(next)) = (question, &there, &next)
+            && self.is_little(from)
+            && let Some(held) = self.numbers_of(there, next)
+        {
+            self.unit.blocks.truncate(from as usize + 1);
+            self.dead = false;
+            let span = self.unit.blocks.last().map(|b| b.span).unwrap_or_default();
+            for (local, there, next) in held {
+                let (yes, no) = if when { (there, next) } else { (next, there) };
+                let same = self.unit.same.number(yes) == self.unit.same.number(no);
+                let one = if same { yes } else { self.number_by(span, |dst| Op::Select(dst, test, yes, no)) };
+                self.write(local, Operand::Number(one));
+            }
+            return;
+        }
+        self.land(from, [there, next]);
+    }
+
+    /// Whether the blocks since a question are its two ways alone, with few numeric operations on them.
+    fn is_little(&self, from: BlockId) -> bool {
+        let ways = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
+        let first = ways.first().map_or(self.unit.ops.len(), |b| b.first as usize);
+        let ops = self.unit.ops.get(first..).unwrap_or(&[]);
+        let plain = ways.iter().all(|b| matches!(b.end, Terminator::Jump(_)) && b.params.is_empty());
+        ways.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
+    }
+
+    /// What variables that differ hold at the end of two ways; `None` when one holds something else than a number.
+    fn numbers_of(&mut self, there: &PendingEdge, next: &PendingEdge) -> Option<Vec<(LocalId, Num, Num)>> {
+        let mut all = Vec::new();
+        for local in stored_on([there, next]) {
+            let (there, next) = (there.held(local), next.held(local));
+            let before = if there.is_none() || next.is_none() { self.find(local) } else { None };
+            match (there.or(before), next.or(before)) {
+                (Some(Operand::Number(there)), Some(Operand::Number(next))) => all.push((local, there, next)),
+                // What one of the ways does not know is not used any more.
+                (None, _) | (_, None) => {}
+                _ => return None,
+            }
+        }
+        Some(all)
+    }
+
+    /// Statements that other ways than their end may leave. The work adds these to the list that `exits` finds.
+    pub(super) fn region(
+        &mut self,
+        span: Span,
+        work: impl FnOnce(&mut Self, usize),
+        exits: impl FnOnce(&mut Self) -> Vec<PendingEdge>,
+    ) {
+        let (mark, from) = (self.mark(), self.here());
+        work(self, mark);
+        let end = self.jump(mark, span);
+        let exits = exits(self);
+        self.back_to(mark);
+        self.land(from, exits.into_iter().map(Some).chain([end]));
+    }
+
+    /// A loop begins.
+    pub(super) fn enter_loop(&mut self, span: Span) {
+        let mark = self.mark();
+        let from = self.here();
+        let entry = self.jump(mark, span);
+        let dead = entry.is_none();
+        self.begin(from);
+        self.dead = dead;
+        let ways = |all: &[EarlyExits]| all.last().map_or(0, |e| e.exits.len());
+        let returns = (ways(&self.inlines), ways(&self.chains));
+        let (header, params) = (self.here(), BTreeMap::new());
+        let (breaks, continues) = (Vec::new(), Vec::new());
+        if let Some(way) = &entry
+            && let Some(edge) = self.edge(way.from)
+        {
+            edge.to = header;
+        }
+        self.loops.push(LoopContext { header, entry, mark, params, breaks, continues, returns });
+    }
+
+    /// Leaves the innermost loop, or goes on to its next turn.
+    pub(super) fn leave_turn(&mut self, leaves: bool) {
+        let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
+        let way = self.jump(mark, Span::default());
+        if let Some(level) = self.loops.last_mut() {
+            if leaves { level.breaks.extend(way) } else { level.continues.extend(way) }
+        }
+    }
+
+    /// What `continue` leads to.
+    pub(super) fn land_continues(&mut self) {
+        let Some(level) = self.loops.last_mut() else { return };
+        let (mark, header, continues) = (level.mark, level.header, std::mem::take(&mut level.continues));
+        if !continues.is_empty() {
+            let end = self.jump(mark, Span::default());
+            self.back_to(mark);
+            self.land(header, continues.into_iter().map(Some).chain([end]));
+        }
+    }
+
+    /// The question whether a loop goes on.
+    pub(super) fn loop_test(&mut self, holds: Num, span: Span) {
+        let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
+        let way = self.jump_if(Terminator::If(false, holds, BlockEdge::default()), mark, span);
+        if let Some(level) = self.loops.last_mut() {
+            level.breaks.extend(way);
+        }
+    }
+
+    /// A loop ends: what was stored in it is what its parameters are in the next turn.
+    pub(super) fn leave_loop(&mut self, span: Span) {
+        let Some(mark) = self.loops.last().map(|l| l.mark) else { return };
+        let back = self.jump(mark, span);
+        self.back_to(mark);
+        let Some(mut level) = self.loops.pop() else { return };
+        for (local, at) in back.iter().chain(&level.breaks).flat_map(|way| &way.stored) {
+            if !level.params.contains_key(local)
+                && let Some(before) = self.find(*local)
+            {
+                let param = self.like(*at);
+                level.params.insert(*local, (param, before));
+            }
+        }
+        let mut kept = Vec::new();
+        for (local, (param, before)) in &level.params {
+            let stored = back.as_ref().and_then(|way| way.held(*local));
+            let next = stored.map_or(*param, |at| self.unit.same.at(at));
+            if next == *param || next == self.unit.same.at(*before) {
+                self.unit.same.join(*param, *before);
+            } else {
+                kept.push((*local, *param, *before, next));
+            }
+        }
+        if let Some(block) = self.unit.blocks.get_mut(level.header as usize) {
+            block.params = kept.iter().map(|k| k.1).collect();
+        }
+        let from = level.entry.as_ref().map(|e| e.from);
+        if let Some(edge) = from.and_then(|from| self.edge(from)) {
+            edge.args = kept.iter().map(|k| k.2).collect();
+        }
+        if let Some(block) = back.and_then(|way| self.unit.blocks.get_mut(way.from as usize)) {
+            let args = kept.iter().map(|k| k.3).collect();
+            block.end = Terminator::Again(BlockEdge { to: level.header, args });
+        }
+        for (local, param, ..) in &kept {
+            self.write(*local, *param);
+            // Ways that lead further out pass its start too.
+            let returns =
+                self.inlines.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.0));
+            let chains =
+                self.chains.last_mut().into_iter().flat_map(|e| e.exits.iter_mut().skip(level.returns.1));
+            for way in returns.chain(chains) {
+                if let Err(at) = way.stored.binary_search_by_key(local, |s| s.0) {
+                    way.stored.insert(at, (*local, *param));
+                }
+            }
+        }
+        let exits = level.breaks.into_iter().map(Some);
+        self.land(level.header, exits);
+    }
+}

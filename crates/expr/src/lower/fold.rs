@@ -1,0 +1,98 @@
+//! Numbers that follow from known ones are known: they are computed here, and their operations left out. What the binder
+//! needs to know of a value while it looks for types, as an index or a name, it has found itself; here it is what comes
+//! together only in the form: arguments of functions, variables, and what a loop does not change.
+
+use crate::operation::select;
+use crate::ssa::{Num, Op, Operand, SsaFunction};
+
+/// What an operation gives.
+enum Folded {
+    Known(f64),
+    /// The same as another number.
+    Same(Num),
+}
+
+/// Computes what is known.
+pub(super) fn fold(unit: &mut SsaFunction) {
+    let mut gone: Vec<u32> = Vec::new();
+    for i in 0..unit.ops.len() {
+        let Some((name, gives)) = unit.ops.get(i).and_then(|op| result(unit, op)) else { continue };
+        match gives {
+            Folded::Known(x) => {
+                let at = unit.numbers.partition_point(|(n, _)| *n < name);
+                unit.numbers.insert(at, (name, x));
+            }
+            Folded::Same(other) => unit.same.join(Operand::Number(name), Operand::Number(other)),
+        }
+        gone.push(i as u32);
+    }
+    if gone.is_empty() {
+        return;
+    }
+    for block in &mut unit.blocks {
+        block.first -= gone.partition_point(|i| *i < block.first) as u32;
+    }
+    let left = |i: usize| gone.binary_search(&(i as u32)).is_err();
+    let mut places = 0..;
+    unit.ops.retain(|_| places.next().is_none_or(left));
+    let mut places = 0..;
+    unit.spans.retain(|_| places.next().is_none_or(left));
+}
+
+/// What a numeric operation gives, with its name, where that is known.
+fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
+    let constant = |n: Num| unit.constant(unit.same.number(n));
+    Some(match *op {
+        Op::Unary(name, op, a) => (name, kept(&[constant(a)?], op.on_number(constant(a)?))?),
+        Op::Binary(name, op, a, b) => {
+            let operands = [constant(a)?, constant(b)?];
+            (name, kept(&operands, op.on_numbers(operands[0], operands[1]))?)
+        }
+        Op::Select(_, test, ..) if constant(test)?.is_nan() => return None,
+        Op::Select(name, test, a, b) => (name, Folded::Same(select(constant(test)?, a, b))),
+        Op::Math(name, function, args) => {
+            let numbers: Option<Vec<f64>> =
+                args.operands(&unit.args).iter().map(|n| constant(Num(*n))).collect();
+            let numbers = numbers?;
+            let x = function.apply(&numbers);
+            // The extreme of nothing is found while running, where it can be seen.
+            let some = !numbers.is_empty();
+            (
+                name,
+                if function.gives_boolean() {
+                    Folded::Known(x)
+                } else {
+                    kept(&numbers, x).filter(|_| some)?
+                },
+            )
+        }
+        _ => return None,
+    })
+}
+
+/// A known result, unless a NaN was lost on the way to it: a run shows where ([`crate::Watch`]).
+fn kept(operands: &[f64], x: f64) -> Option<Folded> {
+    let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
+    (!lost).then_some(Folded::Known(x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mock::{Mock, World};
+    use crate::operators::BinaryOp;
+    use crate::{Compiler, Context, Globals, Value};
+
+    #[test]
+    fn what_a_loop_does_not_change_is_computed_before_the_run() {
+        let source =
+            "let k = 1; k = 3; let s = 0; for (let i = 0; i < 4; i++) { s += Math.max(k * 2, 1) } ctx.a = s";
+        let mut globals = Globals::new();
+        let program = Compiler::new(&Mock, &mut globals).statements(source).program.unwrap();
+        let computed = |op: &&Op| matches!(op, Op::Binary(_, BinaryOp::Multiply, ..) | Op::Math(..));
+        assert_eq!(program.code.units[0].ops.iter().filter(computed).count(), 0);
+        let mut context = Context::for_globals(&globals);
+        program.run(&mut World::new(), &mut context, None).unwrap();
+        assert_eq!(*context.get(0), Value::Number(24.0));
+    }
+}

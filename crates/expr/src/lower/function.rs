@@ -1,0 +1,54 @@
+//! Typed tree to form, function after function.
+
+use super::builder::{FunctionBuilder, Variables};
+use super::fold::fold;
+use crate::ir::{self, IrProgram, LocalId};
+use crate::ssa::{Op, Operand, Representation, SsaProgram, Terminator};
+use labspec_finding::Span;
+
+/// The form of a text.
+pub(crate) fn lower(tree: &IrProgram) -> SsaProgram {
+    let mut form = SsaProgram { views: tree.views.clone(), ..SsaProgram::default() };
+    let mut variables = Variables::default();
+    for unit in &tree.units {
+        let mut build = FunctionBuilder::new(tree, &mut form, variables);
+        build.whole(unit);
+        build.back_to(0);
+        let mut done = build.unit;
+        variables = build.variables;
+        fold(&mut done);
+        done.same.shorten();
+        form.units.push(done);
+    }
+    form
+}
+
+impl FunctionBuilder<'_> {
+    fn whole(&mut self, unit: &ir::IrFunction) {
+        self.unit.result = unit.result.map_or(Representation::Value, Representation::for_type);
+        self.unit.params = unit.params.iter().map(|p| self.slot(*p)).collect();
+        self.unit.captures = unit.captures.iter().map(|c| self.slot(*c)).collect();
+        let given: Vec<(LocalId, Operand)> =
+            unit.params.iter().chain(&unit.captures).map(|&l| (l, self.given(l))).collect();
+        for (i, (local, at)) in given.into_iter().enumerate() {
+            let at = match at {
+                // What is captured is the shared place already.
+                Operand::Value(value) if self.is_shared(local) && i < unit.params.len() => {
+                    Operand::Value(self.value_of(Span::default(), |dst| Op::NewCell(dst, value)))
+                }
+                at => at,
+            };
+            self.write(local, at);
+        }
+        self.steps(&unit.body);
+        self.end(Terminator::Return(None), Span::default());
+    }
+
+    /// The name of a parameter.
+    fn given(&mut self, local: LocalId) -> Operand {
+        match self.slot(local) {
+            Representation::Value => Operand::Value(self.new_value()),
+            Representation::Number | Representation::Boolean => Operand::Number(self.new_number()),
+        }
+    }
+}

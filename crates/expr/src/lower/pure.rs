@@ -1,0 +1,157 @@
+//! Formulas from forms: of a whole text without effects, where every question becomes a choice between numbers that
+//! are both computed, and of a few numeric operations of a longer one.
+
+use std::collections::BTreeMap;
+
+use crate::formula::{Formula, FormulaStep, StepId};
+use crate::math::FEW;
+use crate::ssa::{BasicBlock, BlockEdge, BlockId, Num, Op, Operand, Representation, SsaFunction, Terminator};
+
+/// The formula of a text that gives a number or a truth value; `None` when its value depends on more than elements of
+/// fields at known indexes.
+pub(crate) fn whole(unit: &SsaFunction) -> Option<Formula> {
+    let loads_and_numbers = |op: &Op| op.is_numeric() || matches!(op, Op::Load(..));
+    if unit.result == Representation::Value || !unit.ops.iter().all(loads_and_numbers) {
+        return None;
+    }
+    let mut steps = Steps::new(unit);
+    for at in 0..unit.blocks.len() as BlockId {
+        steps.params(at)?;
+        unit.range(at).try_for_each(|i| steps.op(unit.ops.get(i)?).map(|_| ()))?;
+    }
+    // What returns are the ways to the end.
+    let mut output = steps.chosen(0, unit.blocks.len() as BlockId, 0)?;
+    let mut formula = steps.formula;
+    formula.finish(std::slice::from_mut(&mut output));
+    (formula.output, formula.truth) = (output, unit.result == Representation::Boolean);
+    Some(formula)
+}
+
+/// The formula of numeric operations that follow each other, with the step of every number that they give. `input`: the
+/// register of a number that stands there before.
+pub(crate) fn stretch(
+    unit: &SsaFunction,
+    ops: &[Op],
+    input: &mut dyn FnMut(Num) -> u32,
+) -> Option<(Formula, Vec<(Num, StepId)>)> {
+    let mut steps = Steps { input: Some(input), ..Steps::new(unit) };
+    let mut given = Vec::with_capacity(ops.len());
+    for op in ops {
+        given.push(steps.op(op)?);
+    }
+    Some((steps.formula, given))
+}
+
+/// The work on one formula.
+struct Steps<'u> {
+    unit: &'u SsaFunction,
+    input: Option<&'u mut dyn FnMut(Num) -> u32>,
+    formula: Formula,
+    /// The step of each name.
+    at: BTreeMap<Num, StepId>,
+}
+
+impl<'u> Steps<'u> {
+    fn new(unit: &'u SsaFunction) -> Steps<'u> {
+        Steps { unit, input: None, formula: Formula::default(), at: BTreeMap::new() }
+    }
+
+    fn find(&mut self, name: Num) -> Option<StepId> {
+        let name = self.unit.same.number(name);
+        if let Some(at) = self.at.get(&name) {
+            return Some(*at);
+        }
+        let at = match (self.unit.constant(name), &mut self.input) {
+            (Some(x), _) => self.formula.constant(x),
+            (None, Some(input)) => self.formula.step(FormulaStep::Input(input(name))),
+            (None, None) => return None,
+        };
+        self.at.insert(name, at);
+        Some(at)
+    }
+
+    /// The step of an operation, with its name.
+    fn op(&mut self, op: &Op) -> Option<(Num, StepId)> {
+        let (name, at) = match *op {
+            Op::Load(name, field, index) => (name, self.formula.step(FormulaStep::Load(field, index))),
+            Op::Unary(name, op, a) => {
+                let a = self.find(a)?;
+                (name, self.formula.unary(op, a))
+            }
+            Op::Binary(name, op, a, b) => {
+                let (a, b) = (self.find(a)?, self.find(b)?);
+                (name, self.formula.binary(op, a, b))
+            }
+            Op::Select(name, test, a, b) => {
+                let (test, a, b) = (self.find(test)?, self.find(a)?, self.find(b)?);
+                (name, self.formula.select(test, a, b))
+            }
+            // More arguments than a row takes are for the machine.
+            Op::Math(_, _, args) if args.count as usize > FEW => return None,
+            Op::Math(name, function, args) => {
+                let args = args
+                    .operands(&self.unit.args)
+                    .iter()
+                    .map(|n| self.find(Num(*n)))
+                    .collect::<Option<_>>()?;
+                (name, self.formula.math(function, args))
+            }
+            _ => return None,
+        };
+        self.at.insert(name, at);
+        Some((name, at))
+    }
+
+    /// The parameters of a block.
+    fn params(&mut self, to: BlockId) -> Option<()> {
+        let unit = self.unit;
+        let BasicBlock { params, after, .. } = unit.blocks.get(to as usize)?;
+        for (i, param) in params.iter().enumerate() {
+            let Operand::Number(name) = param else { return None };
+            let at = self.chosen(*after, to, i)?;
+            self.at.insert(*name, at);
+        }
+        Some(())
+    }
+
+    /// What a parameter of a block is, by the questions since the block that all ways to it passed last. Ways lead
+    /// forward, so from the last block on it is known what follows.
+    fn chosen(&mut self, after: BlockId, to: BlockId, param: usize) -> Option<StepId> {
+        let unit = self.unit;
+        let mut from: Vec<Option<StepId>> = vec![None; (to - after) as usize];
+        for at in (after..to).rev() {
+            let known = |from: &[Option<StepId>], block: BlockId| {
+                from.get((block - after) as usize).copied().flatten()
+            };
+            let follow =
+                |steps: &mut Self, from: &[Option<StepId>], edge: &BlockEdge| match edge.args.get(param) {
+                    Some(Operand::Number(name)) if edge.to == to => steps.find(*name),
+                    _ if edge.to < to => known(from, edge.to),
+                    _ => None,
+                };
+            let found = match &unit.blocks.get(at as usize)?.end {
+                Terminator::Jump(edge) => follow(self, &from, edge),
+                Terminator::If(when, test, edge) => {
+                    let (there, next) = (follow(self, &from, edge), known(&from, at + 1));
+                    match (there, next) {
+                        (Some(there), Some(next)) => {
+                            let (yes, no) = if *when { (there, next) } else { (next, there) };
+                            let test = self.find(*test)?;
+                            Some(self.formula.select(test, yes, no))
+                        }
+                        (one, other) => one.or(other),
+                    }
+                }
+                Terminator::Return(Some(Operand::Number(name))) if to as usize == unit.blocks.len() => {
+                    self.find(*name)
+                }
+                Terminator::Return(_) => None,
+                Terminator::IfNothing(..) | Terminator::Again(_) => return None,
+            };
+            if let Some(place) = from.get_mut((at - after) as usize) {
+                *place = found;
+            }
+        }
+        from.first().copied().flatten()
+    }
+}

@@ -1,0 +1,80 @@
+//! Where reading goes on after a mistake.
+
+use super::parser::Parser;
+use crate::ast::{Stmt, StmtKind};
+use crate::lex::TokenKind;
+
+impl Parser<'_> {
+    /// A statement, or the mark of one that could not be read and has been skipped.
+    pub(super) fn recovered(&mut self, closer: &str) -> Stmt {
+        let (first, span) = (self.at, self.span());
+        let kind = self.statement().unwrap_or(StmtKind::Error);
+        let failed = kind == StmtKind::Error;
+        let stmt = Stmt { kind, span: span.to(self.last_span()) };
+        // An opening word that was reported has been skipped with all that belongs to it.
+        if failed && !self.at_boundary(first) {
+            self.skip_statement(first, closer);
+        }
+        stmt
+    }
+
+    /// Whether the reader stands where a statement ended.
+    pub(super) fn at_boundary(&self, first: usize) -> bool {
+        self.at > first && (self.ended() || self.newline() || self.at_behind(";") || self.at_behind("}"))
+    }
+
+    /// Whether the token before is this symbol.
+    fn at_behind(&self, symbol: &str) -> bool {
+        let before = self.at.checked_sub(1).and_then(|i| self.tokens.get(i));
+        before.is_some_and(|t| matches!(t.kind, TokenKind::Symbol(s) if s == symbol))
+    }
+
+    /// Skips what is left of a statement that started at token `first`: to behind its semicolon, to the next
+    /// line, or to the end of the block. Takes at least one token, except there.
+    pub(super) fn skip_statement(&mut self, first: usize, closer: &str) {
+        while !self.ended() && !self.is(closer) {
+            if self.at > first && self.newline() {
+                return;
+            }
+            if self.eat(";").is_some() {
+                return;
+            }
+            self.skip_group();
+        }
+    }
+
+    /// Skips a refused statement with its header, its body and what hangs on it (`else`, `catch`).
+    pub(super) fn skip_construct(&mut self) {
+        loop {
+            let opener = match self.peek() {
+                TokenKind::Word(word) => *word,
+                _ => return,
+            };
+            self.bump();
+            match opener {
+                "function" | "class" | "async" => {
+                    while !self.ended() && !self.is("{") && !self.is(";") {
+                        self.skip_group();
+                    }
+                }
+                "if" | "for" | "while" | "switch" | "with" | "catch" if self.is("(") => self.skip_group(),
+                _ => {}
+            }
+            if self.statement_keyword().is_some() {
+                continue;
+            }
+            if self.is("{") {
+                self.skip_group();
+            } else if !self.at_behind(";") {
+                let first = self.at;
+                if !self.ended() {
+                    self.skip_statement(first, "}");
+                }
+            }
+            let hangs_on = ["else", "catch", "finally"].iter().any(|w| self.is_word(w));
+            if !(hangs_on || opener == "do" && self.is_word("while")) {
+                return;
+            }
+        }
+    }
+}

@@ -1,0 +1,256 @@
+//! Statements, declarations and functions as text.
+
+use super::printer::{ASSIGNMENT, Printer};
+use crate::ast::{Body, Declarator, Element, Expr, Function, Pattern, Stmt, StmtKind};
+
+impl Printer<'_> {
+    pub(super) fn lines(&mut self, statements: &[Stmt]) {
+        for (i, statement) in statements.iter().enumerate() {
+            if i > 0 {
+                self.new_line();
+            }
+            self.statement(statement);
+        }
+    }
+
+    pub(super) fn block(&mut self, statements: &[Stmt]) {
+        if statements.is_empty() {
+            return self.put("{}");
+        }
+        self.put("{");
+        self.indent += 1;
+        self.new_line();
+        self.lines(statements);
+        self.indent -= 1;
+        self.new_line();
+        self.put("}");
+    }
+
+    /// The statement of a condition or a loop, behind its head.
+    pub(super) fn body(&mut self, statement: &Stmt) {
+        self.put(" ");
+        self.statement(statement);
+    }
+
+    pub(super) fn statement(&mut self, statement: &Stmt) {
+        match &statement.kind {
+            StmtKind::Expr(expr) => self.expression_statement(expr),
+            StmtKind::Declare { constant, declarators } => {
+                self.declarators(*constant, declarators);
+                self.put(";");
+            }
+            StmtKind::Function { name, function } => {
+                self.put("function ");
+                self.put(&name.text);
+                self.params(&function.params);
+                self.put(" ");
+                match &function.body {
+                    Body::Block(statements) => self.block(statements),
+                    Body::Value(_) => self.put("{}"), // the parser makes none of these
+                }
+            }
+            StmtKind::If { test, then, otherwise } => self.condition(test, then, otherwise.as_deref()),
+            StmtKind::For { init, test, update, body } => {
+                self.for_head(init.as_deref(), test.as_ref(), update.as_ref());
+                self.body(body);
+            }
+            StmtKind::ForOf { constant, target, items, body } => {
+                self.put(if *constant { "for (const " } else { "for (let " });
+                self.pattern(target);
+                self.put(" of ");
+                self.expr(items, ASSIGNMENT);
+                self.put(")");
+                self.body(body);
+            }
+            StmtKind::While { test, body } => {
+                self.head("while", test);
+                self.body(body);
+            }
+            StmtKind::DoWhile { body, test } => {
+                self.put("do");
+                self.body(body);
+                self.put(" ");
+                self.head("while", test);
+                self.put(";");
+            }
+            StmtKind::Block(statements) => self.block(statements),
+            StmtKind::Break => self.put("break;"),
+            StmtKind::Continue => self.put("continue;"),
+            StmtKind::Return(None) => self.put("return;"),
+            StmtKind::Return(Some(value)) => {
+                self.put("return ");
+                self.expr(value, ASSIGNMENT);
+                self.put(";");
+            }
+            StmtKind::Empty => self.put(";"),
+            StmtKind::Error => self.put("<error>"),
+        }
+    }
+
+    /// An expression for its effect.
+    fn expression_statement(&mut self, expr: &Expr) {
+        // What starts like a block or a declaration of a function would be read as one.
+        let start = self.out.len();
+        self.expr(expr, 0);
+        let text = self.out.get(start..).unwrap_or("");
+        if text.starts_with('{') || text.starts_with("function") {
+            self.out.insert(start, '(');
+            self.put(")");
+        }
+        self.put(";");
+    }
+
+    /// `if`, and what its `else` is.
+    fn condition(&mut self, test: &Expr, then: &Stmt, otherwise: Option<&Stmt>) {
+        self.head("if", test);
+        match otherwise {
+            None => self.body(then),
+            Some(otherwise) => {
+                // Without braces the `else` could join an `if` inside.
+                if open_ended(then) {
+                    self.put(" ");
+                    self.block(std::slice::from_ref(then));
+                } else {
+                    self.body(then);
+                }
+                self.put(" else");
+                self.body(otherwise);
+            }
+        }
+    }
+
+    /// `for (init; test; update)`
+    fn for_head(&mut self, init: Option<&Stmt>, test: Option<&Expr>, update: Option<&Expr>) {
+        self.put("for (");
+        match init.map(|s| &s.kind) {
+            Some(StmtKind::Declare { constant, declarators }) => {
+                self.declarators(*constant, declarators);
+            }
+            Some(StmtKind::Expr(expr)) => self.expr(expr, 0),
+            _ => {}
+        }
+        self.put(";");
+        if let Some(test) = test {
+            self.put(" ");
+            self.expr(test, ASSIGNMENT);
+        }
+        self.put(";");
+        if let Some(update) = update {
+            self.put(" ");
+            self.expr(update, 0);
+        }
+        self.put(")");
+    }
+
+    pub(super) fn head(&mut self, word: &str, test: &Expr) {
+        self.put(word);
+        self.put(" (");
+        self.expr(test, ASSIGNMENT);
+        self.put(")");
+    }
+
+    pub(super) fn declarators(&mut self, constant: bool, declarators: &[Declarator]) {
+        self.put(if constant { "const " } else { "let " });
+        for (i, declarator) in declarators.iter().enumerate() {
+            if i > 0 {
+                self.put(", ");
+            }
+            self.pattern(&declarator.target);
+            if let Some(value) = &declarator.value {
+                self.put(" = ");
+                self.expr(value, ASSIGNMENT);
+            }
+        }
+    }
+
+    pub(super) fn pattern(&mut self, pattern: &Pattern) {
+        match pattern {
+            Pattern::Name(name) => self.put(&name.text),
+            Pattern::List { items, .. } => {
+                self.put("[");
+                for (i, item) in items.iter().enumerate() {
+                    if i > 0 {
+                        self.put(", ");
+                    }
+                    match item {
+                        Some(item) => self.element(item),
+                        // A hole at the end needs a comma of its own.
+                        None if i + 1 == items.len() => self.put(","),
+                        None => {}
+                    }
+                }
+                self.put("]");
+            }
+            Pattern::Record { entries, .. } => {
+                self.put("{");
+                for (i, (key, element)) in entries.iter().enumerate() {
+                    if i > 0 {
+                        self.put(", ");
+                    }
+                    if !matches!(&element.target, Pattern::Name(name) if name.text == key.text) {
+                        self.put(&key.text);
+                        self.put(": ");
+                    }
+                    self.element(element);
+                }
+                self.put("}");
+            }
+        }
+    }
+
+    pub(super) fn element(&mut self, element: &Element) {
+        self.pattern(&element.target);
+        if let Some(default) = &element.default {
+            self.put(" = ");
+            self.expr(default, ASSIGNMENT);
+        }
+    }
+
+    pub(super) fn params(&mut self, params: &[Element]) {
+        self.put("(");
+        for (i, param) in params.iter().enumerate() {
+            if i > 0 {
+                self.put(", ");
+            }
+            self.element(param);
+        }
+        self.put(")");
+    }
+
+    pub(super) fn function(&mut self, function: &Function) {
+        // What calls itself by its name needs the name.
+        if let (Some(name), Body::Block(statements)) = (&function.name, &function.body) {
+            self.put("function ");
+            self.put(&name.text);
+            self.params(&function.params);
+            self.put(" ");
+            return self.block(statements);
+        }
+        self.params(&function.params);
+        self.put(" => ");
+        match &function.body {
+            Body::Block(statements) => self.block(statements),
+            // `=> {` would start a block.
+            Body::Value(value) => {
+                let start = self.out.len();
+                self.expr(value, ASSIGNMENT);
+                if self.out.get(start..).is_some_and(|text| text.starts_with('{')) {
+                    self.out.insert(start, '(');
+                    self.put(")");
+                }
+            }
+        }
+    }
+}
+
+/// Whether an `else` behind this statement would belong to an `if` in it.
+fn open_ended(statement: &Stmt) -> bool {
+    match &statement.kind {
+        StmtKind::If { otherwise: None, .. } => true,
+        StmtKind::If { otherwise: Some(last), .. } => open_ended(last),
+        StmtKind::For { body, .. } | StmtKind::ForOf { body, .. } | StmtKind::While { body, .. } => {
+            open_ended(body)
+        }
+        _ => false,
+    }
+}
