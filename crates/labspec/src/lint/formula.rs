@@ -2,6 +2,7 @@
 
 use super::html::MAX_IN_TEXT;
 use crate::finding::Finding;
+use crate::markdown::html::tags;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::Lesson;
@@ -156,16 +157,17 @@ fn without_code(text: &str, code: impl Iterator<Item = Range<usize>>) -> String 
 
 /// Stretches of a text of HTML that are code.
 fn code(html: &str) -> Vec<Range<usize>> {
-    let mut all = Vec::new();
-    for (open, close) in [("<code", "</code>"), ("<pre", "</pre>")] {
-        let mut at = 0;
-        while let Some(start) = html.get(at..).and_then(|r| r.find(open)).map(|i| at + i) {
-            let Some(end) = html.get(start..).and_then(|r| r.find(close)).map(|i| start + i + close.len())
-            else {
-                break;
-            };
-            all.push(start..end);
-            at = end;
+    let (mut all, mut open) = (Vec::new(), [None, None]);
+    for tag in tags(html) {
+        let Some(open) =
+            ["code", "pre"].iter().position(|name| *name == tag.name).and_then(|i| open.get_mut(i))
+        else {
+            continue;
+        };
+        if !tag.closing {
+            open.get_or_insert(tag.at.start);
+        } else if let Some(start) = open.take() {
+            all.push(start..tag.at.end);
         }
     }
     all

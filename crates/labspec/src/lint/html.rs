@@ -1,6 +1,7 @@
 //! Names of model elements written as tags: a browser takes them for HTML and shows nothing.
 
 use crate::finding::Finding;
+use crate::markdown::html::{HtmlTag, tags};
 use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
@@ -81,28 +82,23 @@ pub(super) fn is_of_models(name: &str) -> bool {
 }
 
 /// Tags of model elements in a piece of HTML: byte range and name.
-fn tags(html: &str) -> Vec<(Range<usize>, &str)> {
-    let mut found = Vec::new();
-    for (at, _) in html.match_indices('<') {
-        let inside = html.get(at + 1..).unwrap_or("");
-        let inside = inside.strip_prefix('/').unwrap_or(inside);
-        let length = inside.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(inside.len());
-        let name = inside.get(..length).unwrap_or("");
-        let after = inside.get(length..).unwrap_or("");
-        if !after.starts_with(['>', '/', ' ', '\n', '\t']) || !is_of_models(name) {
-            continue;
+fn model_tags(html: &str) -> Vec<(Range<usize>, String)> {
+    let all: Vec<HtmlTag> = tags(html).collect();
+    // A form that really offers options is HTML.
+    let form = all.iter().any(|tag| tag.name == "select");
+    let of_models = all.into_iter().filter_map(|HtmlTag { at, name, closing, .. }| {
+        let name_end = at.start + 1 + usize::from(closing) + name.len();
+        // Names of models have small letters; a name that the text ends with may go on.
+        let small = html.get(at.start..name_end).is_some_and(|text| text.ends_with(&name));
+        if !small || at.end == name_end || !is_of_models(&name) || form && name == "option" {
+            return None;
         }
         // Attributes end soon; a `<` before the `>` means that this tag has none.
-        let start = html.len() - after.len();
-        let end = after.find(['>', '<']).filter(|&i| after.get(i..).is_some_and(|a| a.starts_with('>')));
-        let end = end.map_or(start, |i| start + i + 1);
-        found.push((at..end, name));
-    }
-    // A form that really offers options is HTML.
-    if html.contains("<select") {
-        found.retain(|(_, name)| *name != "option");
-    }
-    found
+        let attributes = html.get(name_end..at.end).unwrap_or("");
+        let end = if attributes.contains('<') || !attributes.ends_with('>') { name_end } else { at.end };
+        Some((at.start..end, name))
+    });
+    of_models.collect()
 }
 
 fn finding(tag: &str, span: Range<usize>) -> Finding {
@@ -119,7 +115,7 @@ pub(super) const MAX_IN_TEXT: usize = 100;
 /// Looks into HTML that stands in the Markdown text, for so many findings at most.
 pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<Finding> {
     let html = text.get(range.clone()).unwrap_or("");
-    tags(html)
+    model_tags(html)
         .into_iter()
         .take(most)
         .map(|(tag, _)| {
@@ -135,7 +131,7 @@ pub(crate) fn in_markdown(text: &str, range: Range<usize>, most: usize) -> Vec<F
 
 /// Looks into a text of a lab or a quiz.
 pub(super) fn check_html(text: &Text, findings: &mut Vec<Finding>) {
-    for (tag, _) in tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
+    for (tag, _) in model_tags(text.as_str()).into_iter().take(MAX_IN_TEXT) {
         let mut found = finding(text.value.get(tag.clone()).unwrap_or(""), text.span_of(tag));
         // Inside of JSON the quotes of attributes are escaped; the replacement must be so too.
         if let Some(fix) = &mut found.fix {
@@ -152,7 +148,7 @@ mod tests {
     #[test]
     fn model_elements_are_told_from_html() {
         let names =
-            |html| tags(html).into_iter().map(|(range, _)| html[range].to_string()).collect::<Vec<_>>();
+            |html| model_tags(html).into_iter().map(|(range, _)| html[range].to_string()).collect::<Vec<_>>();
         assert_eq!(
             names("in <code><option></code>, <geom size=\"1\"/> and <b>bold</b>"),
             ["<option>", "<geom size=\"1\"/>"]

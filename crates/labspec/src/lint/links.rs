@@ -2,12 +2,14 @@
 
 use super::models::root_of;
 use crate::finding::Finding;
+use crate::markdown::html::tags;
 use crate::markdown::{self, Link, Scan};
 use crate::rules;
 use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
 use crate::spec::Lesson;
 use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// Most links that are followed.
@@ -21,7 +23,7 @@ fn letters(text: &str) -> String {
 }
 
 /// Whether a text has this anchor: a heading, or an element with this id.
-fn has_anchor(text: &str, scan: &Scan, anchor: &str) -> bool {
+fn has_anchor(text: &str, scan: &Scan, ids: &BTreeSet<String>, anchor: &str) -> bool {
     let meant = letters(anchor);
     // `fall-1` is the second heading "Fall".
     let plain = meant.trim_end_matches(|c: char| c.is_ascii_digit());
@@ -32,12 +34,14 @@ fn has_anchor(text: &str, scan: &Scan, anchor: &str) -> bool {
             || heading_letters.trim_start_matches(|c: char| c.is_ascii_digit()) == meant
             || heading.contains(&format!("{{#{anchor}}}"))
     });
-    let id = |html: &str| {
-        ["id", "name"]
-            .iter()
-            .any(|key| ['"', '\''].iter().any(|q| html.contains(&format!("{key}={q}{anchor}{q}"))))
-    };
-    heading || scan.html.iter().filter_map(|h| text.get(h.clone())).any(id)
+    heading || ids.contains(anchor)
+}
+
+/// The names of places in the HTML of a text.
+fn ids(text: &str, scan: &Scan) -> BTreeSet<String> {
+    let tags = scan.html.iter().filter_map(|html| text.get(html.clone())).flat_map(tags);
+    let attributes = tags.flat_map(|tag| tag.attributes);
+    attributes.filter(|(name, _)| name == "id" || name == "name").map(|(_, value)| value).collect()
 }
 
 /// What a site numbers itself, or names after an id.
@@ -52,9 +56,11 @@ fn is_of_the_site(lesson: &Lesson, anchor: &str) -> bool {
 /// Anchors of the lesson itself.
 pub(super) fn check_anchors(lesson: &Lesson, findings: &mut Vec<Finding>) {
     let text = lesson.file.text();
+    let mut ids_here = None;
     for link in lesson.scan.links.iter().take(MOST) {
         let Some(anchor) = link.target.strip_prefix('#').filter(|a| !a.is_empty()) else { continue };
-        if !has_anchor(text, &lesson.scan, &decoded(anchor)) && !is_of_the_site(lesson, anchor) {
+        let ids = ids_here.get_or_insert_with(|| ids(text, &lesson.scan));
+        if !has_anchor(text, &lesson.scan, ids, &decoded(anchor)) && !is_of_the_site(lesson, anchor) {
             findings.push(finding(link, "this lesson has no such heading"));
         }
     }
@@ -120,7 +126,8 @@ pub(super) fn check_files(lesson: &Lesson, path: &Path, sources: &Sources, findi
             (Some(real), Some(anchor)) if extension == "md" && real.starts_with(&*root) => {
                 let Ok(text) = sources.text(&real, MAX_FILE, "a lesson") else { continue };
                 let other = SourceFile::new(real.display().to_string(), text);
-                if !has_anchor(other.text(), &markdown::scan(&other), &decoded(&anchor))
+                let scan = markdown::scan(&other);
+                if !has_anchor(other.text(), &scan, &ids(other.text(), &scan), &decoded(&anchor))
                     && !is_of_the_site(lesson, &anchor)
                 {
                     findings.push(finding(link, "that lesson has no such heading"));

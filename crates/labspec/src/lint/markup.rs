@@ -2,6 +2,7 @@
 
 use super::html::{MAX_IN_TEXT, is_of_models};
 use crate::finding::Finding;
+use crate::markdown::html::{HtmlTag, tags};
 use crate::rules;
 use crate::source::Text;
 use std::ops::Range;
@@ -103,50 +104,11 @@ enum MarkupFault {
     Crossed(String),
 }
 
-/// A tag: its bytes, its name, whether it closes, whether it closes itself.
-struct Tag {
-    at: Range<usize>,
-    name: String,
-    closing: bool,
-    alone: bool,
-}
-
-/// The tags of a text, comments left out.
-fn tags(html: &str) -> Vec<Tag> {
-    let mut all = Vec::new();
-    let mut at = 0;
-    while let Some(found) = html.get(at..).and_then(|rest| rest.find('<')) {
-        let start = at + found;
-        let rest = html.get(start..).unwrap_or("");
-        if rest.starts_with("<!--") {
-            at = start + rest.find("-->").map_or(rest.len(), |end| end + 3);
-            continue;
-        }
-        let inside = rest.get(1..).unwrap_or("");
-        let closing = inside.starts_with('/');
-        let inside = inside.strip_prefix('/').unwrap_or(inside);
-        let length =
-            inside.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>' | '<')).unwrap_or(inside.len());
-        at = start + 1;
-        let name = inside.get(..length).unwrap_or("");
-        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            continue;
-        }
-        // A tag ends at its `>`, or the text does.
-        let end = rest.find('>').map_or(rest.len(), |end| end + 1);
-        at = start + end;
-        let alone = rest.get(..end).unwrap_or("").ends_with("/>");
-        all.push(Tag { at: start..at, name: name.to_ascii_lowercase(), closing, alone });
-    }
-    all
-}
-
 fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
     let mut faults = Vec::new();
-    let mut open: Vec<Tag> = Vec::new();
-    let all = tags(html);
-    let cut = all.len() > MOST;
-    for tag in all.into_iter().take(MOST) {
+    let mut open: Vec<HtmlTag> = Vec::new();
+    let mut all = tags(html);
+    for tag in all.by_ref().take(MOST) {
         let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
         let name = tag.name.as_str();
         let is_void = VOID.contains(&name)
@@ -172,12 +134,16 @@ fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
             // Told as what it is: an element of models.
         } else if !is_void && !foreign && !name.contains('-') {
             faults.push((tag.at, tag.name, MarkupFault::Unknown));
-        } else if !(VOID.contains(&name) || tag.alone && foreign) {
+        } else if !(VOID.contains(&name)
+            || foreign && html.get(tag.at.clone()).is_some_and(|tag| tag.ends_with("/>")))
+        {
             open.push(tag);
         }
     }
     // Where not all was looked at, what is open may be closed yet.
-    open.retain(|_| !cut);
+    if all.next().is_some() {
+        open.clear();
+    }
     let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
     faults.extend(left.map(|t| (t.at, t.name, MarkupFault::Unclosed)));
     faults

@@ -7,6 +7,7 @@
 
 mod extent;
 mod fence;
+pub(crate) mod html;
 mod loose;
 mod opener;
 

@@ -1,8 +1,8 @@
 //! One way of writing for many: spaces, dashes, superscripts and the TeX of numbers, so that a quote may be written
 //! as the source or as the page has it.
 
+use super::html::APART;
 use super::siunitx;
-use super::tags::APART;
 use crate::source::SourceMap;
 use std::ops::Range;
 

@@ -1,134 +1,86 @@
 //! HTML as a reader sees it: without tags, comments and what is hidden, entities decoded.
 
 use super::hidden::Hidden;
-use super::tags::{read_tag, tag_end};
-use crate::source::SourceMap;
+use crate::markdown::html::{HtmlTag, HtmlToken, tokens};
+use crate::source::{SourceMap, Text};
+
+/// Stands between two pieces of text that a page shows apart, such as two cells. No quote holds it.
+pub(super) const APART: char = '\u{1}';
+
+/// Tags that change how text looks and not where it stands.
+const INLINE: [&str; 28] = [
+    "a", "abbr", "b", "bdi", "bdo", "big", "cite", "code", "data", "del", "dfn", "em", "font", "i", "ins",
+    "kbd", "label", "mark", "q", "s", "samp", "small", "span", "strong", "time", "u", "var", "wbr",
+];
+
+/// What a page shows instead of a tag.
+pub(super) fn mark(tag: &HtmlTag) -> Option<char> {
+    match tag.name.as_str() {
+        "sup" => Some('^').filter(|_| !tag.closing),
+        "sub" => Some('_').filter(|_| !tag.closing),
+        "br" => Some(' '),
+        name => Some(APART).filter(|_| !INLINE.contains(&name)),
+    }
+}
 
 /// The shown text of a piece of HTML, with the way back.
 pub(super) fn strip(html: &str) -> (String, SourceMap) {
-    let (mut text, mut map) = (String::with_capacity(html.len()), SourceMap::default());
-    let mut at = 0;
-    let mut hidden = Hidden::default();
-    while let Some(rest) = html.get(at..).filter(|rest| !rest.is_empty()) {
-        let plain = rest.find(['<', '&']).unwrap_or(rest.len());
-        if plain > 0 {
-            if !hidden.is_on() {
-                text.push_str(rest.get(..plain).unwrap_or(""));
-                map.push_verbatim(at..at + plain);
-            }
-            at += plain;
-            continue;
-        }
-        let decoded =
-            if rest.starts_with('&') { entity(rest).map(|(c, n)| (Some(c), n)) } else { read_tag(rest) };
-        let Some((c, length)) = decoded else {
-            // A lone `<` or `&` is shown as it stands.
-            if !hidden.is_on() {
-                text.push_str(rest.get(..1).unwrap_or(""));
-                map.push_verbatim(at..at + 1);
-            }
-            at += 1;
-            continue;
-        };
-        let unseen = match rest.starts_with('<') {
-            true => hidden.take_tag(rest.get(..tag_end(rest)).unwrap_or("")),
-            false => hidden.is_on(),
-        };
-        if let Some(c) = c.filter(|_| !unseen) {
-            text.push(c);
-            map.push_whole(c.len_utf8(), at..at + length);
-        }
-        at += length;
-    }
-    (text, map)
+    strip_after(html, &mut Hidden::default())
 }
 
-/// Entities that stand in texts with numbers.
-const ENTITIES: [(&str, char); 44] = [
-    ("nbsp", '\u{a0}'),
-    ("thinsp", '\u{2009}'),
-    ("ensp", '\u{2002}'),
-    ("emsp", '\u{2003}'),
-    ("hairsp", '\u{200a}'),
-    ("numsp", '\u{2007}'),
-    ("shy", '\u{ad}'),
-    ("zwnj", '\u{200c}'),
-    ("zwj", '\u{200d}'),
-    ("minus", '\u{2212}'),
-    ("ndash", '–'),
-    ("mdash", '—'),
-    ("times", '×'),
-    ("middot", '·'),
-    ("sdot", '⋅'),
-    ("plusmn", '±'),
-    ("pm", '±'),
-    ("approx", '≈'),
-    ("asymp", '≈'),
-    ("sim", '∼'),
-    ("cong", '≅'),
-    ("frac12", '½'),
-    ("half", '½'),
-    ("frac14", '¼'),
-    ("frac34", '¾'),
-    ("sup1", '¹'),
-    ("sup2", '²'),
-    ("sup3", '³'),
-    ("deg", '°'),
-    ("micro", 'µ'),
-    ("mu", 'μ'),
-    ("pi", 'π'),
-    ("Omega", 'Ω'),
-    ("percnt", '%'),
-    ("permil", '‰'),
-    ("hellip", '…'),
-    ("le", '≤'),
-    ("ge", '≥'),
-    ("lt", '<'),
-    ("gt", '>'),
-    ("amp", '&'),
-    ("quot", '"'),
-    ("apos", '\''),
-    ("equals", '='),
-];
+/// The shown part of a text of HTML.
+pub(super) fn visible_text(html: &Text, hidden: &mut Hidden) -> Text {
+    let (value, map) = strip_after(html.as_str(), hidden);
+    Text { value, map: map.then(&html.map) }
+}
 
-/// The character of the entity that `text` begins with, and its length.
-fn entity(text: &str) -> Option<(char, usize)> {
-    // The longest name is short; a far `;` belongs to something else.
-    let end = text.bytes().take(12).position(|b| b == b';')?;
-    let name = text.get(1..end)?;
-    let c = match name.strip_prefix('#') {
-        Some(code) => {
-            let hex = code.strip_prefix(['x', 'X']);
-            let number = match hex {
-                Some(digits) => u32::from_str_radix(digits, 16),
-                None => code.parse(),
-            };
-            char::from_u32(number.ok()?).filter(|&c| c != '\0')?
+/// The same behind what may have hidden it.
+fn strip_after(html: &str, hidden: &mut Hidden) -> (String, SourceMap) {
+    let (mut text, mut map) = (String::with_capacity(html.len()), SourceMap::default());
+    for token in tokens(html) {
+        match token {
+            HtmlToken::Tag(tag) => {
+                // What a page runs or keeps parts what stands around it.
+                let parts = matches!(tag.name.as_str(), "script" | "style" | "title");
+                let unseen = hidden.take_tag(&tag);
+                if let Some(c) = mark(&tag).filter(|_| parts || !unseen) {
+                    text.push(c);
+                    map.push_whole(c.len_utf8(), tag.at);
+                }
+            }
+            HtmlToken::Text(_) | HtmlToken::Decoded(..) if hidden.is_on() => {}
+            HtmlToken::Text(at) => {
+                text.push_str(html.get(at.clone()).unwrap_or(""));
+                map.push_verbatim(at);
+            }
+            HtmlToken::Decoded(decoded, at) => {
+                text.push_str(&decoded);
+                map.push_whole(decoded.len(), at);
+            }
         }
-        None => ENTITIES.iter().find(|(n, _)| *n == name)?.1,
-    };
-    Some((c, end + 1))
+    }
+    (text, map)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn shown(html: &str) -> String {
+    fn stripped(html: &str) -> String {
         strip(html).0
     }
 
     #[test]
     fn only_what_a_page_shows_is_left() {
-        assert_eq!(shown("<p>it takes <b>0.442</b>&nbsp;s</p>"), "\u{1}it takes 0.442\u{a0}s\u{1}");
-        assert_eq!(shown("a < b && c<d title=\"1 > 0\">e</d>"), "a < b && c\u{1}e\u{1}");
-        assert_eq!(shown("x<!-- 0.442 s -->y<script>0.442</script>z"), "xy\u{1}\u{1}z");
-        assert_eq!(shown("10<sup>&minus;3</sup> m<sub>1</sub><br>"), "10^\u{2212}3 m_1 ");
-        assert_eq!(shown("&#x2212;1&#8239;m &unknown; &amp;lt;"), "\u{2212}1\u{202f}m &unknown; &lt;");
-        assert_eq!(shown("0.5<span hidden> m</span> s<template>3</template>"), "0.5 s");
-        assert_eq!(shown("<table><td>1</td><td>2"), "\u{1}\u{1}1\u{1}\u{1}2");
+        assert_eq!(stripped("<p>it takes <b>0.442</b>&nbsp;s</p>"), "\u{1}it takes 0.442\u{a0}s\u{1}");
+        assert_eq!(stripped("a < b && c<d title=\"1 > 0\">e</d>"), "a < b && c\u{1}e\u{1}");
+        assert_eq!(stripped("x<!-- 0.442 s -->y<script>0.442</script>z"), "xy\u{1}\u{1}z");
+        assert_eq!(stripped("10<sup>&minus;3</sup> m<sub>1</sub><br>"), "10^\u{2212}3 m_1 ");
+        assert_eq!(stripped("&#x2212;1&#8239;m &unknown; &amp;lt;"), "\u{2212}1\u{202f}m &unknown; &lt;");
+        assert_eq!(stripped("0.5<span hidden> m</span> s<template>3</template>"), "0.5 s");
+        assert_eq!(stripped("<table><td>1</td><td>2"), "\u{1}\u{1}1\u{1}\u{1}2");
         for broken in ["<", "<a", "<!--", "</", "&", "&#;", "<script>", "<a href='", "&#x110000;", "<é>"] {
-            shown(broken);
+            stripped(broken);
         }
     }
 

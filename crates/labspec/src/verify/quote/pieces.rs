@@ -1,11 +1,12 @@
 //! Everything that a reader of a lesson sees: its prose, and the shown texts of its labs and quizzes.
 
-use super::piece::ShownPiece;
+use super::hidden::Hidden;
+use super::html::visible_text;
 use super::prose;
 use crate::source::Text;
 use crate::spec::{Control, ControlKind, Lab, Lesson, Question, QuestionKind};
 
-pub(super) fn shown_pieces(lesson: &Lesson) -> Vec<ShownPiece> {
+pub(super) fn shown_pieces(lesson: &Lesson) -> Vec<Text> {
     let mut all = prose::pieces(lesson);
     for (_, lab) in lesson.addressed() {
         push_lab(lab, &mut all);
@@ -19,21 +20,25 @@ pub(super) fn shown_pieces(lesson: &Lesson) -> Vec<ShownPiece> {
     all
 }
 
-fn push_plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<ShownPiece>) {
-    all.extend(texts.into_iter().map(|text| ShownPiece { text: text.clone(), html: false }));
+fn push_plain<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Text>) {
+    all.extend(texts.into_iter().cloned());
 }
 
-fn push_question(question: &Question, all: &mut Vec<ShownPiece>) {
+fn push_html<'a>(texts: impl IntoIterator<Item = &'a Text>, all: &mut Vec<Text>) {
+    all.extend(texts.into_iter().map(|text| visible_text(text, &mut Hidden::default())));
+}
+
+fn push_question(question: &Question, all: &mut Vec<Text>) {
     push_plain(&question.label, all);
     if let QuestionKind::Numeric { unit, .. } = &question.kind {
         push_plain(unit, all);
     }
-    all.extend(question.html().into_iter().map(|text| ShownPiece { text: text.clone(), html: true }));
+    push_html(question.html(), all);
 }
 
-fn push_lab(lab: &Lab, all: &mut Vec<ShownPiece>) {
+fn push_lab(lab: &Lab, all: &mut Vec<Text>) {
     push_plain(lab.title.iter().chain(&lab.kind), all);
-    all.extend(lab.note.iter().map(|text| ShownPiece { text: text.clone(), html: true }));
+    push_html(&lab.note, all);
     lab.controls.iter().for_each(|control| push_control(control, all));
     for plot in &lab.plots {
         push_plain(plot.ylabel.iter().chain(&plot.xlabel), all);
@@ -43,7 +48,7 @@ fn push_lab(lab: &Lab, all: &mut Vec<ShownPiece>) {
     push_plain(lab.readouts.iter().map(|readout| &readout.label), all);
 }
 
-fn push_control(control: &Control, all: &mut Vec<ShownPiece>) {
+fn push_control(control: &Control, all: &mut Vec<Text>) {
     push_plain([&control.label], all);
     match &control.kind {
         ControlKind::Slider { unit, .. } => push_plain(unit, all),

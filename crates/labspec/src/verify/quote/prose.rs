@@ -2,9 +2,9 @@
 //! and tags are taken out. A fence without a language, or of printed output, is shown as it stands.
 
 use super::hidden::Hidden;
-use super::piece::ShownPiece;
+use super::html::{APART, mark, visible_text};
 use super::table::{Table, Tables};
-use super::tags::{APART, read_tag};
+use crate::markdown::html::tags;
 use crate::markdown::{self, Block, BlockKind};
 use crate::source::{SourceMap, Text};
 use crate::spec::{Lesson, Problem};
@@ -26,7 +26,7 @@ const OPTIONS: Options = Options::ENABLE_TABLES
     .union(Options::ENABLE_YAML_STYLE_METADATA_BLOCKS);
 
 /// The pieces of shown prose, in order.
-pub(super) fn pieces(lesson: &Lesson) -> Vec<ShownPiece> {
+pub(super) fn pieces(lesson: &Lesson) -> Vec<Text> {
     read(lesson).0
 }
 
@@ -35,7 +35,7 @@ pub(super) fn tables(lesson: &Lesson) -> Vec<Table> {
     read(lesson).1
 }
 
-fn read(lesson: &Lesson) -> (Vec<ShownPiece>, Vec<Table>) {
+fn read(lesson: &Lesson) -> (Vec<Text>, Vec<Table>) {
     if lesson.file.path().to_ascii_lowercase().ends_with(".json") {
         return Default::default();
     }
@@ -98,7 +98,7 @@ fn notes(text: &str) -> BTreeSet<String> {
 struct Reader<'t> {
     text: &'t str,
     blocks: &'t [Block],
-    pieces: Vec<ShownPiece>,
+    pieces: Vec<Text>,
     tables: Tables,
     /// The piece that is being read.
     open: Text,
@@ -160,26 +160,14 @@ impl Reader<'_> {
                     self.close();
                 }
                 _ if fence == Some(false) || self.unseen > 0 || self.is_taken(&range) => {}
-                Event::Html(part) => {
-                    for rendered in self.hidden.visible_ranges(&part) {
-                        let bytes = range.start + rendered.start..range.start + rendered.end;
-                        match self.text.get(range.clone()) == Some(&part) {
-                            true => self.add(part.get(rendered).unwrap_or(""), bytes),
-                            false => self.add(part.get(rendered).unwrap_or(""), range.clone()),
-                        }
-                    }
-                }
-                Event::InlineHtml(ref tag) if self.hidden.take_tag(tag) => self.inline = true,
+                Event::Html(part) => self.add(&part, range),
+                Event::InlineHtml(html) => self.inline_html(&html, &range),
                 _ if self.hidden.is_on() => {}
                 Event::Text(part) if fence == Some(true) => self.lines(&part, range),
                 Event::Text(part) => self.add(&part, range),
                 Event::Code(part) | Event::InlineMath(part) | Event::DisplayMath(part) => {
                     self.inside(&part, range)
                 }
-                Event::InlineHtml(tag) => match read_tag(&tag) {
-                    Some((Some(APART), _)) | None => {}
-                    Some((rendered, _)) => self.whole(rendered, range),
-                },
                 Event::SoftBreak | Event::HardBreak => self.whole(Some(' '), range),
                 _ => {}
             }
@@ -227,6 +215,18 @@ impl Reader<'_> {
         before.is_some_and(|b| !matches!(b.kind, BlockKind::Code { .. }) && range.start < b.span.end)
     }
 
+    /// A tag within a line.
+    fn inline_html(&mut self, html: &str, range: &Range<usize>) {
+        for tag in tags(html) {
+            let was_on = self.hidden.is_on();
+            if self.hidden.take_tag(&tag) {
+                self.inline |= !was_on;
+            } else {
+                self.whole(mark(&tag).filter(|c| *c != APART), range.clone());
+            }
+        }
+    }
+
     /// Words between double tildes are struck out; single tildes are letters.
     fn strike(&mut self, range: &Range<usize>, at: usize, by: isize) {
         if self.text.get(range.clone()).is_some_and(|text| text.starts_with("~~")) {
@@ -237,11 +237,13 @@ impl Reader<'_> {
     }
 
     fn close(&mut self) {
-        let text = std::mem::replace(&mut self.open, empty());
-        if !text.value.is_empty() {
-            self.pieces.push(ShownPiece { text, html: self.html });
+        let mut text = std::mem::replace(&mut self.open, empty());
+        if std::mem::take(&mut self.html) {
+            text = visible_text(&text, &mut self.hidden);
         }
-        self.html = false;
+        if !text.value.is_empty() {
+            self.pieces.push(text);
+        }
     }
 
     /// Adds what stands at a range: its bytes, or what Markdown made of them.

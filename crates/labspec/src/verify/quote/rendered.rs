@@ -3,14 +3,13 @@
 
 use super::denial::is_denied;
 use super::markdown_cell::unit_of_column;
-use super::piece::ShownPiece;
 use super::pieces::shown_pieces;
 use super::places::{MAX_PLACES, Readable, Search};
 use super::quote_claim::QuotePlace;
 use super::table::Table;
 use super::{fold, html, prose};
 use crate::run::Cell;
-use crate::source::SourceMap;
+use crate::source::{SourceMap, Text};
 use crate::spec::{ControlKind, Lesson, Verify};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -178,17 +177,11 @@ fn find_words(text: &str, quote: &str) -> Vec<Range<usize>> {
 
 /// Everything shown in one text, a line for each piece, with the way back to the file. Pieces without a digit hold no
 /// number; `words` takes them, too.
-fn join(pieces: Vec<ShownPiece>, words: bool) -> (Readable, SourceMap) {
+fn join(pieces: Vec<Text>, words: bool) -> (Readable, SourceMap) {
     let (mut all, mut chars, mut map) = (String::new(), Vec::new(), SourceMap::default());
-    for piece in pieces {
-        if !words && !has_number(&piece.text.value) {
+    for Text { value: text, map: back } in pieces {
+        if !words && !has_number(&text) {
             continue;
-        }
-        let mut back = piece.text.map;
-        let mut text = piece.text.value;
-        if piece.html {
-            let (rendered, inner) = html::strip(&text);
-            (text, back) = (rendered, inner.then(&back));
         }
         let (folded, inner) = fold::fold(&text, true);
         let at = back.span(0..0).start;

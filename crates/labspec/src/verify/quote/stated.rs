@@ -52,12 +52,7 @@ const MOST: usize = 1000;
 /// Every number with a unit that a reader of the lesson sees, and the answers of its numeric questions.
 pub fn stated(lesson: &Lesson) -> Vec<Stated> {
     let mut all = Vec::new();
-    for piece in shown_pieces(lesson) {
-        let mut text = piece.text;
-        if piece.html {
-            let (rendered, inner) = html::strip(&text.value);
-            text = Text { value: rendered, map: inner.then(&text.map) };
-        }
+    for text in shown_pieces(lesson) {
         if text.value.contains(|c: char| c.is_ascii_digit()) {
             add_numbers(lesson, &text, &mut all);
         }
