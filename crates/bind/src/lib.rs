@@ -17,6 +17,7 @@ mod names;
 mod own;
 pub mod rules;
 mod shown;
+mod unit_grammar;
 mod unit_table;
 pub mod units;
 mod words;

@@ -329,3 +329,8 @@ fn named(word: &str) -> Option<(f64, &'static str)> {
 pub(crate) fn is_other(word: &str) -> bool {
     OTHER.contains(&word) || word.len() > 3 && OTHER.contains(&word.to_lowercase().as_str())
 }
+
+/// Letters of scripts that write words without spaces between them.
+pub fn is_wide(c: char) -> bool {
+    matches!(c, '\u{3005}'..='\u{30ff}' | '\u{3400}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{ff66}'..='\u{ff9f}')
+}
