@@ -10,8 +10,8 @@ mod sim;
 use std::sync::LazyLock;
 
 use super::World;
+use super::displayed::LABELS;
 use super::handle::{self, Side};
-use super::shown::LABELS;
 use super::units;
 use labspec_core::Obj;
 use labspec_core::reflect::{self, FieldId, Kind, Object, Stage, data, option};
@@ -76,7 +76,7 @@ pub(super) enum Touches {
     /// The mass matrix.
     Mass,
     /// What is shown, which says itself what it reads.
-    Shown,
+    DisplayedLabels,
 }
 
 /// What the numbers of a result measure.
@@ -238,7 +238,7 @@ fn touch(touches: &[Touches]) -> Touch {
     let is = |f: &FieldId, t: &Touches| {
         let i = f.info();
         match t {
-            Touches::Nothing | Touches::Shown => false,
+            Touches::Nothing | Touches::DisplayedLabels => false,
             Touches::Derived => i.kind == Kind::Derived,
             Touches::State => i.object == Object::Data && matches!(i.kind, Kind::State | Kind::Input),
             Touches::Coordinates => *f == data::qpos,

@@ -5,7 +5,9 @@
 //! [`ModelNames`] answers the language's questions at compile time, [`World`] at run time, and [`functions`] is the one table of
 //! what programs may call; [`Functions`] are those that an embedding program brings.
 
+mod displayed;
 mod elements;
+mod embedded;
 mod engine;
 mod enums;
 mod error;
@@ -14,22 +16,20 @@ pub mod functions;
 mod handle;
 mod measures;
 mod names;
-mod own;
 pub mod rules;
-mod shown;
 mod unit_grammar;
 mod unit_table;
 pub mod units;
 mod words;
 mod world;
 
+pub use displayed::DisplayedLabels;
 pub use elements::element_owner;
+pub use embedded::Functions;
 pub use engine::{Engine, Expression, Statements};
 pub use error::Error;
 pub use field_entry::named_field;
 pub use labspec_expr::Value;
 pub use names::{ModelNames, Scope};
-pub use own::Functions;
-pub use shown::Shown;
 pub use words::WORDS;
 pub use world::{NUMBERS, World};

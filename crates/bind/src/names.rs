@@ -1,13 +1,13 @@
 //! What names mean: the language's [`Schema`] over the engine's field table and one model.
 
 use super::Functions;
+use super::displayed::{DisplayedLabels, LABELS};
 use super::elements;
 use super::enums::ENUMS;
 use super::field_entry::{field, member_name, noun, owner, short_name};
 use super::functions::{self, FunctionPlace, OBJECTS, TABLE};
 use super::handle::{self, KINDS, Side, Thing};
 use super::measures;
-use super::shown::{LABELS, Shown};
 use super::words::WORDS;
 use labspec_core::reflect::{self, FieldId, Object, data, option};
 use labspec_core::{Model, Obj};
@@ -38,7 +38,7 @@ pub struct ModelNames<'m> {
     /// Functions of the embedding program, if it has any.
     functions: Option<&'m Functions>,
     /// What is shown under labels, where something is.
-    displayed: Option<&'m Shown>,
+    displayed: Option<&'m DisplayedLabels>,
 }
 
 impl<'m> ModelNames<'m> {
@@ -53,7 +53,7 @@ impl<'m> ModelNames<'m> {
     }
 
     /// The same with what is shown under labels.
-    pub fn showing(self, displayed: &'m Shown) -> ModelNames<'m> {
+    pub fn showing(self, displayed: &'m DisplayedLabels) -> ModelNames<'m> {
         ModelNames { displayed: Some(displayed), ..self }
     }
 }

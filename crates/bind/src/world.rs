@@ -1,7 +1,7 @@
 //! The engine as the language's host: fields are read and written by id and flat index.
 
+use super::embedded::{self, Functions};
 use super::functions;
-use super::own::{self, Functions};
 use labspec_core::reflect::{self, Elem, FieldId, Object, model, option};
 use labspec_core::{self as core, Data, Error, Model, Planned};
 use labspec_expr::{FieldKey, FunctionId, Heap, Host, Value};
@@ -17,7 +17,7 @@ pub struct World {
     pub key: Option<usize>,
     /// Functions of the embedding program.
     pub functions: Functions,
-    /// What is shown now, in the order of [`Shown`](super::Shown)'s labels, where somebody asks.
+    /// What is shown now, in the order of [`DisplayedLabels`](super::DisplayedLabels)'s labels, where somebody asks.
     pub displayed: Vec<Value>,
     /// Numbers of no field, which texts read under [`NUMBERS`]: the members of sweeps.
     pub numbers: Vec<f64>,
@@ -68,7 +68,7 @@ impl Host for World {
                 result
             }
             None => {
-                core::charge(&mut self.data, own::PRICE);
+                core::charge(&mut self.data, embedded::PRICE);
                 let called = (f as usize)
                     .checked_sub(functions::TABLE.len())
                     .and_then(|at| self.functions.call(at, args));

@@ -220,8 +220,8 @@ impl Columnar {
                 known_operator!(op, |op: BinaryOp| one(dst, of(a), |x| op.on_numbers(k, x)));
             }
             FormulaStep::Select(test, yes, no) => {
-                let ways = of(yes).iter().zip(of(no));
-                for ((d, test), (yes, no)) in dst.iter_mut().zip(of(test)).zip(ways) {
+                let branches = of(yes).iter().zip(of(no));
+                for ((d, test), (yes, no)) in dst.iter_mut().zip(of(test)).zip(branches) {
                     *d = select(*test, *yes, *no);
                 }
             }

@@ -202,7 +202,7 @@ mod tests {
     const M: Dimension = Dimension::base(1);
     const S: Dimension = Dimension::base(2);
 
-    fn known(d: Dimension) -> Measure {
+    fn certain(d: Dimension) -> Measure {
         Measure::Known(d)
     }
 
@@ -218,14 +218,14 @@ mod tests {
 
     #[test]
     fn a_number_of_the_text_may_have_a_unit() {
-        let speed = known(M.product(S.power(-1.0).unwrap()).unwrap());
-        let fallen = known(S).product(Measure::Anything, Some(9.81));
-        assert!(!speed.clashes(fallen) && speed.clashes(known(S)) && !speed.clashes(Measure::Anything));
+        let speed = certain(M.product(S.power(-1.0).unwrap()).unwrap());
+        let fallen = certain(S).product(Measure::Anything, Some(9.81));
+        assert!(!speed.clashes(fallen) && speed.clashes(certain(S)) && !speed.clashes(Measure::Anything));
         assert_eq!(speed.sum(fallen), speed);
-        assert_eq!(speed.sum(known(S)), Measure::Unknown);
-        assert_eq!(known(M).product(Measure::Anything, Some(1000.0)), known(M.times(1000.0)));
+        assert_eq!(speed.sum(certain(S)), Measure::Unknown);
+        assert_eq!(certain(M).product(Measure::Anything, Some(1000.0)), certain(M.times(1000.0)));
         // A mean of metres and millimetres is in neither.
-        let Measure::Known(mixed) = known(M).or(known(M.times(1000.0))) else { panic!() };
+        let Measure::Known(mixed) = certain(M).or(certain(M.times(1000.0))) else { panic!() };
         assert!(mixed.factor.is_nan());
     }
 
@@ -233,6 +233,6 @@ mod tests {
     fn angles_may_vanish() {
         let arc = M.product(Dimension::RADIAN).unwrap();
         assert!(arc.agrees(&M) && !arc.agrees(&Dimension::RADIAN));
-        assert_eq!(known(M).or(known(arc)), known(arc));
+        assert_eq!(certain(M).or(certain(arc)), certain(arc));
     }
 }

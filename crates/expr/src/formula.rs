@@ -143,10 +143,10 @@ impl Formula {
                 step.each(args, &mut |at| mark(&mut used, *at));
             }
         }
-        let mut kept = 0;
+        let mut used_count = 0;
         let count = |used: &bool| {
-            kept += StepId::from(*used);
-            kept.saturating_sub(1)
+            used_count += StepId::from(*used);
+            used_count.saturating_sub(1)
         };
         let places: Vec<StepId> = used.iter().map(count).collect();
         let mut moved = |at: &mut StepId| *at = places.get(*at as usize).copied().unwrap_or(*at);

@@ -48,8 +48,8 @@ fn held(list: &Mutex<Vec<Arc<str>>>) -> MutexGuard<'_, Vec<Arc<str>>> {
 mod tests {
     use super::*;
 
-    fn names(known: &GlobalNames, since: usize) -> Vec<(u32, String)> {
-        known.since(since).into_iter().map(|(slot, name)| (slot, name.to_string())).collect()
+    fn names(globals: &GlobalNames, since: usize) -> Vec<(u32, String)> {
+        globals.since(since).into_iter().map(|(slot, name)| (slot, name.to_string())).collect()
     }
 
     #[test]

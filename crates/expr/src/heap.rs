@@ -315,13 +315,13 @@ mod tests {
     #[test]
     fn what_nothing_refers_to_is_freed() {
         let mut heap = Heap::default();
-        let kept = heap.numbers(&[1.0, 2.0]).unwrap();
+        let rooted = heap.numbers(&[1.0, 2.0]).unwrap();
         let ring = heap.list(Vec::new()).unwrap();
         if let Some(HeapObject::List(items)) = heap.object_mut(&ring) {
             items.push(ring.clone());
         }
-        heap.collect([&kept].into_iter());
-        assert_eq!(heap.text(&kept), "1,2");
+        heap.collect([&rooted].into_iter());
+        assert_eq!(heap.text(&rooted), "1,2");
         assert_eq!(heap.len(&ring), None);
         let again = heap.list(vec![Value::Null, Value::from("a")]).unwrap();
         assert_eq!((again == ring, heap.text(&again)), (true, ",a".into()));

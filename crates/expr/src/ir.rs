@@ -338,8 +338,8 @@ impl Ir {
         let ty = if function.gives_boolean() { Type::Boolean } else { Type::Number };
         let applied = constants.map(|numbers| (numbers.iter().any(|x| x.is_nan()), function.apply(&numbers)));
         // A NaN that is lost is lost while running, where a watch sees it.
-        let kept = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
-        match applied.filter(kept).filter(|_| !args.is_empty()).map(|(_, x)| x) {
+        let keeps_nan = |(nan, x): &(bool, f64)| !nan || x.is_nan() || ty == Type::Boolean;
+        match applied.filter(keeps_nan).filter(|_| !args.is_empty()).map(|(_, x)| x) {
             Some(x) if ty == Type::Boolean => Ir::constant(Value::Boolean(x != 0.0), span),
             Some(x) => Ir::number(x, span),
             None => Ir::new(IrKind::Math(function, args), ty, span),

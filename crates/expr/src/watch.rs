@@ -85,13 +85,13 @@ impl Watch {
     /// The outcome of an operation on numbers, which it may have turned over.
     pub(crate) fn binary(&mut self, op: BinaryOp, a: f64, b: f64) -> f64 {
         let x = op.on_numbers(a, b);
-        self.kept(a.is_nan() || b.is_nan(), x);
+        self.note_result(a.is_nan() || b.is_nan(), x);
         if margin(op, a, b).is_some() { self.compared(op, a, b, x) } else { x }
     }
 
     pub(crate) fn unary(&mut self, op: UnaryOp, a: f64) -> f64 {
         let x = op.on_number(a);
-        self.kept(a.is_nan(), x);
+        self.note_result(a.is_nan(), x);
         x
     }
 
@@ -101,7 +101,7 @@ impl Watch {
     }
 
     /// What became of operands.
-    pub(crate) fn kept(&mut self, nan: bool, result: f64) {
+    pub(crate) fn note_result(&mut self, nan: bool, result: f64) {
         self.loses |= nan && !result.is_nan();
     }
 

@@ -134,7 +134,7 @@ pub(super) const ROWS: &[Function] = &[
         name: "shown",
         args: &[Arg::Label],
         returns: Type::Any,
-        reads: Touches::Shown,
+        reads: Touches::DisplayedLabels,
         place: FunctionPlace::Measures,
         doc: "the text that a student reads under the label of a readout, or the number of a trace; if both have the label, name the trace as in a table of `labspec run`: `plot/0/label`",
         example: ("max(shown('time (s)'))", "0.1"),

@@ -29,11 +29,11 @@ pub(crate) fn emit(form: SsaProgram, often: bool) -> MachineCode {
 fn emit_function(form: &SsaFunction, often: bool) -> MachineFunction {
     let (numbers, values) =
         (RegisterFile::for_names(form.same.numbers.len()), RegisterFile::for_names(form.same.values.len()));
-    let (kept, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
+    let (live, starts) = (vec![true; form.ops.len()], vec![None; form.blocks.len()]);
     let (ops, spans) = (Vec::with_capacity(form.ops.len() + 8), Vec::with_capacity(form.ops.len() + 8));
     let code = MachineFunction { ops, spans, ..MachineFunction::default() };
     let worth = if often { WORTH } else { usize::MAX };
-    let mut emit = Emit { worth, form, code, numbers, values, kept, starts, jumps: Vec::new() };
+    let mut emit = Emit { worth, form, code, numbers, values, live, starts, jumps: Vec::new() };
     emit.count_uses();
     emit.first_registers();
     for block in 0..emit.form.blocks.len() as u32 {
@@ -51,7 +51,7 @@ struct Emit<'f> {
     numbers: RegisterFile,
     values: RegisterFile,
     /// Operations that something needs.
-    kept: Vec<bool>,
+    live: Vec<bool>,
     /// Where each block begins in the code, if anything leads to it.
     starts: Vec<Option<u32>>,
     /// Jumps, and the blocks that they lead to.
@@ -101,8 +101,8 @@ impl<'f> Emit<'f> {
 
     /// Whether an operation is needed, and what it then reads.
     fn count_operation_uses(&mut self, i: usize) {
-        let Emit { form, numbers, values, kept, .. } = self;
-        let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), kept.get_mut(i)) else { return };
+        let Emit { form, numbers, values, live, .. } = self;
+        let (Some(mut op), Some(keep)) = (form.ops.get(i).copied(), live.get_mut(i)) else { return };
         let mut needed = !op.is_pure();
         op.each(&mut |u| match u {
             OperandUse::Gives(n) => needed |= numbers.uses(n.0) > 0,
@@ -180,8 +180,8 @@ impl<'f> Emit<'f> {
         if stop - first.min(stop) < self.worth {
             return false;
         }
-        let kept = (first..stop).filter(|i| self.kept.get(*i) == Some(&true));
-        let ops: Vec<Op> = kept.filter_map(|i| self.form.ops.get(i).copied()).collect();
+        let live = (first..stop).filter(|i| self.live.get(*i) == Some(&true));
+        let ops: Vec<Op> = live.filter_map(|i| self.form.ops.get(i).copied()).collect();
         if ops.len() < self.worth {
             return false;
         }
@@ -252,7 +252,7 @@ impl<'f> Emit<'f> {
         let mut read: Vec<Operand> =
             if again { wanted.iter().map(|(_, from)| *from).collect() } else { Vec::new() };
         for i in self.form.range(at).rev() {
-            if self.kept.get(i) != Some(&true) {
+            if self.live.get(i) != Some(&true) {
                 continue;
             }
             let Some(mut op) = self.form.ops.get(i).copied() else { continue };
@@ -311,7 +311,7 @@ impl<'f> Emit<'f> {
     }
 
     fn op(&mut self, i: usize) {
-        if self.kept.get(i) != Some(&true) {
+        if self.live.get(i) != Some(&true) {
             return;
         }
         let (Some(mut op), Some(&span)) = (self.form.ops.get(i).copied(), self.form.spans.get(i)) else {

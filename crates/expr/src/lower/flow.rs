@@ -13,9 +13,9 @@ use crate::value::Value;
 use labspec_finding::Span;
 
 /// The variables that ways store.
-fn stored_on<'w>(ways: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalId> {
+fn stored_on<'w>(edges: impl IntoIterator<Item = &'w PendingEdge>) -> Vec<LocalId> {
     let mut locals: Vec<LocalId> =
-        ways.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
+        edges.into_iter().flat_map(|w| &w.stored).map(|(local, _)| *local).collect();
     locals.sort_unstable();
     locals.dedup();
     locals
@@ -177,21 +177,21 @@ impl FunctionBuilder<'_> {
 
     /// The ways come together here. `after`: the block that all of them passed last. Variables hold what they held
     /// there; what they hold now follows from the ways.
-    fn land(&mut self, after: BlockId, ways: impl IntoIterator<Item = Option<PendingEdge>>) {
-        let ways: Vec<PendingEdge> = ways.into_iter().flatten().collect();
-        if ways.is_empty() {
+    fn land(&mut self, after: BlockId, edges: impl IntoIterator<Item = Option<PendingEdge>>) {
+        let edges: Vec<PendingEdge> = edges.into_iter().flatten().collect();
+        if edges.is_empty() {
             self.dead = true;
             return;
         }
         self.begin(after);
         let to = self.here();
-        for way in &ways {
+        for way in &edges {
             if let Some(edge) = self.edge(way.from) {
                 edge.to = to;
             }
         }
-        for local in stored_on(&ways) {
-            let held: Vec<Option<Operand>> = ways.iter().map(|way| way.held(local)).collect();
+        for local in stored_on(&edges) {
+            let held: Vec<Option<Operand>> = edges.iter().map(|way| way.held(local)).collect();
             let before = if held.contains(&None) { self.find(local) } else { None };
             let held: Option<Vec<Operand>> = held.into_iter().map(|at| at.or(before)).collect();
             // What one of the ways does not know is not used any more.
@@ -203,7 +203,7 @@ impl FunctionBuilder<'_> {
                 continue;
             }
             let param = self.like(first);
-            for (way, at) in ways.iter().zip(held) {
+            for (way, at) in edges.iter().zip(held) {
                 if let Some(edge) = self.edge(way.from) {
                     edge.args.push(at);
                 }
@@ -274,11 +274,11 @@ impl FunctionBuilder<'_> {
 
     /// Whether the blocks since a question are its two ways alone, with few numeric operations on them.
     fn is_little(&self, from: BlockId) -> bool {
-        let ways = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
-        let first = ways.first().map_or(self.unit.ops.len(), |b| b.first as usize);
+        let branches = self.unit.blocks.get(from as usize + 1..).unwrap_or(&[]);
+        let first = branches.first().map_or(self.unit.ops.len(), |b| b.first as usize);
         let ops = self.unit.ops.get(first..).unwrap_or(&[]);
-        let plain = ways.iter().all(|b| matches!(b.end, Terminator::Jump(_)) && b.params.is_empty());
-        ways.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
+        let plain = branches.iter().all(|b| matches!(b.end, Terminator::Jump(_)) && b.params.is_empty());
+        branches.len() <= 2 && plain && ops.len() <= LITTLE && ops.iter().all(Op::is_numeric)
     }
 
     /// What variables that differ hold at the end of two ways; `None` when one holds something else than a number.
@@ -320,8 +320,8 @@ impl FunctionBuilder<'_> {
         let dead = entry.is_none();
         self.begin(from);
         self.dead = dead;
-        let ways = |all: &[EarlyExits]| all.last().map_or(0, |e| e.exits.len());
-        let returns = (ways(&self.inlines), ways(&self.chains));
+        let exit_count = |all: &[EarlyExits]| all.last().map_or(0, |e| e.exits.len());
+        let returns = (exit_count(&self.inlines), exit_count(&self.chains));
         let (header, params) = (self.here(), BTreeMap::new());
         let (breaks, continues) = (Vec::new(), Vec::new());
         if let Some(way) = &entry
@@ -375,28 +375,28 @@ impl FunctionBuilder<'_> {
                 level.params.insert(*local, (param, before));
             }
         }
-        let mut kept = Vec::new();
+        let mut changed = Vec::new();
         for (local, (param, before)) in &level.params {
             let stored = back.as_ref().and_then(|way| way.held(*local));
             let next = stored.map_or(*param, |at| self.unit.same.at(at));
             if next == *param || next == self.unit.same.at(*before) {
                 self.unit.same.join(*param, *before);
             } else {
-                kept.push((*local, *param, *before, next));
+                changed.push((*local, *param, *before, next));
             }
         }
         if let Some(block) = self.unit.blocks.get_mut(level.header as usize) {
-            block.params = kept.iter().map(|k| k.1).collect();
+            block.params = changed.iter().map(|k| k.1).collect();
         }
         let from = level.entry.as_ref().map(|e| e.from);
         if let Some(edge) = from.and_then(|from| self.edge(from)) {
-            edge.args = kept.iter().map(|k| k.2).collect();
+            edge.args = changed.iter().map(|k| k.2).collect();
         }
         if let Some(block) = back.and_then(|way| self.unit.blocks.get_mut(way.from as usize)) {
-            let args = kept.iter().map(|k| k.3).collect();
+            let args = changed.iter().map(|k| k.3).collect();
             block.end = Terminator::Again(BlockEdge { to: level.header, args });
         }
-        for (local, param, ..) in &kept {
+        for (local, param, ..) in &changed {
             self.write(*local, *param);
             // Ways that lead further out pass its start too.
             let returns =

@@ -43,10 +43,10 @@ pub(super) fn fold(unit: &mut SsaFunction) {
 fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
     let constant = |n: Num| unit.constant(unit.same.number(n));
     Some(match *op {
-        Op::Unary(name, op, a) => (name, kept(&[constant(a)?], op.on_number(constant(a)?))?),
+        Op::Unary(name, op, a) => (name, unless_nan_lost(&[constant(a)?], op.on_number(constant(a)?))?),
         Op::Binary(name, op, a, b) => {
             let operands = [constant(a)?, constant(b)?];
-            (name, kept(&operands, op.on_numbers(operands[0], operands[1]))?)
+            (name, unless_nan_lost(&operands, op.on_numbers(operands[0], operands[1]))?)
         }
         Op::Select(_, test, ..) if constant(test)?.is_nan() => return None,
         Op::Select(name, test, a, b) => (name, Folded::Same(select(constant(test)?, a, b))),
@@ -62,7 +62,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
                 if function.gives_boolean() {
                     Folded::Known(x)
                 } else {
-                    kept(&numbers, x).filter(|_| some)?
+                    unless_nan_lost(&numbers, x).filter(|_| some)?
                 },
             )
         }
@@ -71,7 +71,7 @@ fn result(unit: &SsaFunction, op: &Op) -> Option<(Num, Folded)> {
 }
 
 /// A known result, unless a NaN was lost on the way to it: a run shows where ([`crate::Watch`]).
-fn kept(operands: &[f64], x: f64) -> Option<Folded> {
+fn unless_nan_lost(operands: &[f64], x: f64) -> Option<Folded> {
     let lost = operands.iter().any(|x| x.is_nan()) && !x.is_nan();
     (!lost).then_some(Folded::Known(x))
 }

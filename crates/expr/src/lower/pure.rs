@@ -120,19 +120,19 @@ impl<'u> Steps<'u> {
         let unit = self.unit;
         let mut from: Vec<Option<StepId>> = vec![None; (to - after) as usize];
         for at in (after..to).rev() {
-            let known = |from: &[Option<StepId>], block: BlockId| {
+            let chosen_from = |from: &[Option<StepId>], block: BlockId| {
                 from.get((block - after) as usize).copied().flatten()
             };
             let follow =
                 |steps: &mut Self, from: &[Option<StepId>], edge: &BlockEdge| match edge.args.get(param) {
                     Some(Operand::Number(name)) if edge.to == to => steps.find(*name),
-                    _ if edge.to < to => known(from, edge.to),
+                    _ if edge.to < to => chosen_from(from, edge.to),
                     _ => None,
                 };
             let found = match &unit.blocks.get(at as usize)?.end {
                 Terminator::Jump(edge) => follow(self, &from, edge),
                 Terminator::If(when, test, edge) => {
-                    let (there, next) = (follow(self, &from, edge), known(&from, at + 1));
+                    let (there, next) = (follow(self, &from, edge), chosen_from(&from, at + 1));
                     match (there, next) {
                         (Some(there), Some(next)) => {
                             let (yes, no) = if *when { (there, next) } else { (next, there) };

@@ -166,8 +166,8 @@ mod tests {
         let args: Vec<Value> = args.iter().map(number).collect();
         let mut env = Env { heap: &mut heap, host: &mut host, views: &[], budget: &mut budget };
         let result = run(&mut env, &receiver, &args).map_err(|e| e.message);
-        let shown = |value: &Value| show(&heap, value, [element, argument]);
-        format!("{} {}", result.as_ref().map_or_else(Clone::clone, &shown), shown(&receiver))
+        let display = |value: &Value| show(&heap, value, [element, argument]);
+        format!("{} {}", result.as_ref().map_or_else(Clone::clone, &display), display(&receiver))
     }
 
     #[test]

@@ -94,8 +94,8 @@ pub fn to_fixed(x: f64, digits: usize) -> String {
 
 /// A decimal number without its last digit, a 5, which counts as more than half.
 fn without_last(exact: &str) -> String {
-    let kept = exact.strip_suffix('5').unwrap_or(exact);
-    let mut out: Vec<char> = kept.strip_suffix('.').unwrap_or(kept).chars().collect();
+    let trimmed = exact.strip_suffix('5').unwrap_or(exact);
+    let mut out: Vec<char> = trimmed.strip_suffix('.').unwrap_or(trimmed).chars().collect();
     for c in out.iter_mut().rev() {
         match c {
             '9' => *c = '0',

@@ -35,9 +35,9 @@ pub(crate) struct Row {
 impl Row {
     /// Registers up to the last that it changes.
     pub(crate) fn registers(&self) -> u32 {
-        let kept =
+        let registers_of =
             |op: &RowOp| if let RowOp::Keep(r) | RowOp::Put(r, _) = *op { u32::from(r) + 1 } else { 0 };
-        self.ops.iter().map(kept).max().unwrap_or(0)
+        self.ops.iter().map(registers_of).max().unwrap_or(0)
     }
 
     /// The value now; `None` when an element does not exist. `read` fetches all elements at once.
@@ -116,19 +116,19 @@ impl Row {
                 RowOp::Asks(f) => f(x),
                 RowOp::One(f) => {
                     let y = f(x);
-                    watch.kept(x.is_nan(), y);
+                    watch.note_result(x.is_nan(), y);
                     y
                 }
                 RowOp::Two(f, a) => {
                     let y = f(x, register(a));
-                    watch.kept(x.is_nan() || register(a).is_nan(), y);
+                    watch.note_result(x.is_nan() || register(a).is_nan(), y);
                     y
                 }
                 RowOp::Many(f, count, first) => {
                     let args = self.args.get(usize::from(first)..).unwrap_or(&[]);
                     let nan = args.iter().take(usize::from(count)).any(|a| register(*a).is_nan());
                     let y = self.many(f, first, count, r);
-                    watch.kept(nan, y);
+                    watch.note_result(nan, y);
                     y
                 }
             };

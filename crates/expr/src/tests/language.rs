@@ -294,7 +294,7 @@ fn fuzzing_finds_no_panic_and_no_hang() {
             0 => pieces[next(pieces.len())].repeat(next(4000)),
             _ => (0..next(40)).map(|_| pieces[next(pieces.len())]).collect(),
         };
-        let begun = std::time::Instant::now();
+        let text_started = std::time::Instant::now();
         let mut globals = Globals::new();
         let mut compiler = Compiler::new(&Mock, &mut globals).with_value(Some(Type::Any));
         for compiled in
@@ -304,7 +304,7 @@ fn fuzzing_finds_no_panic_and_no_hang() {
                 let _ = program.run(&mut World::new(), &mut Context::new(), Some(&Value::Number(1.0)));
             }
         }
-        assert!(begun.elapsed().as_secs() < 60, "{source}");
+        assert!(text_started.elapsed().as_secs() < 60, "{source}");
         texts += 1;
     }
     println!("{texts} texts");

@@ -200,8 +200,8 @@ fn limits() -> impl Fn(&str) -> u64 {
 #[test]
 fn functions_are_as_near_to_nodes_as_the_table_says() {
     let limit = limits();
-    let kept = std::fs::read_to_string(place("src/tests/math.txt")).unwrap();
-    let mut lines = kept.lines();
+    let recorded = std::fs::read_to_string(place("src/tests/math.txt")).unwrap();
+    let mut lines = recorded.lines();
     for range in RANGES {
         let line = lines.next().unwrap();
         let (name, values) = line.split_once(' ').unwrap();
@@ -223,7 +223,7 @@ fn the_table_is_what_node_and_we_give() {
         return;
     }
     let bless = std::env::var_os("LABSPEC_BLESS").is_some();
-    let (mut rows, mut kept) = (String::new(), String::new());
+    let (mut rows, mut recorded) = (String::new(), String::new());
     let limit = (!bless).then(limits);
     for range in RANGES {
         let list = arguments(range, if bless { MANY } else { MANY / 10 });
@@ -239,7 +239,7 @@ fn the_table_is_what_node_and_we_give() {
         let _ = writeln!(rows, "| `{}` | {} | {share} | {} |", range.name, found.cases, found.most);
         let few = if bless { node(range, &arguments(range, KEPT)) } else { Vec::new() };
         let few: Vec<String> = few.iter().map(|x| format!("{:x}", x.to_bits())).collect();
-        let _ = writeln!(kept, "{} {}", range.name, few.join(" "));
+        let _ = writeln!(recorded, "{} {}", range.name, few.join(" "));
         if let Some(limit) = &limit {
             let (name, most) = (range.name, found.most);
             assert!(most <= limit(name), "Math.{name}{:?}: {most} ulp from node's", found.at);
@@ -247,6 +247,6 @@ fn the_table_is_what_node_and_we_give() {
     }
     if bless {
         std::fs::write(place("../../docs/measured/math.md"), table(&rows)).unwrap();
-        std::fs::write(place("src/tests/math.txt"), kept).unwrap();
+        std::fs::write(place("src/tests/math.txt"), recorded).unwrap();
     }
 }

@@ -238,9 +238,9 @@ fn a_host_may_tell_of_typographic_quotes_itself() {
     let mut globals = Globals::new();
     for source in ["data.joint(“heavy_free”).qpos[2]", "1 + ”", "`${data.joint(‘heavy_free’).qpos[2]}`"]
     {
-        let told = Compiler::new(&Mock, &mut globals).without_quotes().expression(source);
+        let compiled = Compiler::new(&Mock, &mut globals).without_quotes().expression(source);
         assert!(
-            told.program.is_none() && told.diagnostics.iter().all(|d| d.code != "bad-character"),
+            compiled.program.is_none() && compiled.diagnostics.iter().all(|d| d.code != "bad-character"),
             "{source}"
         );
         let untold = Compiler::new(&Mock, &mut globals).expression(source);

@@ -62,19 +62,19 @@ fn no_message_about_a_call_shows_nothing() {
         }
     }
     assert!(calls.len() > 3000);
-    let mut told = 0;
+    let mut reported = 0;
     for call in calls {
         for source in
             [call.clone(), format!("1 + {call} * 2"), format!("const f = () => {call}; ctx.a = f()[0]")]
         {
             let mut globals = Globals::new();
             for finding in Compiler::new(&Mock, &mut globals).statements(&source).diagnostics {
-                told += 1;
+                reported += 1;
                 let words = [Some(&finding.message), finding.why.as_ref(), finding.help.as_ref()];
                 for text in words.into_iter().flatten() {
-                    let shown: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+                    let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
                     let fine =
-                        text.matches('`').count() % 2 == 0 && shown.iter().all(|s| !s.trim().is_empty());
+                        text.matches('`').count() % 2 == 0 && quoted.iter().all(|s| !s.trim().is_empty());
                     assert!(fine, "{source}: {text}");
                     // The texts of the methods are nobody's business.
                     assert!(
@@ -89,5 +89,5 @@ fn no_message_about_a_call_shows_nothing() {
             }
         }
     }
-    assert!(told > 3000, "{told}");
+    assert!(reported > 3000, "{reported}");
 }

@@ -1,7 +1,7 @@
 //! A run of a `verify` object with its own texts compiled, and the lab that it is of.
 
 use super::run_cache::BoundLab;
-use crate::bind::{ModelNames, Scope, Shown};
+use crate::bind::{DisplayedLabels, ModelNames, Scope};
 use crate::source::Text;
 use crate::spec::Run;
 use labspec_expr::{Globals, Program};
@@ -20,7 +20,7 @@ pub(super) struct BoundScene<'a> {
     pub(super) globals: Globals,
     pub(super) measures: Vec<(&'a str, CompiledText<'a>)>,
     /// What it shows under labels, and which of them are asked for.
-    pub(super) displayed: Shown,
+    pub(super) displayed: DisplayedLabels,
 }
 
 /// A run with its own texts compiled.

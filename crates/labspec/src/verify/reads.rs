@@ -1,7 +1,7 @@
 //! What a student reads under a label, or sees on a curve: the numbers of `shown('label')`.
 
 use crate::bind::of_label;
-use crate::bind::{Programs, Shown};
+use crate::bind::{DisplayedLabels, Programs};
 use crate::run::{Session, printed};
 use crate::source::Text;
 use crate::spec::{Lab, Plot, Readout, Trace};
@@ -9,7 +9,7 @@ use labspec_expr::Value;
 use labspec_expr::dimension::Dimension;
 
 /// The labels of a lab: its readouts, its traces, and each of both as a table of `labspec run` calls it.
-pub fn labels(lab: &Lab) -> Shown {
+pub fn labels(lab: &Lab) -> DisplayedLabels {
     let readout = |prefix: &str, r: &Readout| (format!("{prefix}{}", r.label.value), unit(&[Some(&r.label)]));
     let trace = |prefix: &str, plot: &Plot, t: &Trace| {
         (format!("{prefix}{}", t.label.value), unit(&[Some(&t.label), plot.ylabel.as_ref()]))
@@ -30,7 +30,7 @@ pub fn labels(lab: &Lab) -> Shown {
         .enumerate()
         .flat_map(|(i, plot)| plot.traces.iter().map(move |t| trace(&format!("plot/{i}/"), plot, t)));
     let readouts = lab.readouts.iter().map(|r| readout("readout/", r));
-    Shown::new(bare_readouts.chain(traces).chain(called).chain(readouts))
+    DisplayedLabels::new(bare_readouts.chain(traces).chain(called).chain(readouts))
 }
 
 /// The unit of the first label that has one.

@@ -57,7 +57,7 @@ impl NameWalk<'_, '_> {
         if let Some(meant) = nearest(name, candidates) {
             return Some(meant.to_owned());
         }
-        if self.kept.contains(name) || self.around.globals.slot(name).is_some() {
+        if self.lab_variables.contains(name) || self.around.globals.slot(name).is_some() {
             return Some(format!("ctx.{name}"));
         }
         // On an object that was not even written, only a name that is nearly the same was meant.

@@ -60,7 +60,7 @@ pub(in crate::bind) struct NameWalk<'a, 's> {
     /// Which functions are named by which others.
     pub(super) calls: BTreeSet<(usize, usize)>,
     /// Variables of the lab that the text named so far.
-    pub(super) kept: BTreeSet<&'a str>,
+    pub(super) lab_variables: BTreeSet<&'a str>,
     pub(super) levels: usize,
 }
 
@@ -77,7 +77,7 @@ pub(in crate::bind) fn resolve<'a>(
         functions: BTreeMap::new(),
         function: WHOLE,
         calls: BTreeSet::new(),
-        kept: BTreeSet::new(),
+        lab_variables: BTreeSet::new(),
         levels: 0,
     };
     work(&mut walk);
@@ -110,7 +110,7 @@ impl<'a> NameWalk<'a, '_> {
             ExprKind::Name(name) => self.name(name, expr.span, used),
             ExprKind::Member { object, name, .. } => {
                 if matches!(&object.kind, ExprKind::Name(n) if n == "ctx") {
-                    self.kept.insert(&name.text);
+                    self.lab_variables.insert(&name.text);
                 }
                 self.expr(object, NameUse::Holder);
             }

@@ -114,8 +114,8 @@ impl<'a> Binder<'a> {
 
     /// Refuses to keep an array of the simulation in `ctx`: it would still change there.
     fn check_kept(&mut self, place: &AssignmentTarget, value: &Ir) -> Attempt<()> {
-        let kept = matches!(place, AssignmentTarget::Global(_) | AssignmentTarget::GlobalNamed(_));
-        if !(kept && value.ty == Type::View) {
+        let is_global = matches!(place, AssignmentTarget::Global(_) | AssignmentTarget::GlobalNamed(_));
+        if !(is_global && value.ty == Type::View) {
             return Ok(());
         }
         let text = self.text(value.span);

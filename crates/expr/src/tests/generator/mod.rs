@@ -135,7 +135,7 @@ impl Generator {
         for _ in 0..n {
             out += &self.statement(2);
         }
-        let shown: Vec<String> = self
+        let displayed: Vec<String> = self
             .names
             .iter()
             .filter(|n| !matches!(n.1, Holds::Function(_)))
@@ -143,7 +143,7 @@ impl Generator {
             .chain([String::new()])
             .collect();
         let last = self.anything(3);
-        let shown = shown.join(", ");
-        out + &format!("ctx.out = [{shown}{last}, ctx.k];")
+        let displayed = displayed.join(", ");
+        out + &format!("ctx.out = [{displayed}{last}, ctx.k];")
     }
 }

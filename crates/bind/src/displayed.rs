@@ -10,18 +10,18 @@ pub(crate) const LABELS: CollectionId = CollectionId(u32::MAX);
 
 /// Labels, and which of them texts have asked for.
 #[derive(Clone, Debug, Default)]
-pub struct Shown {
+pub struct DisplayedLabels {
     labels: Vec<String>,
     /// What the numbers measure, as far as the labels say it.
     measures: Vec<Option<Dimension>>,
     asked: RefCell<BTreeSet<usize>>,
 }
 
-impl Shown {
+impl DisplayedLabels {
     /// With these labels, and what each says of its unit. Of two equal ones the first counts.
-    pub fn new(labels: impl IntoIterator<Item = (String, Option<Dimension>)>) -> Shown {
+    pub fn new(labels: impl IntoIterator<Item = (String, Option<Dimension>)>) -> DisplayedLabels {
         let (labels, measures) = labels.into_iter().unzip();
-        Shown { labels, measures, asked: RefCell::default() }
+        DisplayedLabels { labels, measures, asked: RefCell::default() }
     }
 
     pub(crate) fn measure(&self, label: usize) -> Option<Dimension> {
