@@ -3,6 +3,7 @@
 use super::html::MAX_IN_TEXT;
 use crate::finding::Finding;
 use crate::markdown::html::tags;
+use crate::markdown::tex;
 use crate::rules;
 use crate::source::Text;
 use crate::spec::Lesson;
@@ -112,16 +113,12 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
             at += c.len_utf8();
             continue;
         }
-        let letters = rest.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
-        let length =
-            if letters > 0 { 1 + letters } else { 1 + rest.chars().nth(1).map_or(0, char::len_utf8) };
-        let after = rest.get(length..).unwrap_or("");
-        let name = after.strip_prefix('{').and_then(|inside| {
-            *work += LONGEST_NAME.min(inside.len());
-            let end = inside.bytes().take(LONGEST_NAME).position(|b| b == b'}')?;
-            inside.get(..end)
+        let (after, command) = tex::command(rest).ok()?;
+        let name = after.starts_with('{').then(|| {
+            *work += LONGEST_NAME.min(after.len());
+            tex::group(after, LONGEST_NAME - 1).map(|(_, name)| name).ok()
         });
-        match (rest.get(1..length).unwrap_or(""), name) {
+        match (command, name.flatten()) {
             ("left", _) => left += 1,
             ("right", _) => left -= 1,
             ("begin", Some(name)) => inner.push(name),
@@ -133,7 +130,7 @@ fn unbalanced(body: &str, work: &mut usize) -> Option<String> {
         if left < 0 {
             return Some("`\\right` has no `\\left`".into());
         }
-        at += length;
+        at = body.len() - after.len();
     }
     match (depth, left, inner.pop()) {
         (d, ..) if d > 0 => Some("a brace `{` is not closed".into()),

@@ -10,6 +10,7 @@ mod fence;
 pub(crate) mod html;
 mod loose;
 mod opener;
+pub(crate) mod tex;
 
 pub(crate) use extent::is_typographic;
 pub use opener::Opener;

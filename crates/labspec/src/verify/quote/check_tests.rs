@@ -16,11 +16,11 @@ fn checked(quote: &str, computed: f64, half: &[f64], starts: &[f64]) -> (QuoteOu
     let half: Vec<_> = half.iter().map(other("at half the timestep")).collect();
     let starts: Vec<_> = starts.iter().map(other("with a start moved by 1e-14")).collect();
     let mut findings = Vec::new();
-    let shown = ShownText::of_lesson(&lesson);
+    let rendered = ShownText::of_lesson(&lesson);
     let value = QuoteValue { computed, timestep: &half, start: &starts, unit: &|| None };
     let claim = QuoteClaim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
-    let places = places_of_quote(&said.quote, None, &shown);
-    let outcome = check_quote(&claim, &reading(quote), places, &value, &shown, &mut findings);
+    let places = places_of_quote(&said.quote, None, &rendered);
+    let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
     (outcome, findings)
 }
 

@@ -3,7 +3,11 @@
 
 use super::html::APART;
 use super::siunitx;
+use crate::markdown::tex;
 use crate::source::SourceMap;
+use nom::combinator::verify;
+use nom::sequence::preceded;
+use nom::{IResult, Parser};
 use std::ops::Range;
 
 /// The folded text and the way back. Pieces that a page shows apart are lines. With `flat`, a dash is a minus:
@@ -26,17 +30,14 @@ pub(super) fn fold(text: &str, flat: bool) -> (String, SourceMap) {
             continue;
         }
         let c = rest.chars().next().unwrap_or(' ');
-        if c == '\\'
-            && let Some((rendered, length)) = siunitx::command(rest)
-        {
-            out.whole(&rendered, at..at + length);
-            at += length;
+        if let Ok((tail, rendered)) = siunitx::quantity(rest) {
+            let end = text.len() - tail.len();
+            out.whole(&rendered, at..end);
+            at = end;
             continue;
         }
-        if c == '\\'
-            && let Some(length) = unseen(rest)
-        {
-            at += length;
+        if let Ok((tail, _)) = unseen(rest) {
+            at = text.len() - tail.len();
             continue;
         }
         // The arguments of a command are apart: `\frac{0.5}{2}` is no 0.52.
@@ -131,40 +132,28 @@ fn digit(c: char, zero: char) -> char {
     char::from_digit(u32::from(c).wrapping_sub(u32::from(zero)), 10).unwrap_or(c)
 }
 
-/// The length of a command that shows nothing, with its argument: `\phantom{0.5}`.
-fn unseen(text: &str) -> Option<usize> {
-    let name: String = text.chars().skip(1).take_while(char::is_ascii_alphabetic).collect();
-    if !["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"]
-        .contains(&name.as_str())
-    {
-        return None;
-    }
-    let from = 1 + name.len();
-    let inside = text.get(from..)?.strip_prefix('{')?;
-    let mut depth = 1;
-    for (i, c) in inside.char_indices() {
-        depth += i32::from(c == '{') - i32::from(c == '}');
-        if depth == 0 {
-            return Some(from + 1 + i + 1);
-        }
-    }
-    None
+/// Longest argument that shows nothing, in bytes.
+const LONGEST_UNSEEN: usize = 1000;
+
+/// A command that shows nothing, with its argument: `\phantom{0.5}`.
+fn unseen(text: &str) -> IResult<&str, &str> {
+    const NAMES: [&str; 10] =
+        ["phantom", "hphantom", "vphantom", "label", "tag", "hspace", "vspace", "kern", "ref", "cite"];
+    let name = verify(tex::command, |name: &str| NAMES.contains(&name));
+    preceded(name, |text| tex::group(text, LONGEST_UNSEEN)).parse(text)
 }
 
 /// The TeX command that `text` begins with, and its length with the spaces behind its name.
 fn command(text: &str) -> (Meaning, usize) {
-    let letters = text.bytes().skip(1).take_while(u8::is_ascii_alphabetic).count();
-    if letters == 0 {
-        let c = text.chars().nth(1);
-        let meaning = match c {
-            Some(',' | ';' | ':' | ' ' | '\\' | '\n') => Meaning::Space,
-            Some('!' | '(' | ')' | '[' | ']') => Meaning::Nothing,
-            Some(c @ ('%' | '$' | '{' | '}' | '#' | '&' | '_')) => Meaning::Letter(c),
-            _ => return (Meaning::Letter('\\'), 1),
-        };
-        return (meaning, 1 + c.map_or(0, char::len_utf8));
-    }
-    let meaning = match text.get(1..1 + letters).unwrap_or("") {
+    let (rest, name) = tex::command(text).unwrap_or((text, ""));
+    let length = text.len() - rest.len();
+    let spaces = rest.len() - rest.trim_start_matches(' ').len();
+    let meaning = match name {
+        "," | ";" | ":" | " " | "\\" | "\n" => return (Meaning::Space, length),
+        "!" | "(" | ")" | "[" | "]" => return (Meaning::Nothing, length),
+        "%" | "$" | "{" | "}" | "#" | "&" | "_" => {
+            return (name.chars().next().map_or(Meaning::Nothing, Meaning::Letter), length);
+        }
         "times" => Meaning::Operator('×'),
         "cdot" => Meaning::Operator('·'),
         "pm" => Meaning::Operator('±'),
@@ -188,10 +177,10 @@ fn command(text: &str) -> (Meaning, usize) {
         | "boxed" | "mbox" | "hbox" | "textit" | "emph" | "mathbin" | "mathord" | "ensuremath" => {
             Meaning::Nothing
         }
-        _ => return (Meaning::Verbatim, 1 + letters),
+        name if name.starts_with(|c: char| c.is_ascii_alphabetic()) => return (Meaning::Verbatim, length),
+        _ => return (Meaning::Letter('\\'), 1),
     };
-    let spaces = text.bytes().skip(1 + letters).take_while(|&b| b == b' ').count();
-    (meaning, 1 + letters + spaces)
+    (meaning, length + spaces)
 }
 
 struct Out {
@@ -293,5 +282,27 @@ mod tests {
         assert_eq!(folded, "takes 2.4×10^-4 s");
         let at = folded.find("2.4").unwrap();
         assert_eq!(&text[map.span(at..folded.len())], "2.4 \\times 10^{-4}$ s");
+    }
+    /// A text of 100 kB of whatever opens something is read in linear time.
+    #[test]
+    fn hostile_texts_are_folded_in_linear_time() {
+        for piece in [
+            "\\",
+            "{",
+            "}{",
+            "\\SI[",
+            "\\SI{",
+            "\\phantom{",
+            "\\phantom{}",
+            "\\a",
+            "$",
+            "~",
+            "²",
+            "\\SI{1}{\\m",
+            "1",
+        ] {
+            let text = piece.repeat(100_000 / piece.len());
+            assert!(fold(&text, true).0.len() <= 2 * text.len(), "{piece}");
+        }
     }
 }

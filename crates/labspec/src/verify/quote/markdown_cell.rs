@@ -1,8 +1,9 @@
-//! The cell of a Markdown table that a place of the file stands in.
+//! The cell of a Markdown table that a place of the file stands in, and the unit of its column.
 
-use super::head_unit::unit_of_head;
+use super::read::reading;
 use super::table::rendered;
-use super::unit_text::Unit;
+use super::unit_text::{Link, Unit};
+use crate::bind::{behind_heading, of_heading};
 
 /// A cell of a table of Markdown.
 pub(super) struct MarkdownCell {
@@ -33,6 +34,23 @@ impl MarkdownCell {
 /// The unit over the column of a cell.
 pub(super) fn unit_of_column(file: &str, at: usize) -> Option<Unit> {
     unit_of_head(&rendered(&MarkdownCell::at(file, at)?.head))
+}
+
+/// The unit of a heading: of `error (mm)`, `t [ms]`, `x / mm`, `time in ms`, `depth, mm`, `t (10^-3 s)`.
+pub(in crate::verify) fn unit_of_head(head: &str) -> Option<Unit> {
+    let unit = |text: &str, dimension| {
+        Some(Unit { text: text.to_string(), dimension: Some(dimension), link: Link::Shared })
+    };
+    if let Some((text, dimension)) = of_heading(head) {
+        return unit(text, dimension);
+    }
+    // A power of ten of a unit: what stands in the cells is counted in that. `(10 s)` may be a time at which it was measured.
+    let text = behind_heading(head)?;
+    let read = reading(text).ok()?;
+    let (size, of) = (read.number().value, read.unit()?.dimension?);
+    let power = text.starts_with("10")
+        && text.get(2..)?.trim_start().starts_with(['^', '*', '⁻', '²', '³', '⁴', '⁶', '⁹']);
+    (power && size.is_finite() && size > 0.0).then(|| unit(text, of.times(1.0 / size))).flatten()
 }
 
 #[cfg(test)]

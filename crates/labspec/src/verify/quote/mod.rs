@@ -1,14 +1,12 @@
 //! Numbers quoted in the text: found where a reader sees them, read, and compared with what the simulation gives at
 //! the precision that they are printed with.
 
-mod answer_unit;
 mod check_quote;
 mod clause_unit;
 mod context;
 mod context_after;
 mod denial;
 mod fold;
-mod head_unit;
 mod hidden;
 mod html;
 mod markdown_cell;
@@ -32,9 +30,8 @@ mod unit_check;
 mod unit_text;
 mod words;
 
-pub(super) use answer_unit::{AnswerUnit, answer_unit, is_unit};
 pub(super) use check_quote::{check_quote, places_of_quote};
-pub(super) use head_unit::unit_of_head;
+pub(super) use markdown_cell::unit_of_head;
 pub use number::{Form, Quoted, Style};
 pub(super) use option_text::{OptionNumber, option_ratio, option_text};
 pub use quote_claim::{OtherValue, QuoteOutcome, QuoteState};
@@ -44,7 +41,7 @@ pub use read::{Unread, quoted};
 pub use rendered::ShownText;
 pub use stated::{Counted, Stated, answered, claimed, counted, stated};
 pub(super) use table_cells::{cells_of_column, reads_the_same};
-pub(super) use unit_check::{Held, conversion, hold};
+pub(super) use unit_check::{AnswerUnit, Held, answer_unit, conversion, hold, is_unit};
 pub(super) use unit_text::Unit;
 pub(super) use words::{QuotedCondition, check_words};
 

@@ -1,7 +1,15 @@
-//! Digits with their separators, decimals and power of ten, at one place of a text.
+//! Numerals: digits with their separators, decimals, fractions and powers of ten. The grammar is in `docs/quantities.md`.
 
 use super::number::{Form, Quoted, Style, ten};
 use labspec_bind::units::is_wide;
+use nom::branch::alt;
+use nom::bytes::complete::{tag, tag_no_case, take_while, take_while_m_n};
+use nom::character::complete::{anychar, char, digit0, digit1, one_of, satisfy};
+use nom::combinator::{fail, map, map_opt, not, opt, value, verify};
+use nom::error::Error;
+use nom::multi::{fold_many_m_n, many0, many1};
+use nom::sequence::{delimited, preceded, terminated};
+use nom::{IResult, Parser};
 
 /// A number and where it stands, in characters.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,274 +94,215 @@ impl Chars<'_> {
     pub(super) fn text(&self, from: usize, to: usize) -> String {
         self.0.get(from..to.min(self.0.len())).unwrap_or_default().iter().collect()
     }
-
-    /// Behind a separator at `i` and exactly three digits.
-    fn group(&self, i: usize, separator: char) -> Option<usize> {
-        let end = self.digits(i + 1);
-        (self.at(i) == Some(separator) && end == i + 4).then_some(end)
-    }
 }
 
-/// Reads the number whose first digit, point or fraction stands at `from`.
-pub(super) fn numeral(chars: Chars<'_>, from: usize, negative: bool) -> Numeral {
-    let mut number = Digits::whole(chars, from);
-    number.read_decimals(chars);
-    number.read_fraction(chars);
-    number.read_power(chars);
-    number.read_factor(chars);
-    number.finish(from, negative)
-}
-
-/// A number on its way: its digits, as far as they are read.
-struct Digits {
-    /// The digits before the first separator.
-    first: String,
-    /// All digits, with a point before the decimals.
+/// The digits of a number, as they are written.
+#[derive(Default)]
+struct Mantissa {
+    /// All digits, with a point before the decimals; none before a fraction alone.
     digits: String,
     decimals: usize,
-    exponent: i32,
-    /// The value of a fraction behind the digits: `2½`.
-    fraction: Option<f64>,
-    style: Style,
-    /// Behind the last character that belongs to it.
-    end: usize,
+    /// What parts groups of three digits.
+    group: Option<char>,
     doubts: Vec<f64>,
     unsure: Option<&'static str>,
     refused: Option<&'static str>,
 }
 
-impl Digits {
-    /// The digits before a point, with groups of three.
-    fn whole(chars: Chars<'_>, from: usize) -> Digits {
-        let mut end = chars.digits(from);
-        let first = chars.text(from, end);
-        let mut digits = first.clone();
-        let mut style = Style::default();
-        let mut doubts = Vec::new();
-        let groups = !first.is_empty() && first.len() <= 3 && !first.starts_with('0');
-        for separator in [',', ' ', '\''] {
-            if !groups || style.group.is_some() {
-                break;
-            }
-            while let Some(stop) = chars.group(end, separator) {
-                digits += &chars.text(end + 1, stop);
-                end = stop;
-                style.group = Some(separator);
-            }
-        }
-        if style.group == Some(' ') {
-            doubts.extend(first.parse::<f64>());
-            doubts.extend(chars.text(end - 3, end).parse::<f64>());
-        }
-        Digits {
-            first,
-            digits,
-            decimals: 0,
-            exponent: 0,
-            fraction: None,
-            style,
-            end,
-            doubts,
-            unsure: None,
-            refused: None,
+/// Exactly three digits behind a separator.
+fn group(text: &str, separator: char) -> IResult<&str, &str> {
+    let three = take_while_m_n(3, 3, |c: char| c.is_ascii_digit());
+    preceded(char(separator), terminated(three, not(digit))).parse(text)
+}
+
+/// Digits behind a point or a comma.
+fn decimals(text: &str, mark: char) -> IResult<&str, &str> {
+    preceded(char(mark), digit1).parse(text)
+}
+
+fn digit(text: &str) -> IResult<&str, char> {
+    satisfy(|c| c.is_ascii_digit()).parse(text)
+}
+
+fn spaces(text: &str) -> IResult<&str, &str> {
+    take_while(|c| c == ' ').parse(text)
+}
+
+/// Digits in groups of three, and what parts them.
+fn whole(text: &str) -> IResult<&str, (Vec<&str>, Option<char>)> {
+    let (rest, first) = digit0(text)?;
+    let grouped = (1..=3).contains(&first.len()) && !first.starts_with('0');
+    for separator in [',', ' ', '\''].into_iter().filter(|_| grouped) {
+        if let Ok((rest, mut groups)) = many1(|text| group(text, separator)).parse(rest) {
+            groups.insert(0, first);
+            return Ok((rest, (groups, Some(separator))));
         }
     }
+    Ok((rest, (vec![first], None)))
+}
 
-    /// The digits behind a point or a comma.
-    fn read_decimals(&mut self, chars: Chars<'_>) {
-        if chars.at(self.end) == Some('.') && chars.digit(self.end + 1) {
-            self.read_behind_point(chars);
-        } else if chars.at(self.end) == Some(',') && chars.digit(self.end + 1) {
-            self.read_behind_comma(chars);
-        } else if self.style.group == Some(',') && self.digits.len() == self.first.len() + 3 {
-            // 1,500: thousands in English, decimals elsewhere.
-            let decimals = self.digits.get(self.first.len()..).unwrap_or("");
-            self.doubts.extend(format!("{}.{decimals}", self.first).parse::<f64>());
-        }
+/// Whole digits, with the decimals behind a point or a comma.
+fn mantissa(text: &str) -> IResult<&str, Mantissa> {
+    let (rest, (groups, group)) = whole(text)?;
+    let mut all = Mantissa { digits: groups.concat(), group, ..Mantissa::default() };
+    if group == Some(' ') {
+        all.doubts.extend(
+            [groups.first(), groups.last()].into_iter().flatten().filter_map(|n| n.parse::<f64>().ok()),
+        );
     }
-
-    fn read_behind_point(&mut self, chars: Chars<'_>) {
-        let whole_end = self.end;
-        self.end = chars.digits(whole_end + 1);
-        let mut after = chars.text(whole_end + 1, self.end);
-        // 0.000 833: decimals in groups of three.
-        while after.len().is_multiple_of(3)
-            && let Some(more) = chars.group(self.end, ' ')
-        {
-            self.doubts.extend(format!("{}.{after}", self.digits).parse::<f64>());
-            after += &chars.text(self.end + 1, more);
-            self.end = more;
+    if let Ok((rest, after)) = decimals(rest, '.') {
+        return Ok(all.with_decimals(rest, after));
+    }
+    if let Ok((rest, after)) = decimals(rest, ',') {
+        // No thousands: a decimal comma, or a list.
+        let again = decimals(rest, ',').is_ok() || decimals(rest, '.').is_ok();
+        if group.is_some() || again {
+            all.refused = Some("digits with several commas");
+            return Ok((rest, all));
         }
-        self.decimals = after.len();
+        all.unsure = (all.digits != "0").then_some("its comma may separate decimals or two numbers");
+        all.decimals = after.len();
+        all.digits = format!("{}.{after}", all.digits);
+        return Ok((rest, all));
+    }
+    if let (Some(','), [first, second]) = (group, groups.as_slice()) {
+        // 1,500: thousands in English, decimals elsewhere.
+        all.doubts.extend(format!("{first}.{second}").parse::<f64>());
+    }
+    Ok((rest, all))
+}
+
+impl Mantissa {
+    /// The same with decimals, to which groups of three may belong: 0.000 833.
+    fn with_decimals<'t>(mut self, rest: &'t str, after: &str) -> (&'t str, Mantissa) {
         self.digits = format!("{}.{after}", self.digits);
-        if chars.at(self.end) == Some('.') && chars.digit(self.end + 1) {
+        self.decimals = after.len();
+        let groups =
+            many0(|text| group(text, ' ')).parse(rest).ok().filter(|_| after.len().is_multiple_of(3));
+        let (rest, groups) = groups.unwrap_or((rest, Vec::new()));
+        for group in groups {
+            if self.digits.len() <= MAX_DIGITS {
+                self.doubts.extend(self.digits.parse::<f64>());
+            }
+            self.digits += group;
+            self.decimals += group.len();
+        }
+        if decimals(rest, '.').is_ok() {
             self.refused = Some("digits with several points");
-        } else if chars.at(self.end) == Some(',') && chars.digit(self.end + 1) {
+        } else if decimals(rest, ',').is_ok() {
             self.refused = Some("digits with a comma after a point");
         }
-    }
-
-    /// No thousands: a decimal comma, or a list.
-    fn read_behind_comma(&mut self, chars: Chars<'_>) {
-        let stop = chars.digits(self.end + 1);
-        let again = matches!(chars.at(stop), Some(',' | '.')) && chars.digit(stop + 1);
-        if self.style.group.is_some() || again {
-            self.refused = Some("digits with several commas");
-        } else {
-            let after = chars.text(self.end + 1, stop);
-            self.decimals = after.len();
-            if self.first != "0" {
-                self.unsure = Some("its comma may separate decimals or two numbers");
-            }
-            self.digits = format!("{}.{after}", self.digits);
-        }
-        self.end = stop;
-    }
-
-    /// A fraction behind whole digits, or alone: `2½`, `½`.
-    fn read_fraction(&mut self, chars: Chars<'_>) {
-        let mark = if self.first.is_empty() { self.end } else { chars.skip_blanks(self.end) };
-        if let Some(x) = chars.at(mark).and_then(fraction)
-            && self.decimals == 0
-            && self.style.group.is_none()
-        {
-            (self.fraction, self.end, self.decimals) = (Some(x), mark + 1, 2);
-        }
-    }
-
-    /// A power of ten in figures.
-    fn read_power(&mut self, chars: Chars<'_>) {
-        if self.fraction.is_some() {
-            return;
-        }
-        let Some((power, behind, times)) = power(chars, self.end, &self.digits) else { return };
-        self.exponent = power;
-        // A power of ten alone: 10^-3 is 1e-3.
-        if behind > self.end && self.digits == "10" && chars.at(self.end) == Some('^') {
-            self.digits = "1".into();
-        }
-        self.end = behind;
-        self.style.times = times;
-    }
-
-    /// A power of ten in words.
-    fn read_factor(&mut self, chars: Chars<'_>) {
-        let Some((power, behind)) = factor(chars, self.end) else { return };
-        if self.fraction.is_some() {
-            self.refused = Some("a fraction of a word for a power of ten");
-        } else {
-            self.exponent += power;
-            self.style.times = true;
-        }
-        self.doubts.clear();
-        self.end = behind;
-    }
-
-    /// The number that begins at `start`.
-    fn finish(mut self, start: usize, negative: bool) -> Numeral {
-        let count = self.digits.bytes().filter(u8::is_ascii_digit).count();
-        if count > MAX_DIGITS || self.exponent.abs() > MAX_EXPONENT {
-            self.refused = Some("a number with more digits than a computation has");
-            (self.exponent, self.decimals) = (0, 0);
-        }
-        let Digits { exponent, decimals, end, unsure, refused, mut doubts, .. } = self;
-        let sign = if negative { -1.0 } else { 1.0 };
-        let digits = if self.digits.is_empty() { "0" } else { &self.digits };
-        let extra = self.fraction.unwrap_or(0.0);
-        let value = sign * (format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra);
-        let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
-        doubts.iter_mut().for_each(|x| *x *= sign);
-        let form = if self.fraction.is_some() { Form::Fraction } else { Form::Plain(self.style) };
-        let quoted = Quoted { value, half_unit, decimals, exponent, form };
-        Numeral { quoted, start, end, doubts, unsure, refused }
+        (rest, self)
     }
 }
 
-/// The power of ten that follows at `at`, where it ends, and whether it is written out (`×10^3`).
-fn power(chars: Chars<'_>, at: usize, digits: &str) -> Option<(i32, usize, bool)> {
-    let signed = |i: usize| -> Option<(i32, usize)> {
-        let negative = matches!(chars.at(i), Some('-' | '–'));
-        let from = i + usize::from(negative || chars.at(i) == Some('+'));
-        let end = chars.digits(from);
-        let n: i32 = chars.text(from, end).parse().ok().filter(|_| end > from && end - from < 9)?;
-        Some((if negative { -n } else { n }, end))
-    };
-    // `0.5e3`, and `0.5 e3`
-    let letter = if chars.at(at) == Some(' ') { at + 1 } else { at };
-    if matches!(chars.at(letter), Some('e' | 'E'))
-        && let Some((n, end)) = signed(letter + 1)
-        && !chars.at(end).is_some_and(char::is_alphanumeric)
-    {
-        return Some((n, end, false));
-    }
-    // The base, with its sign of multiplication unless it is all there is.
-    let mark = chars.skip_blanks(at);
-    let base = if digits == "10" && chars.at(at) == Some('^') {
-        at
-    } else {
-        let from = chars.skip_blanks(mark + 1);
-        let times = matches!(chars.at(mark), Some('×' | '·' | '*' | 'x' | 'X'));
-        if !(times && chars.has(from, "10")) {
-            return None;
-        }
-        from + 2
-    };
-    let raised = if chars.has(base, "**") { base + 2 } else { base + 1 };
-    if raised == base + 1 && chars.at(base) != Some('^') {
-        return None;
-    }
-    let (n, end) = signed(raised)?;
-    Some((n, end, true))
+/// A whole number with its sign, of so few digits that it is one.
+fn integer(text: &str) -> IResult<&str, i32> {
+    let sign = alt((value(-1, one_of("-–")), value(1, char('+'))));
+    let digits = terminated(take_while_m_n(1, 8, |c: char| c.is_ascii_digit()), not(digit));
+    map((opt(sign), map_opt(digits, |n: &str| n.parse::<i32>().ok())), |(sign, n)| sign.unwrap_or(1) * n)
+        .parse(text)
+}
+
+/// A power of ten in figures, and whether it is written out: `e3`, `×10^3`.
+fn power(text: &str) -> IResult<&str, (i32, bool)> {
+    let letter = (opt(char(' ')), one_of("eE"));
+    let base = (spaces, one_of("×·*xX"), spaces, tag("10"), alt((tag("**"), tag("^"))));
+    alt((
+        map(delimited(letter, integer, not(satisfy(char::is_alphanumeric))), |n| (n, false)),
+        map(preceded(base, integer), |n| (n, true)),
+    ))
+    .parse(text)
 }
 
 /// Words for powers of ten.
-const FACTORS: [(&str, i32); 25] = [
-    ("hundred", 2),
-    ("thousand", 3),
-    ("million", 6),
-    ("millions", 6),
-    ("billion", 9),
-    ("trillion", 12),
-    ("hundert", 2),
-    ("tausend", 3),
-    ("Millionen", 6),
-    ("Milliarden", 9),
-    ("mille", 3),
-    ("milliards", 9),
-    ("mil", 3),
-    ("hundredths", -2),
-    ("thousandths", -3),
-    ("millionths", -6),
-    ("hundredth", -2),
-    ("thousandth", -3),
-    ("millionth", -6),
-    ("万", 4),
-    ("萬", 4),
-    ("億", 8),
-    ("亿", 8),
-    ("百万", 6),
+const FACTORS: [(&str, i32); 11] = [
+    ("hundred hundert", 2),
+    ("thousand tausend mille mil", 3),
+    ("万 萬", 4),
+    ("million millions Millionen 百万", 6),
     ("千万", 7),
+    ("億 亿", 8),
+    ("billion Milliarden milliards", 9),
+    ("trillion", 12),
+    ("hundredth hundredths", -2),
+    ("thousandth thousandths", -3),
+    ("millionth millionths", -6),
 ];
 
-/// The words for powers of ten that follow at `at`, and where they end: `0.5 thousand`, `2 hundred million`, `3万`.
-fn factor(chars: Chars<'_>, at: usize) -> Option<(i32, usize)> {
-    let (mut power, mut end) = (0, at);
-    for _ in 0..3 {
-        let from = chars.skip_blanks(end);
-        let found = FACTORS.iter().find_map(|(word, n)| {
-            let stop = from + word.chars().count();
-            let wide = word.chars().all(is_wide);
-            let whole = wide || from > end && !chars.at(stop).is_some_and(char::is_alphanumeric);
-            (chars.has(from, word) && whole).then_some((*n, stop))
-        });
-        let Some((n, stop)) = found else { break };
-        (power, end) = (power + n, stop);
+/// A word for a power of ten.
+fn factor(text: &str) -> IResult<&str, i32> {
+    let (word_start, blanks) = spaces(text)?;
+    let behind = |word: &str| {
+        let (rest, _) = tag_no_case::<_, _, Error<&str>>(word).parse(word_start).ok()?;
+        let whole = !blanks.is_empty() && !rest.starts_with(char::is_alphanumeric);
+        (whole || word.chars().all(is_wide)).then_some(rest)
+    };
+    let found = FACTORS.iter().find_map(|(words, n)| Some((words.split(' ').find_map(behind)?, *n)));
+    found.map_or_else(|| fail().parse(text), Ok)
+}
+
+/// What stands behind the digits of a number, or for them: a fraction (`2½`, `½`), or a power of ten.
+enum Scale {
+    Fraction(f64),
+    /// Its exponent, and whether it is written out.
+    Power(i32, bool),
+    /// The same, where the digits are its base: `10^3`.
+    PowerOfDigits(i32),
+}
+
+fn scale<'t>(text: &'t str, mantissa: &Mantissa) -> IResult<&'t str, Scale> {
+    let is_whole = mantissa.decimals == 0 && mantissa.group.is_none() && mantissa.refused.is_none();
+    let alone = mantissa.digits.is_empty();
+    let blanks = verify(spaces, |blanks: &str| blanks.is_empty() || !alone);
+    alt((
+        map(verify(preceded(blanks, map_opt(anychar, fraction)), |_| is_whole), Scale::Fraction),
+        map(power, |(n, written)| Scale::Power(n, written)),
+        map(verify(preceded(char('^'), integer), |_| mantissa.digits == "10"), Scale::PowerOfDigits),
+    ))
+    .parse(text)
+}
+
+/// Reads the number that a text begins with, a point or a fraction included, and its sign left aside; with the bytes that it takes.
+fn numeral(text: &str, negative: bool) -> (Numeral, usize) {
+    let (rest, mut written) = mantissa(text).unwrap_or((text, Mantissa::default()));
+    let (rest, scale) = opt(|text| scale(text, &written)).parse(rest).unwrap_or((rest, None));
+    let factors = fold_many_m_n(1, 3, factor, || 0, |all, n| all + n).parse(rest).ok();
+    let (rest, factor) = factors.map_or((rest, None), |(rest, n)| (rest, Some(n)));
+    let (mut extra, mut exponent, mut times) = (None, 0, factor.is_some());
+    match scale {
+        Some(Scale::Fraction(x)) => (extra, written.decimals) = (Some(x), 2),
+        Some(Scale::Power(n, written_out)) => (exponent, times) = (n, times || written_out),
+        Some(Scale::PowerOfDigits(n)) => (written.digits, exponent, times) = ("1".into(), n, true),
+        None => {}
     }
-    (end > at).then_some((power, end))
+    match (factor, extra) {
+        (Some(_), Some(_)) => written.refused = Some("a fraction of a word for a power of ten"),
+        (n, _) => exponent += n.unwrap_or(0),
+    }
+    if factor.is_some() {
+        written.doubts.clear();
+    }
+    let count = written.digits.bytes().filter(u8::is_ascii_digit).count();
+    if count > MAX_DIGITS || exponent.abs() > MAX_EXPONENT {
+        written.refused = Some("a number with more digits than a computation has");
+        (exponent, written.decimals) = (0, 0);
+    }
+    let Mantissa { digits, decimals, group, mut doubts, unsure, refused } = written;
+    let sign = if negative { -1.0 } else { 1.0 };
+    let digits = if digits.is_empty() { "0" } else { &digits };
+    let value = format!("{digits}e{exponent}").parse::<f64>().unwrap_or(f64::NAN) + extra.unwrap_or(0.0);
+    let half_unit = 0.5 * ten(exponent.saturating_sub(decimals as i32));
+    doubts.iter_mut().for_each(|x| *x *= sign);
+    let form = if extra.is_some() { Form::Fraction } else { Form::Plain(Style { group, times }) };
+    let quoted = Quoted { value: sign * value, half_unit, decimals, exponent, form };
+    (Numeral { quoted, start: 0, end: 0, doubts, unsure, refused }, text.len() - rest.len())
 }
 
 /// All numbers of a text, each with its first digit. Digits of words, indexes and exponents (`H2O`, `x_1`, `L^2`, `3D`, `2nd`) are none.
 pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
+    let text = chars.text(0, chars.0.len());
+    let bytes: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
     let mut all: Vec<(Numeral, usize)> = Vec::new();
     let mut i = 0;
     while let Some(c) = chars.at(i) {
@@ -385,9 +334,11 @@ pub(super) fn numbers(chars: Chars<'_>) -> Vec<(Numeral, usize)> {
                 (negative, start) = (true, edge);
             }
         }
-        let mut found = numeral(chars, i, negative);
-        found.start = start;
-        let next = found.end.max(i + 1);
+        let tail = bytes.get(i).and_then(|at| text.get(*at..)).unwrap_or("");
+        let (found, length) = numeral(tail, negative);
+        let end = i + tail.get(..length).map_or(0, |number| number.chars().count());
+        let found = Numeral { start, end, ..found };
+        let next = end.max(i + 1);
         if !is_word(chars, &found, i) {
             all.push((found, i));
         }

@@ -242,3 +242,22 @@ pub(super) fn as_share(q: &Quoted, unit: &Unit) -> Option<Quoted> {
         form,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A text of 100 kB of whatever begins a number or a unit is read in linear time.
+    #[test]
+    fn hostile_texts_are_read_in_linear_time() {
+        let pieces = "1|1,|1 |1,000|1 000|000 |1.|.|1e|1e9|10^|1×10^|½|-|- 1|1 million |1万|{|\\|s1 |1 (|1 m(|1 per |1 – |1 to |1±|秒|1秒|x|'|1'000";
+        for piece in pieces.split('|') {
+            for head in ["", "1.000 ", "10^"] {
+                let chars: Vec<char> =
+                    head.chars().chain(piece.repeat(100_000 / piece.len()).chars()).collect();
+                let all = quantities(Chars(&chars));
+                assert!(all.iter().all(|q| q.whole.end <= chars.len()), "{head}{piece}");
+            }
+        }
+    }
+}

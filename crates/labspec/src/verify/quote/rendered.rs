@@ -202,5 +202,5 @@ fn join(pieces: Vec<Text>, words: bool) -> (Readable, SourceMap) {
 }
 
 #[cfg(test)]
-#[path = "shown_tests.rs"]
+#[path = "rendered_tests.rs"]
 mod tests;

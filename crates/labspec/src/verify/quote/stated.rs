@@ -1,8 +1,7 @@
 //! The numbers that a lesson states: every one that a reader sees, with its unit and the words around it.
 
 use super::context::BOUND;
-use super::head_unit::unit_of_head;
-use super::markdown_cell::{LONG, MarkdownCell};
+use super::markdown_cell::{LONG, MarkdownCell, unit_of_head};
 use super::number::Quoted;
 use super::numeral::Chars;
 use super::pieces::shown_pieces;

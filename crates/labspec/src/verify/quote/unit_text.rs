@@ -3,6 +3,13 @@
 use super::numeral::Chars;
 use labspec_bind::units;
 use labspec_expr::dimension::Dimension;
+use nom::branch::alt;
+use nom::bytes::complete::{tag, tag_no_case, take_while1};
+use nom::character::complete::{char, satisfy};
+use nom::combinator::{consumed, fail, map, not, opt, peek, recognize, value, verify};
+use nom::error::Error;
+use nom::sequence::{preceded, terminated};
+use nom::{IResult, Parser};
 
 /// A unit as it is written.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,86 +66,61 @@ const LONG: usize = 40;
 pub(super) fn unit_behind(chars: Chars<'_>, end: usize) -> Option<(Unit, usize)> {
     let text = chars.text(end, end + LONG);
     let line = text.split('\n').next().unwrap_or("");
-    let (unit, bytes) = unit_of(line)?;
-    Some((unit, end + line.get(..bytes)?.chars().count()))
+    let (rest, unit) = unit(line).ok()?;
+    Some((unit, end + line.chars().count() - rest.chars().count()))
 }
 
-/// The unit that a text begins with, and the bytes up to its end, the space before it included.
-fn unit_of(line: &str) -> Option<(Unit, usize)> {
-    let trimmed = line.trim_start_matches(' ');
-    let mut from = line.len() - trimmed.len();
-    if from > 1 {
-        return None;
-    }
+/// The unit that a text begins with, the space before it included.
+fn unit(line: &str) -> IResult<&str, Unit> {
+    let hyphenated = preceded(
+        (char('-'), peek(satisfy(char::is_alphabetic))),
+        map(known_unit, |(text, dimension)| unit_named(text, dimension)),
+    );
+    let space = (opt(char(' ')), not(char(' ')));
     // The raised ring of TeX: `30^\circ`.
-    from += usize::from(trimmed.starts_with("^°"));
-    if from == 0
-        && let Some(tail) = line.strip_prefix('-')
-        && tail.starts_with(char::is_alphabetic)
-    {
-        return hyphenated_unit(tail);
-    }
-    let rest = line.get(from..)?;
-    if let Some((unit, length)) = percentage(rest) {
-        return Some((unit, from + length));
-    }
-    // `3 per second`, `3/s`
-    let over = ["per ", "/"].into_iter().find_map(|sign| rest.strip_prefix(sign).map(|tail| (sign, tail)));
-    let (sign, body) = over.map_or(("", rest), |(sign, tail)| (sign, tail));
-    let body_from = sign.len();
-    let read = units::read(body).filter(|found| !goes_on(body.get(found.length..).unwrap_or("")));
-    let Some(found) = read else {
-        let word = rest.get(..word_length(rest)).unwrap_or("");
-        if COUNTED.contains(&word) {
-            let dimension = Some(Dimension::NUMBER);
-            return Some((Unit { text: word.into(), dimension, link: Link::Own }, from + word.len()));
-        }
-        // Once for each of something that is no unit: the number is of that.
-        let word = word_length(body);
-        return (!sign.is_empty() && word > 0).then(|| {
-            let length = body_from + word;
-            let text = rest.get(..length).unwrap_or("").to_string();
-            (Unit { text, dimension: None, link: Link::Own }, from + length)
-        });
-    };
-    let mut dimension = found.dimension;
-    if !sign.is_empty() {
-        dimension = dimension.and_then(|d| d.power(-1.0));
-    }
-    let mut length = body_from + found.length;
-    // `0.7 mm per step`, `0.7 mm/step`
-    let tail = rest.get(length..).unwrap_or("");
-    for sign in [" per ", "/", " / "] {
-        let word = tail.strip_prefix(sign).map_or(0, word_length);
-        if word > 0 {
-            length += sign.len() + word;
-            dimension = None;
-            break;
-        }
-    }
-    let text = rest.get(..length)?.to_string();
-    from += length;
-    Some((Unit { text, dimension, link: Link::Own }, from))
+    let ring = opt(terminated(char('^'), peek(char('°'))));
+    let counted = map(verify(word, |word: &str| COUNTED.contains(&word)), |word| {
+        unit_named(word, Some(Dimension::NUMBER))
+    });
+    // Once for each of something that is no unit: the number is of that.
+    let of_things = map(recognize((over, word)), |text| unit_named(text, None));
+    alt((hyphenated, preceded((space, ring), alt((percentage, measured, counted, of_things))))).parse(line)
 }
 
-/// The unit of an adjective, as in `a 0.5-second fall`, behind its hyphen.
-fn hyphenated_unit(tail: &str) -> Option<(Unit, usize)> {
-    let found = units::read(tail)?;
-    let text = tail.get(..found.length)?;
-    let whole = text.chars().count() > 0 && !goes_on(tail.get(found.length..)?);
-    whole.then(|| (Unit { text: text.into(), dimension: found.dimension, link: Link::Own }, 1 + found.length))
+fn unit_named(text: &str, dimension: Option<Dimension>) -> Unit {
+    Unit { text: text.to_string(), dimension, link: Link::Own }
 }
 
-/// A word for a percentage that a text begins with, and its bytes.
-fn percentage(rest: &str) -> Option<(Unit, usize)> {
+/// `m/s`, `per second`, `/s`; of `0.7 mm per step` and `0.7 mm/step` all of it.
+fn measured(text: &str) -> IResult<&str, Unit> {
+    let per_thing = (alt((tag(" per "), tag("/"), tag(" / "))), word);
+    let (rest, (text, (over, (_, dimension), thing))) =
+        consumed((opt(over), known_unit, opt(per_thing))).parse(text)?;
+    let dimension = if over.is_some() { dimension.and_then(|d| d.power(-1.0)) } else { dimension };
+    Ok((rest, unit_named(text, dimension.filter(|_| thing.is_none()))))
+}
+
+fn over(text: &str) -> IResult<&str, &str> {
+    alt((tag("per "), tag("/"))).parse(text)
+}
+
+/// A unit that is known, behind which no word goes on.
+fn known_unit(text: &str) -> IResult<&str, (&str, Option<Dimension>)> {
+    let read =
+        units::read(text).and_then(|found| Some((text.split_at_checked(found.length)?, found.dimension)));
+    let Some(((unit, rest), dimension)) = read else { return fail().parse(text) };
+    value((unit, dimension), word_end).parse(rest)
+}
+
+/// A word for a percentage.
+fn percentage(text: &str) -> IResult<&str, Unit> {
     let words = ["percent", "per cent", "per mille", "permille", "pct", "Prozent"];
-    let word = words.into_iter().find(|word| {
-        rest.get(..word.len()).is_some_and(|w| w.eq_ignore_ascii_case(word))
-            && !goes_on(rest.get(word.len()..).unwrap_or(""))
-    })?;
-    let factor = if word.ends_with("mille") { 1000.0 } else { 100.0 };
-    let dimension = Some(Dimension::NUMBER.times(factor));
-    Some((Unit { text: word.into(), dimension, link: Link::Own }, word.len()))
+    let found = words.into_iter().find_map(|word| {
+        let (rest, _) = terminated(tag_no_case::<_, _, Error<&str>>(word), word_end).parse(text).ok()?;
+        let factor = if word.ends_with("mille") { 1000.0 } else { 100.0 };
+        Some((rest, unit_named(word, Some(Dimension::NUMBER.times(factor)))))
+    });
+    found.map_or_else(|| fail().parse(text), Ok)
 }
 
 /// What is counted: a number of them has no other unit.
@@ -160,12 +142,12 @@ const COUNTED: [&str; 15] = [
     "pieces",
 ];
 
-/// Length of the letters that a text begins with.
-fn word_length(text: &str) -> usize {
-    text.chars().take_while(|c| c.is_alphabetic() && !units::is_wide(*c)).map(char::len_utf8).sum()
+/// Letters of a word.
+fn word(text: &str) -> IResult<&str, &str> {
+    take_while1(|c: char| c.is_alphabetic() && !units::is_wide(c)).parse(text)
 }
 
-/// Whether a word goes on.
-fn goes_on(tail: &str) -> bool {
-    tail.starts_with(|c: char| c.is_alphanumeric() && !units::is_wide(c) || c == '_')
+/// Where no word goes on.
+fn word_end(text: &str) -> IResult<&str, ()> {
+    not(satisfy(|c| c.is_alphanumeric() && !units::is_wide(c) || c == '_')).parse(text)
 }

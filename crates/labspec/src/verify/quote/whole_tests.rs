@@ -15,13 +15,13 @@ fn state(text: &str, quote: &str, computed: f64, unit: &str) -> QuoteState {
         &ModelFolder::unknown(),
     );
     let said = &lesson.labs[0].lab.as_ref().unwrap().verify.as_ref().unwrap().says[0];
-    let shown = ShownText::of_lesson(&lesson);
+    let rendered = ShownText::of_lesson(&lesson);
     let dimension = parse(unit);
     let value = QuoteValue { computed, timestep: &[], start: &[], unit: &|| dimension };
     let claim = QuoteClaim { quote: &said.quote, part: said.quote.as_str(), expr: &said.exprs[0] };
-    let places = places_of_quote(&said.quote, None, &shown);
+    let places = places_of_quote(&said.quote, None, &rendered);
     let mut findings = Vec::new();
-    let outcome = check_quote(&claim, &reading(quote), places, &value, &shown, &mut findings);
+    let outcome = check_quote(&claim, &reading(quote), places, &value, &rendered, &mut findings);
     assert_eq!(
         outcome.state == QuoteState::Right,
         findings.iter().all(|f| !f.is_error() && f.code != "quote-not-found"),

@@ -23,8 +23,8 @@ fn lesson(markdown: &str, quotes: &[&str]) -> Lesson {
 /// The shown places of a quote, as they stand in the file.
 fn places(markdown: &str, quote: &str) -> Vec<String> {
     let lesson = lesson(markdown, &[quote]);
-    let shown = ShownText::of_lesson(&lesson);
-    shown.places(quote).iter().map(|r| lesson.file.slice(r.clone()).to_string()).collect()
+    let rendered = ShownText::of_lesson(&lesson);
+    rendered.places(quote).iter().map(|r| lesson.file.slice(r.clone()).to_string()).collect()
 }
 
 #[test]
@@ -86,9 +86,9 @@ fn what_no_reader_sees_is_no_place() {
         "| 0.442 | s |\n|---|---|\n| 1 | 2 |\n",
     ] {
         let found = places(markdown, "0.442 s");
-        // A loose lab is a lab: its labels are shown, its code is not.
-        let shown = usize::from(markdown.starts_with('{'));
-        assert_eq!(found.len(), shown, "{markdown}: {found:?}");
+        // A loose lab is a lab: its labels are expected, its code is not.
+        let expected = usize::from(markdown.starts_with('{'));
+        assert_eq!(found.len(), expected, "{markdown}: {found:?}");
     }
 }
 
@@ -107,9 +107,9 @@ fn labs_show_their_labels_and_not_their_code() {
 #[test]
 fn what_stands_only_in_code_is_told() {
     let lesson = lesson("```python\nt = '0.4425 s'\n```", &["0.4425 s", "0.442 s", "7.5 s"]);
-    let shown = ShownText::of_lesson(&lesson);
-    assert_eq!(lesson.file.slice(shown.hidden("0.4425 s").unwrap()), "0.4425 s");
-    assert!(shown.hidden("7.5 s").is_none());
+    let rendered = ShownText::of_lesson(&lesson);
+    assert_eq!(lesson.file.slice(rendered.hidden("0.4425 s").unwrap()), "0.4425 s");
+    assert!(rendered.hidden("7.5 s").is_none());
 }
 
 #[test]
@@ -128,8 +128,8 @@ fn many_quotes_in_a_large_lesson_are_found() {
     let markdown = line.repeat((1 << 20) / line.len());
     let quotes: Vec<String> = (0..400).map(|i| format!("0.44{i} s")).collect();
     let lesson = lesson(&markdown, &quotes.iter().map(String::as_str).collect::<Vec<_>>());
-    let shown = ShownText::of_lesson(&lesson);
-    let found: Vec<usize> = quotes.iter().map(|q| shown.places(q).len()).filter(|&n| n > 0).collect();
+    let rendered = ShownText::of_lesson(&lesson);
+    let found: Vec<usize> = quotes.iter().map(|q| rendered.places(q).len()).filter(|&n| n > 0).collect();
     assert_eq!(found, [1000]);
 }
 
@@ -149,10 +149,10 @@ fn hostile_texts_are_survived() {
         "~~~\n0",
     ] {
         let lesson = lesson(&text.repeat(2000), &["0.442 s", "1", "0 0", "²", "½"]);
-        let shown = ShownText::of_lesson(&lesson);
+        let rendered = ShownText::of_lesson(&lesson);
         for quote in ["1", "0 0", "½"] {
             assert!(
-                shown.places(quote).iter().all(|r| lesson.file.text().get(r.clone()).is_some()),
+                rendered.places(quote).iter().all(|r| lesson.file.text().get(r.clone()).is_some()),
                 "{text}"
             );
         }
