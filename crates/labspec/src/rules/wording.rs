@@ -1,34 +1,19 @@
 //! The words and the numbers of a shown text: what two texts have in common, and which number a sentence ends with.
 
+use crate::markdown::html::{HtmlToken, tokens};
 use std::ops::Range;
 
 /// A text of HTML without its tags, entities and runs of spaces.
 pub(super) fn plain(html: &str) -> String {
     let mut out = String::new();
-    let mut rest = html;
-    while let Some(c) = rest.chars().next() {
-        if let Some(length) = tag(rest) {
-            out.push(' ');
-            rest = rest.get(length..).unwrap_or("");
-            continue;
+    for token in tokens(html) {
+        match token {
+            HtmlToken::Text(at) => out.push_str(html.get(at).unwrap_or("")),
+            HtmlToken::Decoded(text, _) => out.push_str(&text),
+            HtmlToken::Tag(_) => out.push(' '),
         }
-        let entities = [("&lt;", '<'), ("&gt;", '>'), ("&amp;", '&'), ("&nbsp;", ' '), ("&quot;", '"')];
-        let entity = entities.iter().find(|(name, _)| rest.starts_with(name));
-        out.push(entity.map_or(c, |(_, c)| *c));
-        rest = rest.get(entity.map_or(c.len_utf8(), |(name, _)| name.len())..).unwrap_or("");
     }
     out.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// Longest tag, bytes.
-const LONGEST: usize = 2000;
-
-/// The length of the tag that a text begins with.
-fn tag(text: &str) -> Option<usize> {
-    let inside = text.strip_prefix('<')?;
-    let name = inside.strip_prefix('/').unwrap_or(inside);
-    let near = || text.bytes().take(LONGEST).position(|b| b == b'>').map(|end| end + 1);
-    name.starts_with(|c: char| c.is_ascii_alphabetic()).then(near)?
 }
 
 /// What a text says, whatever its capitals, marks and articles. Code and formulas are as they stand: there, every character counts
@@ -69,25 +54,23 @@ pub(super) struct Number {
 
 /// The numbers of a text of HTML; powers of ten, indices and exponents are none.
 pub(super) fn numbers(html: &str) -> Vec<Number> {
+    let texts = tokens(html).into_iter().filter_map(|token| match token {
+        HtmlToken::Text(at) => Some(at),
+        HtmlToken::Decoded(..) | HtmlToken::Tag(_) => None,
+    });
+    let length_of = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
     let mut all = Vec::new();
-    let mut at = 0;
-    while let Some(rest) = html.get(at..).filter(|r| !r.is_empty()) {
-        if let Some(length) = tag(rest) {
+    for Range { start: mut at, end } in texts {
+        while let Some(rest) = html.get(at..end) {
+            let Some(from) = rest.find(|c: char| c.is_ascii_digit()) else { break };
+            at += from;
+            let tail = html.get(at..end).unwrap_or("");
+            let whole = length_of(tail);
+            let part = tail.get(whole..).and_then(|tail| tail.strip_prefix('.')).map_or(0, length_of);
+            let length = whole + if part > 0 { part + 1 } else { 0 };
+            all.extend(number(html, at..at + length, part));
             at += length;
-            continue;
         }
-        let Some(c) = rest.chars().next() else { break };
-        if !c.is_ascii_digit() {
-            at += c.len_utf8();
-            continue;
-        }
-        let whole = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-        let tail = rest.get(whole..).unwrap_or("");
-        let part =
-            tail.strip_prefix('.').map_or(0, |t| t.find(|c: char| !c.is_ascii_digit()).unwrap_or(t.len()));
-        let length = whole + if part > 0 { part + 1 } else { 0 };
-        all.extend(number(html, at..at + length, part));
-        at += length;
     }
     all
 }

@@ -26,12 +26,13 @@ const CLAUSES: [&str; 11] = [
     "nobody says that",
 ];
 
-/// Longest clause that is looked at, in bytes.
+/// Longest clause that is looked at, in characters.
 const LONGEST: usize = 1000;
 
 /// Whether the words at the end of a line deny what stands behind them.
 pub(super) fn is_denied(line: &str) -> bool {
-    let line = line.get(line.floor_char_boundary(line.len().saturating_sub(LONGEST))..).unwrap_or("");
+    let start = line.char_indices().rev().take(LONGEST).last().map_or(0, |(at, _)| at);
+    let line = line.get(start..).unwrap_or("");
     let clause =
         line.rsplit(['\n', '.', ',', ';', ':', '(', '—', '?', '!']).next().unwrap_or("").to_lowercase();
     if CLAUSES.iter().any(|phrase| clause.contains(phrase)) {

@@ -79,6 +79,8 @@ fn what_no_reader_sees_is_no_place() {
         "[link](https://example.org/ \"0.442 s\")",
         "---\nt: 0.442 s\n---\n",
         "<script>\n0.442 s\n</script>",
+        "<div hidden>\n\n*a* <b>b</b>\n\n0.442 s\n\n</div>",
+        "<div\n hidden>\n0.442 s\n</div>",
         "{\"model\": \"a\", \"controls\": [{\"type\": \"button\", \"label\": \"0.442 s\", \"run\": \"0.442 s\"}]}",
         "-0.442 s",
         "10.442 s",
