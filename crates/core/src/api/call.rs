@@ -17,7 +17,7 @@ use crate::forces::{actuation, energy};
 use crate::math::{Spatial, Vec3};
 use crate::model::plan::PlanFlag;
 use crate::model::reflect::{self, FieldId, Object, View, ViewMut, data};
-use crate::model::{Contact, Obj};
+use crate::model::{self, Contact, Obj};
 use crate::sensor::body_force;
 use crate::setup::setconst;
 use crate::step::balance::{self, Energy};
@@ -154,12 +154,15 @@ pub fn set_keyframe<S: Scope>(m: &mut Model, d: &Data<S>, key: KeyId) -> Result<
 /// there, velocities and time stay.
 pub fn set_const<S: Scope>(m: &mut Model, d: &mut Data<S>) -> Result<(), Error> {
     d.engine(m)?;
+    let reflected = |m: &model::Model| [m.jnt_actuatorid.clone(), m.tendon_actuatorid.clone()];
+    let before = reflected(m.engine());
     setconst::set_const(m.engine(), &mut d.inner);
     m.touch_constants();
     d.mark_synced(m);
-    // A plan that was made while M was constant does not look at it again.
+    // A plan that was made while M was constant does not look at it again, nor does one for joints without the dampers of actuators.
     let plan = &d.inner.plan;
-    if !plan.has(PlanFlag::General) && !tree_algorithms::are_constant(m.engine(), plan.algorithms) {
+    let constant = plan.has(PlanFlag::General) || tree_algorithms::are_constant(m.engine(), plan.algorithms);
+    if !constant || d.assumes_values() && reflected(m.engine()) != before {
         d.plan_again(m);
     }
     Ok(())

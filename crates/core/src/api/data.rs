@@ -352,6 +352,11 @@ impl<S: Scope> Data<S> {
         Ok(())
     }
 
+    /// Whether the plan holds for the values that the model had when it was made.
+    pub(super) fn assumes_values(&self) -> bool {
+        self.assumed.made_for.is_some()
+    }
+
     /// Makes the plan anew, for the model as it is.
     pub(super) fn plan_again(&mut self, m: &Model) {
         let mut any = self.assumed.any;
