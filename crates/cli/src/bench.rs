@@ -5,9 +5,9 @@ use super::stdio::print_json;
 use super::target;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use labspec::report::{report, set_number};
-use labspec::run::Session;
+use labspec::run::{Session, Start};
 use labspec_core::reflect::FieldSet;
-use labspec_core::{AccessSet, Data, Plan, TreeAlgorithm, TreeAlgorithms};
+use labspec_core::{AccessSet, Plan, TreeAlgorithm, TreeAlgorithms};
 use serde_json::json;
 use std::time::Instant;
 
@@ -55,9 +55,8 @@ pub(super) fn bench(a: &Arguments) -> Result<Outcome, Failure> {
     };
     let ways = a.without.iter().fold(TreeAlgorithms::ALL, |ways, &short| ways.without(short));
     let plan = Plan::by_algorithms(&target.model, &demand, ways);
-    let data = Data::planned(&target.model, plan);
-    let key = target.lab.keyframe();
-    let mut session = Session::start_with(&target.programs, &target.model, key, data);
+    let start = Start { key: target.lab.keyframe(), plan: Some(plan), ..Start::default() };
+    let mut session = Session::start(&target.programs, &target.model, start);
     let steps = a.steps.clamp(1, labspec::run::MAX_STEPS);
     let lab = !target.programs.probes.is_empty() || target.programs.controller.is_some();
     // Inlined here, so that a counter of `advance` does not see it.

@@ -286,7 +286,7 @@ impl Player {
             Which::Label(label) => {
                 let programs = self.now.session.programs();
                 let found = programs.control(label).map(|(index, _)| index);
-                found.ok_or_else(|| settings::unknown(label, programs).into())
+                found.ok_or_else(|| settings::unknown_control(label, programs).into())
             }
         }
     }

@@ -28,7 +28,7 @@ pub use integrator::{INTEGRATORS, Integrator};
 pub use messages::{broke, threw};
 pub use play::{Play, play};
 pub use samples::Samples;
-pub use session::Session;
+pub use session::{Session, Start};
 pub use settings::{presses, presses_within, set_controls};
 pub use steady::is_steady;
 pub use table::Table;
@@ -39,7 +39,7 @@ use crate::bind::Programs;
 use crate::spec::Lab;
 use crate::spec::format::RUN_LENGTH;
 use labspec_core::reflect::FieldSet;
-use labspec_core::{AccessSet, Data, Model, Plan};
+use labspec_core::{AccessSet, Model, Plan};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -142,10 +142,10 @@ pub(crate) fn begin<'p>(
     options: &RunOptions,
     demand: &AccessSet,
 ) -> Result<Begun<'p>, RunError> {
-    let key = lab.keyframe();
     let all = AccessSet { reads: FieldSet::ALL, ..*demand };
     let plan = Plan::new(model, if options.full { &all } else { demand });
-    let mut session = Session::start_with(programs, model, key, Data::planned(model, plan));
+    let start = Start { key: lab.keyframe(), plan: Some(plan), ..Start::default() };
+    let mut session = Session::start(programs, model, start);
     set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
     let timestep = session.world.model.opt.timestep;

@@ -12,7 +12,7 @@ use crate::interrupt;
 use crate::monitors::growth::Growth;
 use crate::monitors::watch::{self, Noticed};
 use crate::source::Text;
-use labspec_core::{self as core, AccessSet, Data, Model, Plan, Planned, Warning, WarningStat};
+use labspec_core::{self as core, Data, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, Program, RuntimeError, Value};
 
@@ -43,57 +43,22 @@ pub struct Session<'p> {
     left_behind: bool,
 }
 
+/// How a run starts.
+#[derive(Clone, Debug, Default)]
+pub struct Start {
+    /// The number of the keyframe that it starts and is reset to; without it, the model's own start.
+    pub key: Option<usize>,
+    /// What a step computes; without it, what the programs of the lab read and write.
+    pub plan: Option<Plan>,
+    /// The work that it may do.
+    pub budget: Budget,
+}
+
 impl<'p> Session<'p> {
     /// Loads the lab: steps 1 to 3 of the order of events.
-    pub fn start(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        demand: &AccessSet,
-    ) -> Session<'p> {
-        Session::start_within(programs, model, key, demand, Budget::ASKED)
-    }
-
-    /// The same with another budget.
-    pub fn start_within(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        demand: &AccessSet,
-        budget: Budget,
-    ) -> Session<'p> {
-        let data = Data::planned(model, Plan::new(model, demand));
-        Session::load(programs.into(), model, key, data, budget)
-    }
-
-    /// The same with data whose plan is already decided.
-    pub fn start_with(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        data: Data<Planned>,
-    ) -> Session<'p> {
-        Session::load(programs.into(), model, key, data, Budget::ASKED)
-    }
-
-    /// The same within a budget.
-    pub fn start_with_within(
-        programs: impl Into<Held<'p>>,
-        model: &Model,
-        key: Option<usize>,
-        data: Data<Planned>,
-        budget: Budget,
-    ) -> Session<'p> {
-        Session::load(programs.into(), model, key, data, budget)
-    }
-
-    fn load(
-        programs: Held<'p>,
-        model: &Model,
-        key: Option<usize>,
-        data: Data<Planned>,
-        budget: Budget,
-    ) -> Session<'p> {
+    pub fn start(programs: impl Into<Held<'p>>, model: &Model, start: Start) -> Session<'p> {
+        let (programs, Start { key, plan, budget }) = (programs.into(), start);
+        let data = Data::planned(model, plan.unwrap_or_else(|| Plan::new(model, &programs.demand)));
         let before = core::cost(&data);
         let values = programs.controls.iter().map(|(_, c)| match c {
             ControlProgram::Change(value, _) => value.clone(),

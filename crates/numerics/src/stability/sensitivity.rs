@@ -6,8 +6,10 @@
 //! small, and what is measured is what a difference without size does. Several directions give the spread. There is an exponent
 //! where the sum grows along a line: in both halves of the time alike, and in every direction.
 
-use super::case::StressCase;
-use crate::run::{self, Play, Session, StepVariant};
+use labspec::bind::Bound;
+use labspec::run::{self, Play, Session, StepVariant};
+use labspec::spec::Readout;
+use labspec::stress::StressCase;
 use labspec_core::{differentiate_pos, integrate_pos};
 use std::ops::ControlFlow;
 
@@ -226,7 +228,7 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
     };
     let (first, between) = sample_readouts(0.0);
     let (second, _) = sample_readouts(NUDGE);
-    let horizon = |(k, (readout, _)): (usize, &(&crate::spec::Readout, &crate::bind::Bound))| {
+    let horizon = |(k, (readout, _)): (usize, &(&Readout, &Bound))| {
         let lost = |(a, b): (&Vec<f64>, &Vec<f64>)| (a[k] - b[k]).abs() > 0.5 * unit(a[k], readout.digits());
         let at = first.iter().zip(&second).position(lost);
         Horizon { label: readout.label.value.clone(), until: at.map(|i| i as f64 * between) }
