@@ -110,7 +110,7 @@ fn settings(model: &Model, mark: Hash) -> RunSettings {
     let opt = &model.opt;
     RunSettings {
         model: mark(&[&model.to_bytes()]),
-        integrator: Integrator::of(model).name,
+        integrator: Integrator::of_model(model).name,
         solver: match opt.solver {
             solver::PGS => "PGS",
             solver::CG => "CG",

@@ -131,7 +131,7 @@ pub(crate) struct Begun<'p> {
     timestep: f64,
 }
 
-/// Loads a lab and sets its controls, for programs and eyes that need all of `demand`.
+/// Loads a lab and sets its controls, for programs and monitors that need all of `access`.
 ///
 /// # Errors
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
@@ -140,10 +140,10 @@ pub(crate) fn begin<'p>(
     model: &Model,
     programs: &'p Programs,
     options: &RunOptions,
-    demand: &AccessSet,
+    access: &AccessSet,
 ) -> Result<Begun<'p>, RunError> {
-    let all = AccessSet { reads: FieldSet::ALL, ..*demand };
-    let plan = Plan::new(model, if options.full { &all } else { demand });
+    let all = AccessSet { reads: FieldSet::ALL, ..*access };
+    let plan = Plan::new(model, if options.full { &all } else { access });
     let start = Start { key: lab.keyframe(), plan: Some(plan), ..Start::default() };
     let mut session = Session::start(programs, model, start);
     set_controls(&mut session, lab, programs, &options.set)?;

@@ -267,7 +267,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Watches the run that begins here for what goes wrong without a word. Programs that push in every step
+    /// Watches the run that begins here for what goes wrong silently. Programs that push in every step
     /// may give any energy, and one that moves things by itself may put them anywhere: such a run is watched for the rest,
     /// or not at all.
     pub fn watch(&mut self) {
@@ -282,7 +282,7 @@ impl<'p> Session<'p> {
         self.noticed().growth
     }
 
-    /// Everything that went wrong without a word, as far as the run was watched.
+    /// Everything that went wrong silently, as far as the run was watched.
     pub fn noticed(&self) -> Noticed {
         self.watched.as_ref().map(|w| *watch::noticed(&w.watch)).unwrap_or_default()
     }
@@ -320,7 +320,7 @@ impl<'p> Session<'p> {
         }
     }
 
-    /// Computes everything from the state at hand: after a step, forces and what follows from them are still those of the state
+    /// Computes everything from the current state: after a step, forces and what follows from them are still those of the state
     /// before it.
     pub fn refresh(&mut self) {
         self.forward();

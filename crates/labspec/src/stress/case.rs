@@ -21,7 +21,7 @@ pub struct StressCase<'a> {
     pub model: &'a Model,
     /// Its programs, which were compiled for this model or for one that differs in numbers only.
     pub programs: &'a Programs,
-    pub(super) demand: AccessSet,
+    pub(super) access: AccessSet,
     /// A program runs before every step: it may push whatever it likes.
     controlled: bool,
     /// It may also write where bodies are.
@@ -126,8 +126,8 @@ pub type Change<'c> = &'c dyn Fn(&mut Session<'_>);
 impl<'a> StressCase<'a> {
     /// The runs of a lab in which `base` is done before everything else.
     pub fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs, base: Interaction) -> StressCase<'a> {
-        let mut demand = programs.demand;
-        [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| demand.reads.insert(f));
+        let mut access = programs.demand;
+        [data::geom_xpos, data::geom_xmat, data::xpos].into_iter().for_each(|f| access.reads.insert(f));
         let probes = || programs.probes.iter().filter_map(|p| p.bound.as_ref());
         let stores = |b: &Bound| {
             let e = b.program.effects();
@@ -148,7 +148,7 @@ impl<'a> StressCase<'a> {
             lab,
             model,
             programs,
-            demand,
+            access,
             controlled: programs.controller.is_some(),
             jumps: probes().chain(&programs.controller).any(jumps),
             shows: probes().any(stores),
@@ -168,7 +168,7 @@ impl<'a> StressCase<'a> {
 
     /// The lab with everything done that comes before the first step.
     pub fn start(&self, interaction: &Interaction, budget: u64) -> Session<'a> {
-        let plan = Some(Plan::new(self.model, &self.demand));
+        let plan = Some(Plan::new(self.model, &self.access));
         let start = Start { key: self.lab.keyframe(), plan, budget: Budget { left: budget } };
         let mut session = Session::start(self.programs, self.model, start);
         for action in interaction.actions.iter().filter(|a| a.time <= 0.0) {
@@ -191,8 +191,8 @@ impl<'a> StressCase<'a> {
         if count.is_finite() && timestep > 0.0 { count.clamp(0.0, most) as usize } else { 0 }
     }
 
-    /// The watcher of a run that has begun.
-    pub(crate) fn eyes<'h>(&self, interaction: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
+    /// The watcher of a started run.
+    pub(crate) fn watcher<'h>(&self, interaction: &'h Interaction, session: &Session<'_>) -> RunWatcher<'h> {
         RunWatcher {
             pending: interaction.actions.iter().filter(|a| a.time > 0.0).collect(),
             watch: RunMonitor::new(&session.world.model, self.jumps),
@@ -202,7 +202,7 @@ impl<'a> StressCase<'a> {
     }
 
     /// The same on a run whose samples evaluate what is shown, and that begins with what `interaction` presses.
-    pub(super) fn eyes_of_table<'h>(
+    pub(super) fn table_watcher<'h>(
         &self,
         interaction: &'h Interaction,
         session: &Session<'_>,
@@ -210,7 +210,7 @@ impl<'a> StressCase<'a> {
         RunWatcher {
             pending: interaction.actions.iter().collect(),
             shows: false,
-            ..self.eyes(interaction, session)
+            ..self.watcher(interaction, session)
         }
     }
 
@@ -240,16 +240,16 @@ impl<'a> StressCase<'a> {
         }
         let timestep = session.world.model.opt.timestep;
         let steps = self.steps(timestep, length);
-        let mut eyes = self.eyes(interaction, &session);
+        let mut watcher = self.watcher(interaction, &session);
         let played = Play { steps, every: 1, presses: &[], watched: true };
         let made = run::play(&mut session, &played, |session, made| {
-            eyes.observe(session, made, made == steps);
+            watcher.observe(session, made, made == steps);
             let over = DIVERGED.iter().any(|&w| warned(session, w).is_some());
             if over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
-        let speeds = eyes.watch.rest.speeds(&session.world.model);
-        let touching = eyes.watch.touching();
-        let faults = eyes.faults(&session);
+        let speeds = watcher.watch.rest.speeds(&session.world.model);
+        let touching = watcher.watch.touching();
+        let faults = watcher.faults(&session);
         let outcome = RunOutcome {
             faults,
             covered: if made == steps { length } else { made as f64 * timestep },

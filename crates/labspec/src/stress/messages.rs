@@ -123,28 +123,28 @@ pub fn watched_run(
 ) -> Result<Table, RunError> {
     let base = Interaction::base(lab, programs, &options.set, &options.press)?;
     let case = StressCase::new(lab, model, programs, base.clone());
-    let mut started = run::begin(lab, model, programs, options, &case.demand)?;
+    let mut started = run::begin(lab, model, programs, options, &case.access)?;
     let presses: Vec<Action> =
         started.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
     let pressed = Interaction { kind: Kind::AsItStands, actions: presses };
     let Begun { session, samples, steps, every, .. } = &mut started;
     let (steps, every) = (*steps, *every);
-    let mut eyes = case.eyes_of_table(&pressed, session);
+    let mut watcher = case.table_watcher(&pressed, session);
     let played = Play { steps, every: 1, presses: &[], watched: true };
     let made = run::play(session, &played, |session, made| {
         if made == 0 {
-            eyes.press_at_start(session);
+            watcher.press_at_start(session);
         }
         let taken = if made.is_multiple_of(every) || made == steps {
             run::take(samples, session)
         } else {
             ControlFlow::Continue(())
         };
-        eyes.observe(session, made, made == steps);
+        watcher.observe(session, made, made == steps);
         taken
     });
     let timestep = started.session.world.model.opt.timestep;
-    let (length, faults) = (made as f64 * timestep, eyes.faults(&started.session));
+    let (length, faults) = (made as f64 * timestep, watcher.faults(&started.session));
     let mut left = WORK;
     let (faults, _) = without_pushed_bodies(&case, &base, faults, length, left);
     let mut table = run::finish(started, made)?;

@@ -162,12 +162,12 @@ impl<'a> MeasuredLab<'a> {
                         session.step();
                         continue;
                     }
-                    let (before, mut begun) = (nanoseconds(), 0);
+                    let (before, mut step_start) = (nanoseconds(), 0);
                     session.step_by(|m, d| {
-                        begun = nanoseconds();
+                        step_start = nanoseconds();
                         core::step(m, d)
                     });
-                    programs += (begun.saturating_sub(before) as f64 - look).max(0.0);
+                    programs += (step_start.saturating_sub(before) as f64 - look).max(0.0);
                 }
                 let laps = core::laps(&mut session.world.data);
                 let looking = laps.nothing.time as f64 / laps.nothing.runs.max(1) as f64;

@@ -69,9 +69,9 @@ pub struct RunCount {
     pub kind: Kind,
     /// Runs that were made to their end, or until they broke.
     pub made: usize,
-    /// Runs that were begun and took more work than they may.
+    /// Runs that were started and took more work than they may.
     pub cut: usize,
-    /// Runs that were not begun.
+    /// Runs that were not started.
     pub left_out: usize,
 }
 

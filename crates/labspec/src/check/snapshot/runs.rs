@@ -149,7 +149,7 @@ fn about(lab: &Lab, model: &Model) -> Vec<String> {
     vec![
         format!("{} s", significant(window(lab))),
         format!("timestep {} s", opt.timestep),
-        Integrator::of(model).name.into(),
+        Integrator::of_model(model).name.into(),
         solver.into(),
         cone.into(),
     ]
