@@ -274,8 +274,7 @@ fn compare(name: &str, lab: &Lab, model: &Model, count: &mut Count) {
     assert!(programs.probes.iter().all(|p| p.bound.is_some()), "{name}");
     let jobs = texts(lab, &programs);
     let plan = Some(Plan::new(model, &AccessSet::ANY));
-    let start = Start { key: lab.keyframe(), plan, ..Start::default() };
-    let mut session = Session::start(&programs, model, start);
+    let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
     let mut work = Work::default();
     for phase in 0..4 {
         match phase {

@@ -38,7 +38,7 @@ const CODE: [&str; 13] = [
 
 /// Every stage in every step: what nobody reads is drawn all the same.
 fn start_with_every_stage<'p>(lab: &Lab, model: &Model, programs: &'p Programs) -> Session<'p> {
-    let start = Start { key: lab.keyframe(), plan: Some(Plan::full()), ..Start::default() };
+    let start = Start { plan: Some(Plan::full()), ..Start::of_lab(lab) };
     Session::start(programs, model, start)
 }
 

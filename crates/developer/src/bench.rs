@@ -79,7 +79,7 @@ pub fn measure_steps(lab: &Lab, model: &Model, programs: &Programs, options: &Op
     let demand = AccessSet { reads, ..programs.demand };
     let algorithms = options.without.iter().fold(TreeAlgorithms::ALL, |all, &one| all.without(one));
     let plan = Plan::by_algorithms(model, &demand, algorithms);
-    let start = Start { key: lab.keyframe(), plan: Some(plan), ..Start::default() };
+    let start = Start { plan: Some(plan), ..Start::of_lab(lab) };
     let mut session = Session::start(programs, model, start);
     let steps = options.steps.clamp(1, MAX_STEPS);
     let has_programs = !programs.probes.is_empty() || programs.controller.is_some();

@@ -46,7 +46,7 @@ pub(super) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
 /// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
 fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
-    let start = Start { key: lab.keyframe(), budget: WORK, ..Start::default() };
+    let start = Start { budget: WORK, ..Start::of_lab(lab) };
     let mut session = Session::start(programs, &ready.model, start);
     let timestep = session.world.model.opt.timestep;
     let steps = count_steps(lab, None, None, timestep).ok()?;

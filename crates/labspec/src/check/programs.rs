@@ -77,8 +77,7 @@ fn lost(
     };
     let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).position(|(x, y)| x.to_bits() != y.to_bits());
     let with = |chosen: &Value| {
-        let start = Start { key: lab.keyframe(), ..Start::default() };
-        let mut session = Session::start(&programs, model, start);
+        let mut session = Session::start(&programs, model, Start::of_lab(lab));
         session.set_control(index, chosen.clone());
         let set = now(&session);
         session.reset();

@@ -81,7 +81,7 @@ pub fn basis(lesson: &Lesson, models: &Models, mark: Hash) -> Basis {
     let labs = lesson.addressed().into_iter().map(|(address, lab)| {
         let one = ready.iter().find(|r| std::ptr::eq(r.lab, lab));
         let settings = one.map(|r| {
-            let start = Start { key: lab.keyframe(), budget: Budget::TRIAL, ..Start::default() };
+            let start = Start { budget: Budget::TRIAL, ..Start::of_lab(lab) };
             let session = Session::start(&r.programs, &r.model, start);
             settings(&session.world.model, mark)
         });

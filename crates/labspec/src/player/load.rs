@@ -84,7 +84,7 @@ impl Player {
         let lab = Arc::new(lab.clone());
         // Whoever draws a scene may read everything.
         let demand = AccessSet { reads: FieldSet::ALL, ..programs.demand };
-        let start = Start { key: lab.keyframe(), plan: Some(Plan::new(&model, &demand)), ..Start::default() };
+        let start = Start { plan: Some(Plan::new(&model, &demand)), ..Start::of_lab(&lab) };
         let mut session = Session::start(Arc::new(programs), &model, start);
         session.watch();
         let (controls, displayed) = (control::list(&lab), displayed::list(&lab));

@@ -120,7 +120,7 @@ pub fn count_steps(
 }
 
 /// A run that is about to begin.
-pub(crate) struct Begun<'p> {
+pub(crate) struct StartedRun<'p> {
     pub(crate) session: Session<'p>,
     pub(crate) samples: Samples<'p>,
     /// Steps, and those from one sample to the next.
@@ -141,10 +141,10 @@ pub(crate) fn begin<'p>(
     programs: &'p Programs,
     options: &RunOptions,
     access: &AccessSet,
-) -> Result<Begun<'p>, RunError> {
+) -> Result<StartedRun<'p>, RunError> {
     let all = AccessSet { reads: FieldSet::ALL, ..*access };
     let plan = Plan::new(model, if options.full { &all } else { access });
-    let start = Start { key: lab.keyframe(), plan: Some(plan), ..Start::default() };
+    let start = Start { plan: Some(plan), ..Start::of_lab(lab) };
     let mut session = Session::start(programs, model, start);
     set_controls(&mut session, lab, programs, &options.set)?;
     let presses = presses(programs, &options.press)?;
@@ -166,7 +166,7 @@ pub(crate) fn begin<'p>(
         )));
     }
     let samples = Samples::new(programs, steps / every + 2);
-    Ok(Begun { session, samples, steps, every, presses, timestep })
+    Ok(StartedRun { session, samples, steps, every, presses, timestep })
 }
 
 /// Takes a sample; nothing more is run when that is not possible.
@@ -184,8 +184,8 @@ pub(crate) fn take(samples: &mut Samples<'_>, session: &mut Session<'_>) -> Cont
 ///
 /// # Errors
 /// The texts that it shows are too long.
-pub(crate) fn finish(started: Begun<'_>, made: usize) -> Result<Table, RunError> {
-    let Begun { session, samples, timestep, .. } = started;
+pub(crate) fn finish(started: StartedRun<'_>, made: usize) -> Result<Table, RunError> {
+    let StartedRun { session, samples, timestep, .. } = started;
     if samples.text() > MAX_TEXT {
         return Err(RunError(format!(
             "the texts of the readouts exceed {} MB after {made} steps; display numbers or short texts, or sample less often with --every",
@@ -205,7 +205,7 @@ pub(crate) fn finish(started: Begun<'_>, made: usize) -> Result<Table, RunError>
 /// A control that does not exist, a setting that no student can make, or a run that is too long.
 pub fn run(lab: &Lab, model: &Model, programs: &Programs, options: &RunOptions) -> Result<Table, RunError> {
     let mut started = begin(lab, model, programs, options, &programs.demand)?;
-    let Begun { session, samples, steps, every, presses, .. } = &mut started;
+    let StartedRun { session, samples, steps, every, presses, .. } = &mut started;
     let played = Play { steps: *steps, every: *every, presses, watched: true };
     let made = play(session, &played, |session, _| take(samples, session));
     finish(started, made)

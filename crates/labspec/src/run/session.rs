@@ -12,6 +12,7 @@ use crate::interrupt;
 use crate::monitors::growth::Growth;
 use crate::monitors::watch::{self, Noticed};
 use crate::source::Text;
+use crate::spec::Lab;
 use labspec_core::{self as core, Data, Model, Plan, Planned, Warning, WarningStat};
 use labspec_expr::rules::{self, Rule};
 use labspec_expr::{Context, Program, RuntimeError, Value};
@@ -52,6 +53,13 @@ pub struct Start {
     pub plan: Option<Plan>,
     /// The work that it may do.
     pub budget: Budget,
+}
+
+impl Start {
+    /// From the keyframe of a lab.
+    pub fn of_lab(lab: &Lab) -> Start {
+        Start { key: lab.keyframe(), ..Start::default() }
+    }
 }
 
 impl<'p> Session<'p> {

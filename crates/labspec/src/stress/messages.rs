@@ -7,7 +7,7 @@ use super::fault::{Fault, FaultKind, worst_fault};
 use super::interaction::{Action, Interaction, Kind};
 use crate::bind::Programs;
 use crate::rules::{self, Rule};
-use crate::run::{self, Begun, Breakdown, Play, RunError, RunOptions, Session, Shorter, Table};
+use crate::run::{self, Breakdown, Play, RunError, RunOptions, Session, Shorter, StartedRun, Table};
 use crate::spec::Lab;
 use labspec_core::Model;
 use std::ops::ControlFlow;
@@ -127,7 +127,7 @@ pub fn watched_run(
     let presses: Vec<Action> =
         started.presses.iter().map(|&(control, time)| Action { time, control, value: None }).collect();
     let pressed = Interaction { kind: Kind::AsItStands, actions: presses };
-    let Begun { session, samples, steps, every, .. } = &mut started;
+    let StartedRun { session, samples, steps, every, .. } = &mut started;
     let (steps, every) = (*steps, *every);
     let mut watcher = case.table_watcher(&pressed, session);
     let played = Play { steps, every: 1, presses: &[], watched: true };

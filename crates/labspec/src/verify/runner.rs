@@ -214,7 +214,7 @@ fn set(
 /// The model of a run as it begins: after its controls and its setup. `None` for one that cannot be made.
 pub(super) fn started_models(bound: &BoundScene<'_>, run: &BoundRun<'_>) -> Option<Model> {
     let scene = &bound.scene;
-    let start = Start { key: scene.lab.keyframe(), budget: Budget::TRIAL, ..Start::default() };
+    let start = Start { budget: Budget::TRIAL, ..Start::of_lab(&scene.lab) };
     let mut session = Session::start(scene.programs.clone(), &scene.model, start);
     set(&mut session, bound, run).ok()?;
     if let Some(setup) = &run.setup {

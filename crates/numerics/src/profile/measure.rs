@@ -128,7 +128,7 @@ struct MeasuredLab<'a> {
 
 impl<'a> MeasuredLab<'a> {
     fn start(&self, plan: &Plan) -> Session<'a> {
-        let start = Start { key: self.lab.keyframe(), plan: Some(plan.clone()), ..Start::default() };
+        let start = Start { plan: Some(plan.clone()), ..Start::of_lab(self.lab) };
         Session::start(self.programs, self.model, start)
     }
 

@@ -7,6 +7,6 @@ use labspec_core::{Model, Plan};
 
 /// The plan of a lab as it starts, and its model then: its setup and its controls have been applied.
 pub(super) fn plan_at_start(lab: &Lab, model: &Model, programs: &Programs) -> (Plan, Model) {
-    let session = Session::start(programs, model, Start { key: lab.keyframe(), ..Start::default() });
+    let session = Session::start(programs, model, Start::of_lab(lab));
     (session.world.data.plan(), session.world.model)
 }

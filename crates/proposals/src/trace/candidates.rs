@@ -324,8 +324,7 @@ fn times(numbers: &[Stated]) -> Vec<f64> {
 /// Pairs of named geoms that touch in a run of the lab as it stands.
 fn touching(lab: &Lab, model: &Model, programs: &Programs) -> Vec<(String, String)> {
     let plan = Some(Plan::new(model, &AccessSet::ANY));
-    let start = Start { key: lab.keyframe(), plan, ..Start::default() };
-    let mut session = Session::start(programs, model, start);
+    let mut session = Session::start(programs, model, Start { plan, ..Start::of_lab(lab) });
     let timestep = session.world.model.opt.timestep;
     let Ok(steps) = run::count_steps(lab, None, None, timestep) else { return Vec::new() };
     let mut pairs: Vec<(String, String)> = Vec::new();

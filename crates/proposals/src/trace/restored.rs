@@ -40,7 +40,7 @@ fn statements(lab: &Lab, model: &Model, programs: &Programs) -> Option<String> {
     if !writes.iter().any(|write| of_model(FieldId::new(write.field.0 as usize))) {
         return None;
     }
-    let start = Start { key: lab.keyframe(), budget: Budget::TRIAL, ..Start::default() };
+    let start = Start { budget: Budget::TRIAL, ..Start::of_lab(lab) };
     let session = Session::start(programs, model, start);
     let mut all: Vec<String> = Vec::new();
     for write in writes {

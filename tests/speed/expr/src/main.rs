@@ -225,8 +225,7 @@ fn main() {
     if let Some((text, title, lab, model)) = longest {
         let programs = Programs::compile(lab, model, &mut Vec::new());
         let plan = Some(Plan::new(model, &AccessSet::ANY));
-        let start = Start { key: lab.keyframe(), plan, ..Start::default() };
-        let mut session = Session::start(&programs, model, start);
+        let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
         (0..lab.controls.len()).for_each(|i| session.press(i));
         (0..200).for_each(|_| session.step());
         let controller = programs.controller.as_ref().expect("it has one");

@@ -49,7 +49,7 @@ impl ObservationBench<'_> {
 
     pub(super) fn start(&self) -> Session<'_> {
         let (PreparedLab { lab, model, .. }, programs) = (self.ready, self.programs);
-        let start = Start { key: lab.keyframe(), budget: self.budget(), ..Start::default() };
+        let start = Start { budget: self.budget(), ..Start::of_lab(lab) };
         Session::start(programs, model, start)
     }
 

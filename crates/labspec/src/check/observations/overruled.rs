@@ -108,7 +108,7 @@ fn otherwise(
     if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
         action.reset = false;
     }
-    let start = Start { key: ready.lab.keyframe(), budget: observed.bench.budget(), ..Start::default() };
+    let start = Start { budget: observed.bench.budget(), ..Start::of_lab(ready.lab) };
     let mut session = Session::start(&programs, &ready.model, start);
     let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     let begins = now(&session);

@@ -16,7 +16,7 @@ const STEPS: usize = 200;
 pub(super) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     // Every stage: contacts are not computed where nothing reads them.
-    let start = Start { key: ready.lab.keyframe(), plan: Some(Plan::full()), ..Start::default() };
+    let start = Start { plan: Some(Plan::full()), ..Start::of_lab(ready.lab) };
     let mut session = Session::start(&ready.programs, &ready.model, start);
     let Some((pair, depth)) = deepest(&session) else { return };
     let mut out = None;

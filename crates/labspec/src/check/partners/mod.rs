@@ -379,8 +379,7 @@ mod tests {
 
     /// Every number of the state and of what the lab shows, bit for bit, after each of some steps.
     fn bits(ready: &PreparedLab<'_>, programs: &Programs, actions: &[Action]) -> (Vec<u64>, bool) {
-        let start = Start { key: ready.lab.keyframe(), ..Start::default() };
-        let mut session = Session::start(programs, &ready.model, start);
+        let mut session = Session::start(programs, &ready.model, Start::of_lab(ready.lab));
         for action in actions {
             match &action.value {
                 Some(value) => session.set_control(action.control, value.clone()),

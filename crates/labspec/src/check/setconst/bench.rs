@@ -78,8 +78,7 @@ impl<'a> SetConstBench<'a> {
 
     /// Number of steps of the lab, or of the run of a question, within bounds.
     pub(super) fn steps(&self, s: &Suspect<'_>) -> Result<usize, String> {
-        let start = Start { key: self.lab.keyframe(), ..Start::default() };
-        let session = Session::start(self.programs, self.model, start);
+        let session = Session::start(self.programs, self.model, Start::of_lab(self.lab));
         let timestep = session.world.model.opt.timestep;
         let (until, steps) = match s.place {
             ProgramSite::Run(run) => {
@@ -340,7 +339,7 @@ impl<'a> SetConstBench<'a> {
         let mut demand = programs.demand;
         setup.into_iter().for_each(|b| include(b.program.effects(), &mut demand));
         let plan = Some(Plan::new(self.model, &demand));
-        Session::start(programs, self.model, Start { key: self.lab.keyframe(), plan, ..Start::default() })
+        Session::start(programs, self.model, Start { plan, ..Start::of_lab(self.lab) })
     }
 
     /// The model as a run begins.

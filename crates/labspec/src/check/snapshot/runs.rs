@@ -106,7 +106,7 @@ pub(super) fn play(
     budget: Budget,
 ) -> Result<(SnapshotRun, u64), RunError> {
     let (lab, programs) = (ready.lab, &ready.programs);
-    let start = Start { key: lab.keyframe(), budget, ..Start::default() };
+    let start = Start { budget, ..Start::of_lab(lab) };
     let mut session = Session::start(programs, &ready.model, start);
     run::set_controls(&mut session, lab, programs, &handling.set)?;
     let presses = run::presses(programs, &handling.press)?;
