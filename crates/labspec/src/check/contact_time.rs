@@ -8,7 +8,7 @@ use super::setconst::digits;
 use crate::bind::{ModelNames, Scope};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{Budget, Session, count_steps};
+use crate::run::{Budget, Session, Start, count_steps};
 use crate::source::{SourceMap, Text};
 use labspec_expr::{Compiler, Program, Value};
 
@@ -46,7 +46,8 @@ pub(super) fn check_contact_times(ready: &PreparedLab<'_>, findings: &mut Vec<Fi
 /// The variable that a new contact, and nothing else in the step before, sets to the time of the controller; that time; the timestep.
 fn late(ready: &PreparedLab<'_>, slots: &[u32]) -> Option<(u32, f64, f64)> {
     let (lab, programs) = (ready.lab, &ready.programs);
-    let mut session = Session::start_within(programs, &ready.model, lab.keyframe(), &programs.demand, WORK);
+    let start = Start { budget: WORK, ..Start::of_lab(lab) };
+    let mut session = Session::start(programs, &ready.model, start);
     let timestep = session.world.model.opt.timestep;
     let steps = count_steps(lab, None, None, timestep).ok()?;
     let names = ModelNames::new(&ready.model, Scope::Lab);

@@ -5,7 +5,7 @@ use super::setconst;
 use crate::bind::{Bound, ControlProgram, Programs, functions};
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::Session;
+use crate::run::{Session, Start};
 use crate::spec::{Control, Lab};
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Kind, Object, data};
@@ -77,7 +77,7 @@ fn lost(
     };
     let differs = |a: &[f64], b: &[f64]| a.iter().zip(b).position(|(x, y)| x.to_bits() != y.to_bits());
     let with = |chosen: &Value| {
-        let mut session = Session::start(&programs, model, lab.keyframe(), &programs.demand);
+        let mut session = Session::start(&programs, model, Start::of_lab(lab));
         session.set_control(index, chosen.clone());
         let set = now(&session);
         session.reset();

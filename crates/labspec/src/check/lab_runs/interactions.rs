@@ -74,7 +74,7 @@ fn try_more(tour: &mut LabRunState<'_>, left: &mut u64, findings: &mut Vec<Findi
 fn handlings(lab: &Lab, wanted: f64) -> (Vec<(Interaction, f64)>, usize) {
     let several =
         |h: &Interaction| matches!(h.kind, Kind::Touched | Kind::InOrder | Kind::Corner | Kind::Interleaved);
-    let (all, missing) = stress::list(lab, wanted, &nothing());
+    let (all, missing) = stress::list_interactions(lab, wanted, &nothing());
     let mut all: Vec<(Interaction, f64)> = all.into_iter().filter(several).map(|h| (h, wanted)).collect();
     // What a lab stops before is seen by nobody.
     if lab.stop_at.is_none() {
@@ -118,14 +118,14 @@ fn runs(tour: &LabRunState<'_>) -> String {
 
 /// What was seen beside that of which runs speak themselves.
 fn finding_of(found: &FaultGroup, tour: &LabRunState<'_>) -> Option<Finding> {
-    let FaultGroup { fault, handling, settings, .. } = found;
+    let FaultGroup { fault, interaction, settings, .. } = found;
     let breakdown = stress::describe(fault)?;
     let others = match settings {
         0 | 1 => String::new(),
         2 => ", and in another setting".into(),
         n => format!(", and in {} other settings", n - 1),
     };
-    let done = handling.describe(&tour.ready.programs);
+    let done = interaction.describe(&tour.ready.programs);
     let message = format!("{}, {done} ({}){others}", breakdown.what, fault.measured());
     let place = tour.ready.lab.place();
     let severity = breakdown.rule.severity.max(Severity::Warning);

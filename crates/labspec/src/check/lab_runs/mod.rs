@@ -89,9 +89,9 @@ impl LabRunState<'_> {
     /// Keeps what went wrong in a run, once for each kind and body.
     fn note(&mut self, trial: &Trial<'_>, faults: Vec<Fault>, left: &mut u64) {
         let Trial { handling, length, .. } = trial;
-        let (faults, spent) = stress::genuine(&self.case, handling, faults, *length, *left);
+        let (faults, spent) = stress::without_pushed_bodies(&self.case, handling, faults, *length, *left);
         *left = left.saturating_sub(spent);
-        faults.into_iter().for_each(|f| stress::add(&mut self.faults, f, handling));
+        faults.into_iter().for_each(|f| stress::add_fault(&mut self.faults, f, handling));
     }
 
     /// Counts runs that were not made.

@@ -4,7 +4,7 @@ use super::record::{Mark, Record};
 use super::saturated::Beyond;
 use crate::bind::Programs;
 use crate::check::PreparedLab;
-use crate::run::{self, Budget, Cell, Play, Session};
+use crate::run::{self, Budget, Cell, Play, Session, Start};
 use labspec_expr::Value;
 use std::ops::ControlFlow;
 
@@ -49,8 +49,8 @@ impl ObservationBench<'_> {
 
     pub(super) fn start(&self) -> Session<'_> {
         let (PreparedLab { lab, model, .. }, programs) = (self.ready, self.programs);
-        let budget = self.budget();
-        Session::start_within(programs, model, lab.keyframe(), &programs.demand, budget)
+        let start = Start { budget: self.budget(), ..Start::of_lab(lab) };
+        Session::start(programs, model, start)
     }
 
     /// Number of steps of a run of this length, and the timestep.

@@ -6,8 +6,8 @@ use crate::check::choices::choices;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Play, Session};
-use labspec_core::{Data, Model, Obj, Plan};
+use crate::run::{self, Play, Session, Start};
+use labspec_core::{Model, Obj, Plan};
 use std::ops::ControlFlow;
 
 /// Steps in which contacts are observed for.
@@ -86,9 +86,9 @@ fn differs(
     what: &Mixed,
 ) -> Option<([usize; 2], f64, f64)> {
     let ready = observed.bench.ready;
-    let data = Data::planned(&ready.model, Plan::full());
     let (key, budget) = (ready.lab.keyframe(), observed.bench.budget());
-    let mut session = Session::start_with_within(&ready.programs, &ready.model, key, data, budget);
+    let start = Start { key, plan: Some(Plan::full()), budget };
+    let mut session = Session::start(&ready.programs, &ready.model, start);
     let all = |session: &Session<'_>| -> Vec<Option<f64>> {
         (0..ready.model.ngeom).map(|g| (what.of)(&session.world.model, g)).collect()
     };

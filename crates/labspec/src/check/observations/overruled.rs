@@ -9,7 +9,7 @@ use crate::bind::{Bound, ControlProgram};
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::Session;
+use crate::run::{Session, Start};
 use crate::spec::Control;
 use labspec_core::reflect::{FieldId, Kind, Object, option};
 use labspec_expr::{FieldKey, Host, Value};
@@ -108,8 +108,8 @@ fn otherwise(
     if let Some((_, ControlProgram::Change(_, action))) = programs.controls.get_mut(index) {
         action.reset = false;
     }
-    let (key, budget) = (ready.lab.keyframe(), observed.bench.budget());
-    let mut session = Session::start_within(&programs, &ready.model, key, &programs.demand, budget);
+    let start = Start { budget: observed.bench.budget(), ..Start::of_lab(ready.lab) };
+    let mut session = Session::start(&programs, &ready.model, start);
     let now = |session: &Session<'_>| elements.iter().map(|e| e.value(session)).collect::<Vec<f64>>();
     let begins = now(&session);
     session.set_control(index, current.clone());

@@ -4,8 +4,8 @@ use super::ObservedLab;
 use crate::check::setconst::digits;
 use crate::finding::Finding;
 use crate::rules;
-use crate::run::{self, Play, Session};
-use labspec_core::{Data, Model, Obj, Plan, geom};
+use crate::run::{self, Play, Session, Start};
+use labspec_core::{Model, Obj, Plan, geom};
 use std::ops::ControlFlow;
 
 /// A contact deeper than this part of the smaller geom's half thickness is no contact.
@@ -16,8 +16,8 @@ const STEPS: usize = 200;
 pub(super) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding>) {
     let ready = observed.bench.ready;
     // Every stage: contacts are not computed where nothing reads them.
-    let data = Data::planned(&ready.model, Plan::full());
-    let mut session = Session::start_with(&ready.programs, &ready.model, ready.lab.keyframe(), data);
+    let start = Start { plan: Some(Plan::full()), ..Start::of_lab(ready.lab) };
+    let mut session = Session::start(&ready.programs, &ready.model, start);
     let Some((pair, depth)) = deepest(&session) else { return };
     let mut out = None;
     run::play(&mut session, &Play::steps(STEPS), |session, step| {

@@ -5,14 +5,13 @@
 //! nobody sees. Where a program of the lab sets the number itself, it is changed after that. Beside it stands the bound that
 //! `monitors::stability` derives for one degree of freedom, where there is one.
 
-use super::bodies::{body_name, body_of};
-use super::case::{RunOutcome, StressCase};
-use super::fault::{FaultKind, worst_fault};
-use super::interaction::{Interaction, Kind};
 use super::search::{self, SearchLimit};
-use crate::interrupt;
-use crate::monitors::stability;
-use crate::run::Session;
+use labspec::interrupt;
+use labspec::monitors::stability;
+use labspec::run::Session;
+use labspec::stress::{
+    FaultKind, Interaction, Kind, RunOutcome, StressCase, body_name, body_of, worst_fault,
+};
 use labspec_core::math::{rows, rows_mut};
 use labspec_core::{Data, Model, Obj, disable, servo_gains, set_const};
 
@@ -150,9 +149,9 @@ fn search(
         if *work - before > WORK || interrupt::requested() {
             return None;
         }
-        for handling in [case.base.clone(), case.base.and(Kind::Touched, Vec::new())] {
+        for interaction in [case.base.clone(), case.base.and(Kind::Touched, Vec::new())] {
             runs += 1;
-            let Some(outcome) = run(case, &handling, raised, x, length, work) else {
+            let Some(outcome) = run(case, &interaction, raised, x, length, work) else {
                 set = true;
                 return None;
             };
@@ -202,7 +201,7 @@ fn stiff(m: &Model, object: Option<(Obj, Option<usize>)>) -> bool {
 /// A run with something raised; `None` where a program of the lab sets it and it cannot be set after that.
 fn run(
     case: &StressCase<'_>,
-    handling: &Interaction,
+    interaction: &Interaction,
     raised: &RaisedParameter,
     x: f64,
     length: f64,
@@ -227,7 +226,7 @@ fn run(
             (raised.apply)(&mut session.world.model, wanted / set);
         }
     };
-    let (outcome, model) = case.run_to_model(handling, Some(&change), length, RUN);
+    let (outcome, model) = case.run_to_model(interaction, Some(&change), length, RUN);
     *work += outcome.spent;
     same(&model).then_some(outcome)
 }

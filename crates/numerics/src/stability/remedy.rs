@@ -1,15 +1,29 @@
 //! Remedies: each change of the model is tried by running, and only those are reported with which the run has no fault.
 
-use super::case::{Change, RunOutcome, StressCase};
-use super::fault::{FaultGroup, FaultKind, Remedy, worst_fault};
-use super::interaction::{Action, Interaction};
 use super::truth;
-use crate::interrupt;
-use crate::run::{Session, two_digits};
-use crate::spec::{Control, ControlKind};
+use labspec::interrupt;
+use labspec::run::{Session, two_digits};
+use labspec::spec::{Control, ControlKind};
+use labspec::stress::{
+    Action, Change, FaultGroup, FaultKind, Interaction, RunOutcome, StressCase, worst_fault,
+};
 use labspec_core::math::rows_mut;
 use labspec_core::{Model, integrator};
 use labspec_expr::Value;
+
+/// Something that helps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remedy {
+    /// What to change, in words.
+    pub change: String,
+    /// What a second of simulation costs with it, in times of what it costs in the lab as it stands.
+    pub work: f64,
+    /// The same as measured by a clock.
+    pub time: f64,
+    /// The largest error of any number that the lab shows with it, as a part of that number's range: against the motion that the
+    /// model describes, found with much shorter steps. `None` where that is not known.
+    pub error: Option<f64>,
+}
 
 /// A change that helps, with its work, and how a run is made with it.
 struct WorkingRemedy {
@@ -17,7 +31,7 @@ struct WorkingRemedy {
     /// A shorter timestep: of several one is enough.
     timestep: bool,
     work: f64,
-    handling: Interaction,
+    interaction: Interaction,
     apply: Box<dyn Fn(&mut Model)>,
 }
 
@@ -49,15 +63,15 @@ pub(super) struct RemedyTests<'c, 'a> {
 impl RemedyTests<'_, '_> {
     /// What helps against a finding; `None` when nothing more can be tried.
     pub(super) fn remedies(&mut self, found: &FaultGroup) -> Option<Vec<Remedy>> {
-        let before = self.run(&found.handling, None)?;
-        let model = self.case.start(&found.handling, self.left).world.model;
+        let before = self.run(&found.interaction, None)?;
+        let model = self.case.start(&found.interaction, self.left).world.model;
         let mut list = Vec::new();
         let halvings = match found.fault.kind {
             FaultKind::Penetrates => 1,
             FaultKind::Drifts => 0,
             _ => HALVINGS,
         };
-        let handling = || found.handling.clone();
+        let interaction = || found.interaction.clone();
         for k in 1..=halvings {
             let h = model.opt.timestep * 0.5f64.powi(k);
             let apply = move |m: &mut Model| *m.edit().opt.timestep = h;
@@ -67,7 +81,7 @@ impl RemedyTests<'_, '_> {
                     change,
                     timestep: true,
                     work,
-                    handling: handling(),
+                    interaction: interaction(),
                     apply: Box::new(apply),
                 });
                 if list.len() == TIMESTEPS {
@@ -77,7 +91,7 @@ impl RemedyTests<'_, '_> {
         }
         for (change, apply) in candidates(&model, found.fault.kind) {
             if let Some(work) = self.helps(found, &before, &apply)? {
-                list.push(WorkingRemedy { change, timestep: false, work, handling: handling(), apply });
+                list.push(WorkingRemedy { change, timestep: false, work, interaction: interaction(), apply });
             }
         }
         list.extend(self.shorter_slider(found, &before)?);
@@ -90,27 +104,27 @@ impl RemedyTests<'_, '_> {
             return Vec::new();
         }
         let mut work = 0;
-        let truth = truth::truth(self.case, &found.handling, self.window, &mut work);
+        let truth = truth::truth(self.case, &found.interaction, self.window, &mut work);
         let mut remedies: Vec<Remedy> = Vec::new();
         let mut enough = false;
-        for WorkingRemedy { change, timestep, work: cost, handling, apply } in list {
+        for WorkingRemedy { change, timestep, work: cost, interaction, apply } in list {
             if timestep && enough {
                 continue;
             }
             let change_of = move |session: &mut Session<'_>| apply(&mut session.world.model);
             let apply: Change<'_> = &change_of;
             // Another setting of a slider is another motion: its own truth counts.
-            let error = if handling == found.handling {
+            let error = if interaction == found.interaction {
                 truth.as_ref().and_then(|t| truth::error(self.case, t, apply, &mut work))
             } else {
-                let truth = truth::truth(self.case, &handling, self.window, &mut work);
+                let truth = truth::truth(self.case, &interaction, self.window, &mut work);
                 truth.and_then(|t| truth::error(self.case, &t, apply, &mut work))
             };
             if error.is_some_and(|error| error > USELESS) {
                 continue;
             }
             enough |= timestep;
-            let time = truth::time(self.case, &handling, apply, self.window);
+            let time = truth::time(self.case, &interaction, apply, self.window);
             remedies.push(Remedy { change, work: cost, time, error });
         }
         self.work += work;
@@ -119,13 +133,13 @@ impl RemedyTests<'_, '_> {
 
     fn run(
         &mut self,
-        handling: &Interaction,
+        interaction: &Interaction,
         change: Option<&dyn Fn(&mut Session<'_>)>,
     ) -> Option<RunOutcome> {
         if self.left == 0 || interrupt::requested() {
             return None;
         }
-        let outcome = self.case.run(handling, change, self.length, self.left.div_ceil(PART));
+        let outcome = self.case.run(interaction, change, self.length, self.left.div_ceil(PART));
         self.left = self.left.saturating_sub(outcome.spent);
         self.work += outcome.spent;
         Some(outcome)
@@ -139,7 +153,7 @@ impl RemedyTests<'_, '_> {
         apply: &dyn Fn(&mut Model),
     ) -> Option<Option<f64>> {
         let change = |session: &mut Session<'_>| apply(&mut session.world.model);
-        let outcome = self.run(&found.handling, Some(&change))?;
+        let outcome = self.run(&found.interaction, Some(&change))?;
         let cost = outcome.spent as f64 / outcome.covered.max(f64::MIN_POSITIVE) / self.work_per_second;
         Some((!outcome.cut && is_well(found, before, &outcome)).then_some(cost))
     }
@@ -147,7 +161,7 @@ impl RemedyTests<'_, '_> {
     /// A slider that goes less far, where it alone does the harm: the farthest value that does none, by bisection on its grid.
     fn shorter_slider(&mut self, found: &FaultGroup, before: &RunOutcome) -> Option<Option<WorkingRemedy>> {
         let base = &self.case.base.actions;
-        let mut added = found.handling.actions.iter().filter(|a| !base.contains(a));
+        let mut added = found.interaction.actions.iter().filter(|a| !base.contains(a));
         let (Some(action), None) = (added.next(), added.next()) else { return Some(None) };
         let Some(control) = self.case.lab.controls.get(action.control) else { return Some(None) };
         let (ControlKind::Slider { min, value, .. }, Some(Value::Number(end))) =
@@ -171,12 +185,12 @@ impl RemedyTests<'_, '_> {
         }
         let last = on_grid(min, step, good);
         let moved = if up { last > value.value } else { last < value.value };
-        let handling = with(found, action, last);
+        let interaction = with(found, action, last);
         Some(moved.then(|| WorkingRemedy {
             change: ends(control, last),
             timestep: false,
             work: 1.0,
-            handling,
+            interaction,
             apply: Box::new(|_| {}),
         }))
     }
@@ -184,10 +198,10 @@ impl RemedyTests<'_, '_> {
 
 /// The setting of a finding, one of its sliders at another value.
 fn with(found: &FaultGroup, action: &Action, value: f64) -> Interaction {
-    let mut handling = found.handling.clone();
-    let same = handling.actions.iter_mut().filter(|a| *a == action);
+    let mut interaction = found.interaction.clone();
+    let same = interaction.actions.iter_mut().filter(|a| *a == action);
     same.for_each(|a| a.value = Some(Value::Number(value)));
-    handling
+    interaction
 }
 
 fn on_grid(min: f64, step: f64, k: f64) -> f64 {

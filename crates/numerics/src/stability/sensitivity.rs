@@ -6,8 +6,10 @@
 //! small, and what is measured is what a difference without size does. Several directions give the spread. There is an exponent
 //! where the sum grows along a line: in both halves of the time alike, and in every direction.
 
-use super::case::StressCase;
-use crate::run::{self, Play, Session, StepVariant};
+use labspec::bind::Bound;
+use labspec::run::{self, Play, Session, StepVariant};
+use labspec::spec::Readout;
+use labspec::stress::StressCase;
 use labspec_core::{differentiate_pos, integrate_pos};
 use std::ops::ControlFlow;
 
@@ -21,7 +23,7 @@ const GROWS: f64 = 100.0;
 const STRAIGHT: f64 = 0.9;
 const HALF: f64 = 0.3;
 /// The start that nobody could tell apart.
-const NUDGE: f64 = 1e-9;
+const PERTURBATION: f64 = 1e-9;
 /// Samples of what is shown, at most.
 const SAMPLES: usize = 4000;
 /// Work for all of it.
@@ -90,7 +92,7 @@ pub(super) fn sensitivity(case: &StressCase<'_>, length: f64, work: &mut u64) ->
         high: most(&list),
         directions: list.len(),
     });
-    Sensitivity { length, apart: NUDGE, parting, exponent, horizons: horizons(case, length, work) }
+    Sensitivity { length, apart: PERTURBATION, parting, exponent, horizons: horizons(case, length, work) }
 }
 
 /// The slope of a logarithm that grows along a line from the start, 1/s.
@@ -206,10 +208,10 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
     if readouts.is_empty() {
         return Vec::new();
     }
-    let mut sample_readouts = |nudge: f64| {
+    let mut sample_readouts = |perturbation: f64| {
         let mut session = case.start(&case.base, WORK / 4);
-        if nudge != 0.0 {
-            session.perturb(StepVariant { perturbation: nudge, ..StepVariant::NOMINAL }, true);
+        if perturbation != 0.0 {
+            session.perturb(StepVariant { perturbation, ..StepVariant::NOMINAL }, true);
         }
         let h = session.world.model.opt.timestep;
         let steps = case.steps(h, length);
@@ -225,8 +227,8 @@ fn horizons(case: &StressCase<'_>, length: f64, work: &mut u64) -> Vec<Horizon> 
         (rows, every as f64 * h)
     };
     let (first, between) = sample_readouts(0.0);
-    let (second, _) = sample_readouts(NUDGE);
-    let horizon = |(k, (readout, _)): (usize, &(&crate::spec::Readout, &crate::bind::Bound))| {
+    let (second, _) = sample_readouts(PERTURBATION);
+    let horizon = |(k, (readout, _)): (usize, &(&Readout, &Bound))| {
         let lost = |(a, b): (&Vec<f64>, &Vec<f64>)| (a[k] - b[k]).abs() > 0.5 * unit(a[k], readout.digits());
         let at = first.iter().zip(&second).position(lost);
         Horizon { label: readout.label.value.clone(), until: at.map(|i| i as f64 * between) }

@@ -3,10 +3,9 @@
 //! The motion is found by steps of the fourth order that become shorter until two runs agree. Where motions part from each other
 //! exponentially they agree only for a while, and errors are counted up to there.
 
-use super::case::{Change, StressCase};
-use super::interaction::Interaction;
-use crate::interrupt;
-use crate::run::{self, Play, Session};
+use labspec::interrupt;
+use labspec::run::{self, Play, Session};
+use labspec::stress::{Change, Interaction, StressCase};
 use labspec_core::integrator;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -31,7 +30,7 @@ type SampledRows = Vec<Vec<f64>>;
 
 /// The motion that a model describes, under an interaction.
 pub(super) struct Truth<'h> {
-    handling: &'h Interaction,
+    interaction: &'h Interaction,
     /// The timestep of the lab, s, and how many of it are between samples.
     timestep: f64,
     every: usize,
@@ -43,18 +42,18 @@ pub(super) struct Truth<'h> {
 /// The truth over so many seconds, as far as it is known; `None` where two runs do not even begin alike. Work is added to `work`.
 pub(super) fn truth<'h>(
     case: &StressCase<'_>,
-    handling: &'h Interaction,
+    interaction: &'h Interaction,
     length: f64,
     work: &mut u64,
 ) -> Option<Truth<'h>> {
-    let timestep = case.start(handling, WORK).world.model.opt.timestep;
+    let timestep = case.start(interaction, WORK).world.model.opt.timestep;
     let every = (case.steps(timestep, length) / SAMPLES).max(1);
     let fine = |parts: usize, work: &mut u64| {
         let change = move |session: &mut Session<'_>| {
             let opt = session.world.model.edit().opt;
             (*opt.timestep, *opt.integrator) = (timestep / parts as f64, integrator::RK4);
         };
-        rows(case, handling, Some(&change), length, every as f64 * timestep, work)
+        rows(case, interaction, Some(&change), length, every as f64 * timestep, work)
     };
     let mut parts = FIRST;
     let mut coarse = fine(parts, work);
@@ -79,7 +78,7 @@ pub(super) fn truth<'h>(
     }
     let (mut rows, agreeing) = best?;
     rows.truncate(agreeing);
-    (agreeing > 1).then(|| Truth { handling, timestep, every, ranges: ranges(&rows), rows })
+    (agreeing > 1).then(|| Truth { interaction, timestep, every, ranges: ranges(&rows), rows })
 }
 
 /// The largest error of any number that the lab shows with a change, as a part of its range; `None` where a number is none.
@@ -91,7 +90,7 @@ pub(super) fn error(
 ) -> Option<f64> {
     let between = truth.every as f64 * truth.timestep;
     let length = between * (truth.rows.len() - 1) as f64;
-    let seen = rows(case, truth.handling, Some(change), length, between, work);
+    let seen = rows(case, truth.interaction, Some(change), length, between, work);
     let errors = seen.iter().zip(&truth.rows).map(|(a, b)| largest(a, b, &truth.ranges));
     let all: Option<Vec<f64>> = errors.collect();
     all.filter(|_| seen.len() >= truth.rows.len()).map(|list| list.into_iter().fold(0.0, f64::max))
@@ -101,20 +100,20 @@ pub(super) fn error(
 /// breaks.
 fn rows(
     case: &StressCase<'_>,
-    handling: &Interaction,
+    interaction: &Interaction,
     change: Option<Change<'_>>,
     length: f64,
     between: f64,
     work: &mut u64,
 ) -> SampledRows {
-    let mut session = case.start(handling, WORK);
+    let mut session = case.start(interaction, WORK);
     if let Some(change) = change {
         change(&mut session);
         session.refresh();
     }
     let timestep = session.world.model.opt.timestep;
     let (steps, every) = (case.steps(timestep, length), (between / timestep).round().max(1.0) as usize);
-    let presses: Vec<(usize, f64)> = handling
+    let presses: Vec<(usize, f64)> = interaction
         .actions
         .iter()
         .filter(|a| a.time > 0.0 && a.value.is_none())
@@ -161,19 +160,19 @@ fn largest(a: &[f64], b: &[f64], ranges: &[f64]) -> Option<f64> {
 }
 
 /// How many times as long a second of simulation takes with a change as in the lab as it stands, measured in turn.
-pub(super) fn time(case: &StressCase<'_>, handling: &Interaction, change: Change<'_>, length: f64) -> f64 {
+pub(super) fn time(case: &StressCase<'_>, interaction: &Interaction, change: Change<'_>, length: f64) -> f64 {
     let mut ratios = Vec::new();
     while ratios.len() < REPEATS && !interrupt::requested() {
         let base = seconds(case, &case.base, &|_| {}, length);
-        ratios.push(seconds(case, handling, change, length) / base);
+        ratios.push(seconds(case, interaction, change, length) / base);
     }
     ratios.sort_by(f64::total_cmp);
     ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
 /// Seconds for a second of simulation.
-fn seconds(case: &StressCase<'_>, handling: &Interaction, change: Change<'_>, length: f64) -> f64 {
-    let mut session = case.start(handling, WORK);
+fn seconds(case: &StressCase<'_>, interaction: &Interaction, change: Change<'_>, length: f64) -> f64 {
+    let mut session = case.start(interaction, WORK);
     change(&mut session);
     session.refresh();
     let timestep = session.world.model.opt.timestep;

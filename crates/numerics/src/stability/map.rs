@@ -1,12 +1,10 @@
 //! The stable region over two controls: a grid of runs.
 
-use super::case::StressCase;
-use super::fault::FaultKind;
-use super::interaction::{Action, Kind};
-use crate::bind::scalar;
-use crate::interrupt;
-use crate::run::{RunError, settings};
-use crate::spec::ControlKind;
+use labspec::bind::scalar;
+use labspec::interrupt;
+use labspec::run::{RunError, settings};
+use labspec::spec::ControlKind;
+use labspec::stress::{Action, FaultKind, Kind, StressCase};
 use labspec_expr::Value;
 
 /// Values of a slider, and of a select at most.
@@ -58,12 +56,12 @@ pub(super) fn map(
             tell(&format!("map: run {} of {many}", made + 1));
             let set =
                 |control: usize, value: &Value| Action { time: 0.0, control, value: Some(value.clone()) };
-            let handling = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);
+            let interaction = case.base.and(Kind::Corner, vec![set(x, a), set(y, b)]);
             if interrupt::requested() {
                 row.push(MapCell::Unknown);
                 continue;
             }
-            let outcome = case.run(&handling, None, length, left / (many - made).max(1) as u64);
+            let outcome = case.run(&interaction, None, length, left / (many - made).max(1) as u64);
             made += 1;
             left = left.saturating_sub(outcome.spent);
             *work += outcome.spent;
@@ -83,7 +81,7 @@ pub(super) fn map(
 fn values(case: &StressCase<'_>, label: &str) -> Result<(usize, Vec<Value>), RunError> {
     let found = case.lab.controls.iter().position(|c| c.label.value == label);
     let Some((i, control)) = found.and_then(|i| Some((i, case.lab.controls.get(i)?))) else {
-        return Err(settings::unknown(label, case.programs));
+        return Err(settings::unknown_control(label, case.programs));
     };
     let list = match &control.kind {
         ControlKind::Slider { min, max, .. } => {

@@ -1,19 +1,17 @@
 //! Runs of a lab under every listed interaction, and the report of everything that goes wrong in them.
 
-use super::bodies;
-use super::case::StressCase;
-use super::drift::genuine;
-use super::fault::{FaultGroup, FaultKind, add};
-use super::interaction::{Interaction, Kind, list, window};
 use super::map::{self, StabilityMap};
 use super::margins::{self, Margin};
-use super::remedy::RemedyTests;
+use super::remedy::{Remedy, RemedyTests};
 use super::sensitivity::{self, Sensitivity};
-use super::watch;
-use crate::bind::Programs;
-use crate::interrupt;
-use crate::run::{self, RunError};
-use crate::spec::{Expect, Lab};
+use labspec::bind::Programs;
+use labspec::interrupt;
+use labspec::run::{self, RunError};
+use labspec::spec::{Expect, Lab};
+use labspec::stress::{
+    FaultGroup, FaultKind, Interaction, Kind, StressCase, add_fault, list_interactions, window,
+    without_pushed_bodies,
+};
 use labspec_core::Model;
 use labspec_expr::Value;
 
@@ -44,13 +42,24 @@ pub struct Options {
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressRun {
     /// What was done.
-    pub handling: Interaction,
+    pub interaction: Interaction,
     /// How much of it was made, s.
     pub covered: f64,
     /// It took more work than it may.
     pub cut: bool,
     /// What went wrong, each kind once.
     pub wrong: Vec<FaultKind>,
+}
+
+/// A fault, and what helps against it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilityFinding {
+    /// The fault, and the settings that show it.
+    pub group: FaultGroup,
+    /// The lab says itself that it breaks.
+    pub expected: bool,
+    /// What was tried and helps in the simplest setting.
+    pub remedies: Vec<Remedy>,
 }
 
 /// How many runs of a kind there are.
@@ -60,9 +69,9 @@ pub struct RunCount {
     pub kind: Kind,
     /// Runs that were made to their end, or until they broke.
     pub made: usize,
-    /// Runs that were begun and took more work than they may.
+    /// Runs that were started and took more work than they may.
     pub cut: usize,
-    /// Runs that were not begun.
+    /// Runs that were not started.
     pub left_out: usize,
 }
 
@@ -82,7 +91,7 @@ pub struct StressReport {
     /// What was not looked at, and why.
     pub left_out: Vec<String>,
     /// What goes wrong, the simplest setting first.
-    pub found: Vec<FaultGroup>,
+    pub found: Vec<StabilityFinding>,
     /// How long a student looks, s: margins and sensitivity are of runs of this length.
     pub window: f64,
     /// How far everything may be raised, where that was asked for.
@@ -122,19 +131,20 @@ pub fn probe(
     let timestep = case.start(&case.base, WORK).world.model.opt.timestep;
     let steps = run::count_steps(lab, Some(length), None, timestep)?;
     run::presses_within(programs, &run::presses(programs, &options.press)?, steps, timestep)?;
-    let (interactions, pairs_left_out) = list(lab, short, &case.base);
+    let (interactions, pairs_left_out) = list_interactions(lab, short, &case.base);
     let mut report = empty_report(length, short, pairs_left_out);
-    if !case.jumps && bodies::pairs(model, watch::MOST_PAIRS).1 {
-        report
-            .left_out
-            .push(format!("only the first {} pairs of geoms are watched for tunnelling", watch::MOST_PAIRS));
+    if let Some(most) = case.watched_pairs_limit() {
+        report.left_out.push(format!("only the first {most} pairs of geoms are watched for tunnelling"));
     }
-    let work_per_second = run_interactions(&case, &interactions, &mut report, tell);
+    let (groups, work_per_second) = run_interactions(&case, &interactions, &mut report, tell);
     report.tried.retain(|t| t.made + t.cut + t.left_out > 0);
-    if matches!(lab.expect, Some(Expect::Breaks(_))) {
-        let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
-        report.found.iter_mut().for_each(|f| f.expected = breaks(f.fault.kind));
-    }
+    let expects_breaks = matches!(lab.expect, Some(Expect::Breaks(_)));
+    let breaks = |kind| matches!(kind, FaultKind::Diverges | FaultKind::Grows | FaultKind::Silent);
+    let finding = |group: FaultGroup| {
+        let expected = expects_breaks && breaks(group.fault.kind);
+        StabilityFinding { group, expected, remedies: Vec::new() }
+    };
+    report.found = groups.into_iter().map(finding).collect();
     try_remedies(&case, &mut report, work_per_second, tell);
     if options.margins {
         let (margins, more) = margins::margins(&case, short, tell, &mut report.work);
@@ -173,15 +183,16 @@ fn empty_report(length: f64, window: f64, pairs_left_out: usize) -> StressReport
     }
 }
 
-/// Runs each interaction, and groups the faults. Returns the work of a simulated second of the lab as it stands.
+/// Runs each interaction. Returns the faults in groups, and the work of a simulated second of the lab as it stands.
 fn run_interactions(
     case: &StressCase<'_>,
     interactions: &[Interaction],
     report: &mut StressReport,
     tell: &mut dyn FnMut(&str),
-) -> f64 {
+) -> (Vec<FaultGroup>, f64) {
     let length = report.length;
     let mut left = WORK;
+    let mut groups = Vec::new();
     let mut work_per_second = f64::INFINITY;
     for (i, interaction) in interactions.iter().enumerate() {
         tell(&format!("run {} of {}: {}", i + 1, interactions.len(), interaction.kind.description()));
@@ -205,16 +216,16 @@ fn run_interactions(
             tried.made += 1;
         }
         let (covered, cut) = (outcome.covered, outcome.cut);
-        let (faults, spent) = genuine(case, interaction, outcome.faults, length, left);
+        let (faults, spent) = without_pushed_bodies(case, interaction, outcome.faults, length, left);
         left = left.saturating_sub(spent);
         report.work += spent;
         let mut wrong: Vec<FaultKind> = faults.iter().map(|f| f.kind).collect();
         wrong.sort_unstable();
         wrong.dedup();
-        faults.into_iter().for_each(|fault| add(&mut report.found, fault, interaction));
-        report.runs.push(StressRun { handling: interaction.clone(), covered, cut, wrong });
+        faults.into_iter().for_each(|fault| add_fault(&mut groups, fault, interaction));
+        report.runs.push(StressRun { interaction: interaction.clone(), covered, cut, wrong });
     }
-    work_per_second
+    (groups, work_per_second)
 }
 
 /// Tries remedies for the faults, the simplest first.
@@ -235,11 +246,11 @@ fn try_remedies(
     let many = report.found.len();
     let mut untried = 0;
     for (i, found) in report.found.iter_mut().enumerate() {
-        if matches!(found.fault.kind, FaultKind::Throws | FaultKind::Warns) {
+        if matches!(found.group.fault.kind, FaultKind::Throws | FaultKind::Warns) {
             continue;
         }
         tell(&format!("remedies for finding {} of {many}", i + 1));
-        match if i < MOST_REMEDIED { tries.remedies(found) } else { None } {
+        match if i < MOST_REMEDIED { tries.remedies(&found.group) } else { None } {
             Some(list) => found.remedies = list,
             None => untried += 1,
         }
