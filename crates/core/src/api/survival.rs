@@ -1,11 +1,12 @@
 //! Any number is survived: whatever integers a stored model holds it is refused or can be stepped, and whatever a caller
 //! writes to the integers of the data every stage ends. The cases come from the table of fields.
 
+use crate::dynamics;
 use crate::mjcf::compile;
 use crate::model::Model;
 use crate::model::reflect::{self, Elem, FieldId, Object, View};
 use crate::step::workspace::Workspace;
-use crate::step::{forward, functions, inverse, save};
+use crate::step::{forward, inverse, save};
 use crate::step::{step, step1, step2, validate::validate};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
@@ -64,18 +65,18 @@ fn integers(object: Object, among: fn(FieldId) -> bool) -> impl Iterator<Item = 
 }
 
 /// Everything that a caller may ask for.
-fn use_all(m: &Model, d: &mut Workspace) {
-    functions::limit(d, BUDGET);
-    forward::contacts(m, d);
-    functions::kinematics(m, &mut d.clone());
-    forward::forward(m, &mut d.clone());
-    let _ = inverse::inverse(m, &mut d.clone());
-    let mut other = d.clone();
-    step1(m, &mut other);
-    step2(m, &mut other);
+fn use_all(m: &Model, Workspace { fields: d, scratch: s }: &mut Workspace) {
+    d.meter.set_left(BUDGET);
+    forward::contacts(m, d, s);
+    dynamics::kinematics(m, &mut d.clone(), &mut s.clone().dynamics);
+    forward::forward(m, &mut d.clone(), &mut s.clone());
+    let _ = inverse::inverse(m, &mut d.clone(), &mut s.clone());
+    let (mut other, mut other_scratch) = (d.clone(), s.clone());
+    step1(m, &mut other, &mut other_scratch);
+    step2(m, &mut other, &mut other_scratch);
     let bytes = save::save(m, d);
-    let _ = save::restore(m, &mut other, &bytes);
-    (0..3).for_each(|_| step(m, d));
+    let _ = save::restore(m, &mut other, &mut other_scratch, &bytes);
+    (0..3).for_each(|_| step(m, d, s));
 }
 
 #[test]
@@ -95,9 +96,9 @@ fn what_is_accepted_of_a_stored_model_can_be_stepped() {
                     }
                     accepted += 1;
                     let run = std::panic::AssertUnwindSafe(|| {
-                        let mut d = Workspace::new(&changed);
-                        functions::limit(&mut d, BUDGET);
-                        (0..2).for_each(|_| step(&changed, &mut d));
+                        let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&changed);
+                        d.meter.set_left(BUDGET);
+                        (0..2).for_each(|_| step(&changed, &mut d, &mut s));
                     });
                     if std::panic::catch_unwind(run).is_err() {
                         fatal.push(format!("{}[{i}] = {value}", field.info().name));
@@ -160,13 +161,13 @@ fn a_written_circle_of_sleeping_trees_wakes() {
         )
         .unwrap();
         for next in 0..3 {
-            let mut d = Workspace::new(&m);
-            forward::forward(&m, &mut d);
+            let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+            forward::forward(&m, &mut d, &mut s);
             d.geom_xpos[3] += 0.1;
             d.tree_asleep.copy_from_slice(&[next, 1, 2]);
             (d.tree_awake[0], d.tree_awake[1], d.tree_awake[2]) = (1, 0, 0);
             (d.ntree_awake, d.body_awake[2]) = (1, 0);
-            forward::contacts(&m, &mut d);
+            forward::contacts(&m, &mut d, &mut s);
             assert!(d.tree_asleep[1] < 0, "{:?}", d.tree_asleep);
         }
     });

@@ -5,7 +5,8 @@
 //! stages it leaves out compute nothing that what is kept, or read, depends on.
 
 use super::analysis::{AccessSet, FLAGS, ModelAnalysis};
-use super::pipeline::{STAGES, passes};
+use super::pipeline::STAGES;
+use super::sequence::passes;
 use crate::model::Model;
 use crate::model::plan::{Decision, PlanFlag, PlanTable};
 use crate::model::stage::Stage;

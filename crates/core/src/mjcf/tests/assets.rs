@@ -96,8 +96,8 @@ fn three_formats_are_one_mesh() {
 fn damaged_files_do_no_harm() {
     let go = |model: Result<Model, String>| {
         if let Ok(m) = model {
-            let mut d = Workspace::new(&m);
-            (0..3).for_each(|_| step(&m, &mut d));
+            let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+            (0..3).for_each(|_| step(&m, &mut d, &mut s));
         }
     };
     for (name, bytes) in
