@@ -94,7 +94,7 @@ fn check_recorded(xml: &str, recorded: &str, tolerance: f64) {
                 ViewMut::I32(v) => want.iter().enumerate().for_each(|(i, &x)| v[i] = x as i32),
                 _ => panic!("{name} has no numbers"),
             }
-            crate::setup::setconst::set_const(&mut m, &mut d);
+            crate::setup::setconst::set_const(&mut m, &mut d, &mut s);
             continue;
         }
         let got = numbers(&m, &d, object, field);

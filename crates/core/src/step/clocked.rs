@@ -13,13 +13,20 @@ pub(super) const CLOCKED: u32 = 1 << 31;
 /// Runs what the bits say, one by one, and notes what each took; before them a call of nothing, which shows what looking costs.
 #[cold]
 #[inline(never)]
-pub(super) fn walk(rows: &[Run], stages: &[Stage], m: &Model, d: &mut Fields, s: &mut Scratch, bits: u32) {
+pub(super) fn walk(
+    rows: &[Run],
+    stages: &[Option<Stage>],
+    m: &Model,
+    d: &mut Fields,
+    s: &mut Scratch,
+    bits: u32,
+) {
     if let Some(watch) = &mut s.watch {
         watch.begin();
     }
     lap(nothing, None, m, d, s);
     let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & (1 << i) != 0);
-    kept_rows.for_each(|(_, (run, stage))| lap(*run, Some(*stage), m, d, s));
+    kept_rows.for_each(|(_, (run, stage))| lap(*run, *stage, m, d, s));
     if let Some(watch) = &mut s.watch {
         watch.end();
     }

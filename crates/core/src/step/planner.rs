@@ -13,7 +13,7 @@ use crate::model::stage::Stage;
 use crate::model::tree_algorithm::TreeAlgorithms;
 
 /// What shows in sensors alone: the stages of Runge and Kutta's method leave it out.
-const SHOWN: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
+const SENSOR_STAGES: [Stage; 3] = [Stage::SubtreeVel, Stage::RnePost, Stage::Sensors];
 
 impl PlanTable {
     /// Every stage runs, needed or not: the reference that plans are held against.
@@ -91,8 +91,10 @@ impl PlanTable {
 
     /// With what a forward pass runs.
     fn arranged(mut self) -> PlanTable {
-        self.passes =
-            [passes(|stage| self.keeps(stage)), passes(|stage| self.keeps(stage) && !SHOWN.contains(&stage))];
+        self.passes = [
+            passes(|stage| self.keeps(stage)),
+            passes(|stage| self.keeps(stage) && !SENSOR_STAGES.contains(&stage)),
+        ];
         self
     }
 }

@@ -8,35 +8,21 @@ use crate::model::{Fields, Model};
 use crate::step::workspace::Scratch;
 
 /// What runs in a part of a forward pass, in order; a plan keeps some of it, a bit each.
-pub(crate) struct Sequence<const N: usize> {
-    run: [Run; N],
-    stage: [Stage; N],
+pub(crate) struct Sequence {
+    run: [Run; 32],
+    stage: [Option<Stage>; 32],
 }
 
-/// How many rows run something in a part.
-const fn count_of(part: PassPart) -> usize {
-    let (mut n, mut row) = (0, 0);
-    while row < STAGES.len() {
-        let mut k = 0;
-        while k < STAGES[row].run.len() {
-            n += (STAGES[row].run[k].0 as u8 == part as u8) as usize;
-            k += 1;
-        }
-        row += 1;
-    }
-    n
-}
-
-impl<const N: usize> Sequence<N> {
-    const fn new(part: PassPart) -> Sequence<N> {
-        let mut all = Sequence { run: [clocked::nothing as Run; N], stage: [Stage::Sleep; N] };
+impl Sequence {
+    const fn new(part: PassPart) -> Sequence {
+        let mut all = Sequence { run: [clocked::nothing as Run; 32], stage: [None; 32] };
         let (mut n, mut row) = (0, 0);
         while row < STAGES.len() {
             let mut k = 0;
             while k < STAGES[row].run.len() {
                 if STAGES[row].run[k].0 as u8 == part as u8 {
                     all.run[n] = STAGES[row].run[k].1;
-                    all.stage[n] = STAGES[row].stage;
+                    all.stage[n] = Some(STAGES[row].stage);
                     n += 1;
                 }
                 k += 1;
@@ -48,12 +34,12 @@ impl<const N: usize> Sequence<N> {
 
     /// The bits of what belongs to some stages.
     fn bits(&self, of: impl Fn(Stage) -> bool) -> u32 {
-        self.stage.iter().enumerate().filter(|(_, s)| of(**s)).map(|(i, _)| 1 << i).sum()
+        self.stage.iter().enumerate().filter(|(_, s)| s.is_some_and(&of)).map(|(i, _)| 1 << i).sum()
     }
 
     /// The bits of the stages before one.
     pub(crate) fn before(&self, stage: Stage) -> u32 {
-        let n = self.stage.iter().position(|s| *s == stage);
+        let n = self.stage.iter().position(|s| *s == Some(stage));
         let n = n.unwrap_or_else(|| broken_invariant("a stage runs in this part of a pass"));
         (1 << n) - 1
     }
@@ -69,17 +55,17 @@ impl<const N: usize> Sequence<N> {
         if bits & CLOCKED != 0 {
             return clocked::walk(&self.run, &self.stage, m, d, s, bits);
         }
-        while let Some(run) = self.run.get(bits.trailing_zeros() as usize) {
+        while bits != 0 {
+            let run = self.run[bits.trailing_zeros() as usize % 32];
             bits &= bits - 1;
             run(m, d, s);
         }
     }
 }
 
-pub(crate) static POSITIONS: Sequence<{ count_of(PassPart::Positions) }> = Sequence::new(PassPart::Positions);
-pub(crate) static VELOCITIES: Sequence<{ count_of(PassPart::Velocities) }> =
-    Sequence::new(PassPart::Velocities);
-pub(crate) static INPUTS: Sequence<{ count_of(PassPart::Inputs) }> = Sequence::new(PassPart::Inputs);
+pub(crate) static POSITIONS: Sequence = Sequence::new(PassPart::Positions);
+pub(crate) static VELOCITIES: Sequence = Sequence::new(PassPart::Velocities);
+pub(crate) static INPUTS: Sequence = Sequence::new(PassPart::Inputs);
 
 /// The same passes by the clock.
 pub(crate) fn by_the_clock(passes: [[u32; 3]; 2]) -> [[u32; 3]; 2] {

@@ -24,7 +24,7 @@ fn raised(d: &Fields) -> Vec<(Warning, usize, usize)> {
     all.filter(|(_, s)| s.number > 0).map(|(w, s)| (w, s.number, s.lastinfo)).collect()
 }
 
-const KEPT: &str = "<flag autoreset='disable'/>";
+const NO_AUTORESET: &str = "<flag autoreset='disable'/>";
 
 #[test]
 fn a_bad_number_resets_and_the_step_goes_on_from_there() {
@@ -51,13 +51,13 @@ fn a_bad_number_resets_and_the_step_goes_on_from_there() {
 
 #[test]
 fn without_a_reset_every_step_counts_twice() {
-    let (m, Workspace { fields: mut d, scratch: mut s }) = started(KEPT);
+    let (m, Workspace { fields: mut d, scratch: mut s }) = started(NO_AUTORESET);
     d.qpos[1] = f64::NAN;
     for n in [2, 4, 6] {
         step(&m, &mut d, &mut s);
         assert_eq!(raised(&d).first(), Some(&(Warning::BadQpos, n, 1)));
     }
-    let (m, Workspace { fields: mut d, scratch: mut s }) = started(KEPT);
+    let (m, Workspace { fields: mut d, scratch: mut s }) = started(NO_AUTORESET);
     d.qfrc_applied[1] = 1e12;
     (0..3).for_each(|_| step(&m, &mut d, &mut s));
     assert_eq!(raised(&d), [(Warning::BadQvel, 4, 1), (Warning::BadQacc, 6, 1)]);
@@ -65,7 +65,7 @@ fn without_a_reset_every_step_counts_twice() {
 
 #[test]
 fn a_bad_control_is_none() {
-    for flag in ["", KEPT] {
+    for flag in ["", NO_AUTORESET] {
         let (m, Workspace { fields: mut d, scratch: mut s }) = started(flag);
         d.ctrl[0] = 1.0;
         d.ctrl[1] = f64::NAN;

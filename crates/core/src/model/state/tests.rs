@@ -66,7 +66,7 @@ fn states_are_those_of_mujoco() {
 #[test]
 fn parts_of_a_state_are_extracted_and_copied() {
     let m = model();
-    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     let (_, wild) = recorded().swap_remove(0);
     set(&m, &mut d, &wild, INTEGRATION).unwrap();
     for to in [0, TIME, QVEL, PHYSICS, USER, EQ_ACTIVE | CTRL, INTEGRATION] {
@@ -84,7 +84,7 @@ fn parts_of_a_state_are_extracted_and_copied() {
 #[test]
 fn what_is_not_zero_is_true() {
     let m = model();
-    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     for (values, want) in
         [([0.5, 0.0], [true, false]), ([f64::NAN, -0.0], [true, false]), ([0.0, 256.0], [false, true])]
     {
@@ -96,7 +96,7 @@ fn what_is_not_zero_is_true() {
 #[test]
 fn wrong_lists_change_nothing() {
     let m = model();
-    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
+    let mut d = Workspace::new(&m).fields;
     let before = d.clone();
     for sig in [-1, 1 << COUNT, i32::MAX, i32::MIN] {
         assert_eq!(size(&m, sig), Err(StateError::Signature(sig)));
