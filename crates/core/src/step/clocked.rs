@@ -25,7 +25,7 @@ pub(super) fn walk(
         watch.begin();
     }
     lap(nothing, None, m, d, s);
-    let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & (1 << i) != 0);
+    let kept_rows = rows.iter().zip(stages).enumerate().filter(|(i, _)| bits & !CLOCKED & (1 << i) != 0);
     kept_rows.for_each(|(_, (run, stage))| lap(*run, *stage, m, d, s));
     if let Some(watch) = &mut s.watch {
         watch.end();

@@ -29,6 +29,7 @@ impl Sequence {
             }
             row += 1;
         }
+        assert!(n < 32, "the last bit is that of the clock");
         all
     }
 
