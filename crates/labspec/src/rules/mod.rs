@@ -31,6 +31,9 @@ pub(crate) enum Check {
     Model(fn(&Lab, &Model, &mut Vec<Finding>)),
 }
 
+/// Most findings in one text of a lab or a quiz.
+pub(crate) const MAX_IN_TEXT: usize = 100;
+
 /// What a lab says of its model and the model does not have.
 pub(crate) fn check_model(lab: &Lab, model: &Model, findings: &mut Vec<Finding>) {
     for check in CHECKS {

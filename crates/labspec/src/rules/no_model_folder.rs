@@ -1,3 +1,6 @@
+use crate::finding::Finding;
+use crate::lint::ModelFolder;
+use crate::source::Text;
 use labspec_finding::{Example, Layer, Rule, Severity};
 
 /// The model folder does not exist.
@@ -13,3 +16,19 @@ pub const NO_MODEL_FOLDER: &Rule = &Rule {
         ("models/ball.xml", b"<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>"),
     ]),
 };
+
+/// Whether there is a folder in which the model could be.
+pub(crate) fn check_folder(name: &Text, folder: &ModelFolder) -> Option<Finding> {
+    folder.given().is_none().then(|| {
+        Finding::error(
+            NO_MODEL_FOLDER,
+            name.span(),
+            "the model folder does not exist, so this lab cannot run",
+        )
+        .why("the checker skips its expressions, its runs and every claim about it")
+        .help(format!(
+            "put {}.xml into a folder `models` beside or above the lesson, or name the folder: --models DIR",
+            name.value
+        ))
+    })
+}

@@ -1,9 +1,12 @@
 use super::Check;
 use crate::finding::Finding;
 use crate::json::fix_in;
+use crate::lint::CodeScan;
 use crate::markdown::is_typographic;
+use crate::source::Text;
 use crate::spec::Lab;
 use labspec_finding::{Example, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// Code contains a typographic quote.
 pub const TYPOGRAPHIC_QUOTE: &Rule = &Rule {
@@ -46,4 +49,31 @@ fn check_lab(lab: &Lab, findings: &mut Vec<Finding>) {
         }
         findings.push(finding);
     }
+}
+
+/// The quotes of a listing: one finding for all of them.
+pub(crate) fn check_listing_quotes(body: &Text, scan: &CodeScan, findings: &mut Vec<Finding>) {
+    let Some(first) = scan.quotes.first() else { return };
+    // The first quote of every line.
+    let mut lines: Vec<&Range<usize>> = Vec::new();
+    for quote in &scan.quotes {
+        let same = lines
+            .last()
+            .and_then(|last| scan.bare.get(last.start..quote.start))
+            .is_some_and(|b| !b.contains('\n'));
+        if !same {
+            lines.push(quote);
+        }
+    }
+    let on = if lines.len() > 1 { format!(", on {} lines", lines.len()) } else { String::new() };
+    let mut finding = Finding::new(
+        TYPOGRAPHIC_QUOTE,
+        body.span_of(first.clone()),
+        format!("a listing has typographic quotes{on}"),
+    )
+    .help("write \" for “ and ”, and ' for ‘ and ’");
+    for &quote in lines.iter().skip(1).take(7) {
+        finding = finding.related(body.span_of(quote.clone()), "and on this line");
+    }
+    findings.push(finding);
 }

@@ -4,6 +4,7 @@ use crate::finding::Finding;
 use crate::json::read;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
 use labspec_finding::{Example, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// A `verify` object refers to a lab that the lesson does not have.
 pub const UNKNOWN_LAB: &Rule = &Rule {
@@ -56,4 +57,10 @@ fn check_lesson(lesson: &Lesson, findings: &mut Vec<Finding>) {
             found.help(format!("use one of: {}", all.join(", ")))
         });
     }
+}
+
+/// A text where an address must be, which the format cannot tell from one.
+pub(crate) fn not_an_address(span: Range<usize>, text: &str) -> Finding {
+    Finding::new(UNKNOWN_LAB, span, format!("{} is not the address of a lab", read::named(text)))
+        .help("write \"#2\" for the second lab of the lesson, \"#quiz-id.1\" for the sim of a quiz's first question, or a lab object")
 }
