@@ -39,8 +39,7 @@ fn finding_at(span: Range<usize>, mistake: &Mistake) -> Finding {
             let message = "this fence says `quiz`, but it holds a lab";
             rules::fence_kind::holds(span, message, "lab simlab", right)
         }
-        Mistake::EmptyFence => Finding::new(rules::JSON_SYNTAX, span, "this fence is empty")
-            .help("write one JSON object between the two ``` lines: { … }"),
+        Mistake::EmptyFence => rules::json_syntax::empty_fence(span),
         Mistake::UnknownObject => rules::unknown_spec::unrecognized(open()),
         Mistake::TooLarge => {
             let limit = MAX_FILE >> 20;

@@ -77,3 +77,16 @@ pub(crate) fn check_listing_quotes(body: &Text, scan: &CodeScan, findings: &mut 
     }
     findings.push(finding);
 }
+
+/// Quotes of the JSON itself; `last` is the last of them.
+pub(crate) fn quotes_of_json(span: Range<usize>, count: usize, last: Option<Range<usize>>) -> Finding {
+    let plural = if count == 1 { "" } else { "s" };
+    let message = format!("JSON has {count} typographic quote{plural} where it needs \"");
+    let finding = Finding::new(TYPOGRAPHIC_QUOTE, span, message).help(
+        "write straight quotes: \"model\": \"…\"; the checker reads these as straight ones and checks the rest",
+    );
+    match last {
+        Some(last) => finding.related(last, "the last one"),
+        None => finding,
+    }
+}
