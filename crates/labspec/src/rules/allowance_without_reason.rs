@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::spec::Allowance;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A suppression gives no reason.
 pub const ALLOWANCE_WITHOUT_REASON: &Rule = &Rule {

@@ -1,10 +1,7 @@
-//! Inputs that are beyond their range all the time, in every run: the controller might as well be a constant.
-
 use crate::check::observations::{Beyond, ObservedLab};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use labspec_core::Obj;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// An input is outside its `ctrlrange` all the time, in every run.
 pub const ALWAYS_SATURATED: &Rule = &Rule {

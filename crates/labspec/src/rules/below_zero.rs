@@ -1,10 +1,7 @@
-//! Numbers that are never negative by what their labels call them, and are shown below zero.
-
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::Cell;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A quantity that is never negative is displayed below zero.
 pub const BELOW_ZERO: &Rule = &Rule {

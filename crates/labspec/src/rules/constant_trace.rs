@@ -2,11 +2,10 @@
 
 use crate::check::observations::{ObservedLab, column, constant, same};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::spec::Trace;
 use labspec_core::reflect::{FieldId, Object};
 use labspec_expr::Effects;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A trace shows the same number in every run.
 pub const CONSTANT_TRACE: &Rule = &Rule {

@@ -6,11 +6,10 @@
 use crate::bind::{ModelNames, Scope};
 use crate::check::PreparedLab;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{Budget, Session, count_steps};
 use crate::source::{SourceMap, Text};
 use labspec_expr::{Compiler, Program, Value};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A controller records the time of a contact one step late.
 pub const CONTACT_TIME_LATE: &Rule = &Rule {

@@ -1,12 +1,10 @@
 //! Dampers below zero that did not come to feed the scene without end, because something else holds what they push.
 
-use crate::check::observations::{Move, ObservedLab};
+use crate::check::observations::{Move, ObservedLab, single_moves};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Play};
-use crate::spec::ControlKind;
 use labspec_core::reflect::model;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A damping is negative.
@@ -71,26 +69,7 @@ fn pushes(observed: &ObservedLab<'_>) -> Option<(usize, f64, f64, f64, String)> 
     if below.is_empty() {
         return None;
     }
-    let lab = observed.bench.ready.lab;
-    let mut all = vec![(None, "as the lab stands,".to_string())];
-    for (control, c) in lab.controls.iter().enumerate() {
-        let label = &c.label.value;
-        match &c.kind {
-            ControlKind::Button { .. } => {
-                all.push((
-                    Some(Move { step: 1, control, value: None }),
-                    format!("after \"{label}\" is pressed,"),
-                ));
-            }
-            _ => {
-                for v in crate::check::choices::choices(c) {
-                    let description = format!("with \"{label}\" at {v},");
-                    all.push((Some(Move { step: 1, control, value: Some(v) }), description));
-                }
-            }
-        }
-    }
-    all.into_iter().find_map(|(done, description)| {
+    single_moves(observed.bench.ready.lab).into_iter().find_map(|(done, description)| {
         let mut session = observed.bench.start();
         let mut most: Option<(usize, f64, f64, f64)> = None;
         run::play(&mut session, &Play::steps(STEPS), |session, step| {

@@ -1,13 +1,10 @@
-//! Links of a lesson that lead to nothing: files of the course that are not there, headings that no lesson has.
-
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::lint::links::{LinkedFile, MOST, decoded, folder_of, linked_files};
 use crate::lint::root_of;
 use crate::markdown::{self, Link, Scan};
 use crate::source::{Asked, MAX_FILE, SourceFile, Sources};
 use crate::spec::Lesson;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::path::Path;
 
 /// A link or an image leads to a file or a heading that does not exist.

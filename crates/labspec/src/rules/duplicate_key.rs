@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::json::read::shorten;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A key is written twice in one object.

@@ -1,5 +1,4 @@
-use crate::finding::Finding;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A `lab` fence holds a quiz, or a `quiz` fence holds a lab.

@@ -1,7 +1,6 @@
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::markdown::{BlockKind, Opener};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// The opening line of a fence contains JSON or code.

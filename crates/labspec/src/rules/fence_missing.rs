@@ -1,7 +1,6 @@
 use super::fence_unclosed::line_below;
-use crate::finding::Finding;
 use crate::markdown::BlockKind;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A lab or a quiz is not inside a fence.

@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::markdown::Opener;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The kind of a fence is misspelt.
 pub const FENCE_NAME: &Rule = &Rule {

@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::markdown::{BlockKind, Opener};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A fence has no closing line.
 pub const FENCE_UNCLOSED: &Rule = &Rule {

@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::markdown::Opener;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Markdown does not read an opening line as a fence.
 pub const FENCE_UNSEEN: &Rule = &Rule {

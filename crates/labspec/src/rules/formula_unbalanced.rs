@@ -1,10 +1,7 @@
-//! Formulas: what is opened in TeX is closed.
-
 use super::MAX_IN_TEXT;
-use crate::finding::Finding;
 use crate::source::Text;
 use crate::spec::Lesson;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A formula or a group in it is not closed.

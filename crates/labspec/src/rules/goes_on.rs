@@ -1,14 +1,11 @@
-//! A note that says that moving a control starts the lab again, and a control that does not.
-
 use crate::bind::ControlProgram;
 use crate::check::choices::choices;
 use crate::check::observations::ObservedLab;
 use crate::check::programs::resets;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Play};
 use crate::spec::{Control, ControlKind};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// The note says that a control restarts the lab, but it does not.

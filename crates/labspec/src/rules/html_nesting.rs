@@ -1,10 +1,9 @@
 use super::MAX_IN_TEXT;
 use super::html_element::{ENDS_ITSELF, VOID, is_element, unknown};
 use super::unescaped_element::is_of_models;
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// HTML elements in a lab or a quiz are not closed in the order in which they are opened.

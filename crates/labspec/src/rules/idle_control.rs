@@ -5,13 +5,14 @@
 
 use super::{IDLE_RANGE, needs_reset};
 use crate::bind::ControlProgram;
-use crate::check::observations::{Mark, Move, ObservationBench, ObservedLab, Setting, settings, values};
+use crate::check::observations::{
+    Mark, Move, ObservationBench, ObservedLab, Setting, longest_equal, settings, values,
+};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::spec::{Control, ControlKind};
 use labspec_core::reflect::{FieldId, Object};
 use labspec_expr::Value;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A control changes nothing that a student can see.
 pub const IDLE_CONTROL: &Rule = &Rule {
@@ -129,16 +130,7 @@ fn suspicious(
     for value in values {
         marks.push(bench.run(&[Move { step: 0, control: index, value: value.clone() }], steps)?.mark);
     }
-    let mut best = 0..0;
-    let mut start = 0;
-    for i in 1..=marks.len() {
-        if marks.get(i) != marks.get(start) {
-            if i - start > best.len() {
-                best = start..i;
-            }
-            start = i;
-        }
-    }
+    let best = longest_equal(&marks);
     (best.len() >= IN_A_ROW.min(values.len())).then_some(best)
 }
 

@@ -3,13 +3,11 @@
 //! What a slider sets is compared, before anything is run: to the last bit, in all fields and variables that it writes.
 
 use crate::bind::{Bound, ControlProgram};
-use crate::check::observations::ObservedLab;
-use crate::finding::Finding;
-use crate::run::Session;
+use crate::check::observations::{ObservedLab, longest_equal};
 use crate::spec::ControlKind;
 use labspec_core::reflect::FieldId;
 use labspec_expr::{FieldKey, Host, Value};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A part of the range of a slider changes nothing that a student can see.
 pub const IDLE_RANGE: &Rule = &Rule {
@@ -56,7 +54,7 @@ pub(crate) fn check_flat_ranges(observed: &mut ObservedLab<'_>, findings: &mut V
         else {
             continue;
         };
-        let Some(flat) = longest(&sets) else { continue };
+        let flat = longest_equal(&sets);
         let [Some(low), Some(high)] = [values.get(flat.start), values.get(flat.end - 1)] else { continue };
         let share = (high - low) / (max.value - min.value);
         // What goes up in stairs is flat everywhere, and meant so.
@@ -111,23 +109,5 @@ fn writes(observed: &ObservedLab<'_>, index: usize, bound: &Bound, value: f64) -
             _ => return None,
         }
     }
-    (!all.is_empty() && session.ended().is_none() && no_troubles(&session)).then_some(all)
-}
-
-fn no_troubles(session: &Session<'_>) -> bool {
-    session.troubles.is_empty()
-}
-
-/// The longest stretch of equal ones.
-fn longest(sets: &[Vec<u64>]) -> Option<std::ops::Range<usize>> {
-    let (mut best, mut start) = (0..1, 0);
-    for i in 1..=sets.len() {
-        if sets.get(i) != sets.get(start) {
-            if i - start > best.len() {
-                best = start..i;
-            }
-            start = i;
-        }
-    }
-    (best.len() > 1).then_some(best)
+    (!all.is_empty() && session.ended().is_none() && session.troubles.is_empty()).then_some(all)
 }

@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::json::{MAX_DEPTH, MAX_VALUES};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// The JSON is nested too deeply or holds too many values.

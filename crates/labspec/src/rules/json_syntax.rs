@@ -1,9 +1,8 @@
 //! In the words of a person who does not know what a token is. What is broken, and which change repairs it, is decided in `json/`.
 
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::json::{Mistake, Problem};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// The JSON of a block is invalid.

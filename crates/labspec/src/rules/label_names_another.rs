@@ -1,13 +1,10 @@
-//! Labels that name one thing of the model, while their expressions read another.
-
 use crate::bind::{Bound, ControlProgram, Programs};
-use crate::finding::Finding;
 use crate::source::Text;
 use crate::spec::{Lab, Trace};
 use labspec_bind::element_owner;
 use labspec_core::reflect::{self, Object};
 use labspec_core::{Model, Obj};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
 
 /// A label names one object of the model, but its expression reads another.

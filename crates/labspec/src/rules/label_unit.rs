@@ -1,7 +1,6 @@
 use super::label_names_another::names;
 use crate::bind::{Bound, contradicts, given_by, of_label, unit};
 use crate::check::observations::{ObservedLab, column};
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::run::Cell;
 use crate::source::Text;
@@ -11,7 +10,7 @@ use labspec_core::Model;
 use labspec_core::reflect::FieldId;
 use labspec_expr::dimension::{Dimension, Measure};
 use labspec_expr::{Schema, TextDimensions};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The unit in a label does not match its expression.
 pub const LABEL_UNIT: &Rule = &Rule {

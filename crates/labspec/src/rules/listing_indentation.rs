@@ -1,7 +1,6 @@
-use crate::finding::Finding;
 use crate::lint::CodeLine;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A Python listing has lost its indentation.

@@ -1,7 +1,6 @@
-use crate::finding::Finding;
 use crate::lint::CodeLine;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A Python listing has lost its line breaks.
 pub const LISTING_LINE_BREAKS: &Rule = &Rule {

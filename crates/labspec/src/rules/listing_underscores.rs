@@ -1,8 +1,7 @@
-use crate::finding::Finding;
 use crate::lint::CodeLine;
 use crate::markdown::is_typographic;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A Python listing has lost the underscores of `__name__`.
 pub const LISTING_UNDERSCORES: &Rule = &Rule {

@@ -2,13 +2,12 @@ use crate::bind::{ControlProgram, Programs};
 use crate::check::choices::choices;
 use crate::check::programs::{resets, sets};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::Session;
 use crate::spec::{Control, Lab};
 use labspec_core::Model;
 use labspec_core::reflect::{FieldId, Kind};
 use labspec_expr::{FieldKey, Host, Value};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A reset discards what a control sets in the data.
 pub const LOST_AT_RESET: &Rule = &Rule {

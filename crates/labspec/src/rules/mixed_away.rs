@@ -1,13 +1,10 @@
-//! Contact parameters that a control sets on one geom, and that the contact mixes with those of the other: what the contact really has.
-
 use crate::bind::ControlProgram;
 use crate::check::choices::choices;
-use crate::check::observations::ObservedLab;
+use crate::check::observations::{ObservedLab, geom_name};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Play, Session};
-use labspec_core::{Data, Model, Obj, Plan};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_core::{Data, Model, Plan};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A control sets a contact parameter of one geom, but the contact has another value.
@@ -69,10 +66,6 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
                 Some((printed, differs(observed, index, value, what)?))
             });
             let Some((value, ([set, other], written, has))) = found else { continue };
-            let name = |g: usize| match ready.model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
-                Some(name) => format!("geom \"{name}\""),
-                None => format!("geom {g}"),
-            };
             findings.push(
                 Finding::warning(
                     MIXED_AWAY,
@@ -81,9 +74,9 @@ pub(crate) fn check_contact_mixing(observed: &ObservedLab<'_>, findings: &mut Ve
                 )
                 .why(format!(
                     "at {value}, {} has {}, but its contact with {} has {}: {}",
-                    name(set),
+                    geom_name(&ready.model, set),
                     digits(written, 4),
-                    name(other),
+                    geom_name(&ready.model, other),
                     digits(has, 4),
                     what.how
                 ))

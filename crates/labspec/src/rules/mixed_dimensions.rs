@@ -1,8 +1,7 @@
 use crate::bind::Bound;
-use crate::finding::Finding;
 use labspec_bind::units::written;
 use labspec_expr::TextDimensions;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// An expression adds or compares quantities of different dimensions.
 pub const MIXED_DIMENSIONS: &Rule = &Rule {

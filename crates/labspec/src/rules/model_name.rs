@@ -1,9 +1,8 @@
-use crate::finding::Finding;
 use crate::json::encode;
 use crate::json::read::{named, shorten};
 use crate::lint::ModelFolder;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A lab names its model by a path or with an extension.
 pub const MODEL_NAME: &Rule = &Rule {

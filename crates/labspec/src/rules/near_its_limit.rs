@@ -1,10 +1,9 @@
 use crate::check::PreparedLab;
-use crate::finding::Finding;
 use crate::printable::counted;
 use crate::run::{self, Budget, Session};
 use crate::stress::{Fault, FaultKind, Interaction, StressCase};
 use labspec_core::reflect::option;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The lab breaks at twice its timestep.
 pub const NEAR_ITS_LIMIT: &Rule = &Rule {

@@ -1,9 +1,8 @@
 use crate::bind::ControlProgram;
 use crate::check::observations::ObservedLab;
-use crate::finding::Finding;
 use crate::spec::Control;
 use labspec_expr::Effects;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Only the setup reads the value of a control, and the control does not reset.
 pub const NEEDS_RESET: &Rule = &Rule {

@@ -1,7 +1,6 @@
-use crate::finding::Finding;
 use crate::lint::ModelFolder;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The model folder does not exist.
 pub const NO_MODEL_FOLDER: &Rule = &Rule {

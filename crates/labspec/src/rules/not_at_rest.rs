@@ -1,11 +1,8 @@
-//! A lab that says that it begins at rest, and does not.
-
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Play};
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A lab says that it begins at rest or in equilibrium, but its keyframe is not an equilibrium.

@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use crate::source::BadText;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A file is not UTF-8.
 pub const NOT_UTF8: &Rule = &Rule {

@@ -1,9 +1,8 @@
 //! Numbers that are not claimed: most of them, in a lesson that has not been gone through, or a few in one that claims the others.
 
-use crate::finding::Finding;
 use crate::spec::Lesson;
 use crate::verify::{Stated, counted};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The lesson states numbers with units that no `verify` quotes.
 pub const NUMBERS_UNCLAIMED: &Rule = &Rule {

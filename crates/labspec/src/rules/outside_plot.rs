@@ -1,9 +1,8 @@
 use crate::check::observations::{ObservedLab, Record};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::Cell;
 use crate::spec::{Plot, Trace};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A trace is outside its plot most of the time, in every run.
 pub const OUTSIDE_PLOT: &Rule = &Rule {

@@ -5,12 +5,11 @@
 use crate::bind::{Bound, ControlProgram};
 use crate::check::observations::{Move, ObservedLab, Setting, settings, values};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::Session;
 use crate::spec::Control;
 use labspec_core::reflect::{FieldId, Kind, Object, option};
 use labspec_expr::{FieldKey, Host, Value};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The setup or the controller overwrites what a control sets.
 pub const OVERRULED: &Rule = &Rule {

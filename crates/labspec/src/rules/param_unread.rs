@@ -1,11 +1,8 @@
-//! Values that a control stores under a name, and nothing reads.
-
 use crate::bind::ControlProgram;
 use crate::check::PreparedLab;
-use crate::finding::Finding;
 use crate::spec::Lesson;
 use labspec_finding::nearest;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Nothing reads the variable of a `param`.
 pub const PARAM_UNREAD: &Rule = &Rule {

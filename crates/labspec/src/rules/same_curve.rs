@@ -1,10 +1,9 @@
 //! What physics keeps equal is no mistake. It parts when the scene is put into another state.
 
 use crate::check::observations::{ObservedLab, column, same};
-use crate::finding::Finding;
 use crate::run::Cell;
 use crate::spec::Plot;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// Two traces of a plot are always the same curve.

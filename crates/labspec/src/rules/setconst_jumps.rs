@@ -1,14 +1,11 @@
-//! `mj_setConst` in the middle of a run: it puts the coordinates back to the model's own, and the scene jumps.
-
 use crate::bind::{ControlProgram, functions};
 use crate::check::choices::choices;
 use crate::check::observations::ObservedLab;
 use crate::check::programs::{resets, sets};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Play};
 use labspec_core::Obj;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A control calls `mj_setConst` in the middle of a run, and the scene jumps.

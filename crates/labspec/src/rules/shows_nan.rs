@@ -1,9 +1,8 @@
 use crate::bind::Bound;
 use crate::check::lab_runs::{WatchedDisplay, moment};
-use crate::finding::Finding;
 use crate::run::Session;
 use labspec_expr::Value;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
 
 /// A trace or a readout shows nan.
@@ -22,19 +21,14 @@ pub const SHOWS_NAN: &Rule = &Rule {
 };
 
 /// Whether a display has no number to display.
-pub(crate) fn check_value(
-    display: &WatchedDisplay<'_>,
-    value: &Value,
-    time: f64,
-    done: &str,
-) -> Option<Finding> {
+pub(crate) fn check_cell(display: &WatchedDisplay<'_>, value: &Value, t: f64, done: &str) -> Option<Finding> {
     let empty = match value {
         Value::Number(x) => x.is_nan(),
         value => matches!(value, Value::Undefined | Value::Null),
     };
     empty.then(|| {
         let what = if display.trace { "trace" } else { "readout" };
-        let message = format!("{} shows nan ({})", display.name, moment(time, done));
+        let message = format!("{} shows nan ({})", display.name, moment(t, done));
         Finding::warning(SHOWS_NAN, display.bound.text.span(), message).why(display.consequence()).help(format!(
             "guard it with a condition, or write `NaN` for an intended gap, as `data.ncon > 0 ? … : NaN` in this {what}: 0 / 0, the root of a negative number or a missing element gives nan"
         ))

@@ -1,13 +1,8 @@
-//! Readouts that show where a coordinate begins, while it moves.
-
-use crate::check::choices::choices;
-use crate::check::observations::{Move, ObservedLab, same};
+use crate::check::observations::{Move, ObservedLab, same, single_moves};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Cell, Play};
-use crate::spec::ControlKind;
 use labspec_core::reflect::{FieldId, Object};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A readout shows the initial value of a coordinate that moves.
@@ -92,19 +87,7 @@ fn says_so(label: &str) -> bool {
 
 /// The first run in which a coordinate moves: from where, to where, and what was done.
 fn moves(observed: &ObservedLab<'_>, at: usize) -> Option<(f64, f64, String)> {
-    let lab = observed.bench.ready.lab;
-    let mut all = vec![(None, "as the lab stands,".to_string())];
-    for (i, control) in lab.controls.iter().enumerate() {
-        let label = &control.label.value;
-        let of = |value| Some(Move { step: 1, control: i, value });
-        if matches!(control.kind, ControlKind::Button { .. }) {
-            all.push((of(None), format!("after \"{label}\" is pressed,")));
-        }
-        all.extend(
-            choices(control).into_iter().map(|v| (of(Some(v.clone())), format!("with \"{label}\" at {v},"))),
-        );
-    }
-    all.into_iter().find_map(|(done, description)| {
+    single_moves(observed.bench.ready.lab).into_iter().find_map(|(done, description)| {
         let mut session = observed.bench.start();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         run::play(&mut session, &Play { every: 5, ..Play::steps(STEPS) }, |session, step| {

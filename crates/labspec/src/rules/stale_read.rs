@@ -5,13 +5,12 @@ use crate::bind::{Bound, ControlProgram, Programs, include};
 use crate::check::choices::choices;
 use crate::check::observations::{Move, ObservationBench, ObservedLab};
 use crate::check::setconst;
-use crate::finding::Finding;
 use crate::run::Cell;
 use crate::spec::Lab;
 use labspec_core::AccessSet;
 use labspec_core::reflect::{FieldId, FieldSet, Kind, Object};
 use labspec_expr::{Type, Value};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// Statements write the state, then read values that are computed from the old state.
 pub const STALE_READ: &Rule = &Rule {

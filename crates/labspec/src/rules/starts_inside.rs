@@ -1,11 +1,8 @@
-//! How a lab begins: bodies that are deep inside of each other, and are thrown out.
-
-use crate::check::observations::ObservedLab;
+use crate::check::observations::{ObservedLab, geom_name};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Play, Session};
-use labspec_core::{Data, Model, Obj, Plan, geom};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_core::{Data, Model, Plan, geom};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A body begins deep inside another one.
@@ -44,11 +41,7 @@ pub(crate) fn check_start(observed: &ObservedLab<'_>, findings: &mut Vec<Finding
         ControlFlow::Continue(())
     });
     let Some(time) = out else { return };
-    let name = |g: usize| match ready.model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
-        Some(geom) => format!("geom \"{geom}\""),
-        None => format!("geom {g}"),
-    };
-    let [a, b] = pair.map(name);
+    let [a, b] = pair.map(|g| geom_name(&ready.model, g));
     let [depth, time] = [1000.0 * depth, time].map(|x| digits(x, 3));
     findings.push(
         Finding::warning(STARTS_INSIDE, ready.lab.place(), format!("{b} begins {depth} mm inside {a}"))

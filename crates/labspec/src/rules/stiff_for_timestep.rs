@@ -1,8 +1,7 @@
-use crate::finding::Finding;
 use crate::monitors::stability;
 use crate::run;
 use labspec_core::Model;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A servo, a spring or a contact is too stiff for the timestep.

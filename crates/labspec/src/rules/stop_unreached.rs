@@ -1,9 +1,6 @@
-//! A lab that never comes to the time at which it is to stop.
-
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A lab never reaches its `stopAt`.
 pub const STOP_UNREACHED: &Rule = &Rule {

@@ -1,13 +1,10 @@
-//! A lab that stops before anything has happened.
-
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::json::Number;
 use crate::printable::counted;
 use crate::run::Cell;
 use labspec_core::reflect::data;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A lab stops before anything that it shows changes, or before its curves are more than a dot.
 pub const STOPS_EARLY: &Rule = &Rule {

@@ -1,7 +1,6 @@
 use crate::check::lab_runs::{WatchedDisplay, moment};
-use crate::finding::Finding;
 use labspec_expr::Value;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// A trace of a plot is a string.
 pub const TEXT_IN_PLOT: &Rule = &Rule {
@@ -19,14 +18,9 @@ pub const TEXT_IN_PLOT: &Rule = &Rule {
 };
 
 /// Whether a trace is a string.
-pub(crate) fn check_value(
-    display: &WatchedDisplay<'_>,
-    value: &Value,
-    time: f64,
-    done: &str,
-) -> Option<Finding> {
+pub(crate) fn check_cell(display: &WatchedDisplay<'_>, value: &Value, t: f64, done: &str) -> Option<Finding> {
     (display.trace && matches!(value, Value::String(_))).then(|| {
-        let (name, moment) = (&display.name, moment(time, done));
+        let (name, moment) = (&display.name, moment(t, done));
         let message = format!("{name} is a string, \"{}\" ({moment})", shortened(value));
         Finding::warning(TEXT_IN_PLOT, display.bound.text.span(), message)
             .why("a plot draws numbers: the curve is missing, or shows what the page makes of the string")

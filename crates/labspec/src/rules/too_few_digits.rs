@@ -1,11 +1,8 @@
-//! Readouts that hardly change what they print while their value changes.
-
 use crate::check::observations::{ObservedLab, column};
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::Cell;
 use crate::spec::Readout;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::collections::BTreeSet;
 
 /// A readout prints nearly the same number although its value changes.

@@ -1,12 +1,9 @@
-//! Readouts with more decimals than the timestep supports, shown by the same run at half the timestep.
-
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::digits;
-use crate::finding::Finding;
 use crate::run::{self, Cell, Play, StepVariant};
 use labspec_core::reflect::option;
 use labspec_expr::Effects;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A readout prints more decimals than the integration supports.

@@ -1,11 +1,10 @@
 use super::Check;
-use crate::finding::Finding;
 use crate::json::fix_in;
 use crate::lint::CodeScan;
 use crate::markdown::is_typographic;
 use crate::source::Text;
 use crate::spec::Lab;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// Code contains a typographic quote.

@@ -1,14 +1,11 @@
-//! Buttons that reset what they have just done.
-
 use super::stale_read::parts;
 use crate::bind::{Bound, ControlProgram};
 use crate::check::observations::ObservedLab;
 use crate::check::setconst::{self, digits};
-use crate::finding::Finding;
 use crate::run::{self, Play, Session};
 use labspec_core::reflect::{FieldId, Kind, Object};
 use labspec_expr::{FieldKey, Host};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::ControlFlow;
 
 /// A button resets the data after it has changed them.

@@ -1,9 +1,8 @@
 //! Names of model elements written as tags: a browser takes them for HTML and shows nothing.
 
 use super::MAX_IN_TEXT;
-use crate::finding::Finding;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// The text contains the name of an MJCF element as a tag.
@@ -19,71 +18,15 @@ pub const UNESCAPED_ELEMENT: &Rule = &Rule {
 
 /// Elements of MJCF that no lesson means as HTML (XML reference of MuJoCo 3). Elements that HTML or SVG
 /// fragments really use (`text`, `image`, `frame`, `filter`, `layer`) are left out.
+#[rustfmt::skip]
 const ELEMENTS: [&str; 64] = [
-    "accelerometer",
-    "actuator",
-    "adhesion",
-    "asset",
-    "attach",
-    "body",
-    "camera",
-    "compiler",
-    "composite",
-    "connect",
-    "contact",
-    "custom",
-    "cylinder",
-    "default",
-    "deformable",
-    "equality",
-    "exclude",
-    "extension",
-    "fixed",
-    "flag",
-    "flex",
-    "flexcomp",
-    "force",
-    "framepos",
-    "framequat",
-    "freejoint",
-    "general",
-    "geom",
-    "global",
-    "gyro",
-    "headlight",
-    "hfield",
-    "include",
-    "inertial",
-    "intvelocity",
-    "joint",
-    "jointpos",
-    "jointvel",
-    "key",
-    "keyframe",
-    "light",
-    "material",
-    "mesh",
-    "motor",
-    "mujoco",
-    "muscle",
-    "numeric",
-    "option",
-    "pair",
-    "plugin",
-    "position",
-    "quality",
-    "replicate",
-    "sensor",
-    "site",
-    "size",
-    "skin",
-    "spatial",
-    "statistic",
-    "tendon",
-    "texture",
-    "touch",
-    "velocity",
-    "weld",
+    "accelerometer", "actuator", "adhesion", "asset", "attach", "body", "camera", "compiler", "composite",
+    "connect", "contact", "custom", "cylinder", "default", "deformable", "equality", "exclude", "extension",
+    "fixed", "flag", "flex", "flexcomp", "force", "framepos", "framequat", "freejoint", "general", "geom",
+    "global", "gyro", "headlight", "hfield", "include", "inertial", "intvelocity", "joint", "jointpos",
+    "jointvel", "key", "keyframe", "light", "material", "mesh", "motor", "mujoco", "muscle", "numeric",
+    "option", "pair", "plugin", "position", "quality", "replicate", "sensor", "site", "size", "skin",
+    "spatial", "statistic", "tendon", "texture", "touch", "velocity", "weld",
 ];
 const WORLD: &str = "worldbody";
 

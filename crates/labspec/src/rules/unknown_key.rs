@@ -1,7 +1,6 @@
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::spec::Meant;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// An object has a key that the format does not know.

@@ -1,10 +1,9 @@
 use super::Check;
 use super::claims;
-use crate::finding::Finding;
 use crate::json::read;
 use crate::source::Text;
 use crate::spec::{LabAddress, Lesson, VerifyLab};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A `verify` object refers to a lab that the lesson does not have.

@@ -1,9 +1,8 @@
-use crate::finding::Finding;
 use crate::json::read::shorten;
 use crate::json::{encode, nearest};
 use crate::lint::ModelFolder;
 use crate::source::Text;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 
 /// The model is not in the model folder.
 pub const UNKNOWN_MODEL: &Rule = &Rule {

@@ -1,6 +1,5 @@
-use crate::finding::Finding;
 use labspec_finding::nearest;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// `allow` names an unknown rule.

@@ -1,6 +1,5 @@
 use crate::check::CheckLevel;
-use crate::finding::Finding;
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A suppression matches no finding.

@@ -1,9 +1,8 @@
-use crate::finding::Finding;
 use crate::json::nearest;
 use crate::json::read::named;
 use crate::spec::format::{CONTROL, QUESTION, texts};
 use crate::spec::{Expected, MOST_SWEPT, Mistake};
-use labspec_finding::{Example, Layer, Rule, Severity};
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
 use std::ops::Range;
 
 /// A value has another type than its key takes.

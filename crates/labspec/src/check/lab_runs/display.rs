@@ -14,8 +14,8 @@ pub(crate) struct WatchedDisplay<'a> {
     pub(crate) says_infinite: bool,
     /// Whether it was a number, a text or a truth value in any run.
     pub(crate) ever: bool,
-    /// A gap that may be meant: the time and the setting of the first.
-    pub(crate) gap: Option<(f64, String)>,
+    /// Whether it had a gap that may be meant.
+    pub(crate) gap: bool,
     /// Codes of the rules that it breaks.
     pub(crate) reported: Vec<&'static str>,
 }

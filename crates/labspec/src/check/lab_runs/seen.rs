@@ -42,7 +42,7 @@ impl<'a> Seen<'a> {
                 says_gap: shows_nan::says_gap(text),
                 says_infinite: shows_nan::says(text, "Infinity"),
                 ever: false,
-                gap: None,
+                gap: false,
                 reported: Vec::new(),
             })
         });
@@ -73,7 +73,7 @@ impl<'a> Seen<'a> {
                 *cell = Cell::from(value.clone());
             }
             let time = session.world.data.time();
-            let checks = [shows_nan::check_value, shows_infinite::check_value, text_in_plot::check_value];
+            let checks = [shows_nan::check_cell, shows_infinite::check_cell, text_in_plot::check_cell];
             let Some(finding) = checks.iter().find_map(|check| check(display, &value, time, done)) else {
                 display.ever = true;
                 continue;
@@ -82,9 +82,7 @@ impl<'a> Seen<'a> {
                 && (display.says_gap || shows_nan::is_unset(display.bound, session, &self.gaps))
             {
                 // A gap that is said may be filled by what no run does, unless it is all that the text says.
-                if !display.says_gap || display.bound.program.effects().constant() {
-                    display.gap.get_or_insert_with(|| (time, done.to_owned()));
-                }
+                display.gap |= !display.says_gap || display.bound.program.effects().constant();
             } else if !display.reported.contains(&finding.code) {
                 display.reported.push(finding.code);
                 self.found.push(finding);
@@ -101,7 +99,7 @@ impl<'a> Seen<'a> {
     /// When all runs are made: what was never anything but a gap.
     pub(super) fn never(&mut self, all: bool) -> Vec<Finding> {
         let empty = self.displays.iter().filter(|s| all && !s.ever && s.reported.is_empty());
-        empty.filter(|s| s.gap.is_some()).map(shows_nan::always_a_gap).collect()
+        empty.filter(|s| s.gap).map(shows_nan::always_a_gap).collect()
     }
 
     /// Whether a program has not thrown like this in a run before.

@@ -5,6 +5,7 @@ use super::record::{Beyond, Mark, Record};
 use crate::bind::Programs;
 use crate::check::PreparedLab;
 use crate::run::{self, Budget, Cell, Play, Session};
+use labspec_core::{Model, Obj};
 use std::ops::ControlFlow;
 
 /// A lab, and what may still be spent on it.
@@ -132,5 +133,13 @@ impl<'a> ObservedLab<'a> {
             1 => "the run".into(),
             n => format!("{n} runs, with every control moved"),
         }
+    }
+}
+
+/// A geom, in words.
+pub(crate) fn geom_name(model: &Model, g: usize) -> String {
+    match model.names.of(Obj::Geom).get(g).filter(|n| !n.is_empty()) {
+        Some(geom) => format!("geom \"{geom}\""),
+        None => format!("geom {g}"),
     }
 }

@@ -6,9 +6,9 @@ mod moves;
 mod no_solver;
 mod record;
 
-pub(crate) use bench::{ObservationBench, ObservedLab};
-pub(crate) use moves::{Move, Setting, settings, values};
-pub(crate) use record::{Beyond, Mark, Record, column, constant, same};
+pub(crate) use bench::{ObservationBench, ObservedLab, geom_name};
+pub(crate) use moves::{Move, Setting, settings, single_moves, values};
+pub(crate) use record::{Beyond, Mark, Record, column, constant, longest_equal, same};
 
 use super::PreparedLab;
 use crate::finding::Finding;

@@ -1,6 +1,7 @@
 //! What a student does in a run of a lab: the moves of its controls.
 
 use crate::bind::scalar;
+use crate::check::choices::choices;
 use crate::spec::{Control, ControlKind, Lab};
 use labspec_expr::Value;
 
@@ -90,4 +91,19 @@ pub(crate) fn settings(lab: &Lab, nominal: usize, press: usize) -> Vec<Setting> 
         }
     }
     once
+}
+
+/// Nothing, then each control pressed or moved to what a student may choose, one at a time; with what is done, in words.
+pub(crate) fn single_moves(lab: &Lab) -> Vec<(Option<Move>, String)> {
+    let mut all = vec![(None, "as the lab stands,".to_string())];
+    for (i, control) in lab.controls.iter().enumerate() {
+        let label = &control.label.value;
+        let of = |value| Some(Move { step: 1, control: i, value });
+        if matches!(control.kind, ControlKind::Button { .. }) {
+            all.push((of(None), format!("after \"{label}\" is pressed,")));
+        }
+        let values = choices(control).into_iter();
+        all.extend(values.map(|v| (of(Some(v.clone())), format!("with \"{label}\" at {v},"))));
+    }
+    all
 }

@@ -3,6 +3,7 @@
 use crate::run::{Cell, Session};
 use labspec_core::Model;
 use labspec_expr::Value;
+use std::ops::Range;
 
 /// A run, as it was seen.
 #[derive(Debug)]
@@ -102,4 +103,18 @@ pub(crate) fn column(records: &[Record], column: usize) -> impl Iterator<Item = 
 pub(crate) fn constant<'r>(mut cells: impl Iterator<Item = &'r Cell>) -> Option<&'r Cell> {
     let first = cells.next().filter(|c| matches!(c, Cell::Number(x) if x.is_finite()))?;
     cells.all(|c| same(c, first)).then_some(first)
+}
+
+/// The longest stretch of equal items, the first of several; empty where there are none.
+pub(crate) fn longest_equal<T: PartialEq>(items: &[T]) -> Range<usize> {
+    let (mut best, mut start) = (0..0, 0);
+    for i in 1..=items.len() {
+        if items.get(i) != items.get(start) {
+            if i - start > best.len() {
+                best = start..i;
+            }
+            start = i;
+        }
+    }
+    best
 }
