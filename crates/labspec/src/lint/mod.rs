@@ -1,7 +1,7 @@
 //! The checks of a lesson's structure: everything that needs no engine.
 //!
-//! Each rule is declared beside its check in [`crate::rules`]; here a lesson is walked once for all of them. What several rules share,
-//! and what readers ask (fences, listings, HTML), stands in the files beside this one.
+//! Each rule is declared beside its check in [`crate::rules`]; here a lesson is walked once for all of them. The files beside this one
+//! choose the rule of what was wrong where a lesson was read (fences, JSON, the format), and contain what several rules share.
 
 mod code_scan;
 mod fence;
