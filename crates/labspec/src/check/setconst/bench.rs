@@ -42,7 +42,7 @@ pub(super) struct BenchTrial {
 }
 
 /// What is run.
-pub(in crate::check) struct SetConstBench<'a> {
+pub(crate) struct SetConstBench<'a> {
     lab: &'a Lab,
     model: &'a Model,
     programs: &'a Programs,
@@ -56,7 +56,7 @@ pub(super) type SampleRows = Vec<Vec<Cell>>;
 pub(super) type Record = Result<SampleRows, String>;
 
 impl<'a> SetConstBench<'a> {
-    pub(in crate::check) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> SetConstBench<'a> {
+    pub(crate) fn new(lab: &'a Lab, model: &'a Model, programs: &'a Programs) -> SetConstBench<'a> {
         SetConstBench { lab, model, programs, work_left: WORK }
     }
 
@@ -392,7 +392,7 @@ impl<'a> SetConstBench<'a> {
     }
 
     /// Statements of the lab, with the place of the text that they stand for.
-    pub(in crate::check) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
+    pub(crate) fn compile(&self, place: &Text, source: &str, given: Option<Type>) -> Option<Bound> {
         let names = ModelNames::new(self.model, Scope::Lab).with(&self.programs.functions);
         let mut globals = self.programs.globals.clone();
         let mut compiler = Compiler::new(&names, &mut globals).with_value(given);
