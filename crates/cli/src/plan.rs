@@ -152,7 +152,7 @@ fn parts(report: &PlanReport, text: &mut String) {
         }
     }
     list("integrator", &report.integrators, text);
-    ways(report, text);
+    tree_algorithms(report, text);
 }
 
 /// The sensors, those alike in one line.
@@ -172,17 +172,17 @@ fn sensors(report: &PlanReport, text: &mut String) {
     }
 }
 
-/// Which ways trees take.
-fn ways(report: &PlanReport, text: &mut String) {
+/// Which algorithms compute trees.
+fn tree_algorithms(report: &PlanReport, text: &mut String) {
     let _ = writeln!(text, "\ntree algorithms");
-    for way in report.ways.iter().filter(|w| w.trees != [0; 3]) {
-        let [places, forces, factors] = way.trees;
+    for algorithm in report.tree_algorithms.iter().filter(|w| w.trees != [0; 3]) {
+        let [places, forces, factors] = algorithm.trees;
         let of = [(places, "places"), (forces, "forces"), (factors, "accelerations")];
         let of: Vec<String> =
             of.iter().filter(|(n, _)| *n > 0).map(|(n, what)| format!("{what} of {n}")).collect();
-        let _ = writeln!(text, "  keep   {}: {}", way.name, of.join(", "));
+        let _ = writeln!(text, "  keep   {}: {}", algorithm.name, of.join(", "));
     }
-    let idle = report.ways.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
+    let idle = report.tree_algorithms.iter().filter(|w| w.trees == [0; 3]).map(|w| w.name);
     let idle = idle.collect::<Vec<_>>().join(", ");
     if !idle.is_empty() {
         let _ = writeln!(text, "  leave  {idle}: no tree takes them");
@@ -285,7 +285,7 @@ fn value(of: &PlanReport) -> Value {
             "controller": s.controller.map(|_| json!({"share": controller_share, "ns": controller_ns, "reason": of.controller})),
         })
     });
-    let ways = of.ways.iter().map(|w| {
+    let ways = of.tree_algorithms.iter().map(|w| {
         let [places, forces, accelerations] = w.trees;
         json!({"name": w.name, "places": places, "forces": forces, "accelerations": accelerations})
     });

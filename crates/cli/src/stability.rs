@@ -12,9 +12,10 @@ use labspec::bind::Programs;
 use labspec::report::{counted, key, printable, set_number};
 use labspec::run::two_digits;
 use labspec::spec::Lab;
-use labspec::stress::{
-    Evidence, Fault, FaultGroup, FaultKind, Interaction, Kind, MapCell, Margin, Options, Sensitivity,
-    StabilityMap, StressReport, StressRun, probe,
+use labspec::stress::{Evidence, Fault, FaultGroup, FaultKind, Interaction, Kind};
+use labspec_numerics::stability::{
+    MapCell, Margin, Options, Remedy, RunCount, Sensitivity, StabilityFinding, StabilityMap, StressReport,
+    StressRun, probe,
 };
 use labspec_plot::{Cells, cells};
 use serde_json::{Value, json};
@@ -115,8 +116,9 @@ fn human(report: &StressReport, programs: &Programs) -> String {
     text
 }
 
-fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
-    let FaultGroup { fault, handling, settings, worst, expected, remedies } = found;
+fn finding(found: &StabilityFinding, programs: &Programs, text: &mut String) {
+    let StabilityFinding { group, expected, remedies } = found;
+    let FaultGroup { fault, interaction, settings, worst } = group;
     let expected = if *expected { " (as the lab expects)" } else { "" };
     let _ = writeln!(
         text,
@@ -124,15 +126,15 @@ fn finding(found: &FaultGroup, programs: &Programs, text: &mut String) {
         fault.kind.description(),
         printable(&fault.who),
         labspec::run::time(fault.time),
-        printable(&handling.describe(programs))
+        printable(&interaction.describe(programs))
     );
     let _ = writeln!(text, "  {}", fault.measured());
     let _ = writeln!(text, "  cause: {}", printable(&fault.cause));
     if *settings > 1 {
         let _ = write!(text, "  also in {} other settings", settings - 1);
         let _ = match worst {
-            Some((handling, fault)) => {
-                writeln!(text, "; worst {}: {}", printable(&handling.describe(programs)), fault.measured())
+            Some((interaction, fault)) => {
+                writeln!(text, "; worst {}: {}", printable(&interaction.describe(programs)), fault.measured())
             }
             None => writeln!(text),
         };
@@ -335,7 +337,7 @@ fn left_out(report: &StressReport) -> Vec<String> {
 }
 
 fn value(report: &StressReport, programs: &Programs) -> Value {
-    let tried = |t: &labspec::stress::RunCount| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
+    let tried = |t: &RunCount| json!({"kind": key(t.kind.description()), "made": t.made, "cut": t.cut, "leftOut": t.left_out});
     let found: Vec<Value> = report.found.iter().map(|f| found_value(f, programs)).collect();
     labspec::report::report(
         "stability",
@@ -359,19 +361,20 @@ fn value(report: &StressReport, programs: &Programs) -> Value {
 
 fn made_value(made: &StressRun, programs: &Programs) -> Value {
     json!({
-        "kind": key(made.handling.kind.description()), "setting": handling_value(&made.handling, programs),
+        "kind": key(made.interaction.kind.description()), "setting": handling_value(&made.interaction, programs),
         "covered": made.covered, "cut": made.cut,
         "wrong": made.wrong.iter().map(|k| key(k.description())).collect::<Vec<_>>(),
     })
 }
 
-fn found_value(found: &FaultGroup, programs: &Programs) -> Value {
-    let mut value = fault_value(&found.fault);
-    value["setting"] = handling_value(&found.handling, programs);
-    value["touched"] = json!(found.handling.kind == Kind::Touched);
-    value["settings"] = json!(found.settings);
+fn found_value(found: &StabilityFinding, programs: &Programs) -> Value {
+    let FaultGroup { fault, interaction, settings, worst } = &found.group;
+    let mut value = fault_value(fault);
+    value["setting"] = handling_value(interaction, programs);
+    value["touched"] = json!(interaction.kind == Kind::Touched);
+    value["settings"] = json!(settings);
     value["expected"] = json!(found.expected);
-    let remedy = |r: &labspec::stress::Remedy| {
+    let remedy = |r: &Remedy| {
         let mut value = json!({"change": r.change});
         set_number(&mut value, "work", r.work);
         set_number(&mut value, "timeRatio", r.time);
@@ -379,7 +382,7 @@ fn found_value(found: &FaultGroup, programs: &Programs) -> Value {
         value
     };
     value["remedies"] = found.remedies.iter().map(remedy).collect();
-    value["worst"] = found.worst.as_ref().map_or(Value::Null, |(handling, fault)| {
+    value["worst"] = worst.as_ref().map_or(Value::Null, |(handling, fault)| {
         let mut value = fault_value(fault);
         value["setting"] = handling_value(handling, programs);
         value

@@ -123,6 +123,30 @@ mod tests {
         assert!(any.keeps(Stage::Passive) && any.keeps(Stage::Solve) && !fixed(&m).keeps(Stage::Solve));
     }
 
+    /// A joint has the damper of an actuator from `mj_setConst` on, not from the write of `actuator_damping` before it.
+    #[test]
+    fn constants_that_give_joints_dampers_change_the_plan() {
+        let xml = "<mujoco><worldbody><body><joint name='j' axis='0 1 0'/><geom size='.05' pos='.2 0 0'/></body></worldbody>\
+            <actuator><motor joint='j'/></actuator></mujoco>";
+        let mut m = Model::from_xml(xml).unwrap();
+        let mut d = Data::planned(&m, Plan::new(&m, &demand(&[model::actuator_damping])));
+        let mut full = Data::unplanned(&m);
+        write(&mut m, &mut d, model::actuator_damping, 0, 0.6);
+        for constants in [false, true] {
+            if constants {
+                call::set_const(&mut m.clone(), &mut full).unwrap();
+                call::set_const(&mut m, &mut d).unwrap();
+            }
+            for _ in 0..100 {
+                call::step(&m, &mut d).unwrap();
+                call::step(&m, &mut full).unwrap();
+            }
+
+            let planned = call::element(&m, &d, data::qpos, 0).unwrap();
+            assert_eq!(planned.to_bits(), full.qpos[0].to_bits());
+        }
+    }
+
     /// What changes again and again is held for any value, until it has stayed for a while; and after a call that computes a part, until
     /// the next pass.
     #[test]

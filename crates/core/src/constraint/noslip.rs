@@ -94,8 +94,10 @@ impl Problem<'_> {
             let (n, y) = (0.5 * (left + right), 0.5 * (left - right));
             let (slope, curvature) = (r0 - r1, a00 + a11 - a01 - a10);
             let solved = minimum_within(y, slope, curvature, n);
-            self.set_forces(b, group, [n + solved, n - solved]);
-            decrease += improvement(solved - y, slope, curvature);
+            let edges = [n + solved, n - solved];
+            self.set_forces(b, group, edges);
+            // Only what the edges keep of the change counts: beside a large n its last digits are lost, or all of it.
+            decrease += improvement(0.5 * (edges[0] - edges[1]) - y, slope, curvature);
         }
         decrease
     }

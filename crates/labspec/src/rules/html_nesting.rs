@@ -1,4 +1,11 @@
-use labspec_finding::{Example, Layer, Rule, Severity};
+use super::MAX_IN_TEXT;
+use super::html_element::{ENDS_ITSELF, VOID, is_element, unknown};
+use super::unescaped_element::is_of_models;
+use crate::json::read::shorten;
+use crate::markdown::html::{HtmlTag, tags};
+use crate::source::Text;
+use labspec_finding::{Example, Finding, Layer, Rule, Severity};
+use std::ops::Range;
 
 /// HTML elements in a lab or a quiz are not closed in the order in which they are opened.
 pub const HTML_NESTING: &Rule = &Rule {
@@ -14,3 +21,110 @@ pub const HTML_NESTING: &Rule = &Rule {
         r#"{"id": "fall", "questions": [{"kind": "open", "q": "<p>What is <code>qpos</code>?</p>"}]}"#,
     ),
 };
+
+/// Elements with elements of their own.
+const FOREIGN: [&str; 2] = ["svg", "math"];
+
+/// Most tags of a text that are looked at.
+const MOST: usize = 3000;
+
+/// What is wrong with a tag.
+#[derive(Debug, PartialEq)]
+enum MarkupFault {
+    /// HTML has no such element.
+    Unknown,
+    /// Nothing closes it.
+    Unclosed,
+    /// Nothing is open that it would close.
+    Unopened,
+    /// It closes an element while this one, within it, is open.
+    Crossed(String),
+}
+
+fn faults(html: &str) -> Vec<(Range<usize>, String, MarkupFault)> {
+    let mut faults = Vec::new();
+    let mut open: Vec<HtmlTag> = Vec::new();
+    let mut all = tags(html);
+    for tag in all.by_ref().take(MOST) {
+        let foreign = open.iter().any(|t| FOREIGN.contains(&t.name.as_str()));
+        let name = tag.name.as_str();
+        let of_html = is_element(name);
+        let opening = open.iter().rposition(|t| t.name == tag.name);
+        if tag.closing {
+            match opening {
+                // `</p>` alone makes an empty paragraph, `</br>` a break: nobody sees a difference.
+                None if is_of_models(name) || VOID.contains(&name) => {}
+                None if !of_html && !foreign => faults.push((tag.at, tag.name, MarkupFault::Unknown)),
+                None => faults.push((tag.at, tag.name, MarkupFault::Unopened)),
+                Some(i) => {
+                    let inner = open.split_off(i);
+                    let crossed = inner.iter().skip(1).find(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+                    if let Some(other) = crossed {
+                        faults.push((other.at.clone(), other.name.clone(), MarkupFault::Crossed(tag.name)));
+                    }
+                }
+            }
+        } else if is_of_models(name) && !foreign {
+            // Told as what it is: an element of models.
+        } else if !of_html && !foreign && !name.contains('-') {
+            faults.push((tag.at, tag.name, MarkupFault::Unknown));
+        } else if !(VOID.contains(&name)
+            || foreign && html.get(tag.at.clone()).is_some_and(|tag| tag.ends_with("/>")))
+        {
+            open.push(tag);
+        }
+    }
+    // Where not all was looked at, what is open may be closed yet.
+    if all.next().is_some() {
+        open.clear();
+    }
+    let left = open.into_iter().filter(|t| !ENDS_ITSELF.contains(&t.name.as_str()));
+    faults.extend(left.map(|t| (t.at, t.name, MarkupFault::Unclosed)));
+    faults
+}
+
+/// Looks into a text of a lab or a quiz.
+pub(crate) fn check_markup(text: &Text, findings: &mut Vec<Finding>) {
+    for (at, name, fault) in faults(text.as_str()).into_iter().take(MAX_IN_TEXT) {
+        let short_text = shorten(text.value.get(at.clone()).unwrap_or(""));
+        let (message, help) = match fault {
+            MarkupFault::Unknown => {
+                findings.push(unknown(text.span_of(at), &name));
+                continue;
+            }
+            MarkupFault::Unclosed => {
+                (format!("`{short_text}` is not closed"), format!("write </{name}> where it ends"))
+            }
+            MarkupFault::Unopened => (
+                format!("`{short_text}` closes nothing"),
+                format!("delete it, or write <{name}> where the element begins"),
+            ),
+            MarkupFault::Crossed(outer) => (
+                format!("`{short_text}` is still open where `</{outer}>` closes the element around it"),
+                format!("write </{name}> before </{outer}>"),
+            ),
+        };
+        findings.push(Finding::new(HTML_NESTING, text.span_of(at), message).help(help));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_browsers_mend_is_found() {
+        let of =
+            |html: &str| faults(html).into_iter().map(|(_, name, fault)| (name, fault)).collect::<Vec<_>>();
+        let named = |name: &str, fault| vec![(name.to_string(), fault)];
+        assert_eq!(of("<p>one <b>two</b><p>three <br> <img src='a'> 1 < 2 <code>x</code>"), []);
+        assert_eq!(of("<ul><li>a<li>b</ul> <!-- <b> --> <svg><path d=''/><g></g></svg>"), []);
+        assert_eq!(of("<p>a <code>x</p>"), named("code", MarkupFault::Crossed("p".into())));
+        assert_eq!(of("a <code>x"), named("code", MarkupFault::Unclosed));
+        assert_eq!(of("a</b>"), named("b", MarkupFault::Unopened));
+        assert_eq!(of("<strnog>a</strnog>").len(), 2);
+        assert_eq!(of("if a<bc and d>e"), named("bc", MarkupFault::Unknown));
+        // What another rule tells.
+        assert_eq!(of("set in <option>, <geom size='1'/>"), []);
+    }
+}

@@ -52,7 +52,7 @@ pub(super) fn body_thickness(m: &Model, body: usize) -> f64 {
 }
 
 /// The name of a body; its number where it has none.
-pub(super) fn body_name(m: &Model, body: usize) -> String {
+pub fn body_name(m: &Model, body: usize) -> String {
     match m.names.body.get(body) {
         _ if body == 0 => "the world".into(),
         Some(name) if !name.is_empty() => format!("\"{name}\""),
@@ -93,7 +93,7 @@ fn joint_name(m: &Model, start: &[i32], width: fn(i32) -> usize, i: usize) -> St
 }
 
 /// The body of a geom.
-pub(super) fn body_of(m: &Model, g: usize) -> usize {
+pub fn body_of(m: &Model, g: usize) -> usize {
     m.geom_bodyid.get(g).map_or(0, |&b| b as usize)
 }
 

@@ -94,9 +94,9 @@ impl CreepMonitor {
         let half = self.half();
         let (Some(first), Some(last)) = (half.first(), half.last()) else { return Vec::new() };
         let time = last.time - first.time;
-        let ways = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);
+        let speeds = last.places.iter().zip(&first.places).map(|(to, from)| norm(sub(*to, *from)) / time);
         let mut list: Vec<(String, f64)> =
-            ways.enumerate().map(|(b, speed)| (body_name(m, b), speed)).collect();
+            speeds.enumerate().map(|(b, speed)| (body_name(m, b), speed)).collect();
         let turns = last.joints.iter().zip(&first.joints).map(|(to, from)| (to.0 - from.0).abs() / time);
         list.extend(with_friction(m).zip(turns).map(|((_, _, dof), speed)| (joint_of_dof(m, dof), speed)));
         list

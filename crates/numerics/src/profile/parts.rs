@@ -150,7 +150,7 @@ pub(super) fn solvers(model: &Model, plan: &Plan) -> Vec<EngineOption> {
 
 /// The integrators.
 pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption> {
-    let integrator = labspec::run::Integrator::of(model);
+    let integrator = labspec::run::Integrator::of_model(model);
     let written = demand.writes.contains(option::integrator);
     let code = |i: labspec::run::Integrator| EngineOption {
         name: i.name,
@@ -165,7 +165,7 @@ pub(super) fn integrators(model: &Model, demand: &AccessSet) -> Vec<EngineOption
 }
 
 /// The ways, in their order.
-pub(super) fn ways(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
+pub(super) fn tree_algorithms(model: &Model, plan: &Plan) -> Vec<TreeAlgorithmUse> {
     let trees = plan.tree_algorithms(model);
     let count = |way: core::TreeAlgorithm| {
         let of = |i: usize| trees.iter().filter(|t| t.get(i) == Some(&way)).count();

@@ -5,7 +5,7 @@ use fasteval::{Compiler as _, Evaler};
 use labspec::bind::scene::Models;
 use labspec::bind::{ModelNames, Programs, Scope, World};
 use labspec::lint::ModelFolder;
-use labspec::run::Session;
+use labspec::run::{Session, Start};
 use labspec::source::SourceFile;
 use labspec::lint::load_lesson;
 use labspec::spec::Lab;
@@ -224,7 +224,8 @@ fn main() {
         .max_by_key(|(text, ..)| text.len());
     if let Some((text, title, lab, model)) = longest {
         let programs = Programs::compile(lab, model, &mut Vec::new());
-        let mut session = Session::start(&programs, model, lab.keyframe(), &AccessSet::ANY);
+        let plan = Some(Plan::new(model, &AccessSet::ANY));
+        let mut session = Session::start(&programs, model, Start { plan, ..Start::of_lab(lab) });
         (0..lab.controls.len()).for_each(|i| session.press(i));
         (0..200).for_each(|_| session.step());
         let controller = programs.controller.as_ref().expect("it has one");

@@ -5,7 +5,7 @@ use crate::kinds::geom;
 use crate::mjcf::rules;
 use crate::mjcf::text::diagnostic::Report;
 use crate::mjcf::text::tree::Tree;
-use crate::model::{Model, Obj};
+use crate::model::{Fields, Model, Obj};
 use crate::step::forward::position;
 use crate::step::workspace::Workspace;
 
@@ -39,14 +39,14 @@ pub(super) fn tell(tree: &Tree, m: &Model, report: &mut Report) {
 }
 
 /// Everything at its place; nothing where that is too much.
-fn placed(m: &Model) -> Option<Workspace> {
+fn placed(m: &Model) -> Option<Fields> {
     if m.ngeom > MOST || m.nv > MOST || m.nv == 0 {
         return None;
     }
     // Nothing is solved: where things are is enough.
-    let mut d = Workspace::new(m);
+    let Workspace { fields: mut d, scratch: mut s } = Workspace::new(m);
     d.meter.limit = WORK;
-    position(m, &mut d);
+    position(m, &mut d, &mut s);
     (!d.meter.over()).then_some(d)
 }
 
@@ -86,9 +86,9 @@ mod tests {
         ] {
             for (geoms, bodies) in [(20, 10), (200, 100), (500, 250), (500, 500)] {
                 let m = heap(geoms, bodies, geom);
-                let mut d = Workspace::new(&m);
+                let Workspace { fields: mut d, scratch: mut s } = Workspace::new(&m);
                 d.meter.limit = WORK;
-                position(&m, &mut d);
+                position(&m, &mut d, &mut s);
                 // One test of a pair more than the limit, and what follows from the contacts that were found by then.
                 assert!(d.meter.cost < 2 * WORK, "{geoms} of {geom} in {bodies}: {}", d.meter.cost);
                 assert_eq!(placed(&m).is_some(), !d.meter.over());
